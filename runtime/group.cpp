@@ -22,7 +22,8 @@ static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED ==
               SUPPLE_PATCH_P5 == kP5Patch && SUPPLE_PATCH_CATMULL_CLARK == kCatmullClarkPatch &&
               SUPPLE_PATCH_LOOP == kLoopPatch && SUPPLE_PATCH_BLEND == kBlendPatch &&
               SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch && SUPPLE_PATCH_TRIANGLE == kTrianglePatch &&
-              SUPPLE_PATCH_IRREGULAR == kIrregularPatch);
+              SUPPLE_PATCH_IRREGULAR == kIrregularPatch && SUPPLE_PATCH_IRREGULAR_SHARP == kIrregularSharpPatch &&
+              SUPPLE_PATCH_CREASED == kCreasedPatch);
 static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_PM == static_cast<int>(SchemeId::pm) &&
               SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark) &&

@@ -29,6 +29,13 @@ enum class Form : uint32_t {
 
 } // namespace lod
 
+/// What the borders of patches are.
+enum class Borders : uint8_t {
+    cubics,
+    halves, ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
+    charts  ///< blends of two charts
+};
+
 enum class PatchClass : uint32_t {
     regular = shared::kRegularPatch,     ///< bicubic
     perturbed = shared::kPerturbedPatch, ///< p-rep: bicubic and a sparse perturbation of degree 5
@@ -41,7 +48,9 @@ enum class PatchClass : uint32_t {
     blend = shared::kBlendPatch,           ///< blending surface: smooth all over
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
-    irregular = shared::kIrregularPatch    ///< exact Catmull-Clark: a quad of leaves
+    irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
+    irregularSharp = shared::kIrregularSharpPatch, ///< and sides that are creases
+    creased = shared::kCreasedPatch                ///< and no chain at all
 };
 
 struct PatchClassRow {
@@ -52,9 +61,9 @@ struct PatchClassRow {
     // The kernels that evaluate it. The subdivision evaluates fragments (Tables::fragments) instead.
     Kernel evaluate = Kernel::count; ///< at a rate
     Kernel atLevels = Kernel::count;
-    Kernel patch = Kernel::count;            ///< writes the coefficients
-    lod::Form form = lod::Form::quad;        ///< of its grids at levels
-    bool charts = false;                     ///< its borders are between charts, else cubics
+    Kernel patch = Kernel::count;     ///< writes the coefficients
+    lod::Form form = lod::Form::quad; ///< of its grids at levels
+    Borders borders = Borders::cubics;
     bool ownNarrow = false, ownWide = false; ///< by mapping: a pipeline of its own for a rate pays
     uint32_t netElements = 0;                ///< bicubic patches: what one takes of a workgroup's memory in the wide
                                              ///< mapping, where a lane takes a row of its samples. Of others a lane
@@ -66,11 +75,11 @@ struct PatchClassRow {
 
 inline constexpr PatchClassRow kPatchClasses[] = {
     {"regular", Domain::quad, 16, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevelsRegular,
-     Kernel::evaluatePatch, lod::Form::quad, false, true, true, shared::kWideNetElements},
+     Kernel::evaluatePatch, lod::Form::quad, Borders::cubics, true, true, shared::kWideNetElements},
     {"perturbed", Domain::quad, 32, 3, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
-     lod::Form::quad, false, true, true, shared::kWidePerturbedNetElements},
+     lod::Form::quad, Borders::cubics, true, true, shared::kWidePerturbedNetElements},
     {"polar", Domain::polar, 13, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
-     lod::Form::quad, false, false, true, shared::kWideNetElements},
+     lod::Form::quad, Borders::cubics, false, true, shared::kWideNetElements},
     {"p3", Domain::triangle, 19, SUPPLE_PM_RECORD_ELEMENTS(3u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
      Kernel::pmPatch, lod::Form::triangleRings},
     {"p4", Domain::quad, 25, SUPPLE_PM_RECORD_ELEMENTS(4u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
@@ -80,11 +89,16 @@ inline constexpr PatchClassRow kPatchClasses[] = {
     {"catmull-clark", Domain::quad},
     {"loop", Domain::triangle},
     {"blend", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count, lod::Form::quad,
-     true},
+     Borders::charts},
     {"blend-sharp", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
-     lod::Form::quad, true},
+     lod::Form::quad, Borders::charts},
     {"triangle", Domain::triangle},
-    {"irregular", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate},
+    {"irregular", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate, Kernel::exactEvaluateLevels,
+     Kernel::count, lod::Form::quad, Borders::halves},
+    {"irregular-sharp", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate,
+     Kernel::exactEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
+    {"creased", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate, Kernel::exactEvaluateLevels,
+     Kernel::count, lod::Form::quad, Borders::halves},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

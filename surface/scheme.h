@@ -88,9 +88,9 @@ struct Fragments {
 
 /// What level of detail adds to the tables (surface/lod/tables.h). Empty unless the recipe asks for it.
 struct LodTables {
-    bool charts = false; ///< a border is the blend of two charts (blending surface), else a cubic
-    Section edges;       ///< one element per edge, two if it lies between charts
-    Section patches;     ///< two elements per patch, all classes, in device order
+    Borders borders = Borders::cubics; ///< what any of its patches has
+    Section edges;                     ///< one element per edge, two if it lies between charts
+    Section patches;                   ///< two elements per patch, all classes, in device order
     struct Run {
         PatchClass patchClass = PatchClass::regular;
         uint32_t material = cage::kNone;

@@ -118,7 +118,7 @@ AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, boo
         smooth.kernel = levels ? Kernel::evaluateAttributesLevelsBicubic : Kernel::evaluateAttributesBicubic;
     } else if (row.hasSectors()) {
         smooth.kernel = levels ? Kernel::evaluateAttributesLevelsRingsSectors : Kernel::evaluateAttributesSectors;
-    } else if (row.charts) {
+    } else if (row.borders == Borders::charts) {
         smooth.kernel = levels ? Kernel::evaluateAttributesLevelsBlend : Kernel::evaluateAttributesBlend;
     }
     return smooth;

@@ -123,8 +123,9 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    needs.measure = surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.charts,
-                                                  &desc_.asset->character.cage);
+    needs.measure =
+        surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.borders == surface::Borders::charts,
+                                      &desc_.asset->character.cage);
     needs.margin = boundsMargin();
     return needs;
 }

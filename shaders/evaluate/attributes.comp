@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/pm.h"
+#include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/sectors.glsl"

@@ -18,6 +18,7 @@
 
 const uint kForm = kLodQuadForm;
 #include "shaders/evaluate/harness.glsl"
+#include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 

@@ -9,6 +9,7 @@
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/pm/border.glsl"

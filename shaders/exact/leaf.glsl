@@ -1,8 +1,13 @@
 // A leaf of an irregular quad: uniform bicubic B-splines, where creases are other weights (docs/exact.md, (1) and (2)).
+//
+// Leaves come as the cells of nets. A net has 5 x 5 points and 2 x 2 cells, and a cell has 4 x 4 of the points. The four cells of a
+// quad's own net, points of level 1, are its quarters. Three cells of a chain's net are the leaves of a level; the fourth, next
+// to the vertex, belongs to the levels that follow.
 #include "shaders/subdivision/sharpness.glsl"
 
+// Of the four points in one direction.
 struct LeafWeights {
-    vec4 w, d; // of the four points in one direction, and their derivatives
+    vec4 w, d; // and their derivatives
 };
 
 // 2^n of a small integer.
@@ -17,7 +22,7 @@ vec2 sharpWeight(float sharpness, float x) {
     return vec2(value, -0.5 * ((1.0 - f) * (a * a) + f * (b * b)));
 }
 
-// (2), at x of 0..1.
+// (2), at x of 0..1; the crease lies at 0.
 LeafWeights leafWeights(float x, float sharpness) {
     precise float t = x, s = 1.0 - x;
     precise float tt = t * t, ss = s * s;
@@ -34,9 +39,29 @@ LeafWeights leafWeights(float x, float sharpness) {
     }
     return LeafWeights(w, d);
 }
+// Along one parameter of a quad's own net: in the second cell from the far end, where a crease of its own may lie.
+LeafWeights quadWeights(bool second, vec2 pair, float low, float high) {
+    if (!second) return leafWeights(2.0 * pair.x, low);
+    LeafWeights back = leafWeights(2.0 * pair.y, high);
+    return LeafWeights(back.w.wzyx, -back.d.wzyx);
+}
+// Along one parameter of a chain's net, at x of 0..2. What happens on the corner's edges does not reach its second cell.
+LeafWeights chainWeights(bool second, float x, float sharpness) {
+    precise float inside = second ? x - 1.0 : x;
+    return leafWeights(inside, second ? 0.0 : sharpness);
+}
 
 // On the line itself: the share of a point beside it. The point on it has what is left.
 float besideLine(float sharpness) {
     if (sharpness > 0.0) return sharpWeight(sharpness, 0.0).x;
     return 1.0 / 6.0;
+}
+vec3 onLine(vec3 line, vec3 one, vec3 other, float share) {
+    precise vec3 p = line + share * ((one + other) - 2.0 * line);
+    return p;
+}
+// The middle of a side, of three such points of level 1 that lie round it.
+vec3 middleOfLine(vec3 one, vec3 own, vec3 other) {
+    precise vec3 p = ((one + other) + 4.0 * own) * (1.0 / 6.0);
+    return p;
 }

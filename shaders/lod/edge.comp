@@ -10,10 +10,6 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/lod/levels.glsl"
 
-layout(constant_id = kChartsConstant) const bool kCharts = false; // the border is the blend of two charts, else a cubic
-const bool kSharp = true;
-#include "shaders/blend/blend.glsl"
-
 // An edge: its ends, its length, and the larger second difference of its cubic.
 struct EdgeCurve {
     vec3 x0, x1;
@@ -31,6 +27,20 @@ EdgeCurve cubicCurve(uvec4 indices) {
     return EdgeCurve(x0, x1, curveLength, max(lengthOf(bend0), lengthOf(bend1)));
 }
 
+// Of any other curve, by quarters: second differences at a step h are those of a cubic times 6 h^2.
+EdgeCurve quarteredCurve(vec3 p[5]) {
+    precise vec3 s0 = p[1] - p[0], s1 = p[2] - p[1], s2 = p[3] - p[2], s3 = p[4] - p[3];
+    precise float curveLength = (lengthOf(s0) + lengthOf(s3)) + (lengthOf(s1) + lengthOf(s2));
+    precise vec3 b1 = (p[0] + p[2]) - 2.0 * p[1], b2 = (p[1] + p[3]) - 2.0 * p[2], b3 = (p[2] + p[4]) - 2.0 * p[3];
+    precise float bend = max(max(lengthOf(b1), lengthOf(b3)), lengthOf(b2)) * (16.0 / 6.0);
+    return EdgeCurve(p[0], p[4], curveLength, bend);
+}
+
+#if defined(CHARTS)
+// The border is the blend of two charts.
+const bool kSharp = true;
+#include "shaders/blend/blend.glsl"
+
 // What an end gives to the point at a distance t from it.
 vec3 endShare(uvec4 end, vec3 c[9], float t) {
     vec3 offset, dx, dy;
@@ -41,8 +51,8 @@ vec3 endShare(uvec4 end, vec3 c[9], float t) {
     return p;
 }
 
-// By quarters: second differences at a step h are those of a cubic times 6 h^2.
-EdgeCurve chartCurve(uint base, uvec4 end0, uvec4 end1) {
+EdgeCurve curveOf(uint base, uint edge) {
+    uvec4 end0 = tableElement(push.edges + 2u * edge), end1 = tableElement(push.edges + 2u * edge + 1u);
     vec3 c0[9], c1[9];
     for (uint c = 0u; c < 9u; ++c) {
         c0[c] = poolVector(base + (end0.x & kPoolIndexMask) + c);
@@ -51,19 +61,42 @@ EdgeCurve chartCurve(uint base, uvec4 end0, uvec4 end1) {
     precise vec3 p1 = endShare(end0, c0, 0.25) + endShare(end1, c1, 0.75);
     precise vec3 p2 = endShare(end0, c0, 0.5) + endShare(end1, c1, 0.5);
     precise vec3 p3 = endShare(end0, c0, 0.75) + endShare(end1, c1, 0.25);
-    vec3 x0 = c0[0], x1 = c1[0];
-    precise vec3 s0 = p1 - x0, s1 = p2 - p1, s2 = p3 - p2, s3 = x1 - p3;
-    precise float curveLength = (lengthOf(s0) + lengthOf(s3)) + (lengthOf(s1) + lengthOf(s2));
-    precise vec3 b1 = (x0 + p2) - 2.0 * p1, b2 = (p1 + p3) - 2.0 * p2, b3 = (p2 + x1) - 2.0 * p3;
-    precise float bend = max(max(lengthOf(b1), lengthOf(b3)), lengthOf(b2)) * (16.0 / 6.0);
-    return EdgeCurve(x0, x1, curveLength, bend);
+    return quarteredCurve(vec3[5](c0[0], p1, p2, p3, c1[0]));
 }
+#elif defined(HALVES)
+// The border is a cubic, or two halves of an irregular quad (docs/exact.md, "Borders").
+#include "shaders/shared/exact.h"
+#include "shaders/surface/net.glsl"
+#include "shaders/evaluate/basis.glsl"
+const bool kTangents = false, kSharp = true;
+#include "shaders/evaluate/frame.glsl"
+
+struct PatchPlace {
+    uint record, base;
+};
+vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
+vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
+#include "shaders/exact/sample.glsl"
+
+EdgeCurve curveOf(uint base, uint edge) {
+    uvec4 words = tableElement(push.edges + edge);
+    if (words.w != kHalvesEdge) return cubicCurve(base + words);
+    PatchPlace at = PatchPlace(words.x, base);
+    IrregularQuad quad = quadOf(at.record);
+    uint side = words.y;
+    vec3 p[5];
+    p[0] = poolPoint(at, componentOf(quad.points, side < 2u ? side : (side + 1u) & 3u));
+    p[4] = poolPoint(at, componentOf(quad.points, side < 2u ? side + 1u : side));
+    for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)));
+    return quarteredCurve(p);
+}
+#else
+EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(push.edges + edge)); }
+#endif
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * push.poolStride;
-    EdgeCurve curve;
-    if (kCharts) curve = chartCurve(base, tableElement(push.edges + 2u * edge), tableElement(push.edges + 2u * edge + 1u));
-    else curve = cubicCurve(base + tableElement(push.edges + edge));
+    EdgeCurve curve = curveOf(base, edge);
     vec3 x0 = curve.x0, x1 = curve.x1;
     precise vec3 middle = (x0 + x1) * 0.5;
     precise float radius = 0.5 * curve.curveLength;

@@ -21,6 +21,13 @@ const bool kCharts = true; // patches of the blending surface
 #else
 const bool kCharts = false;
 #endif
+#ifdef HALVES
+const bool kHalves = true; // exact Catmull-Clark: some are irregular quads
+#include "shaders/shared/exact.h"
+#include "shaders/exact/leaf.glsl"
+#else
+const bool kHalves = false;
+#endif
 #ifdef BACK_FACES
 const bool kBackFaces = true; // patches that show their backs are left out
 #else
@@ -106,6 +113,45 @@ vec2 chartLevels(uint record, uint base) {
     float pixels = pixelsPerUnit(centre, 0.25 * (curveLength.x + curveLength.y));
     return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
 }
+
+#ifdef HALVES
+// And of an irregular quad: the second differences of its corners, the middles of its sides and its own middle, all of them limit
+// points. The middles come from the points of level 1, where a sharp side counts alone.
+vec2 irregularLevels(uint record, uint base) {
+    uvec4 corners = tableElement(record);
+    vec4 sharpness = uintBitsToFloat(tableElement(record + kExactSharpnessElement));
+    vec3 net[25], x[9]; // x: row by row in v
+    for (uint k = 0u; k < 25u; ++k) net[k] = poolVector(base + tableWord(4u * (record + kExactNetElement) + 1u + k));
+    const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
+    const uint kSides[4] = uint[4](7u, 13u, 17u, 11u); // of the net, their middles
+    for (uint k = 0u; k < 4u; ++k) {
+        x[kPlaces[k]] = poolVector(base + corners[k]);
+        uint middle = kSides[k], along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
+        float share = besideLine(sharpness[k]);
+        vec3 line[3];
+        for (uint n = 0u; n < 3u; ++n) {
+            uint at = middle + n * along - along;
+            line[n] = (1.0 - 2.0 * share) * net[at] + share * (net[at - across] + net[at + across]);
+        }
+        x[kMiddles[k]] = (line[0] + line[2] + 4.0 * line[1]) / 6.0;
+    }
+    x[4] = (16.0 * net[12] + 4.0 * (net[7] + net[11] + net[13] + net[17]) + (net[6] + net[8] + net[16] + net[18])) / 36.0;
+    vec2 bend = vec2(0.0), curveLength = vec2(0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        vec3 a = x[3u * k], b = x[3u * k + 1u], c = x[3u * k + 2u];
+        bend.x = max(bend.x, lengthOf((a + c) - 2.0 * b));
+        curveLength.x = max(curveLength.x, lengthOf(b - a) + lengthOf(c - b));
+        a = x[k], b = x[k + 3u], c = x[k + 6u];
+        bend.y = max(bend.y, lengthOf((a + c) - 2.0 * b));
+        curveLength.y = max(curveLength.y, lengthOf(b - a) + lengthOf(c - b));
+    }
+    bend *= 4.0 / 6.0;
+    float pixels = pixelsPerUnit(x[4], 0.25 * (curveLength.x + curveLength.y));
+    return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
+}
+#else
+vec2 irregularLevels(uint record, uint base) { return vec2(0.0); }
+#endif
 
 // Orthographic: the direction it looks in, which all rays have.
 bool orthographic() { return push.camera.orthographic != 0u; }
@@ -310,8 +356,9 @@ void main() {
     uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
+    bool irregular = kHalves && patchClass >= kIrregularPatch;
     vec3 g[16];
-    if (!kCharts && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
+    if (!kCharts && !irregular && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
         g = bicubicNet(more.z, base, patchClass == kPolarPatch);
     float level = 0.0, fifth = 0.0;
     vec4 ofEdges;
@@ -324,11 +371,12 @@ void main() {
         for (uint k = 0u; k < 4u; ++k) ofEdges[k] = k < sides ? uintBitsToFloat(levelWord(words + edges[k])) : 0.0;
         if (sides > 4u) fifth = uintBitsToFloat(levelWord(words + more.x));
         if (kCharts) own = chartLevels(more.z, base);
+        else if (irregular) own = irregularLevels(more.z, base);
         else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
         level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
     }
-    // Nothing is known of where a blend of charts faces.
-    if (kBackFaces && !kCharts && counted) {
+    // Nothing is known of where a blend of charts faces, nor an irregular quad.
+    if (kBackFaces && !kCharts && !irregular && counted) {
         bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
         vec2 across = form == kLodQuadForm ? own : vec2(level);
         if (!doubleSided && showsItsBack(patchClass, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;

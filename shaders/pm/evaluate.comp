@@ -18,6 +18,7 @@ const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? 
 const uint kParts = kSides; // sectors
 const uint kDomain = kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain;
 #include "shaders/evaluate/harness.glsl"
+#include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/sectors.glsl"

@@ -19,7 +19,7 @@
 //                     centre comes last
 //   net               one word a point up to radius 2, in spiral order: its pool index
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
-//                     of a face point in the centre's step; 0, 0); windows: kLeafCells of two elements a sector, 16 points of a
+//                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
 //                     chain's level, 16 bits each, row by row
 //   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
 //                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights in four
@@ -45,6 +45,8 @@ SUPPLE_SHARED_CONST kExactSharpnessElement = 4u;
 SUPPLE_SHARED_CONST kExactNormalElement = 5u;
 SUPPLE_SHARED_CONST kExactNetElement = 6u;
 SUPPLE_SHARED_CONST kNetSide = 5u;
+SUPPLE_SHARED_CONST kNetPoints = 25u;
+SUPPLE_SHARED_CONST kNetMiddle = 12u;
 
 SUPPLE_SHARED_CONST kChainLevelShift = 24u;
 
@@ -52,21 +54,12 @@ SUPPLE_SHARED_CONST kChainLevelShift = 24u;
 SUPPLE_SHARED_CONST kReadsNet = 0u;   // level 1; blocks of limits as well
 SUPPLE_SHARED_CONST kReadsLevel = 1u; // the level before
 
-SUPPLE_SHARED_CONST kLeafCells = 3u; // (1, 0), (1, 1), (0, 1)
+SUPPLE_SHARED_CONST kWindowElements = 4u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
 // Flags of a record, a bit a side from each on.
 SUPPLE_SHARED_CONST kCubicSide = 0u;      // the border is one cubic, for both ends are plain
-SUPPLE_SHARED_CONST kMiddleOfSecond = 4u; // its middle belongs to the end where it ends
 
 SUPPLE_SHARED_END
-
-// Where a point of a corner's window stands in the 5 x 5 points of a quad: number i along the corner's first edge, j along its
-// second. Both begin at 0, one step before the corner.
-#define SUPPLE_EXACT_NET_PLACE(corner, i, j)                                                                                     \
-    ((corner) == 0u   ? kNetSide * (j) + (i)                                                                                     \
-     : (corner) == 1u ? kNetSide * (i) + 4u - (j)                                                                                \
-     : (corner) == 2u ? kNetSide * (4u - (j)) + 4u - (i)                                                                         \
-                      : kNetSide * (4u - (i)) + (j))
 
 #endif

@@ -18,22 +18,21 @@ SUPPLE_SHARED_CONST kCornerNormalsConstant = 4u; // bool: patch records have an 
 SUPPLE_SHARED_CONST kInteriorConstant = 5u;      // bool: samples inside patches alone; edges have theirs from elsewhere
 SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the push constants tell it
 SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
-SUPPLE_SHARED_CONST kChartsConstant = 8u;        // bool: a border is the blend of two charts, else a cubic
 
 // Subdivision.
-SUPPLE_SHARED_CONST kLoopConstant = 9u;             // bool: Loop's rules, else Catmull-Clark's
-SUPPLE_SHARED_CONST kSourceConstant = 10u;          // kFromScratch, kFromNet or kFromPastNet
-SUPPLE_SHARED_CONST kWorkConstant = 11u;            // kInBulk or kOneByOne
-SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 12u; // points that workgroup memory has room for
+SUPPLE_SHARED_CONST kLoopConstant = 8u;              // bool: Loop's rules, else Catmull-Clark's
+SUPPLE_SHARED_CONST kSourceConstant = 9u;           // kFromScratch, kFromNet or kFromPastNet
+SUPPLE_SHARED_CONST kWorkConstant = 10u;            // kInBulk or kOneByOne
+SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 11u; // points that workgroup memory has room for
 
 // Skinning.
-SUPPLE_SHARED_CONST kMorphsConstant = 13u;          // bool: the cage has morph targets
-SUPPLE_SHARED_CONST kDualQuaternionsConstant = 14u; // bool: dual quaternion blending, else linear blending
-SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 15u;   // matrix rows that workgroup memory has room for
+SUPPLE_SHARED_CONST kMorphsConstant = 12u;          // bool: the cage has morph targets
+SUPPLE_SHARED_CONST kDualQuaternionsConstant = 13u; // bool: dual quaternion blending, else linear blending
+SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 14u;   // matrix rows that workgroup memory has room for
 
 // Tangents.
-SUPPLE_SHARED_CONST kTangentsConstant = 16u; // bool: evaluation writes tangents
-SUPPLE_SHARED_CONST kSectorsConstant = 17u;  // bool: patches are sectors round a centre (P_m)
+SUPPLE_SHARED_CONST kTangentsConstant = 15u; // bool: evaluation writes tangents
+SUPPLE_SHARED_CONST kSectorsConstant = 16u;  // bool: patches are sectors round a centre (P_m)
 
 SUPPLE_SHARED_END
 

@@ -74,7 +74,10 @@ SUPPLE_SHARED_CONST kLoopPatch = 7u;
 SUPPLE_SHARED_CONST kBlendPatch = 8u;
 SUPPLE_SHARED_CONST kBlendSharpPatch = 9u;
 SUPPLE_SHARED_CONST kTrianglePatch = 10u;
+// Exact Catmull-Clark; what they have in common is told by kIrregularPatch and above.
 SUPPLE_SHARED_CONST kIrregularPatch = 11u;
+SUPPLE_SHARED_CONST kIrregularSharpPatch = 12u;
+SUPPLE_SHARED_CONST kCreasedPatch = 13u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;

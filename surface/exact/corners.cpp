@@ -12,9 +12,13 @@ bool semiSharp(float sharpness) {
     return sharpness > 0.0f && !endless(sharpness);
 }
 
+/// Where a point of a corner's window stands in the net of a quad: number i along the corner's first edge, j along its
+/// second. Both begin at 0, one step before the corner.
 uint32_t netPlace(uint32_t corner, uint32_t i, uint32_t j) {
-    using shared::kNetSide;
-    return SUPPLE_EXACT_NET_PLACE(corner, i, j);
+    constexpr uint32_t kSide = shared::kNetSide, kLast = kSide - 1;
+    const uint32_t places[] = {kSide * j + i, kSide * i + kLast - j, kSide * (kLast - j) + kLast - i,
+                               kSide * (kLast - i) + j};
+    return places[corner];
 }
 
 } // namespace
@@ -122,6 +126,9 @@ QuadNet Corners::netOf(uint32_t face, const StepPoints& points) const {
             if (across != cage::kNone) { // of four faces the one across the corner
                 net[netPlace(c, 0, 0)] = points.facePoint(points.faceOf(across));
             }
+        }
+        for (uint32_t i = 1; i < 4; ++i) { // the middle of the side
+            read[netPlace(c, i, 0)] = read[netPlace(c, i, 1)] = true;
         }
         for (uint32_t k = 0; k < 16 && kinds_[points.vertexAt(corner)] != VertexKind::chain; ++k) {
             read[netPlace(c, k % 4, k / 4)] = true;

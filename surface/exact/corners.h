@@ -47,7 +47,8 @@ public:
     [[nodiscard]] uint8_t firstCorner(uint32_t face) const;
     /// A bit per corner, from the first on, that has a chain.
     [[nodiscard]] uint32_t chainsOf(uint32_t face) const;
-    /// What no leaf of level 1 reads, or what lies behind a border, is the quad's own middle.
+    /// What neither a leaf of level 1 nor the middle of a side reads, or what lies behind a border, is the quad's own
+    /// middle.
     [[nodiscard]] QuadNet netOf(uint32_t face, const StepPoints& points) const;
 
 private:

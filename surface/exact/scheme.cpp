@@ -31,8 +31,8 @@ constexpr KindOfKernel kVertexKernels[] = {
 };
 constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kReadsNet, "supple exact limits and chains"};
 constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kReadsLevel, "supple exact chains"};
-constexpr uint32_t kMaxChainPoints = 0xFFFF; ///< 16-bit numbers
-constexpr uint32_t kFirstChainLevel = 2;
+constexpr uint32_t kMaxChainPoints = 0xFFFF;                  ///< 16-bit numbers
+constexpr uint32_t kFirstChainLevel = 2, kLastChainLevel = 6; ///< of 64 segments along an edge
 
 /// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {
@@ -88,9 +88,10 @@ public:
     }
 
 private:
-    /// A sample at 1 / rate or further from a corner lies in a leaf of this level at most.
+    /// A sample at 1 / rate or further from a corner lies in a leaf of this level at most. `rate` 0: any rate.
     static uint32_t lastLevelFor(uint32_t rate) {
-        return std::max(kFirstChainLevel, static_cast<uint32_t>(std::bit_width(std::max(rate, 1u) - 1)));
+        return rate == 0 ? kLastChainLevel
+                         : std::max(kFirstChainLevel, static_cast<uint32_t>(std::bit_width(rate - 1)));
     }
     /// Quads that a step has made have half of the segments.
     [[nodiscard]] uint32_t patchRate(uint32_t rate) const { return steps() ? (rate + 1) / 2 : rate; }
@@ -119,10 +120,23 @@ private:
     }
 
     [[nodiscard]] PatchClass classOf(const DraftPatch& patch) const {
-        const bool plain = std::all_of(patch.cageCorners.begin(), patch.cageCorners.begin() + 4, [&](uint32_t c) {
-            return corners_.kind(cage_.faceVertices[c]) == VertexKind::plain;
-        });
-        return plain ? PatchClass::regular : PatchClass::irregular;
+        bool plain = true, chains = false, sharp = false;
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i];
+            const VertexKind kind = corners_.kind(cage_.faceVertices[c]);
+            plain = plain && kind == VertexKind::plain;
+            chains = chains || kind == VertexKind::chain;
+            sharp = sharp || sideSharpness(c) > 0.0f;
+        }
+        return plain     ? PatchClass::regular
+               : !chains ? PatchClass::creased
+               : sharp   ? PatchClass::irregularSharp
+                         : PatchClass::irregular;
+    }
+
+    /// Of the edge behind a corner, on level 1.
+    [[nodiscard]] float sideSharpness(uint32_t corner) const {
+        return softened(parent_.edgeSharpness[topology_.cornerEdges[corner]], 1);
     }
 
     /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
@@ -135,7 +149,7 @@ private:
             }
         };
         for (const DraftPatch& patch : patches_) {
-            if (patch.info.patchClass != PatchClass::irregular) {
+            if (patch.info.patchClass == PatchClass::regular) {
                 continue;
             }
             const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, points_));
@@ -282,16 +296,14 @@ private:
         const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan.sectors);
         writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
         writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
-        constexpr int32_t kFirst[shared::kLeafCells][2] = {{0, -1}, {0, 0}, {-1, 0}};
+        constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
         for (uint32_t h = 0; h < fan.sectors; ++h) {
-            for (const auto& [a, b] : kFirst) {
-                std::array<uint32_t, 16> window{};
-                for (int32_t k = 0; k < 16; ++k) {
-                    const uint32_t index = pointIndex(fan, h, a + k % 4, b + k / 4);
-                    window[static_cast<size_t>(k)] = index == subdivision::kNoPoint ? 0 : index; // its weight is 0
-                }
-                writer_.putHalves(window);
+            std::array<uint32_t, size_t{8} * shared::kWindowElements> window{};
+            for (int32_t k = 1; k < kPoints; ++k) { // point 0 is read by the missing cell alone
+                const uint32_t index = pointIndex(fan, h, k % kSide - 1, k / kSide - 1);
+                window[static_cast<size_t>(k)] = index == subdivision::kNoPoint ? 0 : index; // its weight is 0
             }
+            writer_.putHalves(window);
         }
         return table;
     }
@@ -434,7 +446,7 @@ private:
             }
             writer_.put(points);
             writer_.put(spokes);
-            if (patch.info.patchClass == PatchClass::irregular) {
+            if (patch.info.patchClass != PatchClass::regular) {
                 writeIrregular(patch, nets_[net++]);
             }
         }
@@ -447,19 +459,17 @@ private:
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
             const uint32_t end = cage_.faceVertices[patch.cageCorners[(i + 1) % 4]];
             const uint32_t sector = topology_.cornerSpokes[c] - topology_.spokeStarts[v];
-            const uint32_t edge = topology_.cornerEdges[c];
-            sharpness[i] = std::bit_cast<uint32_t>(softened(parent_.edgeSharpness[edge], 1));
+            sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
             normals[i] = shared::kNoNormal;
             if (corners_.kind(v) != VertexKind::plain) {
                 normals[i] = normals_[v] + vertexArrangements_[v]->runOfSector[sector];
             }
             if (chainLevels(v) > 0) {
-                windows[i] = fanTable(fanOf(v)).windows + 2 * shared::kLeafCells * sector;
+                windows[i] = fanTable(fanOf(v)).windows + shared::kWindowElements * sector;
                 sizes[i] = chainPoints(v) | lastLevel_ << shared::kChainLevelShift;
             }
             const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
             flags |= cubic ? 1u << (shared::kCubicSide + i) : 0u;
-            flags |= end < v ? 1u << (shared::kMiddleOfSecond + i) : 0u;
         }
         for (const auto& words : {windows, sizes, sharpness, normals}) {
             writer_.put(words);

@@ -1,7 +1,5 @@
 #include "surface/lod/steps.h"
 
-#include "shaders/shared/specialization.h"
-
 namespace supple::surface::lod {
 
 static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
@@ -9,6 +7,17 @@ static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
 namespace {
 
 constexpr uint32_t kScratchPadding = 16; ///< elements: instances start on 256 bytes
+
+/// What measures edges and patches, by Borders.
+struct MeasureKernels {
+    Kernel edge, patch, patchFacing; ///< patchFacing leaves out patches that show their backs
+};
+constexpr MeasureKernels kMeasureKernels[] = {
+    {Kernel::lodEdge, Kernel::lodPatch, Kernel::lodPatchBackFaces},
+    {Kernel::lodEdgeHalves, Kernel::lodPatchHalves, Kernel::lodPatchHalvesBackFaces},
+    // Nothing is known of where a blend of charts faces.
+    {Kernel::lodEdgeCharts, Kernel::lodPatchCharts, Kernel::lodPatchCharts},
+};
 
 /// Of edges where `count` is edgeCount, else of patches.
 shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t count) {
@@ -38,18 +47,14 @@ void addSteps(ProgramBuilder& builder) {
     const uint32_t words = tables.edges.count + shared::kLodPatchLevelWords * tables.patches.count;
     program.scratchStride = ((words + 3) / 4 + kScratchPadding - 1) / kScratchPadding * kScratchPadding;
 
+    const MeasureKernels& measure = kMeasureKernels[static_cast<size_t>(tables.borders)];
     const auto edges = static_cast<uint32_t>(builder.tables.constructions.size()), patches = edges + 1;
     if (builder.needs.levelOffset == 0) {
-        const gpu::Kernel kernel =
-            builder.kernel(SetKind::levels, Kernel::lodEdge,
-                           {{shared::kChartsConstant, tables.charts ? VK_TRUE : VK_FALSE}}, "supple levels of edges");
+        const gpu::Kernel kernel = builder.kernel(SetKind::levels, measure.edge, {}, "supple levels of edges");
         builder.add(program.edgeLevels, SetKind::levels, kernel, builder.lanes(tables.edges.count),
                     pushFor(builder, tables.edges.count), edges);
     }
-    // Nothing is known of where a blend of charts faces.
-    const Kernel patch = tables.charts             ? Kernel::lodPatchCharts
-                         : builder.needs.backFaces ? Kernel::lodPatchBackFaces
-                                                   : Kernel::lodPatch;
+    const Kernel patch = builder.needs.backFaces ? measure.patchFacing : measure.patch;
     const shared::LodPush push = pushFor(builder, tables.patches.count);
     // Patches of all windows count into one buffer, with atomics.
     const gpu::Kernel level = builder.kernel(SetKind::levels, patch, {}, "supple levels of patches");

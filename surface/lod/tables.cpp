@@ -1,6 +1,7 @@
 #include "surface/lod/tables.h"
 
 #include "shaders/shared/blend.h"
+#include "shaders/shared/exact.h"
 #include "surface/borders.h"
 #include "surface/table_writer.h"
 
@@ -12,11 +13,20 @@ namespace supple::surface::lod {
 
 namespace {
 
-/// Two patches at a border write it from opposite ends. Its edge is the smaller of both, which is the same for them.
 using Words = std::vector<uint32_t>;
 
+/// A patch's border. Two patches have the same edge if they have the same key.
+struct Border {
+    Words key;
+    Words edge; ///< as tables have it
+};
+/// The two patches write such a border from opposite ends. Its edge is the smaller of both, which is the same for them.
+Border borderOf(const Words& edge) {
+    return {edge, edge};
+}
+
 /// Between charts, for either end: chart, direction in it, 4 / k.
-Words chartBorder(const Words& words, const uint32_t* corner, const uint32_t* next) {
+Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* next) {
     Words ends[2];
     for (uint32_t e = 0; e < 2; ++e) {
         const uint32_t* record = e == 0 ? corner : next;
@@ -26,21 +36,34 @@ Words chartBorder(const Words& words, const uint32_t* corner, const uint32_t* ne
     const auto [first, second] = std::minmax(ends[0], ends[1]);
     Words border = first;
     border.insert(border.end(), second.begin(), second.end());
-    return border;
+    return borderOf(border);
+}
+
+/// Of an irregular quad. The point of level 1 on a side is that of no other edge.
+Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
+    constexpr uint32_t kMiddles[] = {7, 13, 17, 11}; // of the 5 x 5 points
+    const uint32_t* net = record + size_t{4} * shared::kExactNetElement + 1;
+    return {{net[kMiddles[side]], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};
 }
 
 /// By side of the grid.
-std::vector<Words> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
+std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
     const uint32_t* record = &tables.words[size_t{4} * element];
-    std::vector<Words> all;
-    if (rowOf(patchClass).charts) {
+    std::vector<Border> all;
+    if (rowOf(patchClass).borders == Borders::charts) {
         for (uint32_t i = 0; i < 4; ++i) {
             all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
         }
         return all;
     }
     for (const BorderCurve& c : borderCurves(tables, record, patchClass)) {
-        all.push_back(std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]}));
+        all.push_back(borderOf(std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]})));
+    }
+    const uint32_t flags = rowOf(patchClass).borders == Borders::halves ? record[4 * shared::kExactNetElement] : ~0u;
+    for (uint32_t side = 0; side < all.size(); ++side) {
+        if ((flags >> (shared::kCubicSide + side) & 1u) == 0) {
+            all[side] = halvesBorder(record, element, side);
+        }
     }
     return all;
 }
@@ -52,7 +75,7 @@ void appendTables(Tables& tables) {
     Words edgeWords, patches;
     for (const PatchRange& range : tables.ranges) {
         const uint32_t elements = recordElements(tables, range.patchClass);
-        tables.lod.charts = rowOf(range.patchClass).charts;
+        tables.lod.borders = std::max(tables.lod.borders, rowOf(range.patchClass).borders);
         for (uint32_t p = 0; p < range.section.count; ++p) {
             const uint32_t patch = range.firstPatch + p, element = range.section.table + p * elements;
             const uint32_t material = tables.patches[patch].material;
@@ -63,10 +86,10 @@ void appendTables(Tables& tables) {
             ++tables.lod.runs.back().patchCount;
             std::array<uint32_t, kMaxSides> own{};
             uint32_t side = 0;
-            for (const Words& border : borders(tables, element, range.patchClass)) {
-                const auto [found, isNew] = edges.try_emplace(border, static_cast<uint32_t>(edges.size()));
+            for (const Border& border : borders(tables, element, range.patchClass)) {
+                const auto [found, isNew] = edges.try_emplace(border.key, static_cast<uint32_t>(edges.size()));
                 if (isNew) {
-                    edgeWords.insert(edgeWords.end(), border.begin(), border.end());
+                    edgeWords.insert(edgeWords.end(), border.edge.begin(), border.edge.end());
                 }
                 own[side++] = found->second;
             }

@@ -63,6 +63,10 @@ FOREIGN = {
 EXCEPTIONS = {
     ("shaders/lod/edge.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
     ("shaders/lod/patch.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
+    ("shaders/lod/edge.comp", "shaders/exact/sample.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/edge.comp", "shaders/evaluate/basis.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/edge.comp", "shaders/evaluate/frame.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/patch.comp", "shaders/exact/leaf.glsl"): "levels of halves are measured on their own leaves",
     ("shaders/lod/patch.comp", "shaders/pm/load.glsl"): "levels of sectors are measured on their own polynomials",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/pm.glsl"): "smooth UVs are patches of the surface's own classes",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/sector.glsl"): "smooth UVs are patches of the surface's own classes",

@@ -1,15 +1,10 @@
 // Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
 // share.
-#include "cage/procedural.h"
-#include "surface/exact/corners.h"
-#include "surface/subdivision/mesh.h"
-#include "tests/support/crowd.h"
-#include "tests/support/gpu_comparison.h"
+#include "tests/support/exact_quads.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tests/support/test_view.h"
 #include "tools/reference/exact.h"
 
 #include <cstdio>
@@ -19,11 +14,7 @@
 namespace supple::test {
 namespace {
 
-using surface::exact::Corners;
 using surface::exact::LimitSurface;
-using surface::exact::VertexKind;
-using surface::subdivision::Isolation;
-using surface::subdivision::Subdivision;
 
 GpuOptions exactOptions(SuppleMapping mapping, uint32_t rate) {
     GpuOptions options;
@@ -34,61 +25,22 @@ GpuOptions exactOptions(SuppleMapping mapping, uint32_t rate) {
     return options;
 }
 
-Isolation isolationOf(const cage::Cage& cage) {
-    Result<Isolation> isolation = surface::subdivision::isolateCage(cage, Subdivision::catmullClark);
-    EXPECT_TRUE(isolation.ok());
-    return std::move(*isolation);
-}
-
 class ExactOnGpu : public testing::TestWithParam<SuppleMapping> {
 protected:
-    /// The quads that patches are, and what is known of their corners.
-    struct Quads {
-        explicit Quads(const cage::Cage& cage) : isolation(isolationOf(cage)), corners(isolation.parent) {}
-        [[nodiscard]] bool irregular(uint32_t face) const {
-            const cage::Cage& quads = isolation.parent.cage;
-            for (uint32_t i = 0; i < 4; ++i) {
-                if (corners.kind(quads.faceVertices[quads.faceStarts[face] + i]) != VertexKind::plain) {
-                    return true;
-                }
-            }
-            return false;
-        }
-        [[nodiscard]] PatchFaces patches(const GpuSurface& gpu) const {
-            PatchFaces found = patchFaces(
-                isolation.parent, gpu, [&](uint32_t face) { return irregular(face) ? 1 : 0; },
-                [&](uint32_t face) { return corners.chainsOf(face); });
-            for (uint32_t f = 0; f < isolation.parent.cage.faceCount(); ++f) {
-                found.firstCorners.push_back(corners.firstCorner(f));
-            }
-            return found;
-        }
-        /// Parameters of a patch as those of its face.
-        [[nodiscard]] static glm::dvec2 inFace(double u, double v, uint32_t firstCorner) {
-            const glm::dvec2 turned[] = {{u, v}, {1.0 - v, u}, {1.0 - u, 1.0 - v}, {v, 1.0 - u}};
-            return turned[firstCorner];
-        }
-        /// A rate along a cage edge for this rate along a quad's.
-        [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }
-
-        Isolation isolation;
-        Corners corners;
-    };
-
     struct Worst {
         double position = 0.0, normal = 0.0;
         uint64_t samples = 0, steep = 0;
     };
     /// Every `stride`-th sample.
     static void compare(host::Device& device, const cage::Cage& cage, uint32_t rate, uint32_t stride, Worst& worst) {
-        const Quads quads(cage);
+        const ExactQuads quads(cage);
         GpuSurface gpu(device, cage, exactOptions(GetParam(), quads.rateFor(rate)));
         ASSERT_TRUE(gpu.valid());
         gpu.evaluate();
         ASSERT_EQ(gpu.output().grid.rate, rate);
         const std::vector<glm::dvec3> positions = doublePositions(cage);
         const LimitSurface limit(quads.isolation.mesh, positions);
-        const PatchFaces found = quads.patches(gpu);
+        const PatchFaces found = quads.patches(gpu.patches());
         ASSERT_EQ(found.faces.size(), gpu.patches().size());
         const double size = extent(positions);
         uint32_t next = 0;
@@ -99,8 +51,8 @@ protected:
                 }
                 const uint32_t i = s % (rate + 1), j = s / (rate + 1);
                 const uint32_t face = found.faces[p];
-                const glm::dvec2 at = Quads::inFace(static_cast<double>(i) / rate, static_cast<double>(j) / rate,
-                                                    found.firstCorners[face]);
+                const glm::dvec2 at = ExactQuads::inFace(static_cast<double>(i) / rate, static_cast<double>(j) / rate,
+                                                         found.firstCorners[face]);
                 const auto expected = limit.at(face, at.x, at.y);
                 const GpuSurface::Vertex& vertex = gpu.vertex(0, p, s);
                 const double apart = glm::length(glm::dvec3(vertex.position) - expected.position) / size;
@@ -173,7 +125,7 @@ TEST_P(ExactOnGpu, BordersAgreeBitForBit) {
     const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
     for (size_t i = 0; i < zoo.size(); ++i) {
         SCOPED_TRACE(zoo[i].name);
-        const Quads quads(zoo[i].cage);
+        const ExactQuads quads(zoo[i].cage);
         for (const uint32_t rate : {1u, 2u, 3u, 5u, 7u, 8u, 17u, 32u}) {
             if (rate > 8 && i % 5 != 0) {
                 continue;
@@ -181,8 +133,8 @@ TEST_P(ExactOnGpu, BordersAgreeBitForBit) {
             GpuSurface gpu(*device, zoo[i].cage, exactOptions(GetParam(), quads.rateFor(rate)));
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
-            const ComparedBits bits =
-                borderBits(quads.isolation.parent.cage, quads.isolation.parent.topology, quads.patches(gpu), gpu);
+            const ComparedBits bits = borderBits(quads.isolation.parent.cage, quads.isolation.parent.topology,
+                                                 quads.patches(gpu.patches()), gpu);
             EXPECT_EQ(bits.different, 0u) << "rate " << rate;
             byRate[rate].add(bits);
         }
@@ -203,24 +155,6 @@ TEST(ExactMappings, GiveTheSamePositionBits) {
     }
     bits.print("positions in both mappings");
     EXPECT_EQ(bits.different, 0u);
-}
-
-class ExactInViews : public CrowdContexts {};
-
-TEST_F(ExactInViews, AreRefused) {
-    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
-    ASSERT_TRUE(own.valid());
-    const TestView view(own, 1u << 10);
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.asset = own.createAsset(cage::makeCubeSphere(2));
-    desc.capacity = 1;
-    desc.scheme = SUPPLE_SCHEME_EXACT;
-    SuppleGroup group{};
-    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_OK);
-    EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
-    desc.view = view.handle();
-    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
 }
 
 } // namespace

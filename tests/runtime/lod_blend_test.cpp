@@ -1,8 +1,6 @@
 // The blending surface at random levels, over cages of all kinds, against the reference: bits, borders, normals.
-#include "surface/lod/grid.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/lod_levels.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
@@ -35,20 +33,6 @@ std::vector<SubdivisionCage> cagesOf(const std::tuple<SuppleMapping, CreaseMode>
         cages.push_back(subdivisionZoo()[z]);
     }
     return cages;
-}
-
-/// (u, 1 - u) and (v, 1 - v) of a sample.
-std::array<glm::vec2, 2> parametersOf(const LodSurface::Patch& patch, uint32_t sample) {
-    const uint32_t last = patch.capacity, i = sample % (last + 1), j = sample / (last + 1);
-    const auto along = [&](uint32_t k, size_t pair) {
-        if (k == 0 || k == last) {
-            return k == 0 ? glm::vec2(0.0f, 1.0f) : glm::vec2(1.0f, 0.0f);
-        }
-        const surface::lod::LevelPair level{patch.levels[2 * pair], patch.levels[2 * pair + 1]};
-        const surface::lod::Parameter p = surface::lod::parameter(last, k, level);
-        return glm::vec2(p.t, p.s);
-    };
-    return {along(i, j == 0 ? 2 : j == last ? 4 : 0), along(j, i == last ? 3 : i == 0 ? 5 : 1)};
 }
 
 TEST_P(LodBlend, RandomLevelsAreTheReferences) {

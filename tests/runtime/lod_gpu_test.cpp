@@ -3,6 +3,7 @@
 #include "cage/gltf/reader.h"
 #include "surface/schemes.h"
 #include "tests/support/blend_surface.h"
+#include "tests/support/exact_quads.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/shared_assets.h"
@@ -44,15 +45,18 @@ struct LodCase {
             creases == SUPPLE_CREASES_CURVE ? surface::blend::CreaseMode::curve : surface::blend::CreaseMode::cut;
         return recipe;
     }
-    /// The blending surface may subdivide its cage first: corners are then told by the refined cage.
+    /// Two schemes may subdivide their cage first: corners are then told by the refined cage.
     void nameCorners(const cage::Cage& cage, std::vector<surface::PatchInfo>& patches) const {
         if (scheme == SUPPLE_SCHEME_BLEND) {
             ::supple::test::nameCorners(blendMesh(cage, recipe().blend), patches);
+        } else if (scheme == SUPPLE_SCHEME_EXACT) {
+            ::supple::test::nameCorners(ExactQuads(cage), patches);
         }
     }
 };
 constexpr LodCase kLodCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
                                  {"P_m", SUPPLE_SCHEME_PM},
+                                 {"exact", SUPPLE_SCHEME_EXACT},
                                  {"blend", SUPPLE_SCHEME_BLEND},
                                  {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
 

@@ -116,10 +116,9 @@ TEST_P(PmOnGpu, BordersAgreeBitForBit) {
             }
         }
     }
-    constexpr const char* kNames[] = {"ordinary", "polar", "P3", "P4", "P5"};
     for (const auto& [classes, bits] : pairs) {
-        std::printf("%-9s %-9s %8llu samples, %llu differ\n", kNames[static_cast<size_t>(classes.first)],
-                    kNames[static_cast<size_t>(classes.second)], static_cast<unsigned long long>(bits.samples),
+        std::printf("%-9s %-9s %8llu samples, %llu differ\n", surface::className(classes.first),
+                    surface::className(classes.second), static_cast<unsigned long long>(bits.samples),
                     static_cast<unsigned long long>(bits.different));
         EXPECT_EQ(bits.different, 0u);
     }

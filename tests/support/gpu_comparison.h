@@ -105,9 +105,9 @@ struct PatchFaces {
     }
 };
 
-/// By class, then material, part, kind and face. Fails the test where the group's patches come of other faces.
-template <class Mesh, class ClassOf, class KindOf>
-PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf, KindOf&& kindOf) {
+/// By class, then material, part, kind and face. Fails the test where `patches`, those of a group, come of other faces.
+template <class Mesh, class Patches, class ClassOf, class KindOf>
+PatchFaces patchFaces(const Mesh& mesh, const Patches& patches, ClassOf&& classOf, KindOf&& kindOf) {
     PatchFaces found;
     for (uint32_t f = 0; f < mesh.cage.faceCount(); ++f) {
         if (!std::binary_search(mesh.cage.holes.begin(), mesh.cage.holes.end(), f)) {
@@ -120,11 +120,11 @@ PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf
     };
     std::stable_sort(found.faces.begin(), found.faces.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
     found.patches.assign(mesh.cage.faceCount(), cage::kNone);
-    EXPECT_EQ(found.faces.size(), gpu.patches().size());
+    EXPECT_EQ(found.faces.size(), patches.size());
     for (uint32_t p = 0; p < found.faces.size(); ++p) {
         found.patches[found.faces[p]] = p;
-        if (p < gpu.patches().size()) {
-            EXPECT_EQ(gpu.patches()[p].face, mesh.sourceFaces[found.faces[p]]);
+        if (p < patches.size()) {
+            EXPECT_EQ(patches[p].face, mesh.sourceFaces[found.faces[p]]);
         }
     }
     return found;
@@ -132,7 +132,7 @@ PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf
 
 template <class Mesh, class ClassOf>
 PatchFaces patchFaces(const Mesh& mesh, const GpuSurface& gpu, ClassOf&& classOf) {
-    return patchFaces(mesh, gpu, classOf, [](uint32_t /*face*/) { return 0u; });
+    return patchFaces(mesh, gpu.patches(), classOf, [](uint32_t /*face*/) { return 0u; });
 }
 
 /// What the patches on both sides of every edge have in common.

@@ -3,6 +3,10 @@
 #include "tests/support/spirv_precise.h"
 #include "tools/common/inside_output.h"
 
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
 namespace supple::test {
 
 namespace {
@@ -34,26 +38,36 @@ constexpr const char* kRandomCapacity = R"(
 RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     const std::string macros = mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
     // Optimized, as the layouts have the bindings of their mapping alone.
-    edge_ = optimized(compileEdited("lod/edge.comp",
-                                    "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
-                                    kRandomEdge, macros));
-    const auto patches = [&](const std::string& form) {
+    const auto edgeLevels = [&](const std::string& borders) {
+        return optimized(compileEdited("lod/edge.comp",
+                                       "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
+                                       kRandomEdge, macros + borders));
+    };
+    const auto patchLevels = [&](const std::string& borders) {
         return optimized(compileEdited("lod/patch.comp",
                                        "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
-                                       kRandomCapacity, macros + form));
+                                       kRandomCapacity, macros + borders));
     };
-    patch_ = patches("");
-    chartPatch_ = patches(" -DCHARTS");
-    if (testDevice() == nullptr || edge_.empty() || patch_.empty() || chartPatch_.empty()) {
+    surface::Shaders shaders = surface::Shaders::embedded();
+    using surface::Kernel;
+    const std::tuple<std::string, Kernel, Kernel> kBorders[] = {
+        {"", Kernel::lodEdge, Kernel::lodPatch},
+        {" -DHALVES", Kernel::lodEdgeHalves, Kernel::lodPatchHalves},
+        {" -DCHARTS", Kernel::lodEdgeCharts, Kernel::lodPatchCharts}};
+    compiled_.reserve(2 * std::size(kBorders)); // shaders point into it
+    for (const auto& [borders, edge, patch] : kBorders) {
+        const std::vector<uint32_t>& ofPatches = compiled_.emplace_back(patchLevels(borders));
+        shaders[patch] = {ofPatches, ofPatches}; // of this mapping
+        if (edges == Edges::random) {
+            const std::vector<uint32_t>& ofEdges = compiled_.emplace_back(edgeLevels(borders));
+            shaders[edge] = {ofEdges, ofEdges};
+        }
+    }
+    if (testDevice() == nullptr ||
+        std::any_of(compiled_.begin(), compiled_.end(), [](const auto& words) { return words.empty(); })) {
         ADD_FAILURE() << "no device, or no shaders";
         return;
     }
-    surface::Shaders shaders = surface::Shaders::embedded();
-    if (edges == Edges::random) {
-        shaders[surface::Kernel::lodEdge] = {edge_, edge_}; // of this mapping
-    }
-    shaders[surface::Kernel::lodPatch] = {patch_, patch_};
-    shaders[surface::Kernel::lodPatchCharts] = {chartPatch_, chartPatch_};
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
     contextDesc.mapping = mapping;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);

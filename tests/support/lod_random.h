@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc);
 
 private:
-    std::vector<uint32_t> edge_, patch_, chartPatch_;
+    std::vector<std::vector<uint32_t>> compiled_;
     std::unique_ptr<runtime::Context> context_;
     uint64_t view_ = 0, frame_ = 0;
 };

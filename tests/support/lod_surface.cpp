@@ -159,6 +159,19 @@ LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output)
     return surface;
 }
 
+std::array<glm::vec2, 2> parametersOf(const LodSurface::Patch& patch, uint32_t sample) {
+    const uint32_t last = patch.capacity, i = sample % (last + 1), j = sample / (last + 1);
+    const auto along = [&](uint32_t k, size_t pair) {
+        if (k == 0 || k == last) {
+            return k == 0 ? glm::vec2(0.0f, 1.0f) : glm::vec2(1.0f, 0.0f);
+        }
+        const surface::lod::LevelPair level{patch.levels[2 * pair], patch.levels[2 * pair + 1]};
+        const surface::lod::Parameter p = surface::lod::parameter(last, k, level);
+        return glm::vec2(p.t, p.s);
+    };
+    return {along(i, j == 0 ? 2 : j == last ? 4 : 0), along(j, i == last ? 3 : i == 0 ? 5 : 1)};
+}
+
 Sides matchSides(const LodSurface& surface) {
     const std::vector<uint32_t> idOf = namePositions(surface);
     Sides sides;

@@ -415,8 +415,8 @@ typedef enum SuppleScheme {
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
-     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It cannot be drawn in a view, and
-     * has no indexed meshes and no smooth texture coordinates yet. */
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no indexed meshes and
+     * no smooth texture coordinates yet. */
     SUPPLE_SCHEME_EXACT = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
@@ -1159,18 +1159,20 @@ SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup g
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,       /**< 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1,     /**< 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,         /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,            /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,            /**< 25 */
-    SUPPLE_PATCH_P5 = 5,            /**< 31 */
-    SUPPLE_PATCH_CATMULL_CLARK = 6, /**< none: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,          /**< none */
-    SUPPLE_PATCH_BLEND = 8,         /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9,   /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10,     /**< none, POLYGONS: a triangle, as it is */
-    SUPPLE_PATCH_IRREGULAR = 11     /**< none, EXACT: a quad of leaves */
+    SUPPLE_PATCH_REGULAR = 0,          /**< 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1,        /**< 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,            /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,               /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,               /**< 25 */
+    SUPPLE_PATCH_P5 = 5,               /**< 31 */
+    SUPPLE_PATCH_CATMULL_CLARK = 6,    /**< none: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_LOOP = 7,             /**< none */
+    SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11,       /**< none, EXACT: a quad of leaves */
+    SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, EXACT: with sharp edges */
+    SUPPLE_PATCH_CREASED = 13          /**< none, EXACT: all of its corners are regular, but semi-sharp creases pass */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

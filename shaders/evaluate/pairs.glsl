@@ -1,0 +1,22 @@
+// The parameter pairs (t, 1 - t) of a rate's samples.
+layout(set = 0, binding = kPairBinding, std430) readonly buffer Pairs { vec2 pairs[]; };
+
+// A rate that is known when the pipeline is made. In the narrow mapping loops over samples are unrolled and weights are
+// constants; in the wide one lanes divide by a constant to find their patch and row, which is cheap.
+layout(constant_id = kRateConstant) const uint kRate = 0u;
+uint fixedRate() { return kRate != 0u ? kRate : push.rate; }
+
+// (t, s) = (k / rate, (rate - k) / rate), never 1 - t of a rounded t. `rate` is kRate where that is set.
+vec2 parameterPair(uint k, uint rate, uint firstPair) {
+    if (kExactDivision) {
+        precise vec2 p = vec2(float(k) / float(rate), float(rate - k) / float(rate));
+        return p;
+    }
+    // Powers of two divide without rounding: where the rate is one, and known, so are the pairs.
+    if (kRate != 0u && (kRate & (kRate - 1u)) == 0u) {
+        float inverse = uintBitsToFloat((127u << 24) - floatBitsToUint(float(kRate)));
+        precise vec2 p = vec2(float(k) * inverse, float(kRate - k) * inverse);
+        return p;
+    }
+    return pairs[firstPair + k];
+}

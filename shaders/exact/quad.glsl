@@ -1,0 +1,69 @@
+// What a record says of an irregular quad, and its sides (docs/exact.md, "Borders"). Before the include: tables.glsl, basis.glsl,
+// frame.glsl, net.glsl and
+//   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
+//   const bool kSharp                                 whether sides may be creases
+#include "shaders/exact/leaf.glsl"
+
+struct IrregularQuad {
+    uvec4 points, spokes, windows, sizes;
+    vec4 sharpness;
+    uint flags;
+};
+IrregularQuad quadOf(uint record) {
+    return IrregularQuad(tableElement(record), tableElement(record + 1u), tableElement(record + kExactWindowElement),
+                         tableElement(record + kExactSizeElement),
+                         uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x);
+}
+float sharpnessOf(IrregularQuad quad, uint side, uint level) {
+    if (!kSharp) return 0.0;
+    vec4 s = quad.sharpness;
+    return softened(side < 2u ? (side == 0u ? s.x : s.y) : side == 2u ? s.z : s.w, level - 1u);
+}
+bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide + side) & 1u) != 0u; }
+bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.windows, corner) != 0u; }
+
+// The chain of a corner.
+struct Chain {
+    uint windows, points, size; // windows of its sector; pool index of the first point of level 2; points of a level
+    uint lastLevel;
+};
+Chain chainOf(IrregularQuad quad, uint corner) {
+    uint size = componentOf(quad.sizes, corner);
+    return Chain(componentOf(quad.windows, corner), componentOf(quad.spokes, corner), size & ((1u << kChainLevelShift) - 1u),
+                 size >> kChainLevelShift);
+}
+uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
+vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }
+
+// At levels of detail samples come as near to a vertex as they like, but chains end: what lies in the last cell at the vertex is
+// moved out of it. On a border both quads do the same, for they have the same vertex.
+float withinChain(float distance, uint lastLevel) { return distance > 0.0 ? max(distance, powerOfTwo(-float(lastLevel))) : 0.0; }
+
+// The frame of the quad, of derivatives along a corner's two edges.
+Frame turnedFrame(uint corner, vec3 da, vec3 db) {
+    bool odd = (corner & 1u) != 0u;
+    vec3 du = odd ? db : da, dv = odd ? da : db;
+    return Frame(corner == 1u || corner == 2u ? -du : du, corner >= 2u ? -dv : dv, cross(da, db));
+}
+Frame withStoredNormal(const PatchPlace at, uint corner, Frame frame) {
+    uint normal = componentOf(tableElement(at.record + kExactNormalElement), corner);
+    if (normal == kNoNormal) return frame;
+    return withNormal(frame, poolPoint(at, normal));
+}
+
+// A border that is one cubic, between two plain ends; the side runs from its corner to the next.
+vec3[4] sideCubic(const PatchPlace at, IrregularQuad quad, uint side) {
+    uint next = (side + 1u) & 3u;
+    vec3 a = poolPoint(at, componentOf(quad.points, side)), b = poolPoint(at, componentOf(quad.points, next));
+    precise vec3 aTangent = a + poolPoint(at, push.tangents + SUPPLE_SPOKE(componentOf(quad.spokes, side)));
+    precise vec3 bTangent = b + poolPoint(at, push.tangents + SUPPLE_NEXT_SPOKE(componentOf(quad.spokes, next)));
+    return vec3[4](a, aTangent, bTangent, b);
+}
+// `pair`: along the quad's own parameter.
+vec3 onCubic(vec3 g[4], uint side, vec2 pair) {
+    return sum4(bernstein3(side < 2u ? pair : pair.yx), g[0], g[1], g[2], g[3]);
+}
+vec3 placed(vec3 origin, vec3 first, vec3 offset) {
+    precise vec3 p = origin + (first + offset);
+    return p;
+}

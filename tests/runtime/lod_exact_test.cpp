@@ -1,0 +1,146 @@
+// Exact Catmull-Clark patches at random levels, over cages of all kinds, against the limit in double: positions,
+// borders, normals.
+#include "tests/support/exact_quads.h"
+#include "tests/support/lod_random.h"
+#include "tests/support/meshes.h"
+#include "tests/support/prep_surface.h"
+#include "tests/support/subdivision_zoo.h"
+#include "tools/common/cage_arrays.h"
+#include "tools/reference/exact.h"
+
+#include <cstdio>
+#include <cstring>
+#include <set>
+
+namespace supple::test {
+namespace {
+
+using surface::exact::LimitSurface;
+using surface::exact::VertexKind;
+
+constexpr double kNearest = 1.0 / 64.0; // to a vertex with a chain
+
+class LodExact : public testing::TestWithParam<SuppleMapping> {
+protected:
+    /// The zoo's cages in turn: all of them take minutes a mapping.
+    static std::vector<SubdivisionCage> cages() {
+        constexpr size_t kStep = 3; // every cage has five variants: not a multiple of that
+        std::vector<SubdivisionCage> cages;
+        for (size_t z = GetParam() == SUPPLE_MAPPING_WIDE ? 1 : 0; z < subdivisionZoo().size(); z += kStep) {
+            cages.push_back(subdivisionZoo()[z]);
+        }
+        return cages;
+    }
+    /// One instance, and its patches with their corners as the quads have them.
+    static std::optional<RandomLevels::Drawn> draw(RandomLevels& random, const SubdivisionCage& entry,
+                                                   const ExactQuads& quads) {
+        const host::CageArrays arrays(entry.cage);
+        Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, entry.name);
+        EXPECT_TRUE(character.ok());
+        SuppleGroupDesc desc{};
+        desc.scheme = SUPPLE_SCHEME_EXACT;
+        std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
+        if (drawn) {
+            nameCorners(quads, drawn->patches);
+        }
+        return drawn;
+    }
+    /// Where the device takes a sample: not within the last cell of a chain (docs/exact.md, "At levels").
+    static glm::dvec2 taken(const ExactQuads& quads, const surface::PatchInfo& patch,
+                            const std::array<glm::vec2, 2>& at) {
+        const bool right = at[0].x > at[0].y, up = at[1].x > at[1].y;
+        const uint32_t corner = up ? (right ? 2 : 3) : right ? 1 : 0;
+        glm::dvec2 from(right ? at[0].y : at[0].x, up ? at[1].y : at[1].x);
+        if (quads.corners.kind(patch.corners[corner]) == VertexKind::chain) {
+            for (int k = 0; k < 2; ++k) {
+                from[k] = from[k] > 0.0 ? std::max(from[k], kNearest) : 0.0;
+            }
+        }
+        return {right ? 1.0 - from.x : from.x, up ? 1.0 - from.y : from.y};
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Mappings, LodExact, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& param) { return mappingName(param.param); });
+
+TEST_P(LodExact, RandomLevelsAreTheLimit) {
+    const ValidationGuard guard;
+    RandomLevels random(GetParam());
+    ASSERT_TRUE(random.valid());
+    Borders all;
+    double worst = 0.0, worstNormal = 0.0;
+    uint64_t steep = 0, samples = 0, moved = 0;
+    for (const SubdivisionCage& entry : cages()) {
+        SCOPED_TRACE(entry.name);
+        const ExactQuads quads(entry.cage);
+        const std::optional<RandomLevels::Drawn> drawn = draw(random, entry, quads);
+        ASSERT_TRUE(drawn.has_value());
+        const std::vector<glm::dvec3> positions = doublePositions(entry.cage);
+        const LimitSurface limit(quads.isolation.mesh, positions);
+        const PatchFaces found = quads.patches(drawn->patches);
+        const double size = extent(positions);
+        for (const LodSurface::Patch& patch : drawn->surface.patches) {
+            const uint32_t face = found.faces[patch.patch];
+            for (uint32_t s = 0; s < (patch.capacity + 1) * (patch.capacity + 1); s += 1 + patch.capacity / 8) {
+                const std::array<glm::vec2, 2> pairs = parametersOf(patch, s);
+                const glm::dvec2 at = taken(quads, drawn->patches[patch.patch], pairs);
+                moved += at.x != static_cast<double>(pairs[0].x) && pairs[0].x < 0.5f ? 1 : 0;
+                const glm::dvec2 inFace = ExactQuads::inFace(at.x, at.y, found.firstCorners[face]);
+                const auto expected = limit.at(face, inFace.x, inFace.y);
+                glm::vec3 position;
+                std::memcpy(&position, drawn->surface.positions[patch.firstVertex + s].data(), sizeof(position));
+                raise(worst, glm::length(glm::dvec3(position) - expected.position) / size);
+                const double angle = angleDegrees(drawn->surface.normals[patch.firstVertex + s], expected.normal);
+                raise(worstNormal, angle);
+                steep += angle > 0.05 ? 1 : 0;
+                ++samples;
+            }
+        }
+        const Sides sides = matchSides(drawn->surface);
+        const Borders borders = bordersOf(drawn->surface, drawn->patches);
+        EXPECT_EQ(drawn->surface.patches.size(), found.faces.size());
+        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
+        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
+        EXPECT_EQ(sides.looseEnds, 0u);
+        EXPECT_LE(sides.unmatched, borders.open);
+        all.samples += borders.samples;
+        all.edges += borders.edges;
+    }
+    std::printf(
+        "%llu samples, %llu of them moved out of a last cell; positions within %.1e of the extent, %llu normals "
+        "off by more than 0.05 degrees, at most %.2f; %zu edges with %zu samples of a side\n",
+        static_cast<unsigned long long>(samples), static_cast<unsigned long long>(moved), worst,
+        static_cast<unsigned long long>(steep), worstNormal, all.edges, all.samples);
+    EXPECT_GT(all.samples, 0u);
+    EXPECT_GT(moved, 0u);
+    EXPECT_LE(worst, 1e-6);
+    EXPECT_EQ(steep, 0u);
+}
+
+// An edge that the quads on its sides know by different records has one level.
+TEST_P(LodExact, BothSidesOfAnEdgeAskForTheSame) {
+    const ValidationGuard guard;
+    RandomLevels random(GetParam(), RandomLevels::Edges::own);
+    ASSERT_TRUE(random.valid());
+    Borders all;
+    std::set<float> levels;
+    for (const SubdivisionCage& entry : cages()) {
+        SCOPED_TRACE(entry.name);
+        const std::optional<RandomLevels::Drawn> drawn = draw(random, entry, ExactQuads(entry.cage));
+        ASSERT_TRUE(drawn.has_value());
+        const Borders borders = bordersOf(drawn->surface, drawn->patches);
+        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
+        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
+        EXPECT_LE(matchSides(drawn->surface).unmatched, borders.open);
+        all.samples += borders.samples;
+        all.edges += borders.edges;
+        for (const LodSurface::Patch& patch : drawn->surface.patches) {
+            levels.insert({patch.levels[4], patch.levels[6], patch.levels[8], patch.levels[10]});
+        }
+    }
+    std::printf("%zu edges with %zu samples of a side, %zu levels\n", all.edges, all.samples, levels.size());
+    EXPECT_GT(all.edges, 500u);
+    EXPECT_GT(levels.size(), 500u);
+}
+
+} // namespace
+} // namespace supple::test

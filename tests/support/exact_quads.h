@@ -1,0 +1,79 @@
+// The quads that exact Catmull-Clark patches are made of, and what is known of their corners.
+#pragma once
+
+#include "surface/exact/corners.h"
+#include "surface/scheme.h"
+#include "surface/subdivision/mesh.h"
+#include "tests/support/gpu_comparison.h"
+
+#include <utility>
+
+namespace supple::test {
+
+/// Of a cage that must be accepted.
+struct ExactQuads {
+    explicit ExactQuads(const cage::Cage& cage) : isolation(isolationOf(cage)), corners(isolation.parent) {}
+
+    [[nodiscard]] uint32_t vertex(uint32_t face, uint32_t corner) const {
+        return isolation.parent.cage.faceVertices[isolation.parent.cage.faceStarts[face] + corner];
+    }
+    [[nodiscard]] surface::PatchClass classOf(uint32_t face) const {
+        using surface::exact::VertexKind;
+        const surface::RefinedMesh& mesh = isolation.parent;
+        bool plain = true, chains = false, sharp = false;
+        for (uint32_t i = 0; i < 4; ++i) {
+            plain = plain && corners.kind(vertex(face, i)) == VertexKind::plain;
+            chains = chains || corners.kind(vertex(face, i)) == VertexKind::chain;
+            sharp = sharp || mesh.edgeSharpness[mesh.topology.cornerEdges[mesh.cage.faceStarts[face] + i]] > 1.0f;
+        }
+        if (plain) {
+            return surface::PatchClass::regular;
+        }
+        return !chains ? surface::PatchClass::creased
+               : sharp ? surface::PatchClass::irregularSharp
+                       : surface::PatchClass::irregular;
+    }
+    /// `patches`: of a group.
+    template <class Patches>
+    [[nodiscard]] PatchFaces patches(const Patches& patches) const {
+        PatchFaces found = patchFaces(
+            isolation.parent, patches, [&](uint32_t face) { return classOf(face); },
+            [&](uint32_t face) { return corners.chainsOf(face); });
+        for (uint32_t f = 0; f < isolation.parent.cage.faceCount(); ++f) {
+            found.firstCorners.push_back(corners.firstCorner(f));
+        }
+        return found;
+    }
+    /// Parameters of a patch as those of its face.
+    [[nodiscard]] static glm::dvec2 inFace(double u, double v, uint32_t firstCorner) {
+        const glm::dvec2 turned[] = {{u, v}, {1.0 - v, u}, {1.0 - u, 1.0 - v}, {v, 1.0 - u}};
+        return turned[firstCorner];
+    }
+    /// A rate along a cage edge for this rate along a quad's.
+    [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }
+
+    surface::subdivision::Isolation isolation;
+    surface::exact::Corners corners;
+
+private:
+    static surface::subdivision::Isolation isolationOf(const cage::Cage& cage) {
+        Result<surface::subdivision::Isolation> isolation =
+            surface::subdivision::isolateCage(cage, surface::subdivision::Subdivision::catmullClark);
+        EXPECT_TRUE(isolation.ok());
+        return std::move(*isolation);
+    }
+};
+
+/// Corners of patches as vertices of the quads: a group tells those of its cage.
+inline void nameCorners(const ExactQuads& quads, std::vector<surface::PatchInfo>& patches) {
+    const PatchFaces found = quads.patches(patches);
+    ASSERT_EQ(found.faces.size(), patches.size());
+    for (size_t p = 0; p < patches.size(); ++p) {
+        const uint32_t face = found.faces[p];
+        for (uint32_t i = 0; i < 4; ++i) {
+            patches[p].corners[i] = quads.vertex(face, (i + found.firstCorners[face]) % 4);
+        }
+    }
+}
+
+} // namespace supple::test
