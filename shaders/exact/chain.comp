@@ -8,7 +8,7 @@
 #include "shaders/shared/exact.h"
 #include "shaders/shared/subdivision.h"
 
-layout(constant_id = kKindConstant) const uint kReads = kReadsNet;
+layout(constant_id = kKindConstant) const uint kMakes = kMakesLimits;
 
 uint base;   // of the instance in the pool
 uint source; // what the rules read: the first word of the net, or the pool index of the level before
@@ -16,40 +16,39 @@ vec3 centre; // of level 1
 
 vec3 netPoint(uint i) { return poolVector(base + tableWord(source + i)); }
 vec3 point(uint i) {
-    if (kReads == kReadsLevel) return poolVector(source + i);
+    if (kMakes == kMakesLevel) return poolVector(source + i);
     precise vec3 offset = netPoint(i) - centre;
     return offset;
 }
 #include "shaders/subdivision/rules.glsl"
 
-// Weights act on the differences to the centre. The position is the same in all runs.
+// Weights act on the differences to the centre. The position is the same in all runs. Loops are tested at the bottom, see
+// nets.glsl: there is a run, and it has a block.
 void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
     uvec4 head = tableElement(arrangement);
-    uint runs = head.x, ring = head.w, at = arrangement + 1u;
-    for (uint run = 0u; run < runs; ++run) {
-        uint blocks = tableElement(at++).x;
+    uint runs = head.x, ring = head.w, at = arrangement + 1u, run = 0u;
+    do {
+        uint blocks = tableElement(at++).x, block = 0u;
         vec3 normal = vec3(0.0), last = vec3(0.0);
-        for (uint block = 0u; block < blocks; ++block) {
+        do {
             precise vec3 a = vec3(0.0), b = vec3(0.0), d = vec3(0.0), e = vec3(0.0);
-            for (uint i = 1u; i <= ring; ++i) {
+            uint i = 1u;
+            do {
                 vec3 p = point(i);
                 vec4 w = uintBitsToFloat(tableElement(at++));
                 a = a + w.x * p;
                 b = b + w.y * p;
                 d = d + w.z * p;
                 e = e + w.w * p;
-            }
-            if (block > 0u) {
-                normal += cross(last, a) + cross(a, b);
-            } else if (run == 0u) {
-                precise vec3 sum = centre + a;
-                storePool(limitIndex, sum);
-            }
+            } while (++i <= ring);
+            if (block > 0u) normal += cross(last, a) + cross(a, b);
+            precise vec3 sum = centre + a;
+            if (block + run == 0u) storePool(limitIndex, sum);
             normal += cross(b, d) + cross(d, e);
             last = e;
-        }
+        } while (++block < blocks);
         pool[normalIndex + run] = vec4(normal, 0.0);
-    }
+    } while (++run < runs);
 }
 
 uvec4 fan; // sectors, points of a level, whether it is open
@@ -94,11 +93,8 @@ void storeSector(uint target, uint h, float sharpness) {
 void main() {
     uint item = itemOfLane(), lane = elementOf(item);
     base = instanceOf(item) * push.poolStride;
-    uvec4 block = tableElement(push.table + lane / kBlockLanes);
-    uint vertices = block.z & ((1u << kChainLevelShift) - 1u), level = block.z >> kChainLevelShift;
-    uint n = block.w + lane % kBlockLanes;
-    if (kReads == kReadsNet && block.x == 0u) {
-        uint record = block.y + 2u * min(n, vertices - 1u);
+    if (kMakes == kMakesLimits) {
+        uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);
         source = a.x;
         centre = netPoint(0u);
@@ -106,14 +102,15 @@ void main() {
         if (b.x != 0u) pool[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }
+    uvec4 block = tableElement(push.table + lane / kBlockLanes);
+    uint vertices = block.z & ((1u << kChainLevelShift) - 1u), level = block.z >> kChainLevelShift;
     fan = tableElement(block.x);
-    uint spokes = fan.x + fan.z;
-    n = min(n, vertices * (spokes + 1u) - 1u);
+    uint spokes = fan.x + fan.z, n = min(block.w + lane % kBlockLanes, vertices * (spokes + 1u) - 1u);
     uint h = n / vertices, record = block.y + 2u * (n - h * vertices);
     uvec4 a = tableElement(record), arrangement = tableElement(a.z);
     uint target = base + tableElement(record + 1u).x + (level - 2u) * fan.y;
-    source = kReads == kReadsNet ? a.x : target - fan.y;
-    if (kReads == kReadsNet) centre = netPoint(0u);
+    source = kMakes == kMakesFirstLevel ? a.x : target - fan.y;
+    if (kMakes == kMakesFirstLevel) centre = netPoint(0u);
     if (h == spokes) {
         vec2 weights = uintBitsToFloat(tableElement(block.x + 1u).xy);
         uvec4 step = tableElement(arrangement.z + level - 2u);

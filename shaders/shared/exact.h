@@ -14,9 +14,8 @@
 //   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
 //                     index of the chain's level 2 or 0, pool index of the first normal, 0, 0)
-//   blocks            of kBlockLanes lanes of limits or of one level of chains: (fan, or 0 for limits; first vertex; vertices, and
-//                     from kChainLevelShift on the level; first item); of chains' items the vertex rises first, then the spoke; the
-//                     centre comes last
+//   blocks            of kBlockLanes lanes of one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the
+//                     level; first item); of items the vertex rises first, then the spoke; the centre comes last
 //   net               one word a point up to radius 2, in spiral order: its pool index
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
 //                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
@@ -50,9 +49,10 @@ SUPPLE_SHARED_CONST kNetMiddle = 12u;
 
 SUPPLE_SHARED_CONST kChainLevelShift = 24u;
 
-// Kinds of the chain kernel: what blocks read.
-SUPPLE_SHARED_CONST kReadsNet = 0u;   // level 1; blocks of limits as well
-SUPPLE_SHARED_CONST kReadsLevel = 1u; // the level before
+// Kinds of the chain kernel: what it makes.
+SUPPLE_SHARED_CONST kMakesLimits = 0u;
+SUPPLE_SHARED_CONST kMakesFirstLevel = 1u; // of level 1
+SUPPLE_SHARED_CONST kMakesLevel = 2u;      // of the level before
 
 SUPPLE_SHARED_CONST kWindowElements = 4u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;

@@ -29,8 +29,10 @@ constexpr KindOfKernel kVertexKernels[] = {
     {Kernel::exactVertexMeshInPool, kRegular, "supple exact vertex of a step, regular"},
     {Kernel::exactVertexMeshInPool, kOpen, "supple exact vertex of a step, creased"},
 };
-constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kReadsNet, "supple exact limits and chains"};
-constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kReadsLevel, "supple exact chains"};
+constexpr KindOfKernel kLimitKernel = {Kernel::exactChain, shared::kMakesLimits, "supple exact limits"};
+constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kMakesFirstLevel,
+                                            "supple exact chains, first level"};
+constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kMakesLevel, "supple exact chains"};
 constexpr uint32_t kMaxChainPoints = 0xFFFF;                  ///< 16-bit numbers
 constexpr uint32_t kFirstChainLevel = 2, kLastChainLevel = 6; ///< of 64 segments along an edge
 
@@ -379,26 +381,27 @@ private:
             writer_.put({nets[i], fanTable(fanOf(v)).element, arrangement.element, v, chains_[v], normals_[v], 0u, 0u});
             limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
         }
-        for (uint32_t level = kFirstChainLevel; level <= lastLevel_ && !vertices.empty(); ++level) {
-            writeLevel(vertices, first, level, limits);
+        if (vertices.empty()) {
+            return;
+        }
+        const auto count = static_cast<uint32_t>(vertices.size());
+        tables_.constructions.push_back({Stage::assemble, kLimitKernel, {first, count}, limits, steps()});
+        for (uint32_t level = kFirstChainLevel; level <= lastLevel_; ++level) {
+            writeLevel(vertices, first, level);
         }
     }
 
-    /// Blocks of kBlockLanes lanes: of limits with the first level, and of each fan's chains.
-    void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level, uint32_t limits) {
+    /// Blocks of kBlockLanes lanes, of each fan's chains.
+    void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level) {
         const bool isFirst = level == kFirstChainLevel;
         Construction work{Stage::assemble, isFirst ? kFirstLevelKernel : kLaterLevelKernel, {writer_.element(), 0}, 0};
-        work.readsPool = !isFirst || steps();
+        work.readsPool = !isFirst;
         const auto add = [&](uint32_t fan, uint32_t record, uint32_t count, uint32_t items) {
             for (uint32_t item = 0; item < items; item += shared::kBlockLanes) {
                 writer_.put({fan, record, count | level << shared::kChainLevelShift, item});
                 work.section.count += shared::kBlockLanes;
             }
         };
-        if (isFirst) {
-            add(0, firstRecord, static_cast<uint32_t>(vertices.size()), static_cast<uint32_t>(vertices.size()));
-            work.coefficients += limits;
-        }
         for (size_t i = 0; i < vertices.size();) {
             size_t end = i;
             while (end < vertices.size() && fanOf(vertices[end]) == fanOf(vertices[i]) &&
