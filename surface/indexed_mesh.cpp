@@ -1,9 +1,11 @@
 #include "surface/indexed_mesh.h"
 
+#include "shaders/shared/exact.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
 #include "surface/smooth_uvs.h"
+#include "surface/subdivision_rules.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -36,7 +38,7 @@ struct EdgeSource {
     uint32_t extra = 0;
     uint32_t kind = kPlainEdges;
 };
-static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges);
+static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges && kMixedEdges < kHalvesEdges);
 
 const PatchRange& rangeOf(const Tables& tables, uint32_t patch) {
     return *std::find_if(tables.ranges.begin(), tables.ranges.end(),
@@ -264,13 +266,39 @@ private:
         if (range.patchClass == PatchClass::polar) {
             curves.erase(curves.begin() + 2);
         }
+        if (rowOf(range.patchClass).borders == Borders::halves) {
+            nameHalves(record, curves);
+        }
         return curves;
+    }
+    /// Corners by their normals, of which faces between creases have their own, and sides by what no other edge has:
+    /// their middle, of level 1. On endless creases that of the quad, since the two sides have different normals.
+    static void nameHalves(const uint32_t* record, std::vector<BorderCurve>& curves) {
+        const auto corner = [&](uint32_t i, uint32_t point) {
+            const uint32_t normal = record[4 * kExactNormalElement + i];
+            return normal == kNoNormal ? point : normal;
+        };
+        const uint32_t* net = record + size_t{4} * kExactNetElement + 1;
+        for (uint32_t i = 0; i < 4; ++i) {
+            BorderCurve& curve = curves[i];
+            curve[0] = corner(i, curve[0]);
+            curve[3] = corner((i + 1) % 4, curve[3]);
+            if ((record[4 * kExactNetElement] >> (kCubicSide + i) & 1u) == 0) {
+                const bool endless = std::bit_cast<float>(record[4 * kExactSharpnessElement + i]) >= kInfiniteSharpness;
+                curve[1] = curve[2] = net[endless ? kNetMiddle : SUPPLE_EXACT_SIDE_MIDDLE(i)];
+            }
+        }
     }
 
     [[nodiscard]] EdgeSource sourceOf(const Side& at) const {
         const PatchRange& range = rangeOf(tables_, at.patch);
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, at.patch)];
         EdgeSource source;
+        if (rowOf(range.patchClass).borders == Borders::halves) {
+            source.border = {recordOf(range, at.patch), at.side, 0, 0};
+            source.kind = kHalvesEdges;
+            return source;
+        }
         source.border = curvesOf(range, at.patch)[at.side];
         if (!rowOf(range.patchClass).isBicubic()) {
             addSector(record, cornerCount(domainOf(range.patchClass)), at.side, source);

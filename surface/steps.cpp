@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace supple::surface {
 
@@ -154,18 +155,21 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
 }
 
 void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
-    constexpr const char* kNames[] = {"supple evaluate edges", "supple evaluate edges, perturbed",
-                                      "supple evaluate edges, P_m"};
-    static_assert(std::size(kNames) == kEdgeKinds);
+    constexpr std::pair<Kernel, const char*> kKinds[] = {{Kernel::evaluateEdge, "supple evaluate edges"},
+                                                         {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
+                                                         {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
+                                                         {Kernel::exactEdge, "supple evaluate edges, irregular"}};
+    static_assert(std::size(kKinds) == kEdgeKinds);
     const uint32_t rate = ownRatePays(builder) ? builder.needs.rate : 0;
     for (const MeshTables::Edges& edges : builder.tables.mesh.edges) {
-        const gpu::Kernel kernel = builder.kernel(SetKind::evaluate, Kernel::evaluateEdge,
+        const auto [which, name] = kKinds[edges.kind];
+        const gpu::Kernel kernel = builder.kernel(SetKind::evaluate, which,
                                                   {{kKindConstant, edges.kind},
                                                    {kVertexFormatConstant, pass.format},
                                                    {kCornerNormalsConstant, cornerNormals(builder)},
                                                    {kTangentsConstant, tangentsConstant(builder, pass.format)},
                                                    {kRateConstant, rate}},
-                                                  atRate(kNames[edges.kind], rate));
+                                                  atRate(name, rate));
         SurfacePush push = pushFor(builder, edges.section);
         push.firstVertex = builder.evaluation.firstEdgeVertex;
         const DispatchSize size = builder.lanes(push.count * (builder.device.mapping.wide ? push.rate : 1));

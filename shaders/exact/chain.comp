@@ -22,33 +22,35 @@ vec3 point(uint i) {
 }
 #include "shaders/subdivision/rules.glsl"
 
-// Weights act on the differences to the centre. The position is the same in all runs. Loops are tested at the bottom, see
-// nets.glsl: there is a run, and it has a block.
+// Weights act on the differences to the centre. The position is the same in all runs. Lanes have loops of different lengths, so
+// these are tested at the top: in one that is tested at the bottom lavapipe 22.3 goes on adding for lanes that have finished.
 void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
     uvec4 head = tableElement(arrangement);
-    uint runs = head.x, ring = head.w, at = arrangement + 1u, run = 0u;
-    do {
-        uint blocks = tableElement(at++).x, block = 0u;
+    uint runs = head.x, ring = head.w, at = arrangement + 1u;
+    for (uint run = 0u; run < runs; ++run) {
+        uint blocks = tableElement(at++).x;
         vec3 normal = vec3(0.0), last = vec3(0.0);
-        do {
+        for (uint block = 0u; block < blocks; ++block) {
             precise vec3 a = vec3(0.0), b = vec3(0.0), d = vec3(0.0), e = vec3(0.0);
-            uint i = 1u;
-            do {
+            for (uint i = 1u; i <= ring; ++i) {
                 vec3 p = point(i);
                 vec4 w = uintBitsToFloat(tableElement(at++));
                 a = a + w.x * p;
                 b = b + w.y * p;
                 d = d + w.z * p;
                 e = e + w.w * p;
-            } while (++i <= ring);
-            if (block > 0u) normal += cross(last, a) + cross(a, b);
-            precise vec3 sum = centre + a;
-            if (block + run == 0u) storePool(limitIndex, sum);
+            }
+            if (block > 0u) {
+                normal += cross(last, a) + cross(a, b);
+            } else if (run == 0u) {
+                precise vec3 sum = centre + a;
+                storePool(limitIndex, sum);
+            }
             normal += cross(b, d) + cross(d, e);
             last = e;
-        } while (++block < blocks);
+        }
         pool[normalIndex + run] = vec4(normal, 0.0);
-    } while (++run < runs);
+    }
 }
 
 uvec4 fan; // sectors, points of a level, whether it is open

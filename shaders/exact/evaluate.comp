@@ -21,7 +21,17 @@ const bool kChains = kClass != kCreasedPatch, kSharp = kClass != kIrregularPatch
 
 vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at.isNew); }
 
+layout(constant_id = kInteriorConstant) const bool kInterior = false; // edges have the samples on borders
+
 #ifndef WIDE
+const bool kInside = true;
+const uint kSides = kInterior ? 0u : 4u;
+uint last;
+void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
+    if (!own) return;
+    uint to = kInterior ? (j - 1u) * (last - 1u) + i - 1u : j * (last + 1u) + i;
+    storeSurfaceVertex(at.vertex + to, at.own + to, at.empty ? vec3(0.0) : position, frame);
+}
 #include "shaders/exact/nets.glsl"
 
 #ifdef LEVELS
@@ -53,7 +63,8 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
     vec2 u = lodU(place, at.capacity, i, j), v = lodV(place, at.capacity, i, j);
 #else
-    uint j = index / (push.rate + 1u), i = index - j * (push.rate + 1u);
+    uint inset = kInterior ? 1u : 0u, side = push.rate + 1u - 2u * inset;
+    uint j = index / side + inset, i = index - index / side * side + inset;
     vec2 u = parameterPair(i, push.rate, push.pairs), v = parameterPair(j, push.rate, push.pairs);
 #endif
     irregularSample(at, quadOf(at.record), u, v, position, frame);

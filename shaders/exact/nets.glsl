@@ -1,6 +1,10 @@
 // Irregular quads net by net, for lanes that have a whole quad (docs/exact.md). A net is loaded once and collapsed row by row.
-// Before the include: what quad.glsl needs, pairs.glsl, the functions of the harness, and
+// Before the include: what quad.glsl needs, pairs.glsl, and
 //   const bool kChains                                whether some corner has a chain
+//   const bool kInside                                whether samples inside are stored
+//   const uint kSides                                 how many sides' samples are stored, from the first one on; 0, 1 or 4
+//   uint last                                         number of the last sample along a side
+//   void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame)
 //
 // On lavapipe lanes go through both sides of every `if`, and once more through a loop that is tested at the top. So borders are not
 // told apart sample by sample, loops are tested at the bottom, and what must not be stored is computed all the same. What is
@@ -61,7 +65,6 @@ vec3 rowAlongY(NetRow row, uint right, vec4 w) {
     return blend4(w, row.slope[right], row.slope[right + 1u], row.slope[right + 2u], row.slope[right + 3u]);
 }
 
-uint last; // number of the last sample along a side
 #ifdef LEVELS
 LodPattern patterns[6];
 const bool kOwnBorders = true; // whose samples lie elsewhere than those of the rows inside
@@ -77,12 +80,6 @@ vec2 pairOf(uint pattern, uint k) {
 #endif
 }
 const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
-
-void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
-    if (!own) return;
-    uint to = j * (last + 1u) + i;
-    storeSurfaceVertex(at.vertex + to, at.own + to, at.empty ? vec3(0.0) : position, frame);
-}
 
 // Four points for either half of a side, in ascending order; of a cubic they are the same.
 struct Side {
@@ -138,7 +135,7 @@ Frame quadFrame(NetRow row, uint right, LeafWeights x) {
 }
 void storeCorner(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper) {
     uint corner = cornerOf(right, upper);
-    Frame frame = withStoredNormal(at, corner, quadFrame(row, right, alongU(q, right, right == 0u ? kBegin : kEnd)));
+    Frame frame = withStoredNormal(at, q.quad, corner, quadFrame(row, right, alongU(q, right, right == 0u ? kBegin : kEnd)));
     store(at, isOwn(q, right, upper), right * last, upper * last, poolPoint(at, componentOf(q.quad.points, corner)), frame);
 }
 // Samples i to before `end` of the bottom or the top.
@@ -169,11 +166,14 @@ void storeInside(const PatchPlace at, QuadCells q, NetRow row, uint right, uint 
 // The lower or the upper cells.
 void storeCells(const PatchPlace at, QuadCells q, uint upper) {
     uint upperFirst = last / 2u + 1u, j = upper == 0u ? 1u : upperFirst, end = upper == 0u ? upperFirst : last;
-    NetRow border = netRow(q.net, upper, alongV(q, upper, upper == 0u ? kBegin : kEnd));
-    storeCorner(at, q, border, 0u, upper);
-    storeCorner(at, q, border, 1u, upper);
-    storeAlong(at, q, border, 0u, upper, 1u, min(upperFirst, last));
-    storeAlong(at, q, border, 1u, upper, upperFirst, last);
+    if (kSides > 0u) {
+        NetRow border = netRow(q.net, upper, alongV(q, upper, upper == 0u ? kBegin : kEnd));
+        storeCorner(at, q, border, 0u, upper);
+        if (kSides > 1u) storeCorner(at, q, border, 1u, upper);
+        storeAlong(at, q, border, 0u, upper, 1u, min(upperFirst, last));
+        storeAlong(at, q, border, 1u, upper, upperFirst, last);
+    }
+    if (!kInside) return;
     do {
         bool own = j < end;
         vec2 v = pairOf(kInsideV, j);
@@ -181,6 +181,7 @@ void storeCells(const PatchPlace at, QuadCells q, uint upper) {
         NetRow row = netRow(q.net, upper, y);
         storeInside(at, q, row, 0u, upper, own, j, 1u, min(upperFirst, last));
         storeInside(at, q, row, 1u, upper, own, j, upperFirst, last);
+        if (kSides == 0u) continue;
         if (kOwnBorders) {
             vec2 left = pairOf(kSide + 3u, j), right = pairOf(kSide + 1u, j);
             LeafWeights onLeft = alongV(q, upper, left), onRight = alongV(q, upper, right);
@@ -198,6 +199,7 @@ struct Quarter {
     uint corner;
     Chain chain;
     vec3 origin, limit, middleA, middleB; // of the sides
+    uint normal;                          // pool index
     uint countA, countB;                  // of samples that are its own
 };
 Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
@@ -205,6 +207,7 @@ Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
     own.corner = corner;
     own.chain = chainOf(q.quad, corner);
     own.origin = chainOrigin(at, own.chain);
+    own.normal = componentOf(q.quad.normals, corner);
     own.limit = poolPoint(at, componentOf(q.quad.points, corner));
     vec3 bottom = q.sides[0].middle, right = q.sides[1].middle, top = q.sides[2].middle, left = q.sides[3].middle;
     own.middleA = corner < 2u ? (corner == 0u ? bottom : right) : (corner == 2u ? top : left);
@@ -255,7 +258,7 @@ void storeOnBorder(const PatchPlace at, Quarter q, bool own, uint a, uint b, flo
     if (kOwnBorders) { // segments may have no length
         bool atCorner = distance == 0.0;
         p = atCorner ? q.limit : p;
-        Frame stored = withStoredNormal(at, q.corner, frame);
+        Frame stored = q.normal == kNoNormal ? frame : withNormal(frame, poolPoint(at, q.normal));
         if (atCorner) frame = stored;
     }
     uvec2 place = placeInQuad(q.corner, a, b);
@@ -303,52 +306,64 @@ void storeLevel(const PatchPlace at, Quarter q, ChainLevel l) {
         float distance = pairOf(acrossA, b).x;
         LeafWeights y = chainWeights(true, parameterOf(q, l, distance), 0.0);
         NetRow row = netRow(l.net, 1u, y);
-        if (!kOwnBorders) storeOnB(at, q, l, row, own, b, distance, y);
+        if (!kOwnBorders && kSides > 0u) storeOnB(at, q, l, row, own, b, distance, y);
         storeChainRow(at, q, l, row, 0u, own, distance, b, 1u, l.firstA);
         storeChainRow(at, q, l, row, 1u, own, distance, b, l.firstA, l.endA);
     } while (++b < l.endB);
 }
 
-void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q) {
-    uint corner = q.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
+// The samples of a level on the second edge by themselves.
+void storeAlongB(const PatchPlace at, Quarter q, ChainLevel l, uint pattern) {
+    uint b = l.firstB;
+    do {
+        float distance = pairOf(pattern, b).x;
+        LeafWeights y = chainWeights(true, parameterOf(q, l, distance), 0.0);
+        storeOnB(at, q, l, netRow(l.net, 1u, y), b < l.endB, b, distance, y);
+    } while (++b < l.endB);
+}
+
+ChainLevel chainLevel(const PatchPlace at, IrregularQuad quad, Quarter q, uint level, uint endA, uint endB) {
+    uint corner = q.corner, before = (corner + 3u) & 3u;
     ChainLevel l;
-    l.firstA = q.countA, l.firstB = q.countB;
-    uvec2 side = uvec2(q.countA, q.countB); // the same of the borders
-    NetRow onA;
+    l.net = chainNet(at, q.chain, level);
+    l.scale = powerOfTwo(float(level));
+    l.sharpA = sharpnessOf(quad, corner, level), l.sharpB = sharpnessOf(quad, before, level);
+    l.lineA = netSide(l.net, kNetSide, 1u, kNetSide, besideLine(l.sharpA));
+    l.lineB = netSide(l.net, 1u, kNetSide, 1u, besideLine(l.sharpB));
+    l.endA = endA, l.endB = endB;
+    l.firstA = firstOfLevel(corner & 1u, endA, level, q.chain.lastLevel);
+    l.firstB = firstOfLevel(1u - (corner & 1u), endB, level, q.chain.lastLevel);
+    return l;
+}
+
+// `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
+void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, bool onB) {
+    uint corner = q.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
+    uvec2 first = uvec2(q.countA, q.countB), side = first; // the same of the borders
     bool more;
     do {
-        l.net = chainNet(at, q.chain, level);
-        l.scale = powerOfTwo(float(level));
-        l.sharpA = sharpnessOf(quad, corner, level), l.sharpB = sharpnessOf(quad, before, level);
-        l.lineA = netSide(l.net, kNetSide, 1u, kNetSide, besideLine(l.sharpA));
-        l.lineB = netSide(l.net, 1u, kNetSide, 1u, besideLine(l.sharpB));
-        l.endA = l.firstA, l.endB = l.firstB;
-        l.firstA = firstOfLevel(corner & 1u, l.endA, level, lastLevel);
-        l.firstB = firstOfLevel(1u - (corner & 1u), l.endB, level, lastLevel);
-        storeLevel(at, q, l);
-        onA = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
-        ChainLevel border = l;
+        ChainLevel l = chainLevel(at, quad, q, level, first.x, first.y);
+        first = uvec2(l.firstA, l.firstB);
+        if (kInside) storeLevel(at, q, l);
         more = level < lastLevel;
         if (kOwnBorders) {
-            border.endA = side.x, border.endB = side.y;
+            l.endA = side.x, l.endB = side.y;
             side = uvec2(firstOfLevel(kSide + corner, side.x, level, lastLevel), firstOfLevel(kSide + before, side.y, level, lastLevel));
-            border.firstA = side.x, border.firstB = side.y;
-            uint b = side.y;
-            do {
-                float distance = pairOf(kSide + before, b).x;
-                LeafWeights y = chainWeights(true, parameterOf(q, border, distance), 0.0);
-                storeOnB(at, q, border, netRow(border.net, 1u, y), b < border.endB, b, distance, y);
-            } while (++b < border.endB);
-            more = more && max(max(l.firstA, l.firstB), max(side.x, side.y)) > 1u;
+            l.firstA = side.x, l.firstB = side.y;
+            more = more && max(max(first.x, first.y), max(side.x, side.y)) > 1u;
         }
-        storeAlongA(at, q, border, onA, kOwnBorders ? kSide + corner : 0u);
+        if (onB && (kOwnBorders || !kInside)) storeAlongB(at, q, l, kSide + before); // else with the rows inside
+        if (onA) {
+            NetRow row = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
+            storeAlongA(at, q, l, row, kSide + corner);
+            // At the corner the directions of the nearest leaf on its first edge stand in.
+            LeafWeights x = leafWeights(0.0, 0.0);
+            Frame frame = turnedFrame(corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
+            uvec2 place = placeInQuad(corner, 0u, 0u);
+            store(at, !more, place.x, place.y, q.limit, withStoredNormal(at, quad, corner, frame));
+        }
         ++level;
     } while (more);
-    // At the corner the directions of the nearest leaf on its first edge stand in.
-    LeafWeights x = leafWeights(0.0, 0.0);
-    Frame frame = turnedFrame(corner, rowAlongX(onA, 1u, x.d), rowAlongY(onA, 1u, x.w));
-    uvec2 place = placeInQuad(corner, 0u, 0u);
-    store(at, true, place.x, place.y, q.limit, withStoredNormal(at, corner, frame));
 }
 
 void evaluateQuad(const PatchPlace at) {
@@ -365,7 +380,7 @@ void evaluateQuad(const PatchPlace at) {
     uint corners = 0u;
     for (uint corner = 0u; corner < 4u; ++corner) corners |= hasChain(q.quad, corner) ? 1u << corner : 0u;
     do {
-        storeQuarter(at, q.quad, quarterOf(at, q, uint(findLSB(corners))));
+        storeQuarter(at, q.quad, quarterOf(at, q, uint(findLSB(corners))), kSides > 0u, kSides > 0u);
         corners &= corners - 1u;
     } while (corners != 0u);
 }

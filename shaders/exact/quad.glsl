@@ -8,11 +8,13 @@ struct IrregularQuad {
     uvec4 points, spokes, windows, sizes;
     vec4 sharpness;
     uint flags;
+    uvec4 normals;
 };
 IrregularQuad quadOf(uint record) {
     return IrregularQuad(tableElement(record), tableElement(record + 1u), tableElement(record + kExactWindowElement),
                          tableElement(record + kExactSizeElement),
-                         uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x);
+                         uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x,
+                         tableElement(record + kExactNormalElement));
 }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
     if (!kSharp) return 0.0;
@@ -45,8 +47,8 @@ Frame turnedFrame(uint corner, vec3 da, vec3 db) {
     vec3 du = odd ? db : da, dv = odd ? da : db;
     return Frame(corner == 1u || corner == 2u ? -du : du, corner >= 2u ? -dv : dv, cross(da, db));
 }
-Frame withStoredNormal(const PatchPlace at, uint corner, Frame frame) {
-    uint normal = componentOf(tableElement(at.record + kExactNormalElement), corner);
+Frame withStoredNormal(const PatchPlace at, IrregularQuad quad, uint corner, Frame frame) {
+    uint normal = componentOf(quad.normals, corner);
     if (normal == kNoNormal) return frame;
     return withNormal(frame, poolPoint(at, normal));
 }

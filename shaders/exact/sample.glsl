@@ -107,7 +107,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     if (onU && onV) {
         position = poolPoint(at, componentOf(quad.points, corner));
-        frame = withStoredNormal(at, corner, frame);
+        frame = withStoredNormal(at, quad, corner, frame);
     } else if (onU || onV) {
         position = sidePoint(at, quad, onV ? (up ? 2u : 0u) : (right ? 1u : 3u), onV ? u : v);
     }

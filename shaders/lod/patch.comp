@@ -123,10 +123,9 @@ vec2 irregularLevels(uint record, uint base) {
     vec3 net[25], x[9]; // x: row by row in v
     for (uint k = 0u; k < 25u; ++k) net[k] = poolVector(base + tableWord(4u * (record + kExactNetElement) + 1u + k));
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
-    const uint kSides[4] = uint[4](7u, 13u, 17u, 11u); // of the net, their middles
     for (uint k = 0u; k < 4u; ++k) {
         x[kPlaces[k]] = poolVector(base + corners[k]);
-        uint middle = kSides[k], along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
+        uint middle = SUPPLE_EXACT_SIDE_MIDDLE(k), along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
         float share = besideLine(sharpness[k]);
         vec3 line[3];
         for (uint n = 0u; n < 3u; ++n) {

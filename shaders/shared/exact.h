@@ -62,4 +62,7 @@ SUPPLE_SHARED_CONST kCubicSide = 0u;      // the border is one cubic, for both e
 
 SUPPLE_SHARED_END
 
+// Of a quad's own net, the point in the middle of a side.
+#define SUPPLE_EXACT_SIDE_MIDDLE(side) (0x0B110D07u >> 8u * (side)&255u)
+
 #endif

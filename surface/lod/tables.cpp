@@ -41,9 +41,8 @@ Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* n
 
 /// Of an irregular quad. The point of level 1 on a side is that of no other edge.
 Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
-    constexpr uint32_t kMiddles[] = {7, 13, 17, 11}; // of the 5 x 5 points
     const uint32_t* net = record + size_t{4} * shared::kExactNetElement + 1;
-    return {{net[kMiddles[side]], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};
+    return {{net[SUPPLE_EXACT_SIDE_MIDDLE(side)], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};
 }
 
 /// By side of the grid.

@@ -41,6 +41,7 @@ const CommandCase kFixedRates[] = {
     {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES},
     {"Loop", SUPPLE_SCHEME_LOOP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"blend", SUPPLE_SCHEME_BLEND, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
+    {"exact", SUPPLE_SCHEME_EXACT, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"polygons", SUPPLE_SCHEME_POLYGONS, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"p-rep, playing", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_MOTION, true},
 };
@@ -48,6 +49,7 @@ const CommandCase kViews[] = {
     {"view, p-rep", SUPPLE_SCHEME_PREP, 0, false, false, kLevelOutputs},
     {"view, P_m", SUPPLE_SCHEME_PM, 0, false, true, kLevelOutputs},
     {"view, blend", SUPPLE_SCHEME_BLEND, 0, false, true, kLevelOutputs},
+    {"view, exact", SUPPLE_SCHEME_EXACT, 0, false, true, kLevelOutputs},
     {"view, polygons", SUPPLE_SCHEME_POLYGONS, 0, false, true, kLevelOutputs},
     {"view, one level an instance", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_ONE_LEVEL, false, false, kLevelOutputs},
     {"view, culling of all kinds", SUPPLE_SCHEME_PM, 0, false, false,

@@ -638,8 +638,8 @@ TEST(Contract, DamagedArraysAreRepairedOrRefused) {
     EXPECT_LT(info.sourceVertices[9], info.sourceVertices[10]);
     EXPECT_EQ(std::set<uint32_t>({info.sourceVertices[9], info.sourceVertices[10]}),
               std::set<uint32_t>({damaged.faceVertices[8], damaged.faceVertices[9]}));
-    for (const SuppleScheme scheme :
-         {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP,
+                                      SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_EXACT}) {
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = asset;

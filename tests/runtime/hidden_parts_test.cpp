@@ -1,5 +1,6 @@
 // Parts that instances hide: what is drawn is what is drawn without hiding, less the hidden parts, to the bit.
 #include "shaders/shared/surface.h"
+#include "surface/schemes.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/logged_context.h"
@@ -79,6 +80,8 @@ constexpr HiddenCase kHiddenCases[] = {
     {"loop", SUPPLE_SCHEME_LOOP, false, false, 0, 0},
     {"loopRates", SUPPLE_SCHEME_LOOP, false, true, 0, 0},
     {"exact", SUPPLE_SCHEME_EXACT, false, false, kMotion, 0},
+    {"exactMesh", SUPPLE_SCHEME_EXACT, false, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
+    {"exactLevels", SUPPLE_SCHEME_EXACT, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},
     {"polygons", SUPPLE_SCHEME_POLYGONS, false, false, kMotion, 0},
     {"polygonsRates", SUPPLE_SCHEME_POLYGONS, false, true, 0, kViewMotion},
 };
@@ -91,8 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HiddenParts, testing::ValuesIn(kHiddenCases),
 std::vector<HiddenCase> levelCases() {
     std::vector<HiddenCase> cases;
     std::copy_if(std::begin(kHiddenCases), std::end(kHiddenCases), std::back_inserter(cases), [](const HiddenCase& c) {
-        return c.viewed &&
-               (c.scheme == SUPPLE_SCHEME_PREP || c.scheme == SUPPLE_SCHEME_PM || c.scheme == SUPPLE_SCHEME_BLEND);
+        return c.viewed && surface::schemeOf(static_cast<surface::SchemeId>(c.scheme)).hasLevels;
     });
     return cases;
 }

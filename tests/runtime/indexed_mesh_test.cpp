@@ -7,6 +7,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_zoo.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/subdivision_zoo.h"
 
 #include <gtest/gtest.h>
 #include <map>
@@ -258,6 +259,32 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
     EXPECT_EQ(all.above, 0u);
 }
 
+TEST_P(IndexedMesh, ExactHasTheGridsBits) {
+    const ValidationGuard guard;
+    ComparedMesh all;
+    for (const SubdivisionCage& zoo : subdivisionZoo()) {
+        for (const uint32_t rate : {1u, 2u, 3u, 8u}) {
+            SCOPED_TRACE(zoo.name + " at rate " + std::to_string(rate));
+            GpuOptions options;
+            options.scheme = SUPPLE_SCHEME_EXACT;
+            options.mapping = GetParam();
+            options.rate = rate;
+            options.flags = 0;
+            GpuSurface gridded(*testDevice(), zoo.cage, options);
+            options.flags = kShared;
+            GpuSurface shared(*testDevice(), zoo.cage, options);
+            ASSERT_TRUE(gridded.valid() && shared.valid());
+            gridded.evaluate();
+            shared.evaluate();
+            compareSamples(gridded, shared, all, [](uint32_t, uint32_t) { return false; });
+        }
+    }
+    all.print("zoo of exact patches");
+    EXPECT_EQ(all.positions.different, 0u);
+    EXPECT_LE(all.inside, 1e-3);
+    EXPECT_EQ(all.above, 0u) << all.border;
+}
+
 /// Attributes of the samples, where two have one vertex and where seams keep them apart.
 void compareAttributes(const GpuSurface& grid, const GpuSurface& shared) {
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, readIndices(shared));
@@ -300,7 +327,7 @@ TEST_P(IndexedMesh, CharactersInAPose) {
         paths.push_back(path);
     }
     forEachCharacter(paths, [&](const std::string& path, const cage::Character& character) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
             if (scheme == SUPPLE_SCHEME_PREP && !allQuads(character.cage)) {
                 continue;
             }

@@ -16,9 +16,11 @@ namespace supple::test {
 namespace {
 
 using surface::exact::LimitSurface;
-using surface::exact::VertexKind;
 
-constexpr double kNearest = 1.0 / 64.0; // to a vertex with a chain
+/// A pair as one parameter, without what 1 - t has lost.
+double exact(glm::vec2 pair) {
+    return pair.x < pair.y ? static_cast<double>(pair.x) : 1.0 - static_cast<double>(pair.y);
+}
 
 class LodExact : public testing::TestWithParam<SuppleMapping> {
 protected:
@@ -45,19 +47,6 @@ protected:
         }
         return drawn;
     }
-    /// Where the device takes a sample: not within the last cell of a chain (docs/exact.md, "At levels").
-    static glm::dvec2 taken(const ExactQuads& quads, const surface::PatchInfo& patch,
-                            const std::array<glm::vec2, 2>& at) {
-        const bool right = at[0].x > at[0].y, up = at[1].x > at[1].y;
-        const uint32_t corner = up ? (right ? 2 : 3) : right ? 1 : 0;
-        glm::dvec2 from(right ? at[0].y : at[0].x, up ? at[1].y : at[1].x);
-        if (quads.corners.kind(patch.corners[corner]) == VertexKind::chain) {
-            for (int k = 0; k < 2; ++k) {
-                from[k] = from[k] > 0.0 ? std::max(from[k], kNearest) : 0.0;
-            }
-        }
-        return {right ? 1.0 - from.x : from.x, up ? 1.0 - from.y : from.y};
-    }
 };
 INSTANTIATE_TEST_SUITE_P(Mappings, LodExact, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
                          [](const auto& param) { return mappingName(param.param); });
@@ -82,8 +71,8 @@ TEST_P(LodExact, RandomLevelsAreTheLimit) {
             const uint32_t face = found.faces[patch.patch];
             for (uint32_t s = 0; s < (patch.capacity + 1) * (patch.capacity + 1); s += 1 + patch.capacity / 8) {
                 const std::array<glm::vec2, 2> pairs = parametersOf(patch, s);
-                const glm::dvec2 at = taken(quads, drawn->patches[patch.patch], pairs);
-                moved += at.x != static_cast<double>(pairs[0].x) && pairs[0].x < 0.5f ? 1 : 0;
+                const glm::dvec2 given(exact(pairs[0]), exact(pairs[1])), at = quads.atLevels(face, given);
+                moved += at != given ? 1 : 0;
                 const glm::dvec2 inFace = ExactQuads::inFace(at.x, at.y, found.firstCorners[face]);
                 const auto expected = limit.at(face, inFace.x, inFace.y);
                 glm::vec3 position;

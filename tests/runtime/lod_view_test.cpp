@@ -2,6 +2,7 @@
 #include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "tests/support/blend_surface.h"
+#include "tests/support/exact_quads.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_levels.h"
 #include "tests/support/lod_surface.h"
@@ -9,6 +10,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
+#include "tools/reference/exact.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -17,7 +19,7 @@
 namespace supple::test {
 namespace {
 
-constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND};
+constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_BLEND};
 
 class LodViewsOnce : public CrowdContexts {};
 class LodViews : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
@@ -114,6 +116,10 @@ public:
             for (uint32_t f = 0; f < cage.faceCount(); ++f) {
                 prep_.push_back(surface::prep::gatherPatch<double>(cage, *topology, coefficients, f));
             }
+        } else if (scheme == SUPPLE_SCHEME_EXACT) {
+            quads_.emplace(cage);
+            exact_.emplace(quads_->isolation.mesh, positions);
+            exactFaces_ = quads_->patches(patches_).faces;
         } else if (scheme == SUPPLE_SCHEME_BLEND) {
             blendMesh_ = blendMesh(cage);
             blendFaces_ = facesOfPatches(blendMesh_);
@@ -145,6 +151,12 @@ public:
         if (blend_) {
             return blend_->at(blendFaces_[patch], u, v).position;
         }
+        if (exact_) {
+            const uint32_t face = exactFaces_[patch];
+            const glm::dvec2 taken = quads_->atLevels(face, at.uv);
+            const glm::dvec2 inFace = ExactQuads::inFace(taken.x, taken.y, quads_->corners.firstCorner(face));
+            return exact_->at(face, inFace.x, inFace.y).position;
+        }
         if (!pm_) {
             return surface::prep::evaluate<double>(prep_[patches_[patch].face], u, v).position;
         }
@@ -161,6 +173,9 @@ private:
     std::vector<surface::prep::Patch<double>> prep_;
     std::optional<PmSurface<double>> pm_;
     std::vector<uint32_t> pmFacets_; ///< by patch
+    std::optional<ExactQuads> quads_;
+    std::optional<surface::exact::LimitSurface> exact_;
+    std::vector<uint32_t> exactFaces_; ///< by patch
     surface::blend::Mesh blendMesh_;
     std::vector<uint32_t> blendFaces_; ///< by patch
     std::optional<BlendSurface<double>> blendSurface_;
@@ -311,6 +326,10 @@ std::vector<Dolly> dollies() {
         {"mixed faces, P_m", SUPPLE_SCHEME_PM, mixed, {far, middle}},
         {"mixed faces, P_m, wide", SUPPLE_SCHEME_PM, mixed, {middle}, SUPPLE_MAPPING_WIDE},
         {"poles, P_m", SUPPLE_SCHEME_PM, poles, {far, near}},
+        {"sphere, exact", SUPPLE_SCHEME_EXACT, sphere, {far, near}},
+        {"sphere, exact, wide", SUPPLE_SCHEME_EXACT, sphere, {far, near}, SUPPLE_MAPPING_WIDE},
+        {"mixed faces, exact", SUPPLE_SCHEME_EXACT, mixed, {far, middle}},
+        {"poles, exact", SUPPLE_SCHEME_EXACT, poles, {far, near}},
         {"sphere, blend", SUPPLE_SCHEME_BLEND, sphere, {far, near}},
         {"sphere, blend, wide", SUPPLE_SCHEME_BLEND, sphere, {far}, SUPPLE_MAPPING_WIDE},
         {"mixed faces, blend", SUPPLE_SCHEME_BLEND, mixed, {middle}},
@@ -601,7 +620,7 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const SuppleAsset asset = context.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_BLEND}) {
         TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
         SuppleGroupDesc desc{};
         desc.asset = asset;
@@ -723,6 +742,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
     crowds.erase(crowds.begin() + 1); // leaves a gap among the runs
     run();
     add(SUPPLE_SCHEME_BLEND);
+    add(SUPPLE_SCHEME_EXACT);
     add(SUPPLE_SCHEME_PM);
     run();
     crowds.erase(crowds.begin(), crowds.begin() + 2);

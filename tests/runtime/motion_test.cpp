@@ -147,7 +147,8 @@ std::vector<MotionCase> motionCases() {
                                       {"Polygons", SUPPLE_SCHEME_POLYGONS, 1}, // in both formats
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3},
-                                      {"Exact", SUPPLE_SCHEME_EXACT, 5}};
+                                      {"Exact", SUPPLE_SCHEME_EXACT, 5},
+                                      {"ExactShared", SUPPLE_SCHEME_EXACT, 5}};
             for (MotionCase c : own) {
                 c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_INDEXED_MESH : 0;
                 c.name = mappingName(mapping) + c.name + suffix;

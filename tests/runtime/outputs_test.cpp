@@ -37,6 +37,8 @@ constexpr OutputCase kOutputCases[] = {
     {SUPPLE_SCHEME_BLEND},
     {SUPPLE_SCHEME_BLEND, true},
     {SUPPLE_SCHEME_EXACT},
+    {SUPPLE_SCHEME_EXACT, false, SUPPLE_GROUP_INDEXED_MESH},
+    {SUPPLE_SCHEME_EXACT, true},
     {SUPPLE_SCHEME_POLYGONS},
     {SUPPLE_SCHEME_POLYGONS, true},
 };

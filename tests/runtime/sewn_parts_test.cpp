@@ -166,6 +166,7 @@ constexpr SewnCase kSewnCases[] = {{"Prep", "pip_quads.glb", SUPPLE_SCHEME_PREP}
                                    {"Pm", "pip.glb", SUPPLE_SCHEME_PM},
                                    {"CatmullClark", "pip.glb", SUPPLE_SCHEME_CATMULL_CLARK},
                                    {"Loop", "pip.glb", SUPPLE_SCHEME_LOOP},
+                                   {"Exact", "pip.glb", SUPPLE_SCHEME_EXACT},
                                    {"Blend", "pip.glb", SUPPLE_SCHEME_BLEND}};
 
 class SewnParts : public testing::TestWithParam<SewnCase> {};

@@ -22,7 +22,7 @@ constexpr uint32_t kInstances = 3;
 /// The scheme of each part. Two parts have the first one, with others between them.
 constexpr SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP,     SUPPLE_SCHEME_PREP,
                                          SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CATMULL_CLARK,
-                                         SUPPLE_SCHEME_PM};
+                                         SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_PM};
 constexpr uint32_t kPartCount = std::size(kPartSchemes), kSurfaceCount = kPartCount - 1;
 
 /// All faces are quads, which every scheme takes.
@@ -145,7 +145,7 @@ TEST_P(Surfaces, DrawPartsAsGroupsOfOneSchemeDo) {
             SCOPED_TRACE("surface " + std::to_string(s));
             const SuppleSurfaceInfo surface = several.crowd->output(s).surface;
             EXPECT_EQ(surface.scheme, kPartSchemes[s]);
-            const std::vector<uint32_t> expected = s == 0 ? std::vector<uint32_t>{0, 6} : std::vector<uint32_t>{s};
+            const std::vector<uint32_t> expected = s == 0 ? std::vector<uint32_t>{0, kPartCount - 1} : std::vector<uint32_t>{s};
             EXPECT_TRUE(std::ranges::equal(std::span(surface.parts, surface.partCount), expected));
             SuppleGroupDesc desc{};
             desc.scheme = kPartSchemes[s];
@@ -346,9 +346,9 @@ TEST_F(SurfacesOnce, SewnPartsHaveOneScheme) {
         return parts;
     };
     using Parts = std::vector<std::vector<uint32_t>>;
-    EXPECT_EQ(surfaces({}), (Parts{{0, 1, 2, 3, 4, 5, 6}})) << "auto: all polygons are known";
-    EXPECT_EQ(surfaces({SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_LOOP}), (Parts{{0, 1}, {2, 3, 4, 5, 6}}));
-    EXPECT_EQ(surfaces({SUPPLE_SCHEME_LOOP}), (Parts{{0, 1}, {2, 3, 4, 5, 6}}));
+    EXPECT_EQ(surfaces({}), (Parts{{0, 1, 2, 3, 4, 5, 6, 7}})) << "auto: all polygons are known";
+    EXPECT_EQ(surfaces({SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_LOOP}), (Parts{{0, 1}, {2, 3, 4, 5, 6, 7}}));
+    EXPECT_EQ(surfaces({SUPPLE_SCHEME_LOOP}), (Parts{{0, 1}, {2, 3, 4, 5, 6, 7}}));
     const SuppleScheme two[] = {SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND};
     SuppleGroupDesc desc{};
     desc.structSize = sizeof(desc);

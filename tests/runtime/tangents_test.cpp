@@ -191,6 +191,7 @@ const TangentCase kTangentCases[] = {
     {"pm", SUPPLE_SCHEME_PM, roughPolygons},
     {"pmPolar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
     {"pmPentagons", SUPPLE_SCHEME_PM, dodecahedron},
+    {"exact", SUPPLE_SCHEME_EXACT, roughBiped},
     {"blend", SUPPLE_SCHEME_BLEND, roughBiped},
 };
 
@@ -248,7 +249,9 @@ TEST_P(TangentsOf, CostNothingElse) {
         for (const SuppleVertexFormat format : {SUPPLE_VERTEX_16, SUPPLE_VERTEX_24}) {
             SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
             desc.vertexFormat = format;
-            desc.uvInterpolation = SUPPLE_UV_LINEAR_CORNERS_PLUS1; // which tangents would choose
+            // Which tangents would choose.
+            desc.uvInterpolation =
+                c.scheme == SUPPLE_SCHEME_EXACT ? SUPPLE_UV_LINEAR_ALL : SUPPLE_UV_LINEAR_CORNERS_PLUS1;
             desc.flags |= SUPPLE_GROUP_MOTION;
             Crowd with(own, desc);
             desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS};
@@ -420,6 +423,9 @@ TEST_P(TangentsOf, AnIndexedMeshAreThoseOfOneOfItsPatches) {
         for (const bool mirrored : {false, true}) {
             const SuppleAsset asset = own.createAsset(withSharedUvs(c.cage(), mirrored));
             for (const bool smooth : {false, true}) {
+                if (smooth && c.scheme == SUPPLE_SCHEME_EXACT) {
+                    continue; // it has no smooth texture coordinates
+                }
                 SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
                 desc.uvInterpolation = smooth ? SUPPLE_UV_LINEAR_CORNERS_PLUS1 : SUPPLE_UV_LINEAR_ALL;
                 Crowd grid(own, desc);

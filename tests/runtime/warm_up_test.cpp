@@ -49,6 +49,7 @@ public:
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
                 tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_BLEND}, tube);
+            add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_EXACT}, tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES},
                  .scheme = SUPPLE_SCHEME_POLYGONS,
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,

@@ -6,6 +6,7 @@
 #include "surface/subdivision/mesh.h"
 #include "tests/support/gpu_comparison.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace supple::test {
@@ -48,6 +49,20 @@ struct ExactQuads {
     [[nodiscard]] static glm::dvec2 inFace(double u, double v, uint32_t firstCorner) {
         const glm::dvec2 turned[] = {{u, v}, {1.0 - v, u}, {1.0 - u, 1.0 - v}, {v, 1.0 - u}};
         return turned[firstCorner];
+    }
+    /// (u, v) where the device takes a sample of a patch at levels: not within the last cell of a chain
+    /// (docs/exact.md).
+    [[nodiscard]] glm::dvec2 atLevels(uint32_t face, glm::dvec2 uv) const {
+        constexpr double kNearest = 1.0 / 64.0;
+        const bool right = uv.x > 0.5, up = uv.y > 0.5;
+        const uint32_t corner = up ? (right ? 2 : 3) : right ? 1 : 0;
+        glm::dvec2 from(right ? 1.0 - uv.x : uv.x, up ? 1.0 - uv.y : uv.y);
+        if (corners.kind(vertex(face, (corner + corners.firstCorner(face)) % 4)) == surface::exact::VertexKind::chain) {
+            for (int k = 0; k < 2; ++k) {
+                from[k] = from[k] > 0.0 ? std::max(from[k], kNearest) : 0.0;
+            }
+        }
+        return {right ? 1.0 - from.x : from.x, up ? 1.0 - from.y : from.y};
     }
     /// A rate along a cage edge for this rate along a quad's.
     [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }

@@ -415,8 +415,8 @@ typedef enum SuppleScheme {
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
-     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no indexed meshes and
-     * no smooth texture coordinates yet. */
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no smooth texture
+     * coordinates yet. */
     SUPPLE_SCHEME_EXACT = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
@@ -690,7 +690,7 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
-    /** PREP and PM without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores samples
+    /** PREP, PM and EXACT without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores samples
      * on the borders of patches once. Positions have the same bits as in other groups. Along creases and boundaries,
      * and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,

@@ -1,0 +1,107 @@
+// Indexed mesh: evaluates the samples along sides of irregular quads of exact Catmull-Clark patches, each once, and at corners, each
+// with one of the sides that begin there (evaluate/edge.comp). Frames are those of the quad, turned so that the side comes first.
+// Narrow mapping: one lane per side. Wide mapping: one lane per sample.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/shared/exact.h"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/pairs.glsl"
+#include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/surface/net.glsl"
+
+const bool kChains = true, kSharp = true;
+
+struct PatchPlace {
+    uint record, base;
+    uint first;   // vertex of the instance
+    uint corner;  // vertices within the instance: the corner's, if it is stored, and the first along the side
+    uint along;
+    bool begins;  // the corner's is stored
+};
+PatchPlace placeOf(uint instance, uint record, uvec4 edge) {
+    return PatchPlace(tableElement(record).x, instance * push.poolStride, instance * push.verticesPerInstance,
+                      push.firstCorner + edge.x, push.firstVertex + edge.y * (push.rate - 1u), edge.x != kNoEdgeSample);
+}
+vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
+
+#ifndef WIDE
+const bool kInside = false;
+const uint kSides = 1u;
+uint last;
+void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
+    if (!own || (i == 0u && !at.begins)) return;
+    uint to = i == 0u ? at.corner : at.along + i - 1u;
+    storeSurfaceVertex(at.first + to, to, position, frame);
+}
+#include "shaders/exact/nets.glsl"
+
+// Turned so that a side comes first.
+uvec4 turned(uvec4 v, uint side) {
+    uvec4 once = (side & 1u) != 0u ? v.yzwx : v;
+    return (side & 2u) != 0u ? once.zwxy : once;
+}
+IrregularQuad turnedQuad(IrregularQuad quad, uint side) {
+    uint flags = quad.flags >> kCubicSide & 15u;
+    return IrregularQuad(turned(quad.points, side), turned(quad.spokes, side), turned(quad.windows, side), turned(quad.sizes, side),
+                         uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), side)),
+                         (flags >> side | flags << (4u - side)) << kCubicSide, turned(quad.normals, side));
+}
+Net turnedNet(const PatchPlace at, uint side) {
+    Net net;
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
+        uint i = k % kNetSide, j = k / kNetSide, x = 4u - i, y = 4u - j;
+        uint place = side < 2u ? (side == 0u ? k : kNetSide * i + y) : side == 2u ? kNetSide * y + x : kNetSide * x + j;
+        net.p[k] = poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + place));
+    }
+    return net;
+}
+
+void main() {
+    uint item = itemOfLane(), record = push.table + elementOf(item) * kEdgeElements;
+    PatchPlace at = placeOf(instanceOf(item), record, tableElement(record + 2u));
+    uint side = tableElement(record).y;
+    last = push.rate;
+    QuadCells q;
+    q.quad = turnedQuad(quadOf(at.record), side);
+    q.net = turnedNet(at, side);
+    q.sides[0] = quadSide(at, q.quad, q.net, 0u);
+    q.sides[1] = q.sides[2] = q.sides[3] = q.sides[0]; // not read
+    storeCells(at, q, 0u);
+    // Quarters without a chain have none of the samples.
+    for (uint corner = 0u; corner < 2u; ++corner) {
+        Quarter end = quarterOf(at, q, corner);
+        end.middleA = end.middleB = q.sides[0].middle;
+        if (!hasChain(q.quad, corner)) continue;
+        if (corner == 0u) storeQuarter(at, q.quad, end, true, false);
+        else storeQuarter(at, q.quad, end, false, true);
+    }
+}
+#else
+vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
+#include "shaders/exact/sample.glsl"
+
+void main() {
+    uint id = invocationIndex(), lanes = push.count * push.rate;
+    if (id >= lanes * instanceCount()) return;
+    uint entry = id / lanes, lane = id - entry * lanes, edge = lane / push.rate, k = lane - edge * push.rate;
+    uint record = push.table + edge * kEdgeElements;
+    PatchPlace at = placeOf(instanceSlot(entry), record, tableElement(record + 2u));
+    if (k == 0u && !at.begins) return;
+    uint side = tableElement(record).y;
+    vec2 pair = parameterPair(k, push.rate, push.pairs), begin = vec2(0.0, 1.0);
+    vec2 u = side == 0u ? pair : side == 1u ? begin.yx : side == 2u ? pair.yx : begin;
+    vec2 v = side == 0u ? begin : side == 1u ? pair : side == 2u ? begin.yx : pair.yx;
+    vec3 position;
+    Frame f;
+    irregularSample(at, quadOf(at.record), u, v, position, f);
+    if ((side & 1u) != 0u) f = Frame(f.dv, -f.du, f.normal);
+    if (side >= 2u) f = Frame(-f.du, -f.dv, f.normal);
+    uint to = k == 0u ? at.corner : at.along + k - 1u;
+    storeSurfaceVertex(at.first + to, to, position, f);
+}
+#endif
