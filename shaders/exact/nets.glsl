@@ -356,9 +356,11 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
         if (onA) {
             NetRow row = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
             storeAlongA(at, q, l, row, kSide + corner);
-            // At the corner the directions of the nearest leaf on its first edge stand in.
-            LeafWeights x = leafWeights(0.0, 0.0);
-            Frame frame = turnedFrame(corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
+            // At the corner the directions of the nearest leaves on its edges stand in.
+            LeafWeights begin = leafWeights(0.0, 0.0);
+            vec3 alongB = rowAlongY(row, 1u, begin.w);
+            if (kTangents) alongB = rowAlongY(netRow(l.net, 1u, begin), 0u, leafWeights(0.0, l.sharpB).w);
+            Frame frame = turnedFrame(corner, rowAlongX(row, 1u, begin.d), alongB);
             uvec2 place = placeInQuad(corner, 0u, 0u);
             store(at, !more, place.x, place.y, q.limit, withStoredNormal(at, quad, corner, frame));
         }

@@ -60,6 +60,26 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     return p;
 }
 
+// The leaf in a cell, from the net's middle.
+struct Leaf {
+    vec3 first, offset, alongX, alongY;
+};
+Leaf leafAt(const PatchPlace at, NetSource net, bool secondX, bool secondY, LeafWeights x, LeafWeights y) {
+    uint begin = (secondY ? kNetSide : 0u) + (secondX ? 1u : 0u);
+    vec3 first = sourcePoint(at, net, kNetMiddle), point[4], slope[4];
+    for (uint i = 0u; i < 4u; ++i) {
+        vec3 p[4];
+        for (uint j = 0u; j < 4u; ++j) {
+            precise vec3 d = sourcePoint(at, net, begin + kNetSide * j + i) - first;
+            p[j] = d;
+        }
+        point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
+        slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
+    }
+    return Leaf(first, sum4(x.w, point[0], point[1], point[2], point[3]), blend4(x.d, point[0], point[1], point[2], point[3]),
+                blend4(x.w, slope[0], slope[1], slope[2], slope[3]));
+}
+
 void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, out vec3 position, out Frame frame) {
     bool right = u.x > u.y, up = v.x > v.y;
     uint corner = up ? (right ? 2u : 3u) : (right ? 1u : 0u);
@@ -82,7 +102,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 #endif
         ChainPlace place = chainPlace(max(a, b), chain.lastLevel);
         precise float xx = a * place.scale, yy = b * place.scale;
-        if (onU && onV) xx = 1.0; // at the corner the directions of the nearest leaf stand in
+        if (onU && onV) xx = 1.0; // at the corner the directions of the nearest leaves stand in
         secondX = xx >= 1.0, secondY = yy >= 1.0;
         x = chainWeights(secondX, xx, sharpnessOf(quad, (corner + 3u) & 3u, place.level));
         y = chainWeights(secondY, yy, sharpnessOf(quad, corner, place.level));
@@ -90,20 +110,13 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
         origin = chainOrigin(at, chain);
     }
 
-    uint begin = (secondY ? kNetSide : 0u) + (secondX ? 1u : 0u);
-    vec3 first = sourcePoint(at, net, kNetMiddle), point[4], slope[4];
-    for (uint i = 0u; i < 4u; ++i) {
-        vec3 p[4];
-        for (uint j = 0u; j < 4u; ++j) {
-            precise vec3 d = sourcePoint(at, net, begin + kNetSide * j + i) - first;
-            p[j] = d;
-        }
-        point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
-        slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
+    Leaf leaf = leafAt(at, net, secondX, secondY, x, y);
+    position = placed(origin, leaf.first, leaf.offset);
+    if (kTangents && chain.windows != 0u && onU && onV) { // those along the second edge
+        LeafWeights begin = leafWeights(0.0, 0.0), across = leafWeights(0.0, sharpnessOf(quad, (corner + 3u) & 3u, chain.lastLevel));
+        leaf.alongY = leafAt(at, net, false, true, across, begin).alongY;
     }
-    position = placed(origin, first, sum4(x.w, point[0], point[1], point[2], point[3]));
-    vec3 alongX = blend4(x.d, point[0], point[1], point[2], point[3]), alongY = blend4(x.w, slope[0], slope[1], slope[2], slope[3]);
-    frame = turnedFrame(chain.windows == 0u ? 0u : corner, alongX, alongY);
+    frame = turnedFrame(chain.windows == 0u ? 0u : corner, leaf.alongX, leaf.alongY);
 
     if (onU && onV) {
         position = poolPoint(at, componentOf(quad.points, corner));
