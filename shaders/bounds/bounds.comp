@@ -73,6 +73,7 @@ void store(uint entry, Box box) {
     bounds[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
     uint last = ((view.ranks >> (8u * priority)) & 255u) * kSizeBins + kSizeBins; // not to be judged: the last to go
     states[slot].x = box.sound ? rankOf(low, high, priority) : last;
+    if ((entry & kInstanceIsNew) != 0u) states[slot].y = 0u; // the memory may never have been written
 }
 
 void main() {

@@ -345,7 +345,6 @@ bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool insid
 
 void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
-    if (!kWide && !inside) return;
     uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
