@@ -124,7 +124,7 @@ Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
     needs.measure =
-        surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.borders == surface::Borders::charts,
+        surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.borders != surface::Borders::cubics,
                                       &desc_.asset->character.cage);
     needs.margin = boundsMargin();
     return needs;

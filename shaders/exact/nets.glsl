@@ -129,6 +129,13 @@ LeafWeights alongV(QuadCells q, uint upper, vec2 v) {
 uint cornerOf(uint right, uint upper) { return upper == 0u ? right : 3u - right; }
 bool isOwn(QuadCells q, uint right, uint upper) { return !kChains || !hasChain(q.quad, cornerOf(right, upper)); }
 
+// At levels segments may have no length: such a sample is the corner, to the bit. `u`, `v`: its pairs.
+vec3 orCorner(const PatchPlace at, QuadCells q, uint right, uint upper, vec2 u, vec2 v, vec3 position) {
+    if (!kOwnBorders) return position;
+    vec3 limit = poolPoint(at, componentOf(q.quad.points, cornerOf(right, upper)));
+    return max(right == 0u ? u.x : u.y, upper == 0u ? v.x : v.y) == 0.0 ? limit : position;
+}
+
 Frame quadFrame(NetRow row, uint right, LeafWeights x) {
     vec3 du = rowAlongX(row, right, x.d), dv = rowAlongY(row, right, x.w);
     return frameOf(du, dv);
@@ -144,21 +151,24 @@ void storeAlong(const PatchPlace at, QuadCells q, NetRow row, uint right, uint u
     do {
         vec2 u = pairOf(kOwnBorders ? kSide + 2u * upper : kInsideU, i);
         LeafWeights x = alongU(q, right, u);
-        vec3 position = onSide(q.sides[2u * upper], right, u, x.w);
+        vec3 position = orCorner(at, q, right, upper, u, upper == 0u ? kBegin : kEnd, onSide(q.sides[2u * upper], right, u, x.w));
         store(at, own && i < end, i, upper * last, position, quadFrame(row, right, x));
     } while (++i < end);
 }
 // One of the left or the right side.
 void storeAcross(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, vec2 v, LeafWeights y) {
-    vec3 position = onSide(q.sides[3u - 2u * right], upper, v, y.w);
-    Frame frame = quadFrame(row, right, alongU(q, right, right == 0u ? kBegin : kEnd));
+    vec2 u = right == 0u ? kBegin : kEnd;
+    vec3 position = orCorner(at, q, right, upper, u, v, onSide(q.sides[3u - 2u * right], upper, v, y.w));
+    Frame frame = quadFrame(row, right, alongU(q, right, u));
     store(at, own && isOwn(q, right, upper), right * last, j, position, frame);
 }
-void storeInside(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, uint i, uint end) {
+void storeInside(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, vec2 v, uint i, uint end) {
     own = own && isOwn(q, right, upper);
     do {
-        LeafWeights x = alongU(q, right, pairOf(kInsideU, i));
+        vec2 u = pairOf(kInsideU, i);
+        LeafWeights x = alongU(q, right, u);
         vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(row, right, x.w));
+        position = orCorner(at, q, right, upper, u, v, position);
         store(at, own && i < end, i, j, position, quadFrame(row, right, x));
     } while (++i < end);
 }
@@ -179,8 +189,8 @@ void storeCells(const PatchPlace at, QuadCells q, uint upper) {
         vec2 v = pairOf(kInsideV, j);
         LeafWeights y = alongV(q, upper, v);
         NetRow row = netRow(q.net, upper, y);
-        storeInside(at, q, row, 0u, upper, own, j, 1u, min(upperFirst, last));
-        storeInside(at, q, row, 1u, upper, own, j, upperFirst, last);
+        storeInside(at, q, row, 0u, upper, own, j, v, 1u, min(upperFirst, last));
+        storeInside(at, q, row, 1u, upper, own, j, v, upperFirst, last);
         if (kSides == 0u) continue;
         if (kOwnBorders) {
             vec2 left = pairOf(kSide + 3u, j), right = pairOf(kSide + 1u, j);
