@@ -123,9 +123,10 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    needs.measure =
-        surface::lod::measureInstance(cage(), tables().isolationSteps, tables().lod.borders != surface::Borders::cubics,
-                                      &desc_.asset->character.cage);
+    const surface::Borders borders = tables().lod.borders;
+    const uint32_t steps = tables().isolationSteps;
+    const bool uneven = borders == surface::Borders::charts || (borders == surface::Borders::halves && steps > 0);
+    needs.measure = surface::lod::measureInstance(cage(), steps, uneven, &desc_.asset->character.cage);
     needs.margin = boundsMargin();
     return needs;
 }

@@ -14,7 +14,7 @@ struct InstanceMeasure {
 };
 /// `halvings`: how often the cage is subdivided before patches are made. `uneven`: its curves bend
 /// more here and there, as those of the blending surface, which interpolate the cage, and those of exact Catmull-Clark
-/// patches at irregular vertices. `whole`: the cage that `cage` is a piece of; its box counts.
+/// patches at the irregular vertices that a step has made. `whole`: the cage that `cage` is a piece of; its box counts.
 [[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, bool uneven = false,
                                               const cage::Cage* whole = nullptr);
 

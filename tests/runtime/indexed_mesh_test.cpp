@@ -153,6 +153,17 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Mappings, IndexedMesh, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
                          [](const auto& param) { return mappingName(param.param); });
 
+GpuOptions withFlags(GpuOptions options, uint32_t flags) {
+    options.flags = flags;
+    return options;
+}
+bool evaluated(GpuSurface& surface) {
+    if (surface.valid()) {
+        surface.evaluate();
+    }
+    return surface.valid();
+}
+
 std::vector<NamedCage> quadCages() {
     return {{"cube", cube()},
             {"cube sphere", rotatedFaces(perturbed(cage::makeCubeSphere(4), 0.02f, 1))},
@@ -181,13 +192,9 @@ TEST_P(IndexedMesh, PrepHasTheGridsBits) {
                 options.mapping = GetParam();
                 options.rate = rate;
                 options.corners = corners;
-                options.flags = 0;
-                GpuSurface gridded(*testDevice(), named.cage, options);
-                options.flags = kShared;
-                GpuSurface shared(*testDevice(), named.cage, options);
-                ASSERT_TRUE(gridded.valid() && shared.valid());
-                gridded.evaluate();
-                shared.evaluate();
+                GpuSurface gridded(*testDevice(), named.cage, withFlags(options, 0));
+                GpuSurface shared(*testDevice(), named.cage, withFlags(options, kShared));
+                ASSERT_TRUE(evaluated(gridded) && evaluated(shared));
                 compareSamples(gridded, shared, all);
                 EXPECT_EQ(openSegments(readIndices(shared)), boundary * rate);
                 // Euler: V - E + F of the cage is that of the mesh.
@@ -227,14 +234,10 @@ TEST_P(IndexedMesh, PmHasTheGridsBits) {
         }
         for (const uint32_t rate : {1u, 2u, 3u, 8u}) {
             SCOPED_TRACE(zoo.name + " at rate " + std::to_string(rate));
-            GpuOptions options = pmOptions(GetParam(), rate);
-            options.flags = 0;
-            GpuSurface gridded(*testDevice(), zoo.cage, options);
-            options.flags = kShared;
-            GpuSurface shared(*testDevice(), zoo.cage, options);
-            ASSERT_TRUE(gridded.valid() && shared.valid());
-            gridded.evaluate();
-            shared.evaluate();
+            const GpuOptions options = pmOptions(GetParam(), rate);
+            GpuSurface gridded(*testDevice(), zoo.cage, withFlags(options, 0));
+            GpuSurface shared(*testDevice(), zoo.cage, withFlags(options, kShared));
+            ASSERT_TRUE(evaluated(gridded) && evaluated(shared));
             const PmPatches facets(gridded, *mesh);
             compareSamples(gridded, shared, all, [&](uint32_t p, uint32_t s) {
                 const uint32_t f = facets.facet(p);
@@ -269,13 +272,9 @@ TEST_P(IndexedMesh, ExactHasTheGridsBits) {
             options.scheme = SUPPLE_SCHEME_EXACT;
             options.mapping = GetParam();
             options.rate = rate;
-            options.flags = 0;
-            GpuSurface gridded(*testDevice(), zoo.cage, options);
-            options.flags = kShared;
-            GpuSurface shared(*testDevice(), zoo.cage, options);
-            ASSERT_TRUE(gridded.valid() && shared.valid());
-            gridded.evaluate();
-            shared.evaluate();
+            GpuSurface gridded(*testDevice(), zoo.cage, withFlags(options, 0));
+            GpuSurface shared(*testDevice(), zoo.cage, withFlags(options, kShared));
+            ASSERT_TRUE(evaluated(gridded) && evaluated(shared));
             compareSamples(gridded, shared, all, [](uint32_t, uint32_t) { return false; });
         }
     }

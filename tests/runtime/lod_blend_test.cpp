@@ -81,16 +81,8 @@ TEST_P(LodBlend, RandomLevelsAreTheReferences) {
                 steep += angleDegrees(normal, expected.normal) > 0.05 ? 1 : 0;
             }
         }
-        const Sides sides = matchSides(drawn->surface);
-        const Borders borders = bordersOf(drawn->surface, drawn->patches);
-        EXPECT_EQ(drawn->surface.patches.size(), faces.size());
-        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-        EXPECT_EQ(sides.looseEnds, 0u);
-        EXPECT_LE(sides.unmatched, borders.open);
-        all.samples += borders.samples;
-        all.edges += borders.edges;
-        triangles += sides.triangles;
+        expectClosed(drawn->surface, drawn->patches, all);
+        triangles += drawn->surface.triangles.size();
     }
     std::printf(
         "%llu samples, %llu differ from the float reference in some bit, positions within %.1e of the extent, %llu "
@@ -127,12 +119,7 @@ TEST_P(LodBlend, BothSidesOfAnEdgeAskForTheSame) {
         std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
         ASSERT_TRUE(drawn.has_value());
         nameCorners(blendMesh(entry.cage, {mode, 1.0f}), drawn->patches);
-        const Borders borders = bordersOf(drawn->surface, drawn->patches);
-        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-        EXPECT_LE(matchSides(drawn->surface).unmatched, borders.open);
-        all.samples += borders.samples;
-        all.edges += borders.edges;
+        expectClosed(drawn->surface, drawn->patches, all);
         for (const LodSurface::Patch& patch : drawn->surface.patches) {
             levels.insert({patch.levels[4], patch.levels[6], patch.levels[8], patch.levels[10]});
         }

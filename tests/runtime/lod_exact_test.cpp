@@ -84,15 +84,7 @@ TEST_P(LodExact, RandomLevelsAreTheLimit) {
                 ++samples;
             }
         }
-        const Sides sides = matchSides(drawn->surface);
-        const Borders borders = bordersOf(drawn->surface, drawn->patches);
-        EXPECT_EQ(drawn->surface.patches.size(), found.faces.size());
-        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-        EXPECT_EQ(sides.looseEnds, 0u);
-        EXPECT_LE(sides.unmatched, borders.open);
-        all.samples += borders.samples;
-        all.edges += borders.edges;
+        expectClosed(drawn->surface, drawn->patches, all);
     }
     std::printf(
         "%llu samples, %llu of them moved out of a last cell; positions within %.1e of the extent, %llu normals "
@@ -116,12 +108,7 @@ TEST_P(LodExact, BothSidesOfAnEdgeAskForTheSame) {
         SCOPED_TRACE(entry.name);
         const std::optional<RandomLevels::Drawn> drawn = draw(random, entry, ExactQuads(entry.cage));
         ASSERT_TRUE(drawn.has_value());
-        const Borders borders = bordersOf(drawn->surface, drawn->patches);
-        EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-        EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-        EXPECT_LE(matchSides(drawn->surface).unmatched, borders.open);
-        all.samples += borders.samples;
-        all.edges += borders.edges;
+        expectClosed(drawn->surface, drawn->patches, all);
         for (const LodSurface::Patch& patch : drawn->surface.patches) {
             levels.insert({patch.levels[4], patch.levels[6], patch.levels[8], patch.levels[10]});
         }

@@ -282,4 +282,16 @@ Borders bordersOf(const LodSurface& surface, const std::vector<surface::PatchInf
     return result;
 }
 
+void expectClosed(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches, Borders& all) {
+    const Sides sides = matchSides(surface);
+    const Borders borders = bordersOf(surface, patches);
+    EXPECT_EQ(surface.patches.size(), patches.size());
+    EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
+    EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
+    EXPECT_EQ(sides.looseEnds, 0u);
+    EXPECT_LE(sides.unmatched, borders.open);
+    all.samples += borders.samples;
+    all.edges += borders.edges;
+}
+
 } // namespace supple::test

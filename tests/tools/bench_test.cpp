@@ -98,7 +98,7 @@ TEST_F(Bench, QuickRunIsWhole) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
             ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
                            scheme + " frame / plain C++ bi-3"});
-            if (scheme == "prep" || scheme == "pm") {
+            if (scheme == "prep" || scheme == "pm" || scheme == "exact") {
                 contestants.insert({scheme + " shared evaluate", scheme + " shared frame"});
                 ratios.insert({scheme + " shared evaluate / " + scheme + " evaluate",
                                scheme + " shared evaluate / plain C++ bi-3"});
@@ -184,8 +184,8 @@ TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
     EXPECT_EQ(row["triangles"], 2 * rate * rate * faces);
     EXPECT_TRUE(row["refused"].empty());
     EXPECT_TRUE(finitePositive(row["skinAloneMs"]) && finitePositive(row["skinAloneCpuMs"])) << row;
-    EXPECT_EQ(names(row["contestants"]),
-              (std::set<std::string>{"polygons", "prep", "prep shared", "pm", "pm shared", "catmull-clark", "blend"}));
+    EXPECT_EQ(names(row["contestants"]), (std::set<std::string>{"polygons", "prep", "prep shared", "pm", "pm shared",
+                                                                "exact", "exact shared", "catmull-clark", "blend"}));
     for (const Json& one : row["contestants"]) {
         // A closed mesh of quads has as many vertices as faces, and two more.
         EXPECT_EQ(one["skinnedVertices"], (one["name"] == "polygons" ? rate * rate * faces : faces) + 2) << one;

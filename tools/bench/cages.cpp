@@ -76,6 +76,10 @@ Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> byt
 
 } // namespace
 
+bool sharesSamples(SuppleScheme scheme) {
+    return scheme == SUPPLE_SCHEME_PREP || scheme == SUPPLE_SCHEME_PM || scheme == SUPPLE_SCHEME_EXACT;
+}
+
 const std::vector<std::string>& builtInCages() {
     static const std::vector<std::string> names{"sphere",        "irregular", "triangles",
                                                 kManCasualQuads, "pip_quads", "pip"};

@@ -19,6 +19,9 @@ struct BenchCage {
     bool bothFormats = false;          ///< p-rep also with 24-byte vertices
 };
 
+/// Whether the scheme is also measured as an indexed mesh, which stores the samples that patches share once.
+[[nodiscard]] bool sharesSamples(SuppleScheme scheme);
+
 /// The names of the built-in ones.
 [[nodiscard]] const std::vector<std::string>& builtInCages();
 /// ErrorCode::io: man_casual_quads, a file that lies beside the source tree on some machines, is not there.

@@ -86,7 +86,7 @@ Status Heat::addSchemes() {
         if (status && scheme == SUPPLE_SCHEME_PREP && desc_.cage->bothFormats) {
             status = addSubject(*asset, scheme, kVertex24Variant);
         }
-        if (status && (scheme == SUPPLE_SCHEME_PREP || scheme == SUPPLE_SCHEME_PM)) {
+        if (status && sharesSamples(scheme)) {
             status = addSubject(*asset, scheme, kSharedVariant);
         }
         if (!status && (status.error().code == ErrorCode::asset || status.error().code == ErrorCode::limit)) {
@@ -251,7 +251,7 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }
-        if (scheme == "prep" || scheme == "pm" || scheme == "catmull-clark") {
+        if (scheme == "prep" || scheme == "pm" || scheme == "exact" || scheme == "catmull-clark") {
             for (const Peer& peer : peers_) {
                 add(scheme + " evaluate", peer.name, true);
             }

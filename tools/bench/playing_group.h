@@ -10,7 +10,8 @@
 
 namespace supple::bench {
 
-/// A crowd's vertices take at most one part in this many of the device's memory. What is written beside them takes as much.
+/// A crowd's vertices take at most one part in this many of the device's memory. What is written beside them takes as
+/// much.
 inline constexpr VkDeviceSize kCrowdShareOfMemory = 4;
 
 /// The size of the largest heap on the device, in bytes.
