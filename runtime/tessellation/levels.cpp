@@ -12,6 +12,11 @@ using namespace supple::shared;
 
 namespace {
 
+/// How much more curves bend in places than their cage says, by surface::Borders: found by
+/// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact patches bend more
+/// at irregular vertices.
+constexpr float kUneven[] = {1.0f, 1.5f, 2.0f};
+
 class Levels final : public Tessellation {
 public:
     explicit Levels(const TessellationDesc& desc) : Tessellation(desc) {}
@@ -123,10 +128,9 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    const surface::Borders borders = tables().lod.borders;
-    const uint32_t steps = tables().isolationSteps;
-    const bool uneven = borders == surface::Borders::charts || (borders == surface::Borders::halves && steps > 0);
-    needs.measure = surface::lod::measureInstance(cage(), steps, uneven, &desc_.asset->character.cage);
+    needs.measure =
+        surface::lod::measureInstance(cage(), tables().isolationSteps,
+                                      kUneven[static_cast<size_t>(tables().lod.borders)], &desc_.asset->character.cage);
     needs.margin = boundsMargin();
     return needs;
 }

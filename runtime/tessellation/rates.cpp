@@ -175,7 +175,7 @@ Culling::Needs Rates::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
     // Rates count along edges of the cage.
-    needs.measure = surface::lod::measureInstance(cage(), 0, false, &desc_.asset->character.cage);
+    needs.measure = surface::lod::measureInstance(cage(), 0, 1.0f, &desc_.asset->character.cage);
     needs.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];

@@ -22,7 +22,7 @@ glm::vec3 beyond(const cage::Cage& cage, const cage::Topology& topology, uint32_
 
 } // namespace
 
-InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings, bool uneven, const cage::Cage* whole) {
+InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings, float uneven, const cage::Cage* whole) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology || cage.positions.empty()) {
         return {};
@@ -48,8 +48,7 @@ InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings, bool 
         return {};
     }
     const float part = 1.0f / static_cast<float>(1u << halvings); // of an edge; second differences shrink by its square
-    const float more = uneven ? 2.0f : 1.0f;                      // found by LodCrowds.OneLevelAnInstance
-    return {measure.longest * part / diagonal, more * measure.bend * part * part / diagonal};
+    return {measure.longest * part / diagonal, uneven * measure.bend * part * part / diagonal};
 }
 
 } // namespace supple::surface::lod

@@ -12,10 +12,9 @@ struct InstanceMeasure {
     float bend = 0.0f;    ///< the largest second difference of a border cubic: that of the cage vertices along an
                           ///< edge and beyond its end, divided by 6 as for a uniform cubic B-spline
 };
-/// `halvings`: how often the cage is subdivided before patches are made. `uneven`: its curves bend
-/// more here and there, as those of the blending surface, which interpolate the cage, and those of exact Catmull-Clark
-/// patches at the irregular vertices that a step has made. `whole`: the cage that `cage` is a piece of; its box counts.
-[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, bool uneven = false,
+/// `halvings`: how often the cage is subdivided before patches are made. `uneven`: how many times as much
+/// its curves bend in places as the cage says. `whole`: the cage that `cage` is a piece of; its box counts.
+[[nodiscard]] InstanceMeasure measureInstance(const cage::Cage& cage, uint32_t halvings = 0, float uneven = 1.0f,
                                               const cage::Cage* whole = nullptr);
 
 } // namespace supple::surface::lod

@@ -15,7 +15,8 @@
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
- *     fills. Zero in any other field of a description means the default. Later versions add fields at the end only.
+ *     fills. If a field has a default, zero means the default. A field whose comment gives a
+ *     least value above 0 must be set. Later versions add fields at the end only.
  *     Missing trailing fields read as zero. Unknown trailing fields must be zero, and come back as zero. Structs
  *     without structSize never change. A structSize of 0 is refused by name.
  *   - Matrices are column-major float[16] for column vectors. Space is right-handed with +Y up, as in glTF. Angles are
@@ -23,13 +24,14 @@
  *   - Pointers in a description are read during the call only, unless a comment says otherwise.
  *   - Functions that fill an array take `out` and `count`. Before the call, *count is how many entries out has room
  *     for. After it, *count is how many there are. If that is more, the result is SUPPLE_INCOMPLETE. If out is null,
- *     only *count is set.
+ *     only *count is set, and the result is SUPPLE_OK. count must not be null.
  *
  * Handles
  *   - Assets, groups, views and instances are checked in every call. A handle that is destroyed, or of another context,
  *     gives SUPPLE_ERROR_ARGUMENT, never a crash. SuppleContext is a pointer: do not use it once it is destroyed.
  *   - You may destroy them while frames in flight use them. suppleBeginFrame frees the memory when you tell it that the
- *     last of these frames is complete.
+ *     last frame that recorded them is complete. Supple does not know a frame that draws a group without recording it.
+ *     Wait until such a frame is complete before you destroy, resize or reload the group.
  *
  * Errors
  *   - Errors are negative results. The log callback gets the reason, with an id that is the same in all versions.
@@ -690,9 +692,9 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
-    /** PREP, PM and EXACT without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores samples
-     * on the borders of patches once. Positions have the same bits as in other groups. Along creases and boundaries,
-     * and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
+    /** PREP, PM and EXACT without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores
+     * samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
+     * boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
@@ -719,19 +721,18 @@ typedef struct SuppleGroupDesc {
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
      * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
      * of them (SuppleGridOutput.rate). With CATMULL_CLARK, if the cage has faces that are no quads, it has a quarter.
-     * BLEND, EXACT, if the cage has faces that are no quads: segments along an edge of the cage, rounded up to an even
-     * number.
-     * A patch edge has half of them. POLYGONS ignores it: the rate is 1. */
+     * BLEND and EXACT: if the cage has faces that are no quads, `rate` counts segments along an edge of the cage. It is
+     * rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
-     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM and BLEND ignore `rate` and
-     * have a SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at
+     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, EXACT and BLEND ignore `rate`
+     * and have a SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at
      * most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * these three are in the group's own memory. They use none of the view's maxVertices, but count in
-     * SuppleCameraDesc.vertexBudget. */
+     * CATMULL_CLARK, LOOP and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
+     * count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
@@ -750,8 +751,8 @@ typedef struct SuppleGroupDesc {
      * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
      * cages and user data. */
     SuppleGroup instancesOf;
-    /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone, BLEND all but LINEAR_BOUNDARIES: another one is
-     * refused if `scheme` names one of these. */
+    /** It holds for both UV sets. POLYGONS and EXACT have LINEAR_ALL alone. BLEND has all modes but
+     * LINEAR_BOUNDARIES. If `scheme` names one of them with another mode, suppleCreateGroup fails. */
     SuppleUvInterpolation uvInterpolation;
 } SuppleGroupDesc;
 
@@ -863,12 +864,14 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
 
 /* ---------------------------------------------------------------------------------------------------- frame */
 
-/** Starts a frame. frame is the host's number for it: 1 or more, and larger in every call. completedFrame is the last
- * frame whose command buffers have all finished, or 0 if there is none. It must never fall, and must be below frame.
- * frame - completedFrame must not exceed framesInFlight, so wait for the fence of frame - framesInFlight first. Frees
- * what was destroyed and is no longer used, and reads finished timestamps. Never waits.
- * If the call is refused, the frame has not begun: until a call succeeds, suppleRecord, suppleRecordUploads and
- * suppleCancelFrame are refused, too, and name the frame that was. */
+/** Starts a frame. frame is the host's number for it: 1 or more, and larger in every call. All frames up
+ * to and including completedFrame must have finished; 0 if none has. It must never fall, and must be below frame. A
+ * cancelled frame counts as finished: pass its number only when all earlier frames have finished too.
+ * frame - completedFrame must not exceed framesInFlight, so wait for the fence of frame - framesInFlight first. Numbers
+ * that are skipped count in it. A frame lasts until the next suppleBeginFrame, or suppleCancelFrame. Frees what was
+ * destroyed and is no longer used, and reads finished timestamps. Never waits. If the call is refused, no frame is
+ * open, and the earlier one cannot be cancelled any more. suppleRecord, suppleRecordUploads, suppleRecordWarmUp and
+ * suppleCancelFrame are then refused until a call succeeds. The log names the refused frame. */
 SUPPLE_API SuppleResult suppleBeginFrame(SuppleContext context, uint64_t frame, uint64_t completedFrame);
 /** Large worlds: sets where the coordinates on the device begin, three doubles; (0, 0, 0) at first. Set it near the
  * camera, after suppleBeginFrame and before the frame's first suppleRecord. The origin applies at once. If this frame
@@ -937,9 +940,9 @@ typedef struct SuppleRecordDesc {
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
  * may be recorded once per frame. Groups of one view must be recorded in one call. A frame may leave out a group; it
- * is then drawn as it was. Of the groups of a view leave out all or none, because they write into the same buffers: the
- * vertices of those left out would be lost. The host must submit what is recorded once, in the order of recording, on
- * one queue, or else call suppleCancelFrame. If the call fails, nothing is recorded. */
+ * is then drawn as it was. It must record all groups of a view, or none. Supple does not check this. They write into
+ * the same buffers, so the vertices of a group that is left out are lost. The host must submit what is recorded once,
+ * in the order of recording, on one queue, or else call suppleCancelFrame. If the call fails, nothing is recorded. */
 SUPPLE_API SuppleResult suppleRecord(SuppleContext context, VkCommandBuffer commandBuffer,
                                      const SuppleRecordDesc* desc);
 
@@ -1063,7 +1066,7 @@ typedef struct SuppleVertexStreams {
     /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate,
      * relative to the present origin. For new instances (suppleTeleport) it is the present position. In a frame that
      * does not record the group, nothing has moved since the frame before: bind `vertices` in its place, with their
-     * stride (previousWords in supple_surface.glsl). Groups of a view: see suppleRecord. */
+     * stride (previousWords in supple_surface.glsl). The same holds for a view that is not recorded in a frame. */
     SuppleBufferRange previousPositions;
     SuppleBufferRange attributes; /**< ATTRIBUTES: float2 uv, linear RGBA in 4 x unorm16 */
     SuppleBufferRange uvs1;       /**< ATTRIBUTES, if the cage has a second UV set: float2 */
@@ -1172,7 +1175,7 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
     SUPPLE_PATCH_IRREGULAR = 11,       /**< none, EXACT: a quad of leaves */
     SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, EXACT: with sharp edges */
-    SUPPLE_PATCH_CREASED = 13          /**< none, EXACT: all of its corners are regular, but semi-sharp creases pass */
+    SUPPLE_PATCH_CREASED = 13 /**< none, EXACT: no corner has a chain of leaves, but a semi-sharp crease passes */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

@@ -151,7 +151,7 @@ typedef struct SupplePlaybackLayer {
     uint32_t flags;       /**< SuppleLayerFlags */
     SuppleLayerMode mode; /**< as in SuppleClipLayer */
     uint32_t mask;        /**< number of one of the group's masks (suppleSetMask); 0: none */
-    float weight;         /**< 0 leaves the layer out */
+    float weight;         /**< with a fade: before it. At a T where its weight is 0 the layer does nothing */
     float fadeWeight;     /**< with a fade: where it ends */
     float fadeDuration;   /**< seconds; 0: no fade */
     float speed;          /**< seconds of the clip per second of T, -1000..1000; 0: the clip stands at offset */
