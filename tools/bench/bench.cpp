@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kTurnSeconds = 0.02, kQuickTurnSeconds = 0.002;
+constexpr double kTurnSeconds = 0.02, kQuickTurnSeconds = 0.002, kWarmSeconds = 0.3;
 constexpr uint32_t kLoads = 9, kQuickLoads = 2;
 /// On CPU devices a crowd is no game's: so many show that it works and what a character costs.
 constexpr uint32_t kGpuCrowd = 1000, kCpuCrowd = 16, kQuickCpuCrowd = 4;
@@ -162,6 +162,7 @@ RoundOptions Run::roundOptions() const {
     rounds.rounds = options_.rounds;
     rounds.turnSeconds = options_.quick ? kQuickTurnSeconds : kTurnSeconds;
     rounds.timestampsAreCheap = !device_.isCpu();
+    rounds.warmSeconds = device_.isCpu() ? 0.0 : kWarmSeconds;
     return rounds;
 }
 

@@ -4,6 +4,7 @@
 #include "cage/formats/reader.h"
 #include "cage/procedural.h"
 #include "runtime/asset.h"
+#include "surface/schemes.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
 
@@ -77,7 +78,7 @@ Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> byt
 } // namespace
 
 bool sharesSamples(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_PREP || scheme == SUPPLE_SCHEME_PM || scheme == SUPPLE_SCHEME_EXACT;
+    return surface::schemeOf(static_cast<surface::SchemeId>(scheme)).hasIndexedMesh;
 }
 
 const std::vector<std::string>& builtInCages() {

@@ -148,12 +148,13 @@ Status Race::makeGroups(uint32_t characters) {
 
 /// From the groups of one.
 uint32_t Race::charactersThatFit() const {
-    VkDeviceSize bytes = 0;
+    VkDeviceSize bytes = 0, largest = 0;
     for (const Way& way : ways_) {
-        bytes += way.group->staticBytes().group;
+        const VkDeviceSize own = way.group->staticBytes().group; // a buffer of it is not larger
+        bytes += own;
+        largest = std::max(largest, own);
     }
-    return static_cast<uint32_t>(std::clamp<VkDeviceSize>(
-        deviceMemory(device_) / kCrowdShareOfMemory / std::max<VkDeviceSize>(bytes, 1), 1, desc_.characters));
+    return bench::charactersThatFit(device_, bytes, largest, desc_.characters);
 }
 
 Status Race::addContestant(const std::string& name, const PlayingGroup& group, Passes passes) {

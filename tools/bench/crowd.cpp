@@ -133,8 +133,7 @@ Result<Json> measureCrowd(host::Device& device, Workbench& workbench, const Crow
                 return status;
             }
             const VkDeviceSize bytes = VkDeviceSize{one.output().grid.verticesPerInstance} * kVertexBytes;
-            characters = static_cast<uint32_t>(
-                std::clamp<VkDeviceSize>(deviceMemory(device) / kCrowdShareOfMemory / bytes, 2, wanted));
+            characters = std::max(charactersThatFit(device, bytes, bytes, wanted), 2u);
         }
         if (desc.progress) {
             desc.progress(std::string(tools::schemeName(scheme)) + ", rate " + std::to_string(rate) + ", " +

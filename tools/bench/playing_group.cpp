@@ -1,10 +1,15 @@
 #include "tools/bench/playing_group.h"
 
+#include "host/vk_struct.h"
+
 #include <algorithm>
 #include <glm/glm.hpp>
 
 namespace supple::bench {
 
+namespace {
+
+/// The size of the largest heap on the device, in bytes.
 VkDeviceSize deviceMemory(const host::Device& device) {
     VkPhysicalDeviceMemoryProperties memory{};
     vkGetPhysicalDeviceMemoryProperties(device.physicalDevice(), &memory);
@@ -15,6 +20,27 @@ VkDeviceSize deviceMemory(const host::Device& device) {
         }
     }
     return largest;
+}
+
+/// Bytes of the largest buffer that can be allocated and bound.
+VkDeviceSize largestBuffer(const host::Device& device) {
+    auto allocation = host::vkStruct<VkPhysicalDeviceMaintenance3Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
+    auto properties = host::vkStruct<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+    properties.pNext = &allocation;
+    vkGetPhysicalDeviceProperties2(device.physicalDevice(), &properties);
+    return std::min<VkDeviceSize>(allocation.maxMemoryAllocationSize,
+                                  properties.properties.limits.maxStorageBufferRange);
+}
+
+} // namespace
+
+uint32_t charactersThatFit(const host::Device& device, VkDeviceSize bytes, VkDeviceSize ofLargestBuffer,
+                           uint32_t wanted) {
+    constexpr VkDeviceSize kShareOfMemory = 4;
+    const VkDeviceSize inMemory = deviceMemory(device) / kShareOfMemory / std::max<VkDeviceSize>(bytes, 1);
+    const VkDeviceSize inBuffer = largestBuffer(device) / std::max<VkDeviceSize>(ofLargestBuffer, 1);
+    return static_cast<uint32_t>(std::clamp<VkDeviceSize>(std::min(inMemory, inBuffer), 1, wanted));
 }
 
 PlayingGroup::~PlayingGroup() {

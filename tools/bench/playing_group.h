@@ -10,12 +10,10 @@
 
 namespace supple::bench {
 
-/// A crowd's vertices take at most one part in this many of the device's memory. What is written beside them takes as
-/// much.
-inline constexpr VkDeviceSize kCrowdShareOfMemory = 4;
-
-/// The size of the largest heap on the device, in bytes.
-[[nodiscard]] VkDeviceSize deviceMemory(const host::Device& device);
+/// How many characters fit, at most `wanted`, from the bytes that one takes in all and in its largest buffer. A crowd
+/// takes at most a quarter of the device's memory: what is written beside it takes as much.
+[[nodiscard]] uint32_t charactersThatFit(const host::Device& device, VkDeviceSize bytes, VkDeviceSize largestBuffer,
+                                         uint32_t wanted);
 
 enum class Passes {
     evaluate, ///< the evaluation alone

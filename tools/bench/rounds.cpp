@@ -24,9 +24,30 @@ Result<Cost> measure(const Contestant& contestant, uint32_t times) {
     return cost;
 }
 
+Status warmUp(std::span<const Contestant> contestants, double seconds) {
+    constexpr uint32_t kRuns = 4;
+    const double end = wallSeconds() + seconds;
+    const bool any = std::any_of(contestants.begin(), contestants.end(),
+                                 [](const Contestant& contestant) { return contestant.deviceSeconds != nullptr; });
+    while (any && wallSeconds() < end) {
+        for (const Contestant& contestant : contestants) {
+            if (!contestant.deviceSeconds) {
+                continue;
+            }
+            if (const Result<Cost> cost = measure(contestant, kRuns); !cost) {
+                return cost.error();
+            }
+        }
+    }
+    return success();
+}
+
 } // namespace
 
 Result<std::vector<Series>> runRounds(std::span<const Contestant> contestants, const RoundOptions& options) {
+    if (const Status warm = warmUp(contestants, options.warmSeconds); !warm) {
+        return warm.error();
+    }
     std::vector<uint32_t> repeats;
     for (const Contestant& contestant : contestants) {
         Result<Cost> cost = measure(contestant, 1); // caches fill, drivers finish compiling

@@ -33,6 +33,7 @@ struct RoundOptions {
     uint32_t rounds = 7;
     double turnSeconds = 0.02;      ///< CPU time a turn should last: work is repeated until the clocks see it
     bool timestampsAreCheap = true; ///< on CPU devices they are not, and are taken once a turn
+    double warmSeconds = 0.0;       ///< of work on the device before it is measured: idle GPUs lower their clocks
     std::function<void(uint32_t round)> progress;
 };
 
