@@ -39,6 +39,8 @@ public:
 };
 const auto* const kEnvironment = testing::AddGlobalTestEnvironment(new DeviceEnvironment);
 
+} // namespace
+
 glm::vec3 decodeOctahedral(uint32_t packed) {
     const auto unpack = [](uint32_t half) {
         return std::max(static_cast<float>(static_cast<int16_t>(half)) / 32767.0f, -1.0f);
@@ -52,8 +54,6 @@ glm::vec3 decodeOctahedral(uint32_t packed) {
     }
     return glm::normalize(n);
 }
-
-} // namespace
 
 host::Device* testDevice() {
     DeviceHolder& h = holder();

@@ -41,6 +41,9 @@ struct GpuOptions {
     uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
 };
 
+/// The normal of a vertex of 16 bytes.
+[[nodiscard]] glm::vec3 decodeOctahedral(uint32_t packed);
+
 /// An asset and a group on a context that all tests of a mapping share: pipelines are created once.
 class GpuSurface {
 public:
