@@ -210,8 +210,8 @@ void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::
 template <class F>
 void Context::forViews(F&& visit) {
     views.forEach(visit);
-    for (const std::shared_ptr<View>& view : retiredViews_) {
-        visit(*view);
+    for (const Retired<View>& view : retiredViews_) {
+        visit(*view.object);
     }
 }
 
@@ -224,23 +224,22 @@ Status Context::cancelFrame() {
     groups.forEach([this](Group& group) { group.cancelFrame(frame_); });
     forViews([this](View& view) { view.cancelFrame(frame_); });
     // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
-    for (const std::shared_ptr<Group>& group : retired_) {
-        group->cancelFrame(frame_);
+    for (const Retired<Group>& group : retired_) {
+        group.object->cancelFrame(frame_);
     }
     timings.cancelFrame();
     return success();
 }
 
 void Context::retire(uint64_t completedFrame) {
-    std::erase_if(retired_,
-                  [&](const std::shared_ptr<Group>& group) { return group->lastRecordedFrame() <= completedFrame; });
+    std::erase_if(retired_, [&](const Retired<Group>& group) { return group.lastFrame <= completedFrame; });
     forViews([&](View& view) {
         view.beginFrame(completedFrame);
         view.releaseStaging(completedFrame);
     });
     // Those that groups still use stay, as groups may be recorded again.
-    std::erase_if(retiredViews_, [&](const std::shared_ptr<View>& view) {
-        return view.use_count() == 1 && view->lastRecordedFrame() <= completedFrame;
+    std::erase_if(retiredViews_, [&](const Retired<View>& view) {
+        return view.object.use_count() == 1 && view.lastFrame <= completedFrame;
     });
     pairs_.releaseStaging(completedFrame);
     groups.forEach([&](Group& group) { group.beginFrame(completedFrame); });
@@ -395,7 +394,7 @@ Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
 void Context::replace(std::vector<Remade>& remade) {
     retired_.reserve(retired_.size() + remade.size());
     for (Remade& own : remade) {
-        retired_.push_back(groups.replace(own.id, std::move(own.group)));
+        retired_.push_back(retired(groups.replace(own.id, std::move(own.group))));
     }
 }
 
@@ -493,7 +492,7 @@ bool Context::destroyView(uint64_t id) {
         return false;
     }
     view->setDepthPyramid(std::nullopt); // nobody can take the host's image away any more
-    retiredViews_.push_back(std::move(view));
+    retiredViews_.push_back(retired(std::move(view)));
     return true;
 }
 
@@ -502,7 +501,7 @@ bool Context::destroyGroup(uint64_t id) {
     if (group == nullptr) {
         return false;
     }
-    retired_.push_back(std::move(group)); // freed by the next beginFrame that may
+    retired_.push_back(retired(std::move(group))); // freed by the next beginFrame that may
     return true;
 }
 

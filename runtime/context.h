@@ -146,9 +146,20 @@ private:
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time
-    // Destroyed by the host, perhaps still in flight.
-    std::vector<std::shared_ptr<Group>> retired_;
-    std::vector<std::shared_ptr<View>> retiredViews_;
+    /// Destroyed by the host, perhaps still in flight. Frames that do not record a group may draw it all the same: so
+    /// it is in use up to the frame in which it was destroyed.
+    template <class T>
+    struct Retired {
+        std::shared_ptr<T> object;
+        uint64_t lastFrame = 0; ///< 0: it was never recorded
+    };
+    template <class T>
+    [[nodiscard]] Retired<T> retired(std::shared_ptr<T> object) const {
+        const uint64_t last = object->lastRecordedFrame() > 0 ? frame_ : 0;
+        return {std::move(object), last};
+    }
+    std::vector<Retired<Group>> retired_;
+    std::vector<Retired<View>> retiredViews_;
 };
 
 } // namespace supple::runtime

@@ -49,8 +49,8 @@ enum class PatchClass : uint32_t {
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
     irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
-    irregularSharp = shared::kIrregularSharpPatch, ///< and sides that are creases
-    creased = shared::kCreasedPatch                ///< and no chain at all
+    irregularSharp = shared::kIrregularSharpPatch, ///< some side is a crease, too
+    creased = shared::kCreasedPatch                ///< no corner has a chain, but a semi-sharp crease passes
 };
 
 struct PatchClassRow {
@@ -69,6 +69,8 @@ struct PatchClassRow {
                                              ///< mapping, where a lane takes a row of its samples. Of others a lane
                                              ///< takes a sample
     [[nodiscard]] constexpr bool isBicubic() const { return netElements > 0; }
+    /// Exact Catmull-Clark: in the wide mapping a lane takes a quarter at a rate.
+    [[nodiscard]] constexpr bool hasQuarters() const { return borders == Borders::halves; }
     /// P_m: triangular sectors round a centre.
     [[nodiscard]] constexpr bool hasSectors() const { return form != lod::Form::quad; }
 };

@@ -34,8 +34,8 @@ uint32_t cornerNormals(const ProgramBuilder& builder) {
     return builder.tables.cornerNormals ? 1 : 0;
 }
 
-/// Patches a workgroup takes in the wide mapping: the count that leaves the fewest lanes idle.
-uint32_t patchesPerGroup(uint32_t samples, uint32_t localSize) {
+/// Patches a workgroup takes where a lane takes a sample: the count that leaves the fewest lanes idle.
+uint32_t patchesBySamples(uint32_t samples, uint32_t localSize) {
     uint32_t best = 1;
     double bestUse = 0.0;
     for (uint32_t n = 1; n <= kMaxPatchesPerGroup; ++n) {
@@ -57,6 +57,20 @@ uint32_t samplesOf(const ProgramBuilder& builder, PatchClass patchClass) {
     const Domain domain = domainOf(patchClass);
     const uint32_t rate = builder.evaluation.rate;
     return builder.tables.hasIndexedMesh() ? interiorCount(domain, rate) : sampleCount(domain, rate);
+}
+
+/// Patches a workgroup takes in the wide mapping.
+uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
+    const PatchClassRow& row = rowOf(range.patchClass);
+    const uint32_t lanes = builder.device.mapping.localSize, rate = builder.evaluation.rate;
+    if (row.isBicubic()) { // a lane takes a row of samples
+        const uint32_t rows = builder.tables.hasIndexedMesh() ? rate - 1 : rate + 1;
+        return std::min(lanes / rows, SUPPLE_WIDE_ELEMENTS(format) / row.netElements);
+    }
+    if (row.hasQuarters()) {
+        return lanes / 4;
+    }
+    return patchesBySamples(samplesOf(builder, range.patchClass), lanes);
 }
 
 /// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
@@ -85,17 +99,13 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
     const gpu::Mapping& mapping = builder.device.mapping;
-    const PatchClassRow& row = rowOf(from.patchClass);
     SurfacePush push = pushFor(builder, from.section);
     push.samples = samplesOf(builder, from.patchClass);
     push.firstPatch = from.firstPatch;
     push.firstVertex = builder.evaluation.firstVertices[range];
     DispatchSize size = builder.lanes(push.count);
     if (mapping.wide) {
-        const uint32_t rowSamples = builder.tables.hasIndexedMesh() ? push.rate - 1 : push.rate + 1;
-        push.patchesPerGroup = row.isBicubic() ? std::min(mapping.localSize / rowSamples,
-                                                          SUPPLE_WIDE_ELEMENTS(pass.format) / row.netElements)
-                                               : patchesPerGroup(push.samples, mapping.localSize);
+        push.patchesPerGroup = patchesPerGroup(builder, from, pass.format);
         size.perGroup = push.patchesPerGroup;
     }
     builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push,

@@ -118,6 +118,7 @@ Status Tessellation::chooseUvs(surface::Recipe& recipe) {
 
 Status Tessellation::buildTables() {
     surface::Recipe recipe = recipeOf(desc_.group, askedRate_, view());
+    recipe.wide = desc_.device->mapping.wide;
     if (const Status chosen = chooseUvs(recipe); !chosen) {
         return chosen;
     }

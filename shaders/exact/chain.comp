@@ -1,5 +1,6 @@
-// Limit points, normals and chains of vertices that are not plain (docs/exact.md). One invocation a vertex, or a spoke or the
-// centre of a chain's level, and instance.
+// Limit points, normals and chains of vertices that are not plain (docs/exact.md). Limits: one invocation a vertex and instance.
+// Chains: one a spoke or centre and instance. Narrow mapping: of one level. Wide mapping: they go from level to level in
+// workgroup memory, unless a vertex has many faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"
@@ -11,14 +12,25 @@
 layout(constant_id = kKindConstant) const uint kMakes = kMakesLimits;
 
 uint base;   // of the instance in the pool
-uint source; // what the rules read: the first word of the net, or the pool index of the level before
+uint source; // what the rules read: the first word of the net, or the first point of the level before
 vec3 centre; // of level 1
 
+#ifdef WIDE
+const uint kBlocks = gl_WorkGroupSize.x / kBlockLanes; // of a workgroup
+shared vec4 localPoints[kMakes == kMakesChains ? kBlocks * kBlockPoints : 1u];
+#endif
+
 vec3 netPoint(uint i) { return poolVector(base + tableWord(source + i)); }
-vec3 point(uint i) {
-    if (kMakes == kMakesLevel) return poolVector(source + i);
+vec3 netOffset(uint i) {
     precise vec3 offset = netPoint(i) - centre;
     return offset;
+}
+vec3 point(uint i) {
+#ifdef WIDE
+    if (kMakes == kMakesChains) return localPoints[source + i].xyz;
+#endif
+    if (kMakes == kMakesLevel) return poolVector(source + i);
+    return netOffset(i);
 }
 #include "shaders/subdivision/rules.glsl"
 
@@ -64,9 +76,13 @@ uint pointIndex(uint h, uint a, uint b) {
     return 1u + fan.x * r * (r - 1u) + fan.z * (r - 1u) + place;
 }
 
-// The nine points of a sector and the three on its first spoke: of the 3 x 4 points round them, with the masks (1, 1) / 2 and
-// (1, 6, 1) / 8 along either direction. On a sharp spoke the second mask is left out.
-void storeSector(uint target, uint h, float sharpness) {
+// What comes of a spoke: the nine points of its sector and its own three, or the centre alone.
+struct SpokePoints {
+    vec3 onSpoke[3], inside[3][3];
+};
+// Of the 3 x 4 points round them, with the masks (1, 1) / 2 and (1, 6, 1) / 8 along either direction. On a sharp spoke the second
+// mask is left out.
+SpokePoints spokePoints(uint h, float sharpness) {
     bool beyond = h == fan.x; // the last spoke of an open fan has no sector
     uint before = h == 0u ? fan.x - 1u : h - 1u;
     vec3 rows[4][3]; // by j of -1..2
@@ -80,16 +96,102 @@ void storeSector(uint target, uint h, float sharpness) {
         precise vec3 first = (p[0] + p[1]) * 0.5, second = (p[0] + p[2] + 6.0 * p[1]) * 0.125, third = (p[1] + p[2]) * 0.5;
         rows[j] = vec3[3](first, second, third);
     }
+    SpokePoints to;
     for (uint i = 0u; i < 3u; ++i) {
         precise vec3 onSpoke = (rows[0][i] + rows[2][i] + 6.0 * rows[1][i]) * 0.125;
-        pool[target + pointIndex(h, i + 1u, 0u)] = vec4(blended(sharpness, onSpoke, rows[1][i]), 0.0);
-        if (beyond) continue;
+        to.onSpoke[i] = blended(sharpness, onSpoke, rows[1][i]);
         precise vec3 first = (rows[1][i] + rows[2][i]) * 0.5, second = (rows[1][i] + rows[3][i] + 6.0 * rows[2][i]) * 0.125;
         precise vec3 third = (rows[2][i] + rows[3][i]) * 0.5;
-        pool[target + pointIndex(h, i + 1u, 1u)] = vec4(first, 0.0);
-        pool[target + pointIndex(h, i + 1u, 2u)] = vec4(second, 0.0);
-        pool[target + pointIndex(h, i + 1u, 3u)] = vec4(third, 0.0);
+        to.inside[i] = vec3[3](first, second, third);
     }
+    return to;
+}
+
+// A spoke or the centre of a chain.
+struct ChainItem {
+    uint spoke; // the number of spokes: the centre
+    uint steps, sharpness; // of its arrangement
+};
+ChainItem chainItem(uint record, uint spoke) {
+    uvec4 arrangement = tableElement(tableElement(record).z);
+    return ChainItem(spoke, arrangement.z, arrangement.y);
+}
+bool isCentre(ChainItem item) { return item.spoke == fan.x + fan.z; }
+SpokePoints pointsOf(ChainItem item, uint firstWeights, uint level) {
+    if (isCentre(item)) {
+        vec2 weights = uintBitsToFloat(tableElement(firstWeights).xy);
+        uvec4 step = tableElement(item.steps + level - 2u);
+        SpokePoints to;
+        to.onSpoke[0] = centrePoint(fan.x, weights, uintBitsToFloat(step.x), uintBitsToFloat(step.y), step.z, step.w);
+        return to;
+    }
+    float sharpness = 0.0;
+    if (item.sharpness != kNoSharpness) sharpness = softened(uintBitsToFloat(tableWord(item.sharpness + item.spoke)), level - 2u);
+    return spokePoints(item.spoke, sharpness);
+}
+void put(uint to, vec3 p) {
+#ifdef WIDE
+    if (kMakes == kMakesChains) {
+        localPoints[to] = vec4(p, 0.0);
+        return;
+    }
+#endif
+    pool[to] = vec4(p, 0.0);
+}
+void putPoints(uint target, ChainItem item, SpokePoints p) {
+    if (isCentre(item)) {
+        put(target, p.onSpoke[0]);
+        return;
+    }
+    for (uint i = 0u; i < 3u; ++i) {
+        put(target + pointIndex(item.spoke, i + 1u, 0u), p.onSpoke[i]);
+        if (item.spoke == fan.x) continue;
+        for (uint j = 0u; j < 3u; ++j) put(target + pointIndex(item.spoke, i + 1u, j + 1u), p.inside[i][j]);
+    }
+}
+
+void readNet(uint record) {
+    source = tableElement(record).x;
+    centre = netPoint(0u);
+}
+
+#ifdef WIDE
+// All levels. To be called by all lanes.
+void makeChains(uvec4 block, uint lane) {
+    uint first = gl_LocalInvocationID.x / kBlockLanes * kBlockPoints, vertices = block.z, spokes = fan.x + fan.z;
+    uint net = 1u + 6u * fan.x + 2u * fan.z; // points up to radius 2
+    for (uint n = lane; n < vertices * net; n += kBlockLanes) {
+        uint vertex = n / net, i = n - vertex * net;
+        readNet(block.y + 2u * vertex);
+        localPoints[first + vertex * fan.y + i] = vec4(netOffset(i), 0.0);
+    }
+    bool idle = lane >= vertices * (spokes + 1u);
+    uint spoke = idle ? 0u : lane / vertices, vertex = idle ? 0u : lane - spoke * vertices;
+    ChainItem item = chainItem(block.y + 2u * vertex, spoke);
+    source = first + vertex * fan.y;
+    for (uint level = 2u; level <= block.w; ++level) {
+        barrier();
+        SpokePoints p = pointsOf(item, block.x + 1u, level);
+        barrier();
+        if (!idle) putPoints(source, item, p);
+        barrier();
+        for (uint n = lane; n < vertices * fan.y; n += kBlockLanes) {
+            uint of = n / fan.y, chain = tableElement(block.y + 2u * of + 1u).x;
+            pool[base + chain + (level - 2u) * fan.y + n - of * fan.y] = localPoints[first + n];
+        }
+    }
+}
+#endif
+
+// One of them. Idle lanes repeat the last item.
+void makeLevel(uvec4 block, uint lane) {
+    uint vertices = block.z & ((1u << kChainLevelShift) - 1u), level = block.z >> kChainLevelShift;
+    uint n = min(block.w + lane, vertices * (fan.x + fan.z + 1u) - 1u), spoke = n / vertices;
+    uint record = block.y + 2u * (n - spoke * vertices), target = base + tableElement(record + 1u).x + (level - 2u) * fan.y;
+    if (kMakes == kMakesFirstLevel) readNet(record);
+    else source = target - fan.y;
+    ChainItem item = chainItem(record, spoke);
+    putPoints(target, item, pointsOf(item, block.x + 1u, level));
 }
 
 void main() {
@@ -98,29 +200,18 @@ void main() {
     if (kMakes == kMakesLimits) {
         uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);
-        source = a.x;
-        centre = netPoint(0u);
+        readNet(record);
         storeLimits(a.z, base + a.w, base + b.y);
         if (b.x != 0u) pool[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }
     uvec4 block = tableElement(push.table + lane / kBlockLanes);
-    uint vertices = block.z & ((1u << kChainLevelShift) - 1u), level = block.z >> kChainLevelShift;
     fan = tableElement(block.x);
-    uint spokes = fan.x + fan.z, n = min(block.w + lane % kBlockLanes, vertices * (spokes + 1u) - 1u);
-    uint h = n / vertices, record = block.y + 2u * (n - h * vertices);
-    uvec4 a = tableElement(record), arrangement = tableElement(a.z);
-    uint target = base + tableElement(record + 1u).x + (level - 2u) * fan.y;
-    source = kMakes == kMakesFirstLevel ? a.x : target - fan.y;
-    if (kMakes == kMakesFirstLevel) centre = netPoint(0u);
-    if (h == spokes) {
-        vec2 weights = uintBitsToFloat(tableElement(block.x + 1u).xy);
-        uvec4 step = tableElement(arrangement.z + level - 2u);
-        pool[target] =
-            vec4(centrePoint(fan.x, weights, uintBitsToFloat(step.x), uintBitsToFloat(step.y), step.z, step.w), 0.0);
+#ifdef WIDE
+    if (kMakes == kMakesChains) {
+        makeChains(block, gl_LocalInvocationID.x % kBlockLanes);
         return;
     }
-    float sharpness = 0.0;
-    if (arrangement.y != kNoSharpness) sharpness = softened(uintBitsToFloat(tableWord(arrangement.y + h)), level - 2u);
-    storeSector(target, h, sharpness);
+#endif
+    makeLevel(block, lane % kBlockLanes);
 }

@@ -25,7 +25,7 @@ struct PatchPlace {
 };
 PatchPlace placeOf(uint instance, uint record, uvec4 edge) {
     return PatchPlace(tableElement(record).x, instance * push.poolStride, instance * push.verticesPerInstance,
-                      push.firstCorner + edge.x, push.firstVertex + edge.y * (push.rate - 1u), edge.x != kNoEdgeSample);
+                      push.firstCorner + edge.x, push.firstVertex + edge.y * (fixedRate() - 1u), edge.x != kNoEdgeSample);
 }
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 
@@ -54,8 +54,7 @@ IrregularQuad turnedQuad(IrregularQuad quad, uint side) {
 Net turnedNet(const PatchPlace at, uint side) {
     Net net;
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
-        uint i = k % kNetSide, j = k / kNetSide, x = 4u - i, y = 4u - j;
-        uint place = side < 2u ? (side == 0u ? k : kNetSide * i + y) : side == 2u ? kNetSide * y + x : kNetSide * x + j;
+        uint place = SUPPLE_EXACT_NET_PLACE(side, k % kNetSide, k / kNetSide);
         net.p[k] = poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + place));
     }
     return net;
@@ -65,35 +64,32 @@ void main() {
     uint item = itemOfLane(), record = push.table + elementOf(item) * kEdgeElements;
     PatchPlace at = placeOf(instanceOf(item), record, tableElement(record + 2u));
     uint side = tableElement(record).y;
-    last = push.rate;
+    last = fixedRate();
     QuadCells q;
     q.quad = turnedQuad(quadOf(at.record), side);
     q.net = turnedNet(at, side);
     q.sides[0] = quadSide(at, q.quad, q.net, 0u);
     q.sides[1] = q.sides[2] = q.sides[3] = q.sides[0]; // not read
+    q.limits = cornerLimits(at, q.quad);
     storeCells(at, q, 0u);
     // Quarters without a chain have none of the samples.
-    for (uint corner = 0u; corner < 2u; ++corner) {
-        Quarter end = quarterOf(at, q, corner);
-        end.middleA = end.middleB = q.sides[0].middle;
-        if (!hasChain(q.quad, corner)) continue;
-        if (corner == 0u) storeQuarter(at, q.quad, end, true, false);
-        else storeQuarter(at, q.quad, end, false, true);
-    }
+    Quarter begin = quarterOf(at, q, 0u), end = quarterOf(at, q, 1u);
+    if (hasChain(q.quad, 0u)) storeQuarter(at, q.quad, begin, true, false);
+    if (hasChain(q.quad, 1u)) storeQuarter(at, q.quad, end, false, true);
 }
 #else
 vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
 #include "shaders/exact/sample.glsl"
 
 void main() {
-    uint id = invocationIndex(), lanes = push.count * push.rate;
+    uint rate = fixedRate(), id = invocationIndex(), lanes = push.count * rate;
     if (id >= lanes * instanceCount()) return;
-    uint entry = id / lanes, lane = id - entry * lanes, edge = lane / push.rate, k = lane - edge * push.rate;
+    uint entry = id / lanes, lane = id - entry * lanes, edge = lane / rate, k = lane - edge * rate;
     uint record = push.table + edge * kEdgeElements;
     PatchPlace at = placeOf(instanceSlot(entry), record, tableElement(record + 2u));
     if (k == 0u && !at.begins) return;
     uint side = tableElement(record).y;
-    vec2 pair = parameterPair(k, push.rate, push.pairs), begin = vec2(0.0, 1.0);
+    vec2 pair = parameterPair(k, rate, push.pairs), begin = vec2(0.0, 1.0);
     vec2 u = side == 0u ? pair : side == 1u ? begin.yx : side == 2u ? pair.yx : begin;
     vec2 v = side == 0u ? begin : side == 1u ? pair : side == 2u ? begin.yx : pair.yx;
     vec3 position;

@@ -11,6 +11,9 @@
 const uint kRecordElements = kExactRecordElements;
 const uint kForm = kLodQuadForm;
 const uint kParts = kNetPoints;
+#ifndef LEVELS
+#define OWN_WIDE
+#endif
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
@@ -23,7 +26,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at
 
 layout(constant_id = kInteriorConstant) const bool kInterior = false; // edges have the samples on borders
 
-#ifndef WIDE
+#if !defined(WIDE) || !defined(LEVELS)
 const bool kInside = true;
 const uint kSides = kInterior ? 0u : 4u;
 uint last;
@@ -34,7 +37,16 @@ void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame f
 }
 #include "shaders/exact/nets.glsl"
 
-#ifdef LEVELS
+#if defined(WIDE)
+// Four lanes have a quad, each a quarter. Lanes beside each other have the same quarters: quads lie in the order of their chains.
+void evaluateWide() {
+    uint lane = gl_LocalInvocationID.x, corner = lane / push.patchesPerGroup;
+    uint item = workgroupIndex() * push.patchesPerGroup + lane - corner * push.patchesPerGroup;
+    if (item >= push.count * instanceCount()) return;
+    last = push.rate;
+    evaluateQuarter(placeOf(item), corner);
+}
+#elif defined(LEVELS)
 void evaluatePatch(const PatchPlace at, uint lodRecord) {
     last = at.capacity;
     for (uint k = 0u; k < 6u; ++k) patterns[k] = recordPattern(lodRecord, k, at.capacityIndex);
@@ -59,14 +71,8 @@ void loadPart(uint to, const PatchPlace at, uint k) {
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     localPlace = place;
-#ifdef LEVELS
     uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
     vec2 u = lodU(place, at.capacity, i, j), v = lodV(place, at.capacity, i, j);
-#else
-    uint inset = kInterior ? 1u : 0u, side = push.rate + 1u - 2u * inset;
-    uint j = index / side + inset, i = index - index / side * side + inset;
-    vec2 u = parameterPair(i, push.rate, push.pairs), v = parameterPair(j, push.rate, push.pairs);
-#endif
     irregularSample(at, quadOf(at.record), u, v, position, frame);
 }
 #endif

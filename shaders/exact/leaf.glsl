@@ -5,9 +5,9 @@
 // to the vertex, belongs to the levels that follow.
 #include "shaders/subdivision/sharpness.glsl"
 
-// Of the four points in one direction.
+// The weights of the four points in one direction, and their derivatives.
 struct LeafWeights {
-    vec4 w, d; // and their derivatives
+    vec4 w, d;
 };
 
 // 2^n of a small integer.

@@ -119,7 +119,12 @@ struct QuadCells {
     IrregularQuad quad;
     Net net;
     Side sides[4];
+    vec3[4] limits; // of the corners
 };
+vec3[4] cornerLimits(const PatchPlace at, IrregularQuad quad) {
+    return vec3[4](poolPoint(at, quad.points.x), poolPoint(at, quad.points.y), poolPoint(at, quad.points.z),
+                   poolPoint(at, quad.points.w));
+}
 LeafWeights alongU(QuadCells q, uint right, vec2 u) {
     return quadWeights(right != 0u, u, sharpnessOf(q.quad, 3u, 1u), sharpnessOf(q.quad, 1u, 1u));
 }
@@ -130,10 +135,9 @@ uint cornerOf(uint right, uint upper) { return upper == 0u ? right : 3u - right;
 bool isOwn(QuadCells q, uint right, uint upper) { return !kChains || !hasChain(q.quad, cornerOf(right, upper)); }
 
 // At levels segments may have no length: such a sample is the corner, to the bit. `u`, `v`: its pairs.
-vec3 orCorner(const PatchPlace at, QuadCells q, uint right, uint upper, vec2 u, vec2 v, vec3 position) {
+vec3 orCorner(QuadCells q, uint right, uint upper, vec2 u, vec2 v, vec3 position) {
     if (!kOwnBorders) return position;
-    vec3 limit = poolPoint(at, componentOf(q.quad.points, cornerOf(right, upper)));
-    return max(right == 0u ? u.x : u.y, upper == 0u ? v.x : v.y) == 0.0 ? limit : position;
+    return max(right == 0u ? u.x : u.y, upper == 0u ? v.x : v.y) == 0.0 ? q.limits[cornerOf(right, upper)] : position;
 }
 
 Frame quadFrame(NetRow row, uint right, LeafWeights x) {
@@ -143,7 +147,7 @@ Frame quadFrame(NetRow row, uint right, LeafWeights x) {
 void storeCorner(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper) {
     uint corner = cornerOf(right, upper);
     Frame frame = withStoredNormal(at, q.quad, corner, quadFrame(row, right, alongU(q, right, right == 0u ? kBegin : kEnd)));
-    store(at, isOwn(q, right, upper), right * last, upper * last, poolPoint(at, componentOf(q.quad.points, corner)), frame);
+    store(at, isOwn(q, right, upper), right * last, upper * last, q.limits[corner], frame);
 }
 // Samples i to before `end` of the bottom or the top.
 void storeAlong(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, uint i, uint end) {
@@ -151,14 +155,14 @@ void storeAlong(const PatchPlace at, QuadCells q, NetRow row, uint right, uint u
     do {
         vec2 u = pairOf(kOwnBorders ? kSide + 2u * upper : kInsideU, i);
         LeafWeights x = alongU(q, right, u);
-        vec3 position = orCorner(at, q, right, upper, u, upper == 0u ? kBegin : kEnd, onSide(q.sides[2u * upper], right, u, x.w));
+        vec3 position = orCorner(q, right, upper, u, upper == 0u ? kBegin : kEnd, onSide(q.sides[2u * upper], right, u, x.w));
         store(at, own && i < end, i, upper * last, position, quadFrame(row, right, x));
     } while (++i < end);
 }
 // One of the left or the right side.
 void storeAcross(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, vec2 v, LeafWeights y) {
     vec2 u = right == 0u ? kBegin : kEnd;
-    vec3 position = orCorner(at, q, right, upper, u, v, onSide(q.sides[3u - 2u * right], upper, v, y.w));
+    vec3 position = orCorner(q, right, upper, u, v, onSide(q.sides[3u - 2u * right], upper, v, y.w));
     Frame frame = quadFrame(row, right, alongU(q, right, u));
     store(at, own && isOwn(q, right, upper), right * last, j, position, frame);
 }
@@ -168,7 +172,7 @@ void storeInside(const PatchPlace at, QuadCells q, NetRow row, uint right, uint 
         vec2 u = pairOf(kInsideU, i);
         LeafWeights x = alongU(q, right, u);
         vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(row, right, x.w));
-        position = orCorner(at, q, right, upper, u, v, position);
+        position = orCorner(q, right, upper, u, v, position);
         store(at, own && i < end, i, j, position, quadFrame(row, right, x));
     } while (++i < end);
 }
@@ -208,20 +212,18 @@ void storeCells(const PatchPlace at, QuadCells q, uint upper) {
 struct Quarter {
     uint corner;
     Chain chain;
-    vec3 origin, limit, middleA, middleB; // of the sides
-    uint normal;                          // pool index
-    uint countA, countB;                  // of samples that are its own
+    vec3 origin, limit, normal;
+    vec3 middleA, middleB; // of the sides
+    uint countA, countB;   // of samples that are its own
 };
-Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
+Quarter quarterOf(const PatchPlace at, IrregularQuad quad, uint corner, vec3 middleA, vec3 middleB) {
     Quarter own;
     own.corner = corner;
-    own.chain = chainOf(q.quad, corner);
+    own.chain = chainOf(quad, corner);
     own.origin = chainOrigin(at, own.chain);
-    own.normal = componentOf(q.quad.normals, corner);
-    own.limit = poolPoint(at, componentOf(q.quad.points, corner));
-    vec3 bottom = q.sides[0].middle, right = q.sides[1].middle, top = q.sides[2].middle, left = q.sides[3].middle;
-    own.middleA = corner < 2u ? (corner == 0u ? bottom : right) : (corner == 2u ? top : left);
-    own.middleB = corner < 2u ? (corner == 0u ? left : bottom) : (corner == 2u ? right : top);
+    own.normal = poolPoint(at, componentOf(quad.normals, corner));
+    own.limit = poolPoint(at, componentOf(quad.points, corner));
+    own.middleA = middleA, own.middleB = middleB;
     // What lies in the middle belongs to the lower quarters.
     bool turned = (corner & 1u) != 0u;
     uint below = last / 2u + 1u, above = (last + 1u) / 2u;
@@ -230,6 +232,24 @@ Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
     own.countB = turned ? countU : countV;
     return own;
 }
+Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
+    vec3 bottom = q.sides[0].middle, right = q.sides[1].middle, top = q.sides[2].middle, left = q.sides[3].middle;
+    return quarterOf(at, q.quad, corner, corner < 2u ? (corner == 0u ? bottom : right) : (corner == 2u ? top : left),
+                     corner < 2u ? (corner == 0u ? left : bottom) : (corner == 2u ? right : top));
+}
+#ifdef WIDE
+vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
+    uint own = 4u * (at.record + kExactNetElement) + 1u;
+    float share = besideLine(sharpnessOf(quad, side, 1u));
+    vec3 e[3];
+    [[unroll]] for (uint i = 0u; i < 3u; ++i) {
+        vec3 p[3];
+        [[unroll]] for (uint j = 0u; j < 3u; ++j) p[j] = poolPoint(at, tableWord(own + SUPPLE_EXACT_NET_PLACE(side, i + 1u, j)));
+        e[i] = onLine(p[1], p[0], p[2], share);
+    }
+    return middleOfLine(e[0], e[1], e[2]);
+}
+#endif
 uvec2 placeInQuad(uint corner, uint a, uint b) {
     uint x = (corner & 1u) == 0u ? a : b, y = (corner & 1u) == 0u ? b : a;
     return uvec2(corner == 1u || corner == 2u ? last - x : x, corner >= 2u ? last - y : y);
@@ -268,7 +288,7 @@ void storeOnBorder(const PatchPlace at, Quarter q, bool own, uint a, uint b, flo
     if (kOwnBorders) { // segments may have no length
         bool atCorner = distance == 0.0;
         p = atCorner ? q.limit : p;
-        Frame stored = q.normal == kNoNormal ? frame : withNormal(frame, poolPoint(at, q.normal));
+        Frame stored = withNormal(frame, q.normal);
         if (atCorner) frame = stored;
     }
     uvec2 place = placeInQuad(q.corner, a, b);
@@ -372,16 +392,23 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
             if (kTangents) alongB = rowAlongY(netRow(l.net, 1u, begin), 0u, leafWeights(0.0, l.sharpB).w);
             Frame frame = turnedFrame(corner, rowAlongX(row, 1u, begin.d), alongB);
             uvec2 place = placeInQuad(corner, 0u, 0u);
-            store(at, !more, place.x, place.y, q.limit, withStoredNormal(at, quad, corner, frame));
+            store(at, !more, place.x, place.y, q.limit, withNormal(frame, q.normal));
         }
         ++level;
     } while (more);
 }
 
-void evaluateQuad(const PatchPlace at) {
+QuadCells quadCells(const PatchPlace at) {
     QuadCells q;
     q.quad = quadOf(at.record);
     q.net = quadNet(at);
+    q.limits = cornerLimits(at, q.quad);
+    return q;
+}
+
+#ifndef WIDE
+void evaluateQuad(const PatchPlace at) {
+    QuadCells q = quadCells(at);
     q.sides[0] = quadSide(at, q.quad, q.net, 0u);
     q.sides[1] = quadSide(at, q.quad, q.net, 1u);
     q.sides[2] = quadSide(at, q.quad, q.net, 2u);
@@ -396,3 +423,36 @@ void evaluateQuad(const PatchPlace at) {
         corners &= corners - 1u;
     } while (corners != 0u);
 }
+#else
+// One cell of the quad's own net, with the samples on its part of the border.
+void storeCell(const PatchPlace at, uint right, uint upper) {
+    QuadCells q = quadCells(at);
+    uint begin = last / 2u + 1u; // of the second half
+    if (kSides > 0u) {
+        uint along = 2u * upper, across = 3u - 2u * right;
+        q.sides[along] = quadSide(at, q.quad, q.net, along);
+        q.sides[across] = quadSide(at, q.quad, q.net, across);
+        NetRow border = netRow(q.net, upper, alongV(q, upper, upper == 0u ? kBegin : kEnd));
+        storeCorner(at, q, border, right, upper);
+        storeAlong(at, q, border, right, upper, right == 0u ? 1u : begin, right == 0u ? min(begin, last) : last);
+    }
+    uint j = upper == 0u ? 1u : begin, end = upper == 0u ? min(begin, last) : last;
+    for (; j < end; ++j) {
+        vec2 v = pairOf(kInsideV, j);
+        LeafWeights y = alongV(q, upper, v);
+        NetRow row = netRow(q.net, upper, y);
+        storeInside(at, q, row, right, upper, true, j, v, right == 0u ? 1u : begin, right == 0u ? min(begin, last) : last);
+        if (kSides > 0u) storeAcross(at, q, row, right, upper, true, j, v, y);
+    }
+}
+void evaluateQuarter(const PatchPlace at, uint corner) {
+    IrregularQuad quad = quadOf(at.record);
+    if (kChains && hasChain(quad, corner))
+        storeQuarter(at, quad, quarterOf(at, quad, corner, middleOf(at, quad, corner), middleOf(at, quad, (corner + 3u) & 3u)),
+                     kSides > 0u, kSides > 0u);
+    else if (corner == 0u) storeCell(at, 0u, 0u);
+    else if (corner == 1u) storeCell(at, 1u, 0u);
+    else if (corner == 2u) storeCell(at, 1u, 1u);
+    else storeCell(at, 0u, 1u);
+}
+#endif

@@ -52,8 +52,8 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     float share = besideLine(sharpnessOf(quad, side, level));
     vec3 e[4];
     for (uint k = 0u; k < 4u; ++k) {
-        uint own = line * across + (begin + k) * step;
-        e[k] = onLine(sourcePoint(at, net, own), sourcePoint(at, net, own - across), sourcePoint(at, net, own + across), share);
+        uint on = line * across + (begin + k) * step;
+        e[k] = onLine(sourcePoint(at, net, on), sourcePoint(at, net, on - across), sourcePoint(at, net, on + across), share);
     }
     if (middle) return middleOfLine(e[1], e[2], e[3]);
     precise vec3 p = origin + sum4(w, e[0], e[1], e[2], e[3]);

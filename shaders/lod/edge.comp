@@ -27,7 +27,7 @@ EdgeCurve cubicCurve(uvec4 indices) {
     return EdgeCurve(x0, x1, curveLength, max(lengthOf(bend0), lengthOf(bend1)));
 }
 
-// Of any other curve, by quarters: second differences at a step h are those of a cubic times 6 h^2.
+// Any other curve is measured at its quarters: second differences at a step h are those of a cubic times 6 h^2.
 EdgeCurve quarteredCurve(vec3 p[5]) {
     precise vec3 s0 = p[1] - p[0], s1 = p[2] - p[1], s2 = p[3] - p[2], s3 = p[4] - p[3];
     precise float curveLength = (lengthOf(s0) + lengthOf(s3)) + (lengthOf(s1) + lengthOf(s2));

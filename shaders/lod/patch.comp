@@ -3,6 +3,7 @@
 // out of everything. One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #define LOD_WRITE
 #define PUSH_CONSTANTS LodPush
@@ -120,23 +121,24 @@ vec2 chartLevels(uint record, uint base) {
 vec2 irregularLevels(uint record, uint base) {
     uvec4 corners = tableElement(record);
     vec4 sharpness = uintBitsToFloat(tableElement(record + kExactSharpnessElement));
-    vec3 net[25], x[9]; // x: row by row in v
-    for (uint k = 0u; k < 25u; ++k) net[k] = poolVector(base + tableWord(4u * (record + kExactNetElement) + 1u + k));
+    vec3 net[kNetPoints], x[9]; // x: row by row in v
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k)
+        net[k] = poolVector(base + tableWord(4u * (record + kExactNetElement) + 1u + k));
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
-    for (uint k = 0u; k < 4u; ++k) {
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         x[kPlaces[k]] = poolVector(base + corners[k]);
         uint middle = SUPPLE_EXACT_SIDE_MIDDLE(k), along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
         float share = besideLine(sharpness[k]);
         vec3 line[3];
-        for (uint n = 0u; n < 3u; ++n) {
+        [[unroll]] for (uint n = 0u; n < 3u; ++n) {
             uint at = middle + n * along - along;
-            line[n] = (1.0 - 2.0 * share) * net[at] + share * (net[at - across] + net[at + across]);
+            line[n] = onLine(net[at], net[at - across], net[at + across], share);
         }
-        x[kMiddles[k]] = (line[0] + line[2] + 4.0 * line[1]) / 6.0;
+        x[kMiddles[k]] = middleOfLine(line[0], line[1], line[2]);
     }
-    x[4] = (16.0 * net[12] + 4.0 * (net[7] + net[11] + net[13] + net[17]) + (net[6] + net[8] + net[16] + net[18])) / 36.0;
+    x[4] = (16.0 * net[kNetMiddle] + 4.0 * (net[7] + net[11] + net[13] + net[17]) + (net[6] + net[8] + net[16] + net[18])) / 36.0;
     vec2 bend = vec2(0.0), curveLength = vec2(0.0);
-    for (uint k = 0u; k < 3u; ++k) {
+    [[unroll]] for (uint k = 0u; k < 3u; ++k) {
         vec3 a = x[3u * k], b = x[3u * k + 1u], c = x[3u * k + 2u];
         bend.x = max(bend.x, lengthOf((a + c) - 2.0 * b));
         curveLength.x = max(curveLength.x, lengthOf(b - a) + lengthOf(c - b));

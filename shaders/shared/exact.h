@@ -14,8 +14,9 @@
 //   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
 //                     index of the chain's level 2 or 0, pool index of the first normal, 0, 0)
-//   blocks            of kBlockLanes lanes of one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the
-//                     level; first item); of items the vertex rises first, then the spoke; the centre comes last
+//   blocks            of kBlockLanes lanes: whole chains of one fan, a lane a spoke or a centre: (fan; first vertex; vertices;
+//                     last level). Or one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the level;
+//                     first item). The vertex rises first, then the spoke; the centre comes last
 //   net               one word a point up to radius 2, in spiral order: its pool index
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
 //                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
@@ -53,16 +54,25 @@ SUPPLE_SHARED_CONST kChainLevelShift = 24u;
 SUPPLE_SHARED_CONST kMakesLimits = 0u;
 SUPPLE_SHARED_CONST kMakesFirstLevel = 1u; // of level 1
 SUPPLE_SHARED_CONST kMakesLevel = 2u;      // of the level before
+SUPPLE_SHARED_CONST kMakesChains = 3u;     // all levels, in workgroup memory: wide mapping
+SUPPLE_SHARED_CONST kBlockPoints = 256u;   // of a level, for all chains of a block
 
 SUPPLE_SHARED_CONST kWindowElements = 4u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
-// Flags of a record, a bit a side from each on.
-SUPPLE_SHARED_CONST kCubicSide = 0u;      // the border is one cubic, for both ends are plain
+// Flags of a record, a bit a side.
+SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
 
 SUPPLE_SHARED_END
 
-// Of a quad's own net, the point in the middle of a side.
+// Where a point stands in a quad's own net, as a corner counts them: i along its first edge, j along its second. Both begin at 0,
+// one step before the corner.
+#define SUPPLE_EXACT_NET_PLACE(corner, i, j)                                                                                     \
+    ((corner) == 0u   ? kNetSide * (j) + (i)                                                                                     \
+     : (corner) == 1u ? kNetSide * (i) + 4u - (j)                                                                                \
+     : (corner) == 2u ? kNetSide * (4u - (j)) + 4u - (i)                                                                         \
+                      : kNetSide * (4u - (i)) + (j))
+// The point in the middle of a side.
 #define SUPPLE_EXACT_SIDE_MIDDLE(side) (0x0B110D07u >> 8u * (side)&255u)
 
 #endif

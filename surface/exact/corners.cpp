@@ -12,13 +12,9 @@ bool semiSharp(float sharpness) {
     return sharpness > 0.0f && !endless(sharpness);
 }
 
-/// Where a point of a corner's window stands in the net of a quad: number i along the corner's first edge, j along its
-/// second. Both begin at 0, one step before the corner.
 uint32_t netPlace(uint32_t corner, uint32_t i, uint32_t j) {
-    constexpr uint32_t kSide = shared::kNetSide, kLast = kSide - 1;
-    const uint32_t places[] = {kSide * j + i, kSide * i + kLast - j, kSide * (kLast - j) + kLast - i,
-                               kSide * (kLast - i) + j};
-    return places[corner];
+    using shared::kNetSide;
+    return SUPPLE_EXACT_NET_PLACE(corner, i, j);
 }
 
 } // namespace

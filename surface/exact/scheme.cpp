@@ -30,9 +30,10 @@ constexpr KindOfKernel kVertexKernels[] = {
     {Kernel::exactVertexMeshInPool, kOpen, "supple exact vertex of a step, creased"},
 };
 constexpr KindOfKernel kLimitKernel = {Kernel::exactChain, shared::kMakesLimits, "supple exact limits"};
+constexpr KindOfKernel kChainKernel = {Kernel::exactChain, shared::kMakesChains, "supple exact chains"};
 constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kMakesFirstLevel,
                                             "supple exact chains, first level"};
-constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kMakesLevel, "supple exact chains"};
+constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kMakesLevel, "supple exact chains, level"};
 constexpr uint32_t kMaxChainPoints = 0xFFFF;                  ///< 16-bit numbers
 constexpr uint32_t kFirstChainLevel = 2, kLastChainLevel = 6; ///< of 64 segments along an edge
 
@@ -55,7 +56,7 @@ public:
     Builder(const Isolation& isolation, const Recipe& recipe)
         : mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage), topology_(parent_.topology),
           corners_(isolation.parent), points_(isolation.parent), rate_(patchRate(recipe.rate)),
-          lastLevel_(lastLevelFor(rate_)), writer_(tables_.words) {}
+          lastLevel_(lastLevelFor(rate_)), wide_(recipe.wide), writer_(tables_.words) {}
 
     Result<Tables> build() {
         const Status fits = checkSizes();
@@ -136,7 +137,7 @@ private:
                          : PatchClass::irregular;
     }
 
-    /// Of the edge behind a corner, on level 1.
+    /// The sharpness of the edge behind a corner, on level 1.
     [[nodiscard]] float sideSharpness(uint32_t corner) const {
         return softened(parent_.edgeSharpness[topology_.cornerEdges[corner]], 1);
     }
@@ -386,12 +387,44 @@ private:
         }
         const auto count = static_cast<uint32_t>(vertices.size());
         tables_.constructions.push_back({Stage::assemble, kLimitKernel, {first, count}, limits, steps()});
+        writeChains(vertices, first);
         for (uint32_t level = kFirstChainLevel; level <= lastLevel_; ++level) {
             writeLevel(vertices, first, level);
         }
     }
 
-    /// Blocks of kBlockLanes lanes, of each fan's chains.
+    /// Whether a block makes all levels of the vertex's chain, in workgroup memory. On CPU devices barriers within a
+    /// workgroup cost more than dispatches.
+    [[nodiscard]] bool fitsInBlock(uint32_t v) const {
+        return wide_ && chainPoints(v) <= shared::kBlockPoints && mesh_.fragments[v].spokes() < shared::kBlockLanes;
+    }
+    /// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
+    void writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord) {
+        Construction work{Stage::assemble, kChainKernel, {writer_.element(), 0}, 0};
+        for (size_t i = 0; i < vertices.size();) {
+            const uint32_t v = vertices[i];
+            if (chainLevels(v) == 0 || !fitsInBlock(v)) {
+                ++i;
+                continue;
+            }
+            const size_t most = std::min(shared::kBlockPoints / chainPoints(v),
+                                         shared::kBlockLanes / (mesh_.fragments[v].spokes() + 1));
+            uint32_t count = 1;
+            while (count < most && i + count < vertices.size() && chainLevels(vertices[i + count]) > 0 &&
+                   fanOf(vertices[i + count]) == fanOf(v)) {
+                ++count;
+            }
+            writer_.put({fanTable(fanOf(v)).element, firstRecord + 2 * static_cast<uint32_t>(i), count, lastLevel_});
+            work.section.count += shared::kBlockLanes;
+            work.coefficients += count * chainPoints(v) * chainLevels(v);
+            i += count;
+        }
+        if (work.section.count > 0) {
+            tables_.constructions.push_back(work);
+        }
+    }
+
+    /// One level of the other chains: blocks of kBlockLanes lanes, of each fan's.
     void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level) {
         const bool isFirst = level == kFirstChainLevel;
         Construction work{Stage::assemble, isFirst ? kFirstLevelKernel : kLaterLevelKernel, {writer_.element(), 0}, 0};
@@ -408,7 +441,7 @@ private:
                    chainLevels(vertices[end]) == chainLevels(vertices[i])) {
                 ++end;
             }
-            if (chainLevels(vertices[i]) > 0) {
+            if (chainLevels(vertices[i]) > 0 && !fitsInBlock(vertices[i])) {
                 const auto count = static_cast<uint32_t>(end - i);
                 add(fanTable(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
                     count * (mesh_.fragments[vertices[i]].spokes() + 1));
@@ -492,6 +525,7 @@ private:
     StepPoints points_;
     uint32_t rate_;
     uint32_t lastLevel_;
+    bool wide_;
     Tables tables_;
     TableWriter writer_;
     std::vector<DraftPatch> patches_;

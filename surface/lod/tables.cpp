@@ -39,7 +39,7 @@ Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* n
     return borderOf(border);
 }
 
-/// Of an irregular quad. The point of level 1 on a side is that of no other edge.
+/// A side of an irregular quad that has two halves. No other edge has the point of level 1 in its middle.
 Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
     const uint32_t* net = record + size_t{4} * shared::kExactNetElement + 1;
     return {{net[SUPPLE_EXACT_SIDE_MIDDLE(side)], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};

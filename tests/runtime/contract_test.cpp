@@ -143,7 +143,11 @@ TEST(Contract, AMissingBarrierIsSeenByTheValidationLayer) {
         const std::unique_ptr<host::Device> device = wrappedDevice();
         ASSERT_NE(device, nullptr);
         {
-            Result<std::unique_ptr<host::Context>> context = host::Context::create(*device);
+            host::ContextOptions options;
+            // In the other mapping a kernel reads and writes the pool through one binding, and the layer misses what it
+            // reads.
+            options.mapping = SUPPLE_MAPPING_NARROW;
+            Result<std::unique_ptr<host::Context>> context = host::Context::create(*device, options);
             ASSERT_TRUE(context.ok());
             Character c = makeCharacter((*context)->handle());
             ASSERT_EQ(c.result, SUPPLE_OK);
@@ -384,6 +388,18 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     uint32_t count = 0;
     EXPECT_EQ(suppleGetTimings(context, nullptr, &count), SUPPLE_NOT_READY);
     EXPECT_TRUE((*created)->evaluate({&c.group, 1}).ok()) << "and it still works";
+}
+
+TEST(Contract, SkippedFramesCountAsInFlight) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
+    ASSERT_TRUE(created.ok());
+    SuppleContext context = (*created)->handle();
+    ASSERT_EQ(suppleBeginFrame(context, 1, 0), SUPPLE_OK);
+    EXPECT_EQ(suppleBeginFrame(context, 20, 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleBeginFrame(context, 20, 19), SUPPLE_OK) << "the last that was skipped is complete";
 }
 
 TEST(Contract, TheCageAloneNeedsNoScheme) {

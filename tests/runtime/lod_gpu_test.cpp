@@ -71,7 +71,8 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     for (const LodCase& c : kLodCases) {
         uint32_t characters = 0;
-        size_t edges = 0, samples = 0, triangles = 0, scaledFrames = 0;
+        Borders all;
+        size_t triangles = 0, scaledFrames = 0;
         std::set<uint32_t> capacities;
         // Four cameras on the repository's own; on others the second, which has a budget, and one of the rest in turn.
         constexpr uint32_t kRest[] = {0, 2, 3};
@@ -131,8 +132,6 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                     ASSERT_EQ(suppleSetCamera(context.handle(), view, &camera), SUPPLE_OK);
                     context.run(crowd.group());
                     const LodSurface surface = readLodSurface(crowd);
-                    const Sides sides = matchSides(surface);
-                    const Borders borders = bordersOf(surface, patches);
                     SCOPED_TRACE(name + ", " + c.name + ", frame " + std::to_string(frame));
                     SuppleViewStatistics statistics{};
                     statistics.structSize = sizeof(statistics);
@@ -140,17 +139,7 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                         scaledFrames += statistics.levelScales[0] < 1.0f ? 1 : 0;
                         EXPECT_EQ(statistics.shortfall, 0u);
                     }
-                    EXPECT_EQ(surface.patches.size(), patches.size());
-                    EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-                    EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-                    EXPECT_EQ(sides.looseEnds, 0u);
-                    if (borders.open == 0 && sides.unmatched != 0) {
-                        std::printf("%s: %zu sides without another\n", name.c_str(), sides.unmatched);
-                    }
-                    EXPECT_LE(sides.unmatched, borders.open);
-                    edges += borders.edges;
-                    samples += borders.samples;
-                    triangles += sides.triangles;
+                    triangles += expectClosed(surface, patches, all).triangles;
                     for (const LodSurface::Patch& patch : surface.patches) {
                         capacities.insert(patch.capacity);
                     }
@@ -160,8 +149,8 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
         }
         std::printf("%s: %u characters, %zu shared edges, %zu samples, %zu triangles, %zu capacities, %zu frames "
                     "scaled down\n",
-                    c.name, characters, edges, samples, triangles, capacities.size(), scaledFrames);
-        EXPECT_GT(edges, 0u);
+                    c.name, characters, all.edges, all.samples, triangles, capacities.size(), scaledFrames);
+        EXPECT_GT(all.edges, 0u);
         // All of them with the shared characters.
         EXPECT_GE(capacities.size(), 6u);
         EXPECT_GT(scaledFrames, 0u);
@@ -173,7 +162,8 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
     for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
         RandomLevels random(mapping);
         ASSERT_TRUE(random.valid());
-        size_t samples = 0, triangles = 0, groups = 0;
+        Borders all;
+        size_t triangles = 0, groups = 0;
         std::set<uint32_t> capacities;
         for (const LodCase& c : kLodCases) {
             for (const std::string& path : c.characters(mapping)) {
@@ -189,16 +179,8 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
                     continue; // the test above prints which cages a scheme refuses, and why
                 }
                 c.nameCorners(cage, drawn->patches);
-                const Sides sides = matchSides(drawn->surface);
-                const Borders borders = bordersOf(drawn->surface, drawn->patches);
                 SCOPED_TRACE(path + ", " + c.name);
-                EXPECT_EQ(drawn->surface.patches.size(), drawn->patches.size());
-                EXPECT_EQ(borders.different, 0u) << "of " << borders.samples;
-                EXPECT_EQ(borders.lengths, 0u) << "of " << borders.edges;
-                EXPECT_EQ(sides.looseEnds, 0u);
-                EXPECT_LE(sides.unmatched, borders.open);
-                samples += borders.samples;
-                triangles += sides.triangles;
+                triangles += expectClosed(drawn->surface, drawn->patches, all).triangles;
                 ++groups;
                 for (const LodSurface::Patch& patch : drawn->surface.patches) {
                     capacities.insert(patch.capacity);
@@ -206,7 +188,7 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
             }
         }
         std::printf("%s: %zu characters and schemes, %zu border samples, %zu triangles, %zu capacities\n",
-                    mappingName(mapping).c_str(), groups, samples, triangles, capacities.size());
+                    mappingName(mapping).c_str(), groups, all.samples, triangles, capacities.size());
         EXPECT_GE(groups, 4u);
         EXPECT_GE(capacities.size(), 8u); // the coarsest are rare: all of a patch must be at level 1
     }

@@ -187,6 +187,29 @@ TEST_F(MemoryUse, IsWhatTheCallbacksGaveToTheByte) {
     EXPECT_EQ(total(use()), own);
 }
 
+/// A frame that does not record a group may draw it.
+TEST_F(MemoryUse, OfAGroupStaysUntilItsLastDrawsAreComplete) {
+    SuppleAsset tube{};
+    ASSERT_EQ(createTube(context->handle(), tube), SUPPLE_OK);
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.asset = tube;
+    desc.capacity = 1;
+    SuppleGroup group{};
+    ASSERT_EQ(suppleCreateGroup(context->handle(), &desc, &group), SUPPLE_OK);
+    ASSERT_EQ(suppleBeginFrame(context->handle(), 101, 100), SUPPLE_OK);
+    ASSERT_TRUE(device->submitAndWait([&](VkCommandBuffer commands) {
+        EXPECT_EQ(context->record(commands, {&group, 1}), SUPPLE_OK);
+    }));
+    ASSERT_EQ(suppleBeginFrame(context->handle(), 102, 101), SUPPLE_OK); // draws it, and does not record it
+    const VkDeviceSize before = total(use());
+    ASSERT_EQ(suppleDestroyGroup(context->handle(), group), SUPPLE_OK);
+    ASSERT_EQ(suppleBeginFrame(context->handle(), 103, 101), SUPPLE_OK);
+    EXPECT_EQ(total(use()), before);
+    ASSERT_EQ(suppleBeginFrame(context->handle(), 104, 102), SUPPLE_OK);
+    EXPECT_LT(total(use()), before);
+}
+
 TEST_F(MemoryUse, PurposesAreThoseOfTheBuffers) {
     SuppleAsset tube{};
     ASSERT_EQ(createTube(context->handle(), tube), SUPPLE_OK);

@@ -145,7 +145,8 @@ TEST_P(Surfaces, DrawPartsAsGroupsOfOneSchemeDo) {
             SCOPED_TRACE("surface " + std::to_string(s));
             const SuppleSurfaceInfo surface = several.crowd->output(s).surface;
             EXPECT_EQ(surface.scheme, kPartSchemes[s]);
-            const std::vector<uint32_t> expected = s == 0 ? std::vector<uint32_t>{0, kPartCount - 1} : std::vector<uint32_t>{s};
+            const std::vector<uint32_t> expected =
+                s == 0 ? std::vector<uint32_t>{0, kPartCount - 1} : std::vector<uint32_t>{s};
             EXPECT_TRUE(std::ranges::equal(std::span(surface.parts, surface.partCount), expected));
             SuppleGroupDesc desc{};
             desc.scheme = kPartSchemes[s];

@@ -11,7 +11,7 @@
 
 namespace supple::test {
 
-/// Of a cage that must be accepted.
+/// The cage must be accepted.
 struct ExactQuads {
     explicit ExactQuads(const cage::Cage& cage) : isolation(isolationOf(cage)), corners(isolation.parent) {}
 

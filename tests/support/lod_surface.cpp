@@ -282,7 +282,7 @@ Borders bordersOf(const LodSurface& surface, const std::vector<surface::PatchInf
     return result;
 }
 
-void expectClosed(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches, Borders& all) {
+Sides expectClosed(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches, Borders& all) {
     const Sides sides = matchSides(surface);
     const Borders borders = bordersOf(surface, patches);
     EXPECT_EQ(surface.patches.size(), patches.size());
@@ -292,6 +292,7 @@ void expectClosed(const LodSurface& surface, const std::vector<surface::PatchInf
     EXPECT_LE(sides.unmatched, borders.open);
     all.samples += borders.samples;
     all.edges += borders.edges;
+    return sides;
 }
 
 } // namespace supple::test

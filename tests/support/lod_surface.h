@@ -55,6 +55,6 @@ struct Borders {
 /// `patches` in device order; corners may be any cage's, and unknown ones are left out.
 [[nodiscard]] Borders bordersOf(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches);
 /// Fails the test where two sides of an edge differ, or a surface has cracks. Adds edges and samples to `all`.
-void expectClosed(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches, Borders& all);
+Sides expectClosed(const LodSurface& surface, const std::vector<surface::PatchInfo>& patches, Borders& all);
 
 } // namespace supple::test

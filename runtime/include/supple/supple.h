@@ -30,8 +30,7 @@
  *   - Assets, groups, views and instances are checked in every call. A handle that is destroyed, or of another context,
  *     gives SUPPLE_ERROR_ARGUMENT, never a crash. SuppleContext is a pointer: do not use it once it is destroyed.
  *   - You may destroy them while frames in flight use them. suppleBeginFrame frees the memory when you tell it that the
- *     last frame that recorded them is complete. Supple does not know a frame that draws a group without recording it.
- *     Wait until such a frame is complete before you destroy, resize or reload the group.
+ *     frame in which they were destroyed is complete.
  *
  * Errors
  *   - Errors are negative results. The log callback gets the reason, with an id that is the same in all versions.
@@ -865,10 +864,10 @@ SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleIns
 /* ---------------------------------------------------------------------------------------------------- frame */
 
 /** Starts a frame. frame is the host's number for it: 1 or more, and larger in every call. All frames up
- * to and including completedFrame must have finished; 0 if none has. It must never fall, and must be below frame. A
- * cancelled frame counts as finished: pass its number only when all earlier frames have finished too.
- * frame - completedFrame must not exceed framesInFlight, so wait for the fence of frame - framesInFlight first. Numbers
- * that are skipped count in it. A frame lasts until the next suppleBeginFrame, or suppleCancelFrame. Frees what was
+ * to completedFrame, and this one too, have finished; it is 0 if none has. It must never fall, and must be below frame.
+ * A cancelled frame counts as finished: pass its number only when all earlier frames have finished too. frame -
+ * completedFrame must not exceed framesInFlight, so wait for the fence of frame - framesInFlight first. Numbers that
+ * are skipped count in it. A frame lasts until the next suppleBeginFrame, or suppleCancelFrame. Frees what was
  * destroyed and is no longer used, and reads finished timestamps. Never waits. If the call is refused, no frame is
  * open, and the earlier one cannot be cancelled any more. suppleRecord, suppleRecordUploads, suppleRecordWarmUp and
  * suppleCancelFrame are then refused until a call succeeds. The log names the refused frame. */
