@@ -173,8 +173,13 @@ private:
         }
         std::vector<uint32_t> curves; // elements
         for (size_t i = 0; i < order.size() && tables_.uvMode != cage::UvMode::all; ++i) {
+            const Side& side = edges_[order[i]].sides[edges_[order[i]].taken];
+            if (tables_.uvQuads) {
+                curves.push_back(uvElement(side.patch, 0));
+                continue;
+            }
             curves.push_back(writer.element());
-            writeUvCurves(edges_[order[i]].sides[edges_[order[i]].taken], writer);
+            writeUvCurves(side, writer);
         }
         mesh.attributes = {writer.element(), static_cast<uint32_t>(order.size())};
         for (size_t i = 0; i < order.size(); ++i) {
@@ -189,12 +194,18 @@ private:
         }
     }
 
+    /// The first table element of a patch's smooth texture coordinates.
+    [[nodiscard]] uint32_t uvElement(uint32_t patch, uint32_t set) const {
+        const PatchRange& range = rangeOf(tables_, patch);
+        const uint32_t each = tables_.uvQuads ? shared::kExactRecordElements : uvElements(range.patchClass);
+        return range.smoothUvs + each * (tables_.uvSets * (patch - range.firstPatch) + set);
+    }
+
     /// Of every UV set the cubic along a side and that of the derivative across, each with what the perturbation adds.
     void writeUvCurves(const Side& at, TableWriter& writer) const {
         const PatchRange& range = rangeOf(tables_, at.patch);
         for (uint32_t set = 0; set < tables_.uvSets; ++set) {
-            const uint32_t element =
-                range.smoothUvs + uvElements(range.patchClass) * (tables_.uvSets * (at.patch - range.firstPatch) + set);
+            const uint32_t element = uvElement(at.patch, set);
             const auto c = [&](uint32_t k) {
                 const uint32_t* words = &tables_.words[size_t{4} * element + size_t{2} * k];
                 return glm::vec2(std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]));

@@ -141,6 +141,7 @@ struct Tables {
     uint32_t uvSets = 1;
     cage::UvMode uvMode =
         cage::UvMode::all;   ///< all: texture coordinates are linear, and the tables have no smooth ones
+    bool uvQuads = false;    ///< smooth texture coordinates are quads of leaves, whatever the classes of patches
     bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
     uint32_t attributes = 0; ///< first element of the corner attributes, which come last
     bool attributeHalves = false; ///< a word holds two attribute numbers

@@ -119,6 +119,10 @@ struct AttributeKernel {
 };
 AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, bool levels) {
     const PatchClassRow& row = rowOf(patchClass);
+    if (tables.uvQuads) {
+        return {levels ? Kernel::evaluateAttributesLevelsQuads : Kernel::evaluateAttributesQuads,
+                static_cast<uint32_t>(row.domain)};
+    }
     if (tables.uvMode == cage::UvMode::all) {
         const Kernel atLevels =
             row.hasSectors() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
@@ -189,7 +193,8 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
 
 void addEdgeAttributes(ProgramBuilder& builder) {
     const MeshTables& mesh = builder.tables.mesh;
-    const gpu::Kernel kernel = builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
+    const Kernel which = builder.tables.uvQuads ? Kernel::evaluateAttributesQuads : Kernel::evaluateAttributes;
+    const gpu::Kernel kernel = builder.kernel(SetKind::attributes, which,
                                               {{kKindConstant, kEdgeDomain}, {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of edges");
     SurfacePush push = pushFor(builder, {mesh.attributes.table, mesh.attributes.count * builder.evaluation.rate});

@@ -13,7 +13,7 @@
 #include "shaders/evaluate/sectors.glsl"
 #include "shaders/lod/record.glsl"
 
-#if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES)
+#if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES) || defined(QUADS)
 #define SMOOTH
 #include "shaders/evaluate/smooth_uvs.glsl"
 #else
@@ -430,17 +430,27 @@ void storeOnEdge(uint id) {
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
     s = blended(1.0, s, t.y, atCorner(c, side));
     s = blended(1.0, s, t.x, atCorner(c, next));
+#ifdef QUADS
+    SmoothUv onSide = smoothOnSide(patchOfEdge.z, side, t);
+    s.uv = onSide.uv;
+    if (push.uvSets == 2u) s.more.xy = smoothOnSide(patchOfEdge.z + kSmoothElements, side, t).uv;
+    Slopes slopes = Slopes(onSide.a, onSide.b);
+#else
     if (patchOfEdge.z != 0u) {
         s.uv = curvePoint(patchOfEdge.z, t);
         if (push.uvSets == 2u) s.more.xy = curvePoint(patchOfEdge.z + kUvCurveElements, t);
     }
+#endif
     uint vertex = k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u;
     store(vertex, s);
     if (kDirections) {
         findSide(c, corners);
+#ifndef QUADS
         if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(SUPPLE_PM_SINGULAR_STEP, 1.0 - SUPPLE_PM_SINGULAR_STEP);
-        storeDirection(vertex, c, patchOfEdge.z != 0u ? curveSlopes(patchOfEdge.z, t, sectors)
-                                                      : slopesOnEdge(c, side, corners, sectors, t));
+        Slopes slopes = slopesOnEdge(c, side, corners, sectors, t);
+        if (patchOfEdge.z != 0u) slopes = curveSlopes(patchOfEdge.z, t, sectors);
+#endif
+        storeDirection(vertex, c, slopes);
     }
 }
 

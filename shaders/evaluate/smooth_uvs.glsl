@@ -4,6 +4,7 @@
 //   SECTORS   P_3, P_4 and P_5
 //   BLEND     the blending surface
 //   SAMPLES   Catmull-Clark and Loop: the samples of a rate themselves
+//   QUADS     exact patches: quads of leaves, all of the form of irregular ones
 // For each there are SmoothPatch, which a lane loads once, SmoothPlace, where a sample lies in it, and smoothAt().
 
 const bool kTangents = true;
@@ -182,4 +183,48 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     return SmoothUv(s.xy, vec2(0.0, s.z), vec2(0.0, s.w));
 }
 SmoothPlace placeAtRate(uint index) { return SmoothPlace(index); }
+#endif
+
+#ifdef QUADS
+#include "shaders/shared/exact.h"
+#include "shaders/surface/net.glsl"
+layout(constant_id = kKindConstant) const uint kDomain = kQuadDomain;
+
+const bool kSharp = true;
+struct PatchPlace {
+    uint record;
+};
+vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
+vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
+#include "shaders/exact/sample.glsl"
+
+const uint kSmoothElements = kExactRecordElements;
+struct SmoothPatch {
+    uint record;
+};
+struct SmoothPlace {
+    vec2 u, v;
+};
+SmoothPatch loadSmooth(uint first) { return SmoothPatch(first); }
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    vec3 position;
+    Frame frame;
+    irregularSample(PatchPlace(c.record), quadOf(c.record), at.u, at.v, position, frame);
+    return smoothUv(position, frame);
+}
+SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
+SmoothPlace placeAtRate(uint index) {
+    uvec3 at = gridSample(kDomain, push.rate, index);
+    return SmoothPlace(parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
+}
+// On a side, from where it begins, with its derivatives along it and inwards.
+SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
+    vec2 begin = vec2(0.0, 1.0);
+    vec2 u = side == 0u ? t : side == 1u ? begin.yx : side == 2u ? t.yx : begin;
+    vec2 v = side == 0u ? begin : side == 1u ? t : side == 2u ? begin.yx : t.yx;
+    SmoothUv s = smoothAt(loadSmooth(first), SmoothPlace(u, v));
+    if ((side & 1u) != 0u) s = SmoothUv(s.uv, s.b, -s.a);
+    if (side >= 2u) s = SmoothUv(s.uv, -s.a, -s.b);
+    return s;
+}
 #endif

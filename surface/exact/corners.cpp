@@ -20,7 +20,9 @@ uint32_t netPlace(uint32_t corner, uint32_t i, uint32_t j) {
 } // namespace
 
 VertexKind vertexKind(std::span<const float> spokes, bool open, float vertexSharpness) {
-    if (std::all_of(spokes.begin(), spokes.end(), endless)) {
+    // Two of them alone are one crease, as round a corner of a chart (cage::UvMode::none).
+    const bool corner = spokes.size() > 2 || endless(vertexSharpness);
+    if (corner && std::all_of(spokes.begin(), spokes.end(), endless)) {
         return VertexKind::plain;
     }
     if (vertexSharpness > 0.0f) {
@@ -104,12 +106,11 @@ uint32_t Corners::chainsOf(uint32_t face) const {
     return chainsFrom(face, firstCorner(face));
 }
 
-QuadNet Corners::netOf(uint32_t face, const StepPoints& points) const {
+QuadNet Corners::netOf(uint32_t face, uint32_t first, const StepPoints& points) const {
     const cage::Topology& topology = mesh_.topology;
     std::array<bool, std::tuple_size_v<QuadNet>> read{};
     QuadNet net{};
     net.fill(points.facePoint(face));
-    const uint32_t first = firstCorner(face);
     for (uint32_t c = 0; c < 4; ++c) {
         const uint32_t corner = cornerOf(face, first + c);
         net[netPlace(c, 1, 1)] = points.vertexAt(corner);

@@ -49,7 +49,8 @@ public:
     [[nodiscard]] uint32_t chainsOf(uint32_t face) const;
     /// What neither a leaf of level 1 nor the middle of a side reads, or what lies behind a border, is the quad's own
     /// middle.
-    [[nodiscard]] QuadNet netOf(uint32_t face, const StepPoints& points) const;
+    /// `first`: the corner of the face that is corner 0.
+    [[nodiscard]] QuadNet netOf(uint32_t face, uint32_t first, const StepPoints& points) const;
 
 private:
     [[nodiscard]] uint32_t cornerOf(uint32_t face, uint32_t i) const { return mesh_.cage.faceStarts[face] + i % 4; }

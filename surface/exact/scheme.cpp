@@ -5,7 +5,10 @@
 #include "surface/build.h"
 #include "surface/exact/arrangement.h"
 #include "surface/exact/corners.h"
+#include "surface/exact/fan_tables.h"
+#include "surface/exact/smooth_uvs.h"
 #include "surface/fans.h"
+#include "surface/smooth_uvs.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
@@ -34,8 +37,8 @@ constexpr KindOfKernel kChainKernel = {Kernel::exactChain, shared::kMakesChains,
 constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kMakesFirstLevel,
                                             "supple exact chains, first level"};
 constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kMakesLevel, "supple exact chains, level"};
-constexpr uint32_t kMaxChainPoints = 0xFFFF;                  ///< 16-bit numbers
-constexpr uint32_t kFirstChainLevel = 2, kLastChainLevel = 6; ///< of 64 segments along an edge
+constexpr uint32_t kMaxChainPoints = 0xFFFF; ///< 16-bit numbers
+constexpr uint32_t kLastChainLevel = 6;      ///< of 64 segments along an edge
 
 /// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {
@@ -53,10 +56,10 @@ FanWeights openWeights(uint32_t facets) {
 
 class Builder {
 public:
-    Builder(const Isolation& isolation, const Recipe& recipe)
-        : mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage), topology_(parent_.topology),
-          corners_(isolation.parent), points_(isolation.parent), rate_(patchRate(recipe.rate)),
-          lastLevel_(lastLevelFor(rate_)), wide_(recipe.wide), writer_(tables_.words) {}
+    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
+        : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
+          topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
+          rate_(patchRate(recipe.rate)), lastLevel_(lastLevelFor(rate_)), writer_(tables_.words), fans_(writer_) {}
 
     Result<Tables> build() {
         const Status fits = checkSizes();
@@ -87,6 +90,9 @@ public:
         }
         tables_.ring = ring.write();
         finishTables(cage_, patches_, writer_, tables_);
+        if (const Status smooth = writeSmoothUvs(); !smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -155,7 +161,7 @@ private:
             if (patch.info.patchClass == PatchClass::regular) {
                 continue;
             }
-            const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, points_));
+            const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, firstCorners_[patch.facet], points_));
             std::for_each(net.begin(), net.end(), need);
         }
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
@@ -284,33 +290,6 @@ private:
         }
     }
 
-    struct FanTable {
-        uint32_t element = 0, windows = 0;
-    };
-    const FanTable& fanTable(const Fan& fan) {
-        const auto [known, isNew] = fans_.try_emplace(fan);
-        if (isNew) {
-            known->second = writeFan(fan);
-        }
-        return known->second;
-    }
-    FanTable writeFan(const Fan& fan) {
-        const FanTable table{writer_.element(), writer_.element() + 2};
-        const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan.sectors);
-        writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
-        writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
-        constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
-        for (uint32_t h = 0; h < fan.sectors; ++h) {
-            std::array<uint32_t, size_t{8} * shared::kWindowElements> window{};
-            for (int32_t k = 1; k < kPoints; ++k) { // point 0 is read by the missing cell alone
-                const uint32_t index = pointIndex(fan, h, k % kSide - 1, k / kSide - 1);
-                window[static_cast<size_t>(k)] = index == subdivision::kNoPoint ? 0 : index; // its weight is 0
-            }
-            writer_.putHalves(window);
-        }
-        return table;
-    }
-
     [[nodiscard]] Stage meshStage() const { return steps() ? Stage::assemble : Stage::vertex; }
 
     /// The vertices of the mesh if it is not the cage, plain vertices, points of level 1.
@@ -371,7 +350,7 @@ private:
             for (uint32_t i = 0; i < netSize(v); ++i) {
                 writer_.put({firstLevelOne_ + levelOne_[mesh_.net[mesh_.fragments[v].firstNet + i]]});
             }
-            (void)fanTable(fanOf(v));
+            (void)fans_.of(fanOf(v));
         }
         uint32_t limits = 0; // coefficients
         const uint32_t first = writer_.element();
@@ -379,7 +358,7 @@ private:
             const uint32_t v = vertices[i];
             const ArrangementTable& arrangement = *vertexArrangements_[v];
             const uint32_t levels = chainLevels(v);
-            writer_.put({nets[i], fanTable(fanOf(v)).element, arrangement.element, v, chains_[v], normals_[v], 0u, 0u});
+            writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, v, chains_[v], normals_[v], 0u, 0u});
             limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
         }
         if (vertices.empty()) {
@@ -396,7 +375,8 @@ private:
     /// Whether a block makes all levels of the vertex's chain, in workgroup memory. On CPU devices barriers within a
     /// workgroup cost more than dispatches.
     [[nodiscard]] bool fitsInBlock(uint32_t v) const {
-        return wide_ && chainPoints(v) <= shared::kBlockPoints && mesh_.fragments[v].spokes() < shared::kBlockLanes;
+        return recipe_.wide && chainPoints(v) <= shared::kBlockPoints &&
+               mesh_.fragments[v].spokes() < shared::kBlockLanes;
     }
     /// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
     void writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord) {
@@ -414,7 +394,7 @@ private:
                    fanOf(vertices[i + count]) == fanOf(v)) {
                 ++count;
             }
-            writer_.put({fanTable(fanOf(v)).element, firstRecord + 2 * static_cast<uint32_t>(i), count, lastLevel_});
+            writer_.put({fans_.of(fanOf(v)).element, firstRecord + 2 * static_cast<uint32_t>(i), count, lastLevel_});
             work.section.count += shared::kBlockLanes;
             work.coefficients += count * chainPoints(v) * chainLevels(v);
             i += count;
@@ -443,7 +423,7 @@ private:
             }
             if (chainLevels(vertices[i]) > 0 && !fitsInBlock(vertices[i])) {
                 const auto count = static_cast<uint32_t>(end - i);
-                add(fanTable(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
+                add(fans_.of(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
                     count * (mesh_.fragments[vertices[i]].spokes() + 1));
                 work.coefficients += count * chainPoints(vertices[i]);
             }
@@ -501,7 +481,7 @@ private:
                 normals[i] = normals_[v] + vertexArrangements_[v]->runOfSector[sector];
             }
             if (chainLevels(v) > 0) {
-                windows[i] = fanTable(fanOf(v)).windows + shared::kWindowElements * sector;
+                windows[i] = fans_.of(fanOf(v)).windows + shared::kWindowElements * sector;
                 sizes[i] = chainPoints(v) | lastLevel_ << shared::kChainLevelShift;
             }
             const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
@@ -517,6 +497,41 @@ private:
         (void)writer_.element();
     }
 
+    Status writeSmoothUvs() {
+        const std::vector<const std::vector<glm::vec2>*> uvs = uvSetsOf(host_);
+        if (recipe_.uvMode == cage::UvMode::all || !recipe_.attributes || uvs.empty()) {
+            return success();
+        }
+        std::vector<std::string> notes; // known
+        const Result<RefinedMesh> begin = subdivision::beginSteps(host_, Subdivision::catmullClark, notes);
+        if (!begin) {
+            return begin.error();
+        }
+        std::vector<std::unique_ptr<UvQuads>> sets;
+        for (const std::vector<glm::vec2>* set : uvSetsOf(begin->cage)) {
+            Result<ChannelLevel> level = channelOfQuads(*begin, *set, recipe_.uvMode, steps());
+            if (!level) {
+                return level.error();
+            }
+            sets.push_back(std::make_unique<UvQuads>(std::move(*level), lastLevel_));
+            sets.back()->addFans(fans_);
+            sets.back()->writePoints(writer_);
+        }
+        tables_.uvMode = recipe_.uvMode;
+        tables_.uvQuads = true;
+        for (PatchRange& range : tables_.ranges) {
+            range.smoothUvs = writer_.element();
+            for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {
+                for (const std::unique_ptr<UvQuads>& set : sets) {
+                    set->writePatch(patches_[p], fans_, writer_);
+                }
+            }
+        }
+        return success();
+    }
+
+    const cage::Cage& host_;
+    const Recipe& recipe_;
     const subdivision::Mesh& mesh_;
     const RefinedMesh& parent_;
     const cage::Cage& cage_;
@@ -525,9 +540,9 @@ private:
     StepPoints points_;
     uint32_t rate_;
     uint32_t lastLevel_;
-    bool wide_;
     Tables tables_;
     TableWriter writer_;
+    FanTables fans_;
     std::vector<DraftPatch> patches_;
     std::vector<QuadNet> nets_; ///< of irregular quads, in the order of patches
     std::vector<uint32_t> levelOne_, needed_;
@@ -539,8 +554,7 @@ private:
     std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; kNone and 0 where there are none
     std::map<Arrangement, ArrangementTable> arrangements_;
     std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
-    std::map<Fan, FanTable> fans_;
-    std::vector<uint8_t> firstCorners_; ///< by face
+    std::vector<uint8_t> firstCorners_;                       ///< by face
 };
 
 } // namespace
@@ -550,7 +564,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!isolation) {
         return isolation.error();
     }
-    return Builder(*isolation, recipe).build();
+    return Builder(cage, *isolation, recipe).build();
 }
 
 } // namespace supple::surface::exact

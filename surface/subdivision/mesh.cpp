@@ -149,6 +149,16 @@ bool allQuads(const Cage& cage) {
     return true;
 }
 
+void isolate(RefinedMesh parent, Isolation& isolation) {
+    Mesh& mesh = isolation.mesh;
+    RefinedMesh isolated = refine(parent, mesh.subdivision);
+    FragmentBuilder(parent, mesh).run();
+    mesh.cage = std::move(isolated.cage);
+    mesh.sourceFaces = std::move(isolated.sourceFaces);
+    mesh.stencils.push_back(std::move(isolated.stencils));
+    isolation.parent = std::move(parent);
+}
+
 Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
     const bool loop = subdivision == Subdivision::loop;
     Isolation isolation;
@@ -167,13 +177,8 @@ Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
         mesh.stencils.push_back(std::move(quads.stencils));
         *parent = std::move(quads);
     }
-    RefinedMesh isolated = refine(*parent, subdivision);
-    FragmentBuilder(*parent, mesh).run();
     mesh.hostVertices = cage.vertexCount();
-    mesh.cage = std::move(isolated.cage);
-    mesh.sourceFaces = std::move(isolated.sourceFaces);
-    mesh.stencils.push_back(std::move(isolated.stencils));
-    isolation.parent = std::move(*parent);
+    isolate(std::move(*parent), isolation);
     return isolation;
 }
 
@@ -181,6 +186,13 @@ Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
 
 Result<RefinedMesh> beginSteps(const Cage& cage, Subdivision subdivision, std::vector<std::string>& notes) {
     return beginRefinement(cage, subdivision == Subdivision::loop ? &kTriangles : nullptr, notes);
+}
+
+Isolation isolateLevel(RefinedMesh parent, Subdivision subdivision) {
+    Isolation isolation;
+    isolation.mesh.subdivision = subdivision;
+    isolate(std::move(parent), isolation);
+    return isolation;
 }
 
 Result<Isolation> isolateCage(const Cage& cage, Subdivision subdivision) {

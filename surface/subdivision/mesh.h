@@ -71,6 +71,8 @@ struct Isolation {
     RefinedMesh parent;
     Mesh mesh;
 };
+/// One step of a mesh whose vertices and faces the fragments are made of. `mesh` has no host vertices and no notes.
+[[nodiscard]] Isolation isolateLevel(RefinedMesh parent, Subdivision subdivision);
 /// As buildMesh().
 [[nodiscard]] Result<Isolation> isolateCage(const cage::Cage& cage, Subdivision subdivision);
 

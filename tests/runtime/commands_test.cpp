@@ -10,6 +10,7 @@
 #include "tests/support/wrapped_vulkan.h"
 
 #include <cstring>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <optional>
@@ -234,6 +235,69 @@ TEST_P(Commanded, SplitDispatchesWriteTheSameBits) {
     std::printf("%zu bytes are the same\n", bytes);
     EXPECT_GT(bytes, 1000000u);
     (void)wrappedVulkan();
+}
+
+/// Runs `body` in a secondary command buffer that a primary one executes.
+void runAsSecondary(host::Device& device, const std::function<void(VkCommandBuffer)>& body) {
+    VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    poolInfo.queueFamilyIndex = device.queueFamily();
+    VkCommandPool pool = VK_NULL_HANDLE;
+    ASSERT_EQ(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), VK_SUCCESS);
+    VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = pool;
+    info.level = VK_COMMAND_BUFFER_LEVEL_SECONDARY;
+    info.commandBufferCount = 1;
+    VkCommandBuffer secondary = VK_NULL_HANDLE;
+    ASSERT_EQ(vkAllocateCommandBuffers(device.handle(), &info, &secondary), VK_SUCCESS);
+    const VkCommandBufferInheritanceInfo inherited{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    begin.pInheritanceInfo = &inherited;
+    EXPECT_EQ(vkBeginCommandBuffer(secondary, &begin), VK_SUCCESS);
+    body(secondary);
+    EXPECT_EQ(vkEndCommandBuffer(secondary), VK_SUCCESS);
+    const Status ran =
+        device.submitAndWait([&](VkCommandBuffer commands) { vkCmdExecuteCommands(commands, 1, &secondary); });
+    EXPECT_TRUE(ran.ok());
+    vkDestroyCommandPool(device.handle(), pool, nullptr);
+}
+
+TEST_P(Commanded, SecondaryCommandBuffersDo) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    CrowdContext context(*device, GetParam());
+    ASSERT_TRUE(context.valid());
+    SuppleGroupDesc desc{};
+    desc.asset = context.createAsset(torus(8, 5));
+    desc.capacity = 2;
+    desc.rate = 4;
+    desc.flags = SUPPLE_GROUP_MOTION;
+    Crowd crowd(context, desc);
+    ASSERT_TRUE(crowd.valid());
+    const SuppleInstance instance = crowd.spawn();
+    crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+    crowd.run();
+    const SuppleBufferRange vertices = crowd.output().streams.vertices;
+    const std::vector<std::byte> expected = crowd.read(vertices);
+    crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), glm::vec3(1.0f, 0.0f, 0.0f)));
+    crowd.run();
+    EXPECT_TRUE(crowd.read(vertices) != expected) << "or the comparison says nothing";
+
+    crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+    context.beginFrame();
+    const SuppleGroup group = crowd.group();
+    runAsSecondary(*device, [&](VkCommandBuffer commands) {
+        SuppleRecordDesc record{};
+        record.structSize = sizeof(record);
+        record.flags = SUPPLE_RECORD_TIMINGS;
+        record.groups = &group;
+        record.groupCount = 1;
+        record.after = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+        record.before = record.after;
+        EXPECT_EQ(suppleRecord(context.handle(), commands, &record), SUPPLE_OK);
+    });
+    EXPECT_TRUE(crowd.read(vertices) == expected);
 }
 
 } // namespace

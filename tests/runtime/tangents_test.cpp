@@ -279,8 +279,7 @@ TEST_P(TangentsOf, CostNothingElse) {
             SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
             desc.vertexFormat = format;
             // Which tangents would choose.
-            desc.uvInterpolation =
-                c.scheme == SUPPLE_SCHEME_EXACT ? SUPPLE_UV_LINEAR_ALL : SUPPLE_UV_LINEAR_CORNERS_PLUS1;
+            desc.uvInterpolation = SUPPLE_UV_LINEAR_CORNERS_PLUS1;
             desc.flags |= SUPPLE_GROUP_MOTION;
             Crowd with(own, desc);
             desc.flags &= ~uint32_t{SUPPLE_GROUP_TANGENTS};

@@ -41,16 +41,18 @@
  *     still works.
  *
  * Threads
- *   - Only one thread at a time may use a context and everything made from it. There are two exceptions, both between
- *     one suppleBeginFrame and the next. Functions that set and query instances may run at the same time for different
- *     groups. Once suppleRecordUploads has been recorded for the frame, suppleRecord may run at the same time for
- *     different groups, into different command buffers. The log callback must then expect calls from these threads at
- *     the same time. A group and those that follow it (SuppleGroupDesc.instancesOf) are one group in this.
+ *   - Only one thread at a time may use a context and everything made from it. There is one exception, between one
+ *     suppleBeginFrame and the next: two threads may work on different groups at the same time. Each may create,
+ *     destroy, set and query instances. Once suppleRecordUploads has been recorded for the frame, each may also record
+ *     its groups (suppleRecord), into a command buffer of its own. The log callback must then expect calls from these
+ *     threads at the same time. In this, groups of one view are one group, and so are a group and those that follow it
+ *     (SuppleGroupDesc.instancesOf). Everything else, such as creating assets, groups and views, is for one thread.
  *   - Different contexts are independent.
  *
  * Recording
- *   - Recording creates no Vulkan object and allocates no memory. It changes the compute pipeline, descriptor set 0
- *     and the push constants of the given command buffer. The host must bind its own compute state again afterwards.
+ *   - Recording creates no Vulkan object and allocates no memory. It changes the compute pipeline, compute descriptor
+ *     set 0 and the push constants of the given command buffer. The host must set all of these again before it uses
+ *     them, also push constants of its graphics pipelines. Secondary command buffers will do, outside render passes.
  */
 #ifndef SUPPLE_H
 #define SUPPLE_H
@@ -183,7 +185,8 @@ typedef struct SuppleRequirements {
     char reason[256]; /**< the first thing that is lacking; empty if nothing is */
     /** Set it before the call: VkApplicationInfo::apiVersion of the VkInstance, or 0 if you do not know. It must be 1.3
      * or more: Vulkan gives an older instance no functions of 1.3, whatever the device has. A VkInstance does not tell
-     * its version, so with 0 an instance of 1.0 is refused here, but one of 1.1 or 1.2 only by suppleCreateContext. */
+     * its version. So with 0 an instance of 1.0 is refused here, but one of 1.1 or 1.2 only by suppleCreateContext, if
+     * the driver follows that rule. */
     uint32_t instanceVersion;
 } SuppleRequirements;
 
@@ -212,8 +215,8 @@ typedef enum SuppleContextFlags {
 
 /** A piece of the host's device memory. */
 typedef struct SuppleMemory {
-    VkDeviceMemory memory;
-    VkDeviceSize offset;
+    VkDeviceMemory memory; /**< not null. Other pieces of the host may lie in it */
+    VkDeviceSize offset;   /**< a multiple of requirements->alignment */
     void* mapped; /**< if HOST_VISIBLE was required: where the byte at offset is mapped until `free`. Else ignored */
     void* allocation; /**< the host's own, for example a VmaAllocation */
 } SuppleMemory;
@@ -223,7 +226,9 @@ typedef struct SuppleMemory {
  * while recording. */
 typedef struct SuppleMemoryCallbacks {
     /** Fills out and returns VK_SUCCESS, or returns an error of vkAllocateMemory. The memory is for buffers (linear).
-     * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`.
+     * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`. What
+     * is mapped is required to be HOST_COHERENT. If `memory` or a needed `mapped` is null in spite of VK_SUCCESS, the
+     * call that asked for memory fails with SUPPLE_ERROR_ARGUMENT, and `free` is called.
      *
      * name is for the host's statistics, and valid during the call. It is the name of the first buffer in the memory,
      * and says whose memory it is:
@@ -416,8 +421,7 @@ typedef enum SuppleScheme {
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
-     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. It has no smooth texture
-     * coordinates yet. */
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_EXACT = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
@@ -661,8 +665,9 @@ typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_Q
 
 /** Who deforms the instances. With PALETTE_BUFFER and CAGE_BUFFER, the host writes a buffer on the device, for all
  * visible instances, in any frame it likes. `before` of suppleRecord must then name these writes, and the host's next
- * writes must wait for the compute shaders that suppleRecord recorded. Functions that set poses or transforms give
- * SUPPLE_ERROR_ARGUMENT if the group's source does not go with them. */
+ * writes must wait for the compute shaders that suppleRecord recorded. With SUPPLE_CONTEXT_ASYNC_COMPUTE queueFamily
+ * must own that buffer while they run: it is in none of the barriers of suppleRecord and suppleGetAcquireBarriers.
+ * Functions that set poses or transforms give SUPPLE_ERROR_ARGUMENT if the group's source does not go with them. */
 typedef enum SupplePoseSource {
     SUPPLE_POSES_SET = 0,            /**< suppleSetClipPose, suppleSetPose, suppleSetMatrixPose, ... */
     SUPPLE_POSES_PALETTE_BUFFER = 1, /**< SuppleGroupInfo.poses: joint palettes and morph weights */
@@ -750,7 +755,7 @@ typedef struct SuppleGroupDesc {
      * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
      * cages and user data. */
     SuppleGroup instancesOf;
-    /** It holds for both UV sets. POLYGONS and EXACT have LINEAR_ALL alone. BLEND has all modes but
+    /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone. BLEND has all modes but
      * LINEAR_BOUNDARIES. If `scheme` names one of them with another mode, suppleCreateGroup fails. */
     SuppleUvInterpolation uvInterpolation;
 } SuppleGroupDesc;
@@ -784,7 +789,8 @@ SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, 
 
 /* ---------------------------------------------------------------------------------------------------- instances */
 
-/** Creates an instance in the bind pose, visible, with the identity transform. It gets the lowest free slot.
+/** Creates an instance in the bind pose, visible, with the identity transform. It gets the lowest free slot. (With
+ * PALETTE_BUFFER and CAGE_BUFFER, Supple writes neither pose nor transform: the slot holds what the host writes there.)
  * SUPPLE_ERROR_LIMIT: the group is full. If frames in flight still read what a destroyed instance left in the slot, it
  * is not overwritten before they end. */
 SUPPLE_API SuppleResult suppleCreateInstance(SuppleContext context, SuppleGroup group, SuppleInstance* out);
@@ -801,7 +807,8 @@ SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance i
  * Groups that have a SuppleGridOutput need the device feature drawIndirectFirstInstance, because the draws of a part
  * that only some instances show have a firstInstance in their indirect commands: see SuppleGroupInfo.instances.
  * Errors: part is not below SuppleAssetInfo.partCount; the device lacks that feature (SUPPLE_ERROR_UNSUPPORTED). If the
- * device has it, but SuppleContextDesc.enabledFeatures does not tell, the host must have enabled it. */
+ * device has it, but no VkPhysicalDeviceFeatures2 in SuppleContextDesc.enabledFeatures tells whether the host enabled
+ * it, the call succeeds, and the host must have enabled it. */
 SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstance instance, uint32_t part,
                                              uint32_t visible);
 /** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
@@ -822,14 +829,14 @@ SUPPLE_API SuppleResult suppleSetUserData(SuppleContext context, SuppleInstance 
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 
-/** A pose stays until it is set again. Instances may be created, posed and placed outside frames too, also before the
- * first suppleBeginFrame. With SUPPLE_POSES_SET, every frame uploads the poses of the slots in use. A pose
- * is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets add 4 bytes each, and the
- * sum is rounded up to 16. If instances were created, destroyed, hidden, shown or teleported, this frame and the next
- * one also upload 8 bytes per visible instance and 20 per draw range. With SUPPLE_CONTEXT_ASYNC_COMPUTE every frame
- * uploads these. For every part that some instance hides, 4 more bytes per visible instance that shows it are uploaded
- * with these; in a view, the masks of all slots in use instead: 8 bytes each, and 4 more per 32 parts beyond the first
- * 32. */
+/** A pose stays until it is set again. Instances may be created, posed and placed at any time, also before the first
+ * suppleBeginFrame and after suppleCancelFrame. With SUPPLE_POSES_SET, every frame uploads the poses of the slots in
+ * use. A pose is 48 bytes per joint; with dual quaternions, 64 bytes per joint and 48 more. Morph targets add 4 bytes
+ * each, and the sum is rounded up to 16. If instances were created, destroyed, hidden, shown or teleported, this frame
+ * and the next one also upload 8 bytes per visible instance and 20 per draw range. With SUPPLE_CONTEXT_ASYNC_COMPUTE
+ * every frame uploads these. For every part that some instance hides, 4 more bytes per visible instance that shows it
+ * are uploaded with these; in a view, the masks of all slots in use instead: 8 bytes each, and 4 more per 32 parts
+ * beyond the first 32. */
 
 /** Poses an instance from a clip at a time in seconds, clamped to the clip. clip may also be SUPPLE_BIND_POSE or
  * SUPPLE_REST_POSE, without a time. What the clip does not animate is as in the rest pose. suppleSetPose in
@@ -849,11 +856,11 @@ SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInsta
  * the instance's transform times the joint's matrix in model space, without the inverse bind matrix, so it maps from
  * the joint's space to that of the surface vertices. It is what the next suppleRecord shows if nothing is set before
  * it: call this after the frame's suppleSetPose, suppleSetTransform, suppleSetTime, ..., also of hidden instances and
- * outside frames. In the bind pose the joint's matrix is SuppleJointInfo.bindTransform. After suppleSetMatrixPose it is
- * the host's own, bit for bit if the instance's transform is the identity.
- * Cost: with SUPPLE_POSES_SET a matrix product, because the pose is kept. With SUPPLE_POSES_PLAYBACK the CPU computes
- * the whole pose that the device will compute, which costs what suppleSetPose costs with the same layers. The pose is
- * kept for more joints of the same instance, until another instance of the group is asked for, or suppleSetPlayback,
+ * before the first frame. In the bind pose the joint's matrix is SuppleJointInfo.bindTransform. After
+ * suppleSetMatrixPose it is the host's own, bit for bit if the instance's transform is the identity. Cost: with
+ * SUPPLE_POSES_SET a matrix product, because the pose is kept. With SUPPLE_POSES_PLAYBACK the CPU computes the whole
+ * pose that the device will compute, which costs what suppleSetPose costs with the same layers. The pose is kept for
+ * more joints of the same instance, until another instance of the group is asked for, or suppleSetPlayback,
  * suppleSetTime or suppleSetMask changes it. So ask for all joints of one instance before the next one. Crowds read
  * SuppleGroupInfo.poses on the device instead (docs/integration.md).
  * Errors: joint is not below jointCount; the host fills the group's poses (PALETTE_BUFFER, CAGE_BUFFER), so only the
@@ -931,10 +938,14 @@ typedef struct SuppleRecordDesc {
     uint32_t flags; /**< SuppleRecordFlags */
     const SuppleGroup* groups;
     uint32_t groupCount;
-    SuppleSyncScope before; /**< earlier uses of the outputs (for example the last frame's vertex shader reads), and the
-                             * host's writes into them (SupplePoseSource) */
-    SuppleSyncScope after;  /**< the next uses of the outputs: all of Supple's writes become visible to them. If
-                             * stages = 0, no barrier follows the passes, and the host must place its own */
+    /** Earlier uses of the outputs on this queue (for example the last frame's vertex shader reads), and the host's
+     * writes into them (SupplePoseSource). Supple waits for its own earlier passes in any case. So it may be all zero
+     * if there is no such use, or if a semaphore or a barrier of the host's has waited for it. */
+    SuppleSyncScope before;
+    /** The next uses of the outputs on this queue: all of Supple's writes become visible to them. If stages = 0, no
+     * barrier follows the passes, and the host must place its own. With SUPPLE_CONTEXT_ASYNC_COMPUTE neither scope has
+     * the draws of drawQueueFamily: semaphores and suppleGetAcquireBarriers are for these. */
+    SuppleSyncScope after;
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
@@ -957,13 +968,16 @@ SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSync
  * draws, whose submission must wait for the compute submission's semaphore. Call it after the frame's suppleRecord and
  * before the next suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But the compute
  * submission must wait, by a semaphore, for the draws of earlier frames.
- * use: the stages and accesses of the draws. Fills out and count. Errors: the context lacks that flag. */
+ * Ask for all groups that are drawn in one call. An acquire must match one release, so record each barrier once. A view
+ * comes with the first of its groups in every call: if you ask in several, leave out what you have recorded.
+ * use: the stages and accesses of the draws. Fills out and count. Errors: the context lacks that flag; a group was not
+ * recorded in this frame; a stale handle. */
 SUPPLE_API SuppleResult suppleGetAcquireBarriers(SuppleContext context, const SuppleGroup* groups, uint32_t groupCount,
                                                  SuppleSyncScope use, VkBufferMemoryBarrier2* out, uint32_t* count);
 
 /* ---------------------------------------------------------------------------------------------------- output */
 
-/** Where a group's buffers are. These calls may be made outside frames. suppleRecord fills the buffers. They are valid
+/** Where a group's buffers are. These calls may be made at any time. suppleRecord fills the buffers. They are valid
  * until the group is destroyed or made anew (suppleSetCapacity, suppleReloadAsset). Data per instance lies at the
  * instance's slot. Buffers have usage STORAGE, UNIFORM_TEXEL and TRANSFER_SRC, and, as needed, TRANSFER_DST, VERTEX,
  * INDEX or INDIRECT. Offsets and sizes are in bytes. */
@@ -1077,8 +1091,8 @@ typedef struct SuppleVertexStreams {
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point. The bitangent is w * cross(normal, tangent), for a normal map whose
      * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
-     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM, BLEND and POLYGONS have
-     * them. suppleCreateGroup fails if a scheme that you named has none. */
+     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM, EXACT, BLEND and POLYGONS
+     * have them. suppleCreateGroup fails if a scheme that you named has none. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
@@ -1137,15 +1151,16 @@ typedef struct SuppleRate {
 } SuppleRate;
 
 /** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. All of it, arrays too, is valid until the group is
- * destroyed or made anew, or its rate is set. */
+ * destroyed or made anew, or its rate is set.
+ *
+ * Sample s of patch p, in the draw range r, is the surface vertex slot * verticesPerInstance + r.firstVertex +
+ * (p - r.firstPatch) * r.samplesPerPatch + s. Of a MESH, index i is the vertex slot * verticesPerInstance + i. */
 typedef struct SuppleGridOutput {
     uint32_t structSize;
     uint32_t rate;        /**< segments along a patch edge: R of SuppleDomain. RATES: the largest */
     uint32_t vertexCount; /**< surface vertices per instance. RATES: the sum over all rates, coarser ones first */
-    uint32_t verticesPerInstance; /**< >= vertexCount: slot k starts at vertex k * this */
-    /** Vertex of (slot, patch, sample), with the patch's range r: slot * verticesPerInstance + r.firstVertex +
-     * (patch - r.firstPatch) * r.samplesPerPatch + sample. MESH: slot * verticesPerInstance + index. */
-    const SuppleDrawRange* drawRanges;
+    uint32_t verticesPerInstance;      /**< >= vertexCount: slot k starts at vertex k * this */
+    const SuppleDrawRange* drawRanges; /**< drawRangeCount entries. RATES: those of all rates, see SuppleRate */
     uint32_t drawRangeCount;
     uint32_t rateCount;        /**< entries of rates */
     const SuppleRate* rates;   /**< in rising order. RATES: each instance is drawn at one. Else there is one entry */

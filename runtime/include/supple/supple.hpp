@@ -70,7 +70,7 @@ private:
     T* data_;
 };
 
-/// What a function gives that fills an array, into `out` (resized; its capacity is reused).
+/// Calls a function that fills an array. `out` gets the entries: it is resized, and its memory is used again.
 template <class T, class Fill>
 [[nodiscard]] SuppleResult filled(std::vector<T>& out, Fill&& fill) {
     uint32_t count = 0;
@@ -299,9 +299,9 @@ public:
         return suppleSetCapacity(context_, handle_, capacity);
     }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
-    /// By which its instances play (SUPPLE_POSES_PLAYBACK).
+    /// Sets the time by which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
-    /// Empty: none of the kind.
+    /// An empty span: the mask has no values of that kind.
     [[nodiscard]] SuppleResult setMask(uint32_t mask, Span<const float> joints, Span<const float> morphs = {}) const {
         SuppleMaskDesc desc = sized<SuppleMaskDesc>();
         desc.mask = mask;
@@ -402,14 +402,14 @@ public:
     [[nodiscard]] SuppleResult setPose(const SupplePoseDesc& pose) const {
         return suppleSetPose(context_, handle_, &pose);
     }
-    /// Crossfades and plain layers without root motion.
+    /// For crossfades and plain layers without root motion.
     [[nodiscard]] SuppleResult setPose(Span<const SuppleClipLayer> layers) const {
         SupplePoseDesc pose = sized<SupplePoseDesc>();
         pose.layers = layers.data();
         pose.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPose(context_, handle_, &pose);
     }
-    /// From now on, on the device (SUPPLE_POSES_PLAYBACK).
+    /// Sets what the device plays from now on (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setPlayback(const SupplePlaybackDesc& playback) const {
         return suppleSetPlayback(context_, handle_, &playback);
     }
@@ -420,7 +420,7 @@ public:
         playback.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPlayback(context_, handle_, &playback);
     }
-    /// Empty: the poses' own again.
+    /// An empty span: the weights are those of the poses again.
     [[nodiscard]] SuppleResult setMorphWeights(Span<const float> weights) const {
         return suppleSetMorphWeights(context_, handle_, weights.empty() ? nullptr : weights.data(),
                                      static_cast<uint32_t>(weights.size()));

@@ -184,11 +184,14 @@ typedef struct SupplePlaybackDesc {
  * The array is read during the call. The device then computes poses from the group's time alone. In a frame in which
  * no playback and no new origin is set, none is uploaded, and the CPU's work is the same for any number of instances.
  * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
- * for rounding (docs/playback.md). */
+ * for rounding (docs/playback.md).
+ * Errors: the group has another pose source; too many layers; a clip, joint, mode or flag that does not exist; a mask
+ * that was not set; a weight, speed, fade or time out of range or not finite; TRAVEL without rootMotion. */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
- * rise or fall by any amount within SUPPLE_MAX_TIME. */
+ * rise or fall by any amount within SUPPLE_MAX_TIME. Errors: the group has another pose source; the time is beyond
+ * plus or minus SUPPLE_MAX_TIME or not finite. */
 SUPPLE_API SuppleResult suppleSetTime(SuppleContext context, SuppleGroup group, double seconds);
 
 /** A mask for the layers of a group's instances. */
@@ -201,7 +204,8 @@ typedef struct SuppleMaskDesc {
     uint32_t morphMaskCount;
 } SuppleMaskDesc;
 /** Sets one of the masks of a group with SUPPLE_POSES_PLAYBACK. Set a mask before a layer names it. If you set it
- * again, the layers that name it use the new values. */
+ * again, the layers that name it use the new values. Errors: the group has another pose source; no such mask; both
+ * pointers are null; a count is not the asset's; a value is outside of 0..1. */
 SUPPLE_API SuppleResult suppleSetMask(SuppleContext context, SuppleGroup group, const SuppleMaskDesc* mask);
 
 #ifdef __cplusplus

@@ -51,7 +51,7 @@ typedef struct SuppleViewDesc {
      * A run of patches is the patches of a group that have one class (SupplePatchClass), one material and one window of
      * instances. A window is as many instances as the device can bind of every buffer. Each run reserves 192 vertices
      * of padding. A view has room for 256 runs. suppleCreateGroup fails if no vertices or no runs would remain.
-     * CATMULL_CLARK and LOOP take no runs, but a view has at most 256 groups of these. */
+     * CATMULL_CLARK, LOOP and POLYGONS take no runs, but a view has at most 256 groups of these. */
     uint32_t maxVertices;
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** 0..1, by priority (suppleSetPriority). Over budget, levels are multiplied by factor^elasticity: 1 scales fully,
@@ -60,7 +60,8 @@ typedef struct SuppleViewDesc {
     float elasticities[SUPPLE_PRIORITY_COUNT];
 } SuppleViewDesc;
 
-/** Creates a view without groups. */
+/** Creates a view without groups. Errors: unknown flags, or flags without the one that they go with; maxVertices below
+ * 1024 or more than the device can bind (the log names the most); an elasticity outside of 0..1; memory. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
 /** The handle is dead at once. The view's groups keep what they need. They are drawn and culled as before, from the
  * camera that was set last. The depth pyramid is dropped: from the next suppleRecord on it hides nothing. */
@@ -105,7 +106,8 @@ typedef struct SuppleCameraDesc {
 
 /** Sets a view's camera, from the next suppleRecord on, until it is set again. A view needs a camera before its groups
  * are recorded. Draw shadows and mirrors with the vertices that the main camera chose: with levels of its own, a
- * shadow pass would make the surface shadow itself. */
+ * shadow pass would make the surface shadow itself. Errors: unknown flags; a value is not finite; pixelsPerUnit is not
+ * above 0; another length is negative; direction is zero where it is used. */
 SUPPLE_API SuppleResult suppleSetCamera(SuppleContext context, SuppleView view, const SuppleCameraDesc* camera);
 
 /* ---------------------------------------------------------------------------------------------------- occlusion */
@@ -143,7 +145,9 @@ typedef struct SuppleDepthPyramidDesc {
  * into it (or the host's own barrier covers them: suppleGetRecordScopes), and the next writes must wait for compute
  * shaders. queueFamily must own the image while it is read, also with SUPPLE_CONTEXT_ASYNC_COMPUTE: use concurrent
  * sharing or transfer the ownership. The image and its image view must live until all frames that were recorded with
- * them are complete, even if you set another pyramid. Before you destroy them, set another pyramid, or null. */
+ * them are complete, even if you set another pyramid. Before you destroy them, set another pyramid, or null.
+ * Errors: the view lacks SUPPLE_VIEW_OCCLUSION; unknown flags; imageView is null; another layout; a size or a number of
+ * mip levels that no image of the device has; viewProjection is not finite. */
 SUPPLE_API SuppleResult suppleSetDepthPyramid(SuppleContext context, SuppleView view,
                                               const SuppleDepthPyramidDesc* pyramid);
 

@@ -1,0 +1,32 @@
+// Tables of fans (shaders/shared/exact.h): what chains of all vertices with one fan have in common. Private to exact/.
+#pragma once
+
+#include "surface/subdivision/pattern.h"
+#include "surface/table_writer.h"
+
+#include <map>
+
+namespace supple::surface::exact {
+
+inline constexpr uint32_t kFirstChainLevel = 2;
+
+class FanTables {
+public:
+    /// Writes into `writer`, which must outlive this.
+    explicit FanTables(TableWriter& writer) : writer_(writer) {}
+
+    struct Table {
+        uint32_t element = 0;
+        uint32_t windows = 0; ///< element of those of sector 0; kWindowElements each
+    };
+    /// Written when it is asked for first.
+    [[nodiscard]] const Table& of(const subdivision::Fan& fan);
+
+private:
+    [[nodiscard]] Table write(const subdivision::Fan& fan);
+
+    TableWriter& writer_;
+    std::map<subdivision::Fan, Table> tables_;
+};
+
+} // namespace supple::surface::exact
