@@ -27,7 +27,7 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
     // As Catmull-Clark.
-    {SchemeId::exact, "exact", &exact::build, RateRule::one, "an even number of", true, kAllUvModes, true,
+    {SchemeId::exact, "exact", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.001f; }},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
@@ -74,6 +74,7 @@ uint32_t Scheme::tableRate(uint32_t rate, bool lod) const {
     case RateRule::doubling:
         return std::bit_ceil(rate);
     case RateRule::one:
+    case RateRule::upTo:
         return lod ? 0 : rate;
     case RateRule::none:
         return 1;

@@ -15,6 +15,7 @@ namespace supple::surface {
 enum class RateRule : uint32_t {
     any,      ///< all rates
     one,      ///< one rate. It is even if the scheme subdivides the cage first
+    upTo,     ///< as `one`, and all below it
     doubling, ///< one rate, which is a power of two
     none      ///< there is nothing to tessellate: the rate is 1, whatever a group asks for
 };

@@ -15,8 +15,15 @@ public:
 
 private:
     void layOutDraws();
-    /// The tables serve all rates.
-    [[nodiscard]] bool anyRate() const { return tables().rate == 0; }
+    /// The tables serve all rates up to the one that the group begins with.
+    [[nodiscard]] bool canChange() const {
+        return tables().rate == 0 || surface::schemeOf(scheme_->recipe.scheme).rates == surface::RateRule::upTo;
+    }
+    /// Segments along a patch edge, from those along an edge of the cage.
+    [[nodiscard]] uint32_t patchRate(uint32_t rate) const {
+        const uint32_t patches = 1u << tables().isolationSteps;
+        return (rate + patches - 1) / patches;
+    }
 
     uint32_t maxRate_ = 0;
     GridDraws grids_; ///< of rates 1.., or of the one rate
@@ -34,7 +41,7 @@ Status FixedRate::begin() {
         return status;
     }
     // The grids of every rate that may be set.
-    for (uint32_t rate = anyRate() ? 1 : maxRate_; rate <= maxRate_; ++rate) {
+    for (uint32_t rate = canChange() ? 1 : maxRate_; rate <= maxRate_; ++rate) {
         grids_.addRate(tables(), rate);
     }
     indexData_ = grids_.takeIndices();
@@ -45,24 +52,24 @@ Status FixedRate::begin() {
 void FixedRate::layOutDraws() {
     std::vector<SuppleDrawRange> draws;
     uint32_t firstVertex = 0;
-    grids_.append(tables(), anyRate() ? evaluation_.rate - 1 : 0, firstVertex, draws);
+    grids_.append(tables(), canChange() ? evaluation_.rate - 1 : 0, firstVertex, draws);
     setDraws(std::move(draws));
 }
 
 Status FixedRate::canSetRate(uint32_t rate) const {
     const std::string& name = desc_.asset->character.name;
-    if (!anyRate() && rate != askedRate_) {
+    if (!canChange() && rate != askedRate_) {
         return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeOf(scheme_->recipe.scheme).name +
                                               " are made for rate " + std::to_string(askedRate_) + " alone"};
     }
-    return anyRate() ? checkRate(rate, maxRate_) : success();
+    return canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
 }
 
 Status FixedRate::setRate(uint32_t rate) {
-    if (!anyRate() || rate == evaluation_.rate) {
+    if (!canChange() || patchRate(rate) == evaluation_.rate) {
         return success(); // the attributes stand
     }
-    evaluation_.rate = rate;
+    evaluation_.rate = patchRate(rate);
     vertexCount_ = static_cast<uint32_t>(evaluation_.layOut(tables()));
     attributes_.renew(wanted_.has(Stream::attributes));
     layOutDraws();

@@ -1,6 +1,8 @@
 // Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
 // share.
+#include "tests/support/crowd.h"
 #include "tests/support/exact_quads.h"
+#include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
@@ -155,6 +157,36 @@ TEST(ExactMappings, GiveTheSamePositionBits) {
     }
     bits.print("positions in both mappings");
     EXPECT_EQ(bits.different, 0u);
+}
+
+// After a step of subdivision a patch has half of the segments along an edge of the cage.
+TEST_P(ExactOnGpu, LowerRatesAreThoseOfGroupsOfTheirOwn) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    CrowdContext own(*device, GetParam());
+    ASSERT_TRUE(own.valid());
+    const SuppleAsset asset = own.createAsset(perturbed(withCutQuads(biped(), 0.4, 5), 0.05f, 3));
+    const auto descOf = [&](uint32_t rate) {
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = SUPPLE_SCHEME_EXACT;
+        desc.rate = rate;
+        return desc;
+    };
+    const auto bits = [](Crowd& crowd) {
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+        crowd.run();
+        return crowd.positions(0);
+    };
+    for (const uint32_t rate : {1u, 3u, 4u, 7u}) {
+        Crowd lowered(own, descOf(12)), alone(own, descOf(rate));
+        ASSERT_TRUE(lowered.valid() && alone.valid());
+        lowered.setRate(rate);
+        EXPECT_EQ(lowered.output().grid.rate, (rate + 1) / 2);
+        EXPECT_EQ(differences(bits(lowered), bits(alone)), 0u) << rate;
+    }
 }
 
 } // namespace

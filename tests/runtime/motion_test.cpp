@@ -281,7 +281,7 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
     const ValidationGuard guard;
     constexpr uint32_t kMax = 5;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
             MotionCase c{"", scheme, kMax, mapping, scheme == SUPPLE_SCHEME_PM ? SUPPLE_VERTEX_16 : SUPPLE_VERTEX_24};
             CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
@@ -290,7 +290,7 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
             const SuppleInstance instances[] = {crowd.spawn(), crowd.spawn()};
             uint32_t frame = 0;
             for (const uint32_t rate : {kMax, 2u, 1u, 4u, kMax, kMax}) {
-                SCOPED_TRACE(mappingName(mapping) + (scheme == SUPPLE_SCHEME_PM ? " P_m" : " p-rep") + " at rate " +
+                SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme) + " at rate " +
                              std::to_string(rate) + ", frame " + std::to_string(frame));
                 crowd.setRate(rate);
                 for (const SuppleInstance& instance : instances) {
@@ -346,10 +346,10 @@ TEST_F(MotionFrames, RefusedRatesLeaveEverythingAsItWas) {
         EXPECT_EQ(differences(crowd.previous(0), past), 0u);
         EXPECT_EQ(differences(crowd.positions(0), evaluated(c, 1, 0)), 0u);
     };
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
         const MotionCase c{"any rate", scheme, 3, SUPPLE_MAPPING_NARROW};
         refused(c, 0);
-        refused(c, 4);
+        refused(c, scheme == SUPPLE_SCHEME_EXACT ? 5 : 4); // it rounds 3 up to 4
         refused(c, 0xFFFFFFFFu);
     }
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {

@@ -782,9 +782,10 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
- * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND, EXACT or POLYGONS, or with
- * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. Groups with levels
- * take none. If one surface of the group cannot change it, none does; only POLYGONS beside other schemes has no say. */
+ * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
+ * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. EXACT rounds it as
+ * it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change it, none does;
+ * only POLYGONS beside other schemes has no say. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
