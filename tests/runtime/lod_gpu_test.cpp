@@ -23,15 +23,17 @@ struct LodCase {
     SuppleScheme scheme;
     SuppleCreaseMode creases = SUPPLE_CREASES_CUT;
 
-    /// The repository's own; of the others all in the narrow mapping, every third in the wide one. The blending
-    /// surface, which takes longest, on the repository's own; tests/runtime/lod_blend_test.cpp has more.
+    /// The repository's own; of the others all in the narrow mapping, every third in the wide one and with exact
+    /// patches. The blending surface, which takes longest, on the repository's own. lod_exact_test.cpp and
+    /// lod_blend_test.cpp have more.
     [[nodiscard]] std::vector<std::string> characters(SuppleMapping mapping) const {
         if (scheme == SUPPLE_SCHEME_BLEND) {
             return filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
         }
         std::vector<std::string> all = allCharacters(), sampled;
         for (size_t i = 0; i < all.size(); ++i) {
-            if (mapping == SUPPLE_MAPPING_NARROW || i % 3 == 0 || isOwn(all[i])) {
+            const bool every = mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_EXACT;
+            if (every || i % 3 == 0 || isOwn(all[i])) {
                 sampled.push_back(all[i]);
             }
         }
