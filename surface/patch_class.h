@@ -67,7 +67,7 @@ struct PatchClassRow {
     bool ownNarrow = false, ownWide = false; ///< by mapping: a pipeline of its own for a rate pays
     uint32_t netElements = 0;                ///< bicubic patches: what one takes of a workgroup's memory in the wide
                                              ///< mapping, where a lane takes a row of its samples. Of others a lane
-                                             ///< takes a sample
+                                             ///< takes a sample, or see hasQuarters()
     [[nodiscard]] constexpr bool isBicubic() const { return netElements > 0; }
     /// Exact Catmull-Clark: in the wide mapping a lane takes a quarter at a rate.
     [[nodiscard]] constexpr bool hasQuarters() const { return borders == Borders::halves; }

@@ -23,6 +23,19 @@ std::vector<float> spokeSharpness(const RefinedMesh& mesh, uint32_t vertex) {
     return sharpness;
 }
 
+std::vector<glm::dvec2> refinedValues(const Stencils& stencils, const std::vector<glm::dvec2>& values) {
+    std::vector<glm::dvec2> points;
+    points.reserve(stencils.rows());
+    for (uint32_t row = 0; row < stencils.rows(); ++row) {
+        glm::dvec2 sum(0.0);
+        for (uint32_t i = stencils.starts[row]; i < stencils.starts[row + 1]; ++i) {
+            sum += stencils.weights[i] * values[stencils.vertices[i]];
+        }
+        points.push_back(sum);
+    }
+    return points;
+}
+
 ChannelLevel firstChannelLevel(const RefinedMesh& cage, UvChannel channel) {
     ChannelLevel level;
     level.values = std::move(channel.values);
@@ -44,15 +57,7 @@ ChannelLevel firstChannelLevel(const RefinedMesh& cage, UvChannel channel) {
 
 Status refineChannel(ChannelLevel& level, Subdivision subdivision, cage::UvMode mode) {
     RefinedMesh child = refine(level.mesh, subdivision);
-    std::vector<glm::dvec2> values;
-    values.reserve(child.stencils.rows());
-    for (uint32_t row = 0; row < child.stencils.rows(); ++row) {
-        glm::dvec2 sum(0.0);
-        for (uint32_t i = child.stencils.starts[row]; i < child.stencils.starts[row + 1]; ++i) {
-            sum += child.stencils.weights[i] * level.values[child.stencils.vertices[i]];
-        }
-        values.push_back(sum);
-    }
+    std::vector<glm::dvec2> values = refinedValues(child.stencils, level.values);
     for (uint32_t v = 0; v < level.companions.size(); ++v) {
         if (level.companions[v] != kNone) {
             const double share = cornerShare(level.mesh, level.companions[v]);

@@ -25,6 +25,9 @@ struct ChannelLevel {
 /// One step. Faces get the order of refine().
 [[nodiscard]] Status refineChannel(ChannelLevel& level, Subdivision subdivision, cage::UvMode mode);
 
+/// The values of a step, of those of the level before; companions are not looked at.
+[[nodiscard]] std::vector<glm::dvec2> refinedValues(const Stencils& stencils, const std::vector<glm::dvec2>& values);
+
 /// The sharpness of a vertex's spokes.
 [[nodiscard]] std::vector<float> spokeSharpness(const RefinedMesh& mesh, uint32_t vertex);
 

@@ -195,7 +195,6 @@ struct PatchPlace {
     uint record;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
-vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
 #include "shaders/exact/sample.glsl"
 
 const uint kSmoothElements = kExactRecordElements;
@@ -217,14 +216,11 @@ SmoothPlace placeAtRate(uint index) {
     uvec3 at = gridSample(kDomain, push.rate, index);
     return SmoothPlace(parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
 }
-// On a side, from where it begins, with its derivatives along it and inwards.
+// On a side, with its derivatives along it and inwards.
 SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
-    vec2 begin = vec2(0.0, 1.0);
-    vec2 u = side == 0u ? t : side == 1u ? begin.yx : side == 2u ? t.yx : begin;
-    vec2 v = side == 0u ? begin : side == 1u ? t : side == 2u ? begin.yx : t.yx;
-    SmoothUv s = smoothAt(loadSmooth(first), SmoothPlace(u, v));
-    if ((side & 1u) != 0u) s = SmoothUv(s.uv, s.b, -s.a);
-    if (side >= 2u) s = SmoothUv(s.uv, -s.a, -s.b);
-    return s;
+    vec3 position;
+    Frame frame;
+    sampleOnSide(PatchPlace(first), side, t, position, frame);
+    return smoothUv(position, frame);
 }
 #endif

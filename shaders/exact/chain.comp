@@ -80,8 +80,8 @@ uint pointIndex(uint h, uint a, uint b) {
 struct SpokePoints {
     vec3 onSpoke[3], inside[3][3];
 };
-// Of the 3 x 4 points round them, with the masks (1, 1) / 2 and (1, 6, 1) / 8 along either direction. On a sharp spoke the second
-// mask is left out.
+// They are sums of the 3 x 4 points round them, with the masks (1, 1) / 2 and (1, 6, 1) / 8 along either direction. On a sharp
+// spoke the second mask is left out.
 SpokePoints spokePoints(uint h, float sharpness) {
     bool beyond = h == fan.x; // the last spoke of an open fan has no sector
     uint before = h == 0u ? fan.x - 1u : h - 1u;

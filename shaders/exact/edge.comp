@@ -55,7 +55,7 @@ Net turnedNet(const PatchPlace at, uint side) {
     Net net;
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
         uint place = SUPPLE_EXACT_NET_PLACE(side, k % kNetSide, k / kNetSide);
-        net.p[k] = poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + place));
+        net.p[k] = ownPoint(at, place);
     }
     return net;
 }
@@ -78,7 +78,6 @@ void main() {
     if (hasChain(q.quad, 1u)) storeQuarter(at, q.quad, end, false, true);
 }
 #else
-vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
 #include "shaders/exact/sample.glsl"
 
 void main() {
@@ -88,15 +87,9 @@ void main() {
     uint record = push.table + edge * kEdgeElements;
     PatchPlace at = placeOf(instanceSlot(entry), record, tableElement(record + 2u));
     if (k == 0u && !at.begins) return;
-    uint side = tableElement(record).y;
-    vec2 pair = parameterPair(k, rate, push.pairs), begin = vec2(0.0, 1.0);
-    vec2 u = side == 0u ? pair : side == 1u ? begin.yx : side == 2u ? pair.yx : begin;
-    vec2 v = side == 0u ? begin : side == 1u ? pair : side == 2u ? begin.yx : pair.yx;
     vec3 position;
     Frame f;
-    irregularSample(at, quadOf(at.record), u, v, position, f);
-    if ((side & 1u) != 0u) f = Frame(f.dv, -f.du, f.normal);
-    if (side >= 2u) f = Frame(-f.du, -f.dv, f.normal);
+    sampleOnSide(at, tableElement(record).y, parameterPair(k, rate, push.pairs), position, f);
     uint to = k == 0u ? at.corner : at.along + k - 1u;
     storeSurfaceVertex(at.first + to, to, position, f);
 }

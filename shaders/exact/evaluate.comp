@@ -63,10 +63,11 @@ shared vec4 localPoints[kMaxPatchesPerGroup * kParts];
 uint localPlace; // of the lane's patch
 
 vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
+#define LOCAL_NET
 #include "shaders/exact/sample.glsl"
 
 void loadPart(uint to, const PatchPlace at, uint k) {
-    localPoints[to] = vec4(poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)), 0.0);
+    localPoints[to] = vec4(ownPoint(at, k), 0.0);
 }
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {

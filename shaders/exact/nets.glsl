@@ -239,12 +239,11 @@ Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
 }
 #ifdef WIDE
 vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
-    uint own = 4u * (at.record + kExactNetElement) + 1u;
     float share = besideLine(sharpnessOf(quad, side, 1u));
     vec3 e[3];
     [[unroll]] for (uint i = 0u; i < 3u; ++i) {
         vec3 p[3];
-        [[unroll]] for (uint j = 0u; j < 3u; ++j) p[j] = poolPoint(at, tableWord(own + SUPPLE_EXACT_NET_PLACE(side, i + 1u, j)));
+        [[unroll]] for (uint j = 0u; j < 3u; ++j) p[j] = ownPoint(at, SUPPLE_EXACT_NET_PLACE(side, i + 1u, j));
         e[i] = onLine(p[1], p[0], p[2], share);
     }
     return middleOfLine(e[0], e[1], e[2]);

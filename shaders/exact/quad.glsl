@@ -16,6 +16,8 @@ IrregularQuad quadOf(uint record) {
                          uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x,
                          tableElement(record + kExactNormalElement));
 }
+// Point k of the quad's own net.
+vec3 ownPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
     if (!kSharp) return 0.0;
     vec4 s = quad.sharpness;

@@ -1,6 +1,10 @@
-// A single sample of an irregular quad (docs/exact.md). Before the include, beside what quad.glsl needs:
-//   vec3 netPoint(const PatchPlace at, uint k)        point k of the quad's own net
+// A single sample of an irregular quad (docs/exact.md). Before the include, what quad.glsl needs; with LOCAL_NET also
+//   vec3 netPoint(const PatchPlace at, uint k)        ownPoint(), from workgroup memory
 #include "shaders/exact/quad.glsl"
+
+#ifndef LOCAL_NET
+vec3 netPoint(const PatchPlace at, uint k) { return ownPoint(at, k); }
+#endif
 
 // Where a net's points come from.
 struct NetSource {
@@ -124,4 +128,14 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
     } else if (onU || onV) {
         position = sidePoint(at, quad, onV ? (up ? 2u : 0u) : (right ? 1u : 3u), onV ? u : v);
     }
+}
+
+// The sample of a side at t, from where the side begins. The frame is turned so that the side comes first, then inwards.
+void sampleOnSide(const PatchPlace at, uint side, vec2 t, out vec3 position, out Frame f) {
+    vec2 begin = vec2(0.0, 1.0);
+    vec2 u = side == 0u ? t : side == 1u ? begin.yx : side == 2u ? t.yx : begin;
+    vec2 v = side == 0u ? begin : side == 1u ? t : side == 2u ? begin.yx : t.yx;
+    irregularSample(at, quadOf(at.record), u, v, position, f);
+    if ((side & 1u) != 0u) f = Frame(f.dv, -f.du, f.normal);
+    if (side >= 2u) f = Frame(-f.du, -f.dv, f.normal);
 }

@@ -75,7 +75,6 @@ struct PatchPlace {
     uint record, base;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
-vec3 netPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
 #include "shaders/exact/sample.glsl"
 
 EdgeCurve curveOf(uint base, uint edge) {

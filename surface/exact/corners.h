@@ -47,9 +47,8 @@ public:
     [[nodiscard]] uint8_t firstCorner(uint32_t face) const;
     /// A bit per corner, from the first on, that has a chain.
     [[nodiscard]] uint32_t chainsOf(uint32_t face) const;
-    /// What neither a leaf of level 1 nor the middle of a side reads, or what lies behind a border, is the quad's own
-    /// middle.
-    /// `first`: the corner of the face that is corner 0.
+    /// `first`: the corner of the face that is corner 0. What neither a leaf of level 1 nor the middle of a side reads,
+    /// or what lies behind a border, is the quad's own middle.
     [[nodiscard]] QuadNet netOf(uint32_t face, uint32_t first, const StepPoints& points) const;
 
 private:

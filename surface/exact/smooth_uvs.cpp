@@ -59,7 +59,7 @@ private:
         for (int32_t j = 0; j < 4; ++j) {
             Row p{};
             for (int32_t i = 0; i < 3; ++i) {
-                // Of the last spoke its own points count alone, because it is sharp.
+                // The last spoke is sharp, so only its own points count.
                 p[static_cast<size_t>(i)] = !beyond ? at(h, i, j - 1) : j == 1 ? at(h - 1, 0, i) : glm::dvec2(0.0);
             }
             rows[static_cast<size_t>(j)] = halved(p);
@@ -103,19 +103,6 @@ subdivision::Isolation isolated(ChannelLevel& level) {
     return subdivision::isolateLevel(std::move(level.mesh), Subdivision::catmullClark);
 }
 
-std::vector<glm::dvec2> refined(const Stencils& stencils, const std::vector<glm::dvec2>& values) {
-    std::vector<glm::dvec2> points;
-    points.reserve(stencils.rows());
-    for (uint32_t row = 0; row < stencils.rows(); ++row) {
-        glm::dvec2 sum(0.0);
-        for (uint32_t i = stencils.starts[row]; i < stencils.starts[row + 1]; ++i) {
-            sum += stencils.weights[i] * values[stencils.vertices[i]];
-        }
-        points.push_back(sum);
-    }
-    return points;
-}
-
 } // namespace
 
 Result<ChannelLevel> channelOfQuads(const RefinedMesh& cage, const std::vector<glm::vec2>& uvs, cage::UvMode mode,
@@ -145,7 +132,7 @@ Result<ChannelLevel> channelOfQuads(const RefinedMesh& cage, const std::vector<g
 }
 
 UvQuads::UvQuads(ChannelLevel level, uint32_t lastLevel)
-    : isolation_(isolated(level)), points_(refined(isolation_.mesh.stencils.back(), level.values)),
+    : isolation_(isolated(level)), points_(refinedValues(isolation_.mesh.stencils.back(), level.values)),
       corners_(isolation_.parent), steps_(isolation_.parent), lastLevel_(lastLevel) {}
 
 Fan UvQuads::fanOf(uint32_t vertex) const {
