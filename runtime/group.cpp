@@ -19,18 +19,18 @@ static_assert(SUPPLE_DOMAIN_QUAD == kQuadDomain && SUPPLE_DOMAIN_POLAR == kPolar
               SUPPLE_DOMAIN_TRIANGLE == kTriangleDomain && SUPPLE_DOMAIN_PENTAGON == kPentagonDomain);
 static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED == kPerturbedPatch &&
               SUPPLE_PATCH_POLAR == kPolarPatch && SUPPLE_PATCH_P3 == kP3Patch && SUPPLE_PATCH_P4 == kP4Patch &&
-              SUPPLE_PATCH_P5 == kP5Patch && SUPPLE_PATCH_CATMULL_CLARK == kCatmullClarkPatch &&
+              SUPPLE_PATCH_P5 == kP5Patch && SUPPLE_PATCH_FRAGMENT == kFragmentPatch &&
               SUPPLE_PATCH_LOOP == kLoopPatch && SUPPLE_PATCH_BLEND == kBlendPatch &&
               SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch && SUPPLE_PATCH_TRIANGLE == kTrianglePatch &&
               SUPPLE_PATCH_IRREGULAR == kIrregularPatch && SUPPLE_PATCH_IRREGULAR_SHARP == kIrregularSharpPatch &&
               SUPPLE_PATCH_CREASED == kCreasedPatch);
 static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_PM == static_cast<int>(SchemeId::pm) &&
-              SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark) &&
+              SUPPLE_SCHEME_FRAGMENTS == static_cast<int>(SchemeId::fragments) &&
               SUPPLE_SCHEME_LOOP == static_cast<int>(SchemeId::loop) &&
               SUPPLE_SCHEME_BLEND == static_cast<int>(SchemeId::blend) &&
               SUPPLE_SCHEME_POLYGONS == static_cast<int>(SchemeId::polygons) &&
-              SUPPLE_SCHEME_EXACT == static_cast<int>(SchemeId::exact));
+              SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark));
 static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
 static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
 

@@ -21,8 +21,8 @@ namespace pm {
 } // namespace pm
 
 namespace subdivision {
-/// Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its fragment:
-/// "vertex 7 has 260 faces: ...".
+/// Fragments of Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its
+/// fragment: "vertex 7 has 260 faces: ...".
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 } // namespace subdivision
 

@@ -87,14 +87,15 @@ std::vector<Counts> count(const cage::Character& character, const cage::Topology
 
 SchemeChoice choose(const Counts& counts) {
     if (counts.known && !counts.mostlyTriangles()) {
-        return {SchemeId::pm, "its polygons are known"};
+        return {SchemeId::catmullClark, "its polygons are known"};
     }
     if (counts.hard > 0 && static_cast<double>(counts.hard) >= kHardShare * static_cast<double>(counts.bent)) {
         const auto percent = std::lround(100.0 * static_cast<double>(counts.hard) / static_cast<double>(counts.bent));
         return {SchemeId::polygons, std::to_string(percent) + " % of the edges where it bends are hard"};
     }
     if (!counts.mostlyTriangles()) {
-        return {SchemeId::pm, counts.paired ? "its triangles pair into quads" : "most of its polygons are known"};
+        return {SchemeId::catmullClark,
+                counts.paired ? "its triangles pair into quads" : "most of its polygons are known"};
     }
     return {SchemeId::loop,
             counts.polygons > 0 ? "most of its faces are smooth triangles" : "its triangles are smooth"};

@@ -10,14 +10,14 @@
 namespace supple::surface {
 
 struct SchemeChoice {
-    SchemeId scheme = SchemeId::pm;
+    SchemeId scheme = SchemeId::catmullClark;
     std::string reason; ///< "its polygons are known": follows the part's name
 };
 
 /// The scheme that `auto` takes for each part of the character, and why. The first rule that fits decides:
-///  - the faces are polygons that the file, or the host, has drawn: P_m;
+///  - the faces are polygons that the file, or the host, has drawn: Catmull-Clark;
 ///  - hard edges everywhere: polygons. It takes normals to say so (Cage::cornerNormals);
-///  - quads that triangles were paired into: P_m;
+///  - quads that triangles were paired into: Catmull-Clark;
 ///  - else triangles: Loop.
 /// Triangles and larger faces mixed count as triangles if these are more than half of the surface, counted in
 /// triangles. Parts that share cage vertices, which have been sewn, count as one part. A cage that is no manifold is

@@ -43,7 +43,7 @@ enum class PatchClass : uint32_t {
     p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
     p4 = shared::kP4Patch,
     p5 = shared::kP5Patch,
-    catmullClark = shared::kCatmullClarkPatch, ///< subdivision: a face of the isolated level
+    fragment = shared::kFragmentPatch, ///< subdivision: a face of the isolated level
     loop = shared::kLoopPatch,
     blend = shared::kBlendPatch,           ///< blending surface: smooth all over
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
@@ -88,7 +88,7 @@ inline constexpr PatchClassRow kPatchClasses[] = {
      Kernel::pmPatch, lod::Form::quadRings},
     {"p5", Domain::pentagon, 31, SUPPLE_PM_RECORD_ELEMENTS(5u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,
      Kernel::pmPatch, lod::Form::pentagonRings},
-    {"catmull-clark", Domain::quad},
+    {"fragment", Domain::quad},
     {"loop", Domain::triangle},
     {"blend", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count, lod::Form::quad,
      Borders::charts},

@@ -47,7 +47,7 @@ struct Options {
 } // namespace blend
 
 /// Values of SuppleScheme.
-enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5, polygons = 6, exact = 7 };
+enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5, polygons = 6, fragments = 7 };
 
 struct Recipe {
     SchemeId scheme = SchemeId::pm;

@@ -20,15 +20,14 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.04f; }}, // 0.0276, at valence 59
     {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin},
     // Points of the limit are means of the cage's.
-    {SchemeId::catmullClark, "Catmull-Clark", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes,
-     false, [](const cage::Cage&) { return 0.001f; }},
+    {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
+     [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
-    // As Catmull-Clark.
-    {SchemeId::exact, "exact", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes, true,
-     [](const cage::Cage&) { return 0.001f; }},
+    {SchemeId::catmullClark, "Catmull-Clark", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes,
+     true, [](const cage::Cage&) { return 0.001f; }},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }},

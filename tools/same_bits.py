@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SCHEMES = ["auto", "prep", "pm", "catmull-clark", "loop", "blend", "exact", "polygons", "cage"]
+SCHEMES = ["auto", "prep", "pm", "fragments", "loop", "blend", "catmull-clark", "polygons", "cage"]
 RATES = [3, 8]
 MAPPINGS = ["narrow", "wide"]
 SUFFIXES = {".glb", ".gltf", ".obj"}

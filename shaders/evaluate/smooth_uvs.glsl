@@ -166,7 +166,7 @@ SmoothPlace placeAtRate(uint index) {
 #endif
 
 #ifdef SAMPLES
-layout(constant_id = kKindConstant) const uint kClass = kCatmullClarkPatch;
+layout(constant_id = kKindConstant) const uint kClass = kFragmentPatch;
 const uint kDomain = kClass == kLoopPatch ? kTriangleDomain : kQuadDomain;
 
 #define kSmoothElements push.samples

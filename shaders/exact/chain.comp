@@ -1,4 +1,4 @@
-// Limit points, normals and chains of vertices that are not plain (docs/exact.md). Limits: one invocation a vertex and instance.
+// Limit points, normals and chains of vertices that are not plain (docs/catmull_clark.md). Limits: one invocation a vertex and instance.
 // Chains: one a spoke or centre and instance. Narrow mapping: of one level. Wide mapping: they go from level to level in
 // workgroup memory, unless a vertex has many faces.
 #version 460

@@ -1,4 +1,4 @@
-// Evaluates irregular quads of exact Catmull-Clark patches (docs/exact.md): every sample is that of a leaf.
+// Evaluates irregular quads of exact Catmull-Clark patches (docs/catmull_clark.md): every sample is that of a leaf.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

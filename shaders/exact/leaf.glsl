@@ -1,4 +1,4 @@
-// A leaf of an irregular quad: uniform bicubic B-splines, where creases are other weights (docs/exact.md, (1) and (2)).
+// A leaf of an irregular quad: uniform bicubic B-splines, where creases are other weights (docs/catmull_clark.md, (1) and (2)).
 //
 // Leaves come as the cells of nets. A net has 5 x 5 points and 2 x 2 cells, and a cell has 4 x 4 of the points. The four cells of a
 // quad's own net, points of level 1, are its quarters. Three cells of a chain's net are the leaves of a level; the fourth, next
@@ -19,7 +19,8 @@ vec2 sharpWeight(float sharpness, float x) {
     precise float n = floor(sharpness), f = sharpness - n, scale = powerOfTwo(n);
     precise float a = max(0.0, 1.0 - x * scale), b = max(0.0, 1.0 - x * (2.0 * scale));
     precise float value = ((1.0 - f) * (a * a * a) + 0.5 * f * (b * b * b)) / (6.0 * scale);
-    return vec2(value, -0.5 * ((1.0 - f) * (a * a) + f * (b * b)));
+    precise float slope = -0.5 * ((1.0 - f) * (a * a) + f * (b * b));
+    return vec2(value, slope);
 }
 
 // (2), at x of 0..1; the crease lies at 0.
@@ -41,8 +42,9 @@ LeafWeights leafWeights(float x, float sharpness) {
 }
 // Along one parameter of a quad's own net: in the second cell from the far end, where a crease of its own may lie.
 LeafWeights quadWeights(bool second, vec2 pair, float low, float high) {
-    if (!second) return leafWeights(2.0 * pair.x, low);
-    LeafWeights back = leafWeights(2.0 * pair.y, high);
+    precise float begin = 2.0 * pair.x, end = 2.0 * pair.y;
+    if (!second) return leafWeights(begin, low);
+    LeafWeights back = leafWeights(end, high);
     return LeafWeights(back.w.wzyx, -back.d.wzyx);
 }
 // Along one parameter of a chain's net, at x of 0..2. What happens on the corner's edges does not reach its second cell.

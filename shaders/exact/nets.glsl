@@ -1,4 +1,4 @@
-// Irregular quads net by net, for lanes that have a whole quad (docs/exact.md). A net is loaded once and collapsed row by row.
+// Irregular quads net by net, for lanes that have a whole quad (docs/catmull_clark.md). A net is loaded once and collapsed row by row.
 // Before the include: what quad.glsl needs, pairs.glsl, and
 //   const bool kChains                                whether some corner has a chain
 //   const bool kInside                                whether samples inside are stored

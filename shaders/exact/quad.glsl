@@ -1,4 +1,4 @@
-// What a record says of an irregular quad, and its sides (docs/exact.md, "Borders"). Before the include: tables.glsl, basis.glsl,
+// What a record says of an irregular quad, and its sides (docs/catmull_clark.md, "Borders"). Before the include: tables.glsl, basis.glsl,
 // frame.glsl, net.glsl and
 //   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
 //   const bool kSharp                                 whether sides may be creases

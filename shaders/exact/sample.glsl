@@ -1,4 +1,4 @@
-// A single sample of an irregular quad (docs/exact.md). Before the include, what quad.glsl needs; with LOCAL_NET also
+// A single sample of an irregular quad (docs/catmull_clark.md). Before the include, what quad.glsl needs; with LOCAL_NET also
 //   vec3 netPoint(const PatchPlace at, uint k)        ownPoint(), from workgroup memory
 #include "shaders/exact/quad.glsl"
 

@@ -1,5 +1,5 @@
 // Vertex stage of exact Catmull-Clark patches: limit point, tangents and face coefficients of a plain vertex, as uniform bicubic
-// B-splines have them (docs/exact.md). One invocation a run of faces between creases and instance.
+// B-splines have them (docs/catmull_clark.md). One invocation a run of faces between creases and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

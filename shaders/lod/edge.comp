@@ -64,7 +64,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     return quarteredCurve(vec3[5](c0[0], p1, p2, p3, c1[0]));
 }
 #elif defined(HALVES)
-// The border is a cubic, or two halves of an irregular quad (docs/exact.md, "Borders").
+// The border is a cubic, or two halves of an irregular quad (docs/catmull_clark.md, "Borders").
 #include "shaders/shared/exact.h"
 #include "shaders/surface/net.glsl"
 #include "shaders/evaluate/basis.glsl"

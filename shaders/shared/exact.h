@@ -1,4 +1,4 @@
-// The tables and the pool of exact Catmull-Clark patches (what all schemes share: shared/surface.h; docs/exact.md).
+// The tables and the pool of exact Catmull-Clark patches (what all schemes share: shared/surface.h; docs/catmull_clark.md).
 //
 // The mesh has quads alone: it is the cage, or what one step of subdivision makes of it. A vertex is plain if the B-spline's own
 // formulas hold round it; a quad with four plain corners is a bicubic patch. All other quads are irregular: their quarters are

@@ -1,5 +1,5 @@
 // What the limit at a vertex is made of, by the sharpness of its spokes: weights of the points round it on level 1.
-// Sharp steps are in the weights, however many there are. Weights are in double. Formulas: docs/exact.md.
+// Sharp steps are in the weights, however many there are. Weights are in double. Formulas: docs/catmull_clark.md.
 #pragma once
 
 #include "surface/subdivision/masks.h"

@@ -1,5 +1,5 @@
-// The corners of a mesh of quads, as exact Catmull-Clark patches tell them apart (docs/exact.md), and the points of
-// level 1 round a quad.
+// The corners of a mesh of quads, as exact Catmull-Clark patches tell them apart (docs/catmull_clark.md), and the
+// points of level 1 round a quad.
 #pragma once
 
 #include "shaders/shared/exact.h"

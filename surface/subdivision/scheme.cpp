@@ -96,10 +96,8 @@ public:
         writeFragments();
         writeBlocks();
         if (!patches_.empty()) {
-            tables_.ranges.push_back({loop_ ? PatchClass::loop : PatchClass::catmullClark,
-                                      {0, static_cast<uint32_t>(patches_.size())},
-                                      0,
-                                      0});
+            tables_.ranges.push_back(
+                {loop_ ? PatchClass::loop : PatchClass::fragment, {0, static_cast<uint32_t>(patches_.size())}, 0, 0});
         }
         finishTables(mesh_.cage, patches_, writer_, tables_);
         const Status smooth = writeUvs();
@@ -140,7 +138,7 @@ private:
     }
 
     void sortPatches() {
-        const PatchClass patchClass = loop_ ? PatchClass::loop : PatchClass::catmullClark;
+        const PatchClass patchClass = loop_ ? PatchClass::loop : PatchClass::fragment;
         patches_ = draftPatches({mesh_.cage, mesh_.hostVertices, mesh_.sourceFaces},
                                 [&](const DraftPatch&) { return patchClass; });
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);

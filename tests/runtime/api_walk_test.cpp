@@ -46,7 +46,7 @@ public:
             EXPECT_EQ(createTube(context->handle(), t.asset), SUPPLE_OK);
             t.main = createGroup(context->handle(), t.asset,
                                  {.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES, .capacity = 2});
-            t.subdivision = createGroup(context->handle(), t.asset, {.scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+            t.subdivision = createGroup(context->handle(), t.asset, {.scheme = SUPPLE_SCHEME_FRAGMENTS});
             EXPECT_EQ(suppleSetClipPose(context->handle(), t.main.instances[0], 0, 0.7), SUPPLE_OK);
             EXPECT_EQ(suppleSetClipPose(context->handle(), t.subdivision.instances[0], 0, 0.3), SUPPLE_OK);
         }
@@ -952,7 +952,7 @@ void views(Rows& r) {
     group("of a view, with flags", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.flags = SUPPLE_GROUP_MOTION; });
     group("of a view, at rates", SUPPLE_OK, kSilent,
-          [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CATMULL_CLARK; });
+          [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_FRAGMENTS; });
     group("of a view, the cage alone", kBad, SUPPLE_MESSAGE_CONFLICT,
           [](World&, SuppleGroupDesc& d) { d.scheme = SUPPLE_SCHEME_CAGE; });
     group("of a view, with shared samples", kBad, SUPPLE_MESSAGE_CONFLICT,
@@ -1053,11 +1053,11 @@ void groups(Rows& r) {
         d.skinning = SUPPLE_SKINNING_DUAL_QUATERNION;
     });
     spoiled("patches of a scheme without", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
-        d.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+        d.scheme = SUPPLE_SCHEME_FRAGMENTS;
         d.flags = SUPPLE_GROUP_PATCHES;
     });
     for (const SuppleScheme scheme :
-         {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
+         {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
         spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
                 [=](Desc& d) {
                     d.scheme = scheme;

@@ -99,7 +99,7 @@ TEST_F(ClipFacts, BoundsHoldTheSurface) {
     const ValidationGuard guard;
     const SuppleAsset pip = own->asset(kPip);
     for (const SuppleAsset asset : {tube, pip}) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_BLEND}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_BLEND}) {
             for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
                 SuppleGroupDesc desc{};
                 desc.asset = asset;

@@ -41,7 +41,7 @@ struct Character {
     SuppleResult result = SUPPLE_OK;
 };
 /// A group of `instances` of a cube sphere, or the first error.
-Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
+Character makeCharacter(SuppleContext context, uint32_t instances = 1, SuppleScheme scheme = SUPPLE_SCHEME_AUTO) {
     const cage::Cage cage = cage::makeCubeSphere(4);
     const host::CageArrays arrays(cage);
     SuppleAssetDesc assetDesc{};
@@ -57,6 +57,7 @@ Character makeCharacter(SuppleContext context, uint32_t instances = 1) {
     groupDesc.structSize = sizeof(groupDesc);
     groupDesc.asset = c.asset;
     groupDesc.capacity = instances;
+    groupDesc.scheme = scheme;
     groupDesc.rate = 3;
     groupDesc.flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS;
     c.result = suppleCreateGroup(context, &groupDesc, &c.group);
@@ -137,8 +138,9 @@ TEST(Contract, OnlyPosesCrossPerFrame) {
 }
 
 TEST(Contract, AMissingBarrierIsSeenByTheValidationLayer) {
-    // Barriers of a frame in order: entry, uploads, deform, vertex, edge, exit. Those between passes must each matter.
-    for (const int64_t dropped : {1, 2, 3, 4}) {
+    // Barriers of a frame in order: entry, uploads, deform, vertex, points of level 1, chains, exit. Those between
+    // passes must each matter.
+    for (const int64_t dropped : {1, 2, 3, 4, 5}) {
         wrappedVulkan();
         const std::unique_ptr<host::Device> device = wrappedDevice();
         ASSERT_NE(device, nullptr);
@@ -157,7 +159,7 @@ TEST(Contract, AMissingBarrierIsSeenByTheValidationLayer) {
             wrapped.dropBarrier = dropped;
             const_cast<host::ValidationLog&>(*device->validation()).setQuiet(true);
             ASSERT_TRUE((*context)->evaluate({&c.group, 1}).ok());
-            EXPECT_EQ(wrapped.barriers, 6u) << "the frame has other barriers now: look at the indices above";
+            EXPECT_EQ(wrapped.barriers, 7u) << "the frame has other barriers now: look at the indices above";
         }
         EXPECT_GT(device->validationMessageCount(), 0u) << "barrier " << dropped;
     }
@@ -349,7 +351,7 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     groupDesc.capacity = 0x7FFFFFFF;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_LIMIT);
     groupDesc.capacity = 1;
-    groupDesc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    groupDesc.scheme = SUPPLE_SCHEME_FRAGMENTS;
     groupDesc.flags = SUPPLE_GROUP_PATCHES;
     EXPECT_EQ(suppleCreateGroup(context, &groupDesc, &group), SUPPLE_ERROR_ARGUMENT) << "it has no coefficients";
     groupDesc.flags = 0;
@@ -654,8 +656,8 @@ TEST(Contract, DamagedArraysAreRepairedOrRefused) {
     EXPECT_LT(info.sourceVertices[9], info.sourceVertices[10]);
     EXPECT_EQ(std::set<uint32_t>({info.sourceVertices[9], info.sourceVertices[10]}),
               std::set<uint32_t>({damaged.faceVertices[8], damaged.faceVertices[9]}));
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP,
-                                      SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_EXACT}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP,
+                                      SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CATMULL_CLARK}) {
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = asset;
@@ -819,7 +821,7 @@ TEST(Contract, TimingsNameEveryPassAndNeverBlock) {
     const ValidationGuard guard;
     Result<std::unique_ptr<host::Context>> created = host::Context::create(*device);
     ASSERT_TRUE(created.ok());
-    Character c = makeCharacter((*created)->handle());
+    Character c = makeCharacter((*created)->handle(), 1, SUPPLE_SCHEME_PM); // it has coefficients
     ASSERT_EQ(c.result, SUPPLE_OK);
     for (int frame = 0; frame < 3; ++frame) {
         // A rate that stays costs nothing: the attributes are written in the first frame alone.

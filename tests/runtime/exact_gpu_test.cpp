@@ -20,7 +20,7 @@ using surface::exact::LimitSurface;
 
 GpuOptions exactOptions(SuppleMapping mapping, uint32_t rate) {
     GpuOptions options;
-    options.scheme = SUPPLE_SCHEME_EXACT;
+    options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
     options.mapping = mapping;
     options.flags = 0;
     options.rate = rate;
@@ -171,7 +171,7 @@ TEST_P(ExactOnGpu, LowerRatesAreThoseOfGroupsOfTheirOwn) {
         SuppleGroupDesc desc{};
         desc.asset = asset;
         desc.capacity = 1;
-        desc.scheme = SUPPLE_SCHEME_EXACT;
+        desc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         desc.rate = rate;
         return desc;
     };

@@ -81,11 +81,11 @@ TEST_F(Followers, DrawWhatGroupsOfTheirOwnDraw) {
         Crowd leader(own, followedDesc(asset, left.handle()));
         ASSERT_TRUE(leader.valid());
         Crowd mirror(own, followerDesc(leader, asset, SUPPLE_SCHEME_PM, right.handle()));
-        Crowd grids(own, followerDesc(leader, asset, SUPPLE_SCHEME_CATMULL_CLARK, {}));
+        Crowd grids(own, followerDesc(leader, asset, SUPPLE_SCHEME_FRAGMENTS, {}));
         Crowd leaderAlone(own, followedDesc(asset, leftAlone.handle()));
         Crowd mirrorAlone(own, followedDesc(asset, rightAlone.handle()));
         SuppleGroupDesc gridsDesc = followedDesc(asset, {});
-        gridsDesc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+        gridsDesc.scheme = SUPPLE_SCHEME_FRAGMENTS;
         gridsDesc.rate = 4;
         Crowd gridsAlone(own, gridsDesc);
         ASSERT_TRUE(mirror.valid() && grids.valid() && leaderAlone.valid() && mirrorAlone.valid() &&

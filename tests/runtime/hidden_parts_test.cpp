@@ -75,13 +75,13 @@ constexpr HiddenCase kHiddenCases[] = {
     {"pmOneLevel", SUPPLE_SCHEME_PM, false, true, SUPPLE_GROUP_ONE_LEVEL, SUPPLE_VIEW_BACK_FACES},
     {"blend", SUPPLE_SCHEME_BLEND, false, false, 0, 0},
     {"blendLevels", SUPPLE_SCHEME_BLEND, false, true, 0, kViewMotion},
-    {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion, 0},
-    {"catmullClarkRates", SUPPLE_SCHEME_CATMULL_CLARK, false, true, 0, kViewMotion | SUPPLE_VIEW_CULL},
+    {"catmullClark", SUPPLE_SCHEME_FRAGMENTS, false, false, kMotion, 0},
+    {"catmullClarkRates", SUPPLE_SCHEME_FRAGMENTS, false, true, 0, kViewMotion | SUPPLE_VIEW_CULL},
     {"loop", SUPPLE_SCHEME_LOOP, false, false, 0, 0},
     {"loopRates", SUPPLE_SCHEME_LOOP, false, true, 0, 0},
-    {"exact", SUPPLE_SCHEME_EXACT, false, false, kMotion, 0},
-    {"exactMesh", SUPPLE_SCHEME_EXACT, false, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
-    {"exactLevels", SUPPLE_SCHEME_EXACT, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},
+    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion, 0},
+    {"exactMesh", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
+    {"exactLevels", SUPPLE_SCHEME_CATMULL_CLARK, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},
     {"polygons", SUPPLE_SCHEME_POLYGONS, false, false, kMotion, 0},
     {"polygonsRates", SUPPLE_SCHEME_POLYGONS, false, true, 0, kViewMotion},
 };
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HiddenPartsAtLevels, testing::ValuesIn(levelCase
 class HiddenPartsOnce : public CrowdContexts {};
 
 bool subdivides(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
+    return scheme == SUPPLE_SCHEME_FRAGMENTS || scheme == SUPPLE_SCHEME_LOOP;
 }
 
 using Hidden = std::array<std::set<uint32_t>, kHiddenInstances>;

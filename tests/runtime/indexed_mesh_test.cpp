@@ -269,7 +269,7 @@ TEST_P(IndexedMesh, ExactHasTheGridsBits) {
         for (const uint32_t rate : {1u, 2u, 3u, 8u}) {
             SCOPED_TRACE(zoo.name + " at rate " + std::to_string(rate));
             GpuOptions options;
-            options.scheme = SUPPLE_SCHEME_EXACT;
+            options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
             options.mapping = GetParam();
             options.rate = rate;
             GpuSurface gridded(*testDevice(), zoo.cage, withFlags(options, 0));
@@ -326,7 +326,7 @@ TEST_P(IndexedMesh, CharactersInAPose) {
         paths.push_back(path);
     }
     forEachCharacter(paths, [&](const std::string& path, const cage::Character& character) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
             if (scheme == SUPPLE_SCHEME_PREP && !allQuads(character.cage)) {
                 continue;
             }

@@ -69,7 +69,7 @@ TEST_F(InstanceBounds, HoldTheSurfaceWithoutAView) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_POLYGONS}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_POLYGONS}) {
             Crowd crowd(own, withBounds(own.asset(kPip), 4, scheme));
             ASSERT_TRUE(crowd.valid());
             std::vector<SuppleInstance> all;

@@ -40,7 +40,7 @@ protected:
         Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, entry.name);
         EXPECT_TRUE(character.ok());
         SuppleGroupDesc desc{};
-        desc.scheme = SUPPLE_SCHEME_EXACT;
+        desc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc);
         if (drawn) {
             nameCorners(quads, drawn->patches);

@@ -32,7 +32,7 @@ struct LodCase {
         }
         std::vector<std::string> all = allCharacters(), sampled;
         for (size_t i = 0; i < all.size(); ++i) {
-            const bool every = mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_EXACT;
+            const bool every = mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_CATMULL_CLARK;
             if (every || i % 3 == 0 || isOwn(all[i])) {
                 sampled.push_back(all[i]);
             }
@@ -51,14 +51,14 @@ struct LodCase {
     void nameCorners(const cage::Cage& cage, std::vector<surface::PatchInfo>& patches) const {
         if (scheme == SUPPLE_SCHEME_BLEND) {
             ::supple::test::nameCorners(blendMesh(cage, recipe().blend), patches);
-        } else if (scheme == SUPPLE_SCHEME_EXACT) {
+        } else if (scheme == SUPPLE_SCHEME_CATMULL_CLARK) {
             ::supple::test::nameCorners(ExactQuads(cage), patches);
         }
     }
 };
 constexpr LodCase kLodCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
                                  {"P_m", SUPPLE_SCHEME_PM},
-                                 {"exact", SUPPLE_SCHEME_EXACT},
+                                 {"exact", SUPPLE_SCHEME_CATMULL_CLARK},
                                  {"blend", SUPPLE_SCHEME_BLEND},
                                  {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
 

@@ -248,10 +248,10 @@ std::vector<RateCase> rateCases() {
     const cage::Cage mixed = withUvs(named->cage);
     const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
     std::vector<RateCase> cases{
-        {"Catmull-Clark, quads", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(quads)},
-        {"Catmull-Clark, quads, creased", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(creased(quads))},
-        {"Catmull-Clark, mixed", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
-        {"Catmull-Clark, mixed, creased", SUPPLE_SCHEME_CATMULL_CLARK, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
+        {"Catmull-Clark, quads", SUPPLE_SCHEME_FRAGMENTS, bodyOf(quads)},
+        {"Catmull-Clark, quads, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(quads))},
+        {"Catmull-Clark, mixed", SUPPLE_SCHEME_FRAGMENTS, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
+        {"Catmull-Clark, mixed, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
         {"Loop, triangles", SUPPLE_SCHEME_LOOP, bodyOf(triangles)},
         {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
         {"Loop, mixed", SUPPLE_SCHEME_LOOP, bodyOf(mixed)},
@@ -259,7 +259,7 @@ std::vector<RateCase> rateCases() {
     const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
     EXPECT_TRUE(pip.ok());
     if (pip.ok()) {
-        cases.push_back({"Catmull-Clark, animated", SUPPLE_SCHEME_CATMULL_CLARK, *pip, 0, 2, 4, 3});
+        cases.push_back({"Catmull-Clark, animated", SUPPLE_SCHEME_FRAGMENTS, *pip, 0, 2, 4, 3});
     }
     return cases;
 }
@@ -390,7 +390,7 @@ std::vector<std::vector<uint32_t>> slotsByRate(const ReadBack& written) {
 TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
         SuppleGroupDesc desc = groupOf(context.createAsset(bumpySphere()), 12, scheme, 8);
         desc.view = view.handle();
@@ -462,7 +462,7 @@ TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
     const ValidationGuard guard;
     const SuppleAsset asset = context.createAsset(bumpySphere());
     TestView view(context, 60000);
-    SuppleGroupDesc desc = groupOf(asset, 8, SUPPLE_SCHEME_CATMULL_CLARK, 32);
+    SuppleGroupDesc desc = groupOf(asset, 8, SUPPLE_SCHEME_FRAGMENTS, 32);
     desc.view = view.handle();
     Crowd rates(context, desc);
     desc.scheme = SUPPLE_SCHEME_PREP;
@@ -509,7 +509,7 @@ TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
     desc.view = small.handle();
     desc.capacity = 16;
     Crowd many(context, desc);
-    desc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    desc.scheme = SUPPLE_SCHEME_FRAGMENTS;
     desc.capacity = 8;
     Crowd few(context, desc);
     ASSERT_TRUE(many.valid() && few.valid());
@@ -559,7 +559,7 @@ TEST_P(LodRates, TheBudgetHolds) {
     const SuppleAsset asset = context.createAsset(bumpySphere());
     for (const bool alone : {true, false}) {
         TestView view(context, 300000);
-        SuppleGroupDesc desc = groupOf(asset, 48, SUPPLE_SCHEME_CATMULL_CLARK, 32);
+        SuppleGroupDesc desc = groupOf(asset, 48, SUPPLE_SCHEME_FRAGMENTS, 32);
         desc.view = view.handle();
         Crowd rates(context, desc);
         desc.scheme = SUPPLE_SCHEME_PREP;
@@ -700,12 +700,11 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
         SuppleScheme scheme;
         uint32_t asked, rateCount, rate;
     };
-    for (const Case& c : {Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 1, 1, 1},
-                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
-                          Case{bumpySphere(), SUPPLE_SCHEME_CATMULL_CLARK, 5, 3, 4},
-                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1, 1},
-                          Case{dodecahedron(), SUPPLE_SCHEME_CATMULL_CLARK, 64, 5, 16},
-                          Case{dodecahedron(), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
+    for (const Case& c :
+         {Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 1, 1, 1}, Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
+          Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 5, 3, 4}, Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
+          Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 64, 5, 16},
+          Case{dodecahedron(), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
         SuppleGroupDesc desc = groupOf(context.createAsset(c.cage), 2, c.scheme, c.asked);
         desc.view = view.handle();
         Crowd crowd(context, desc);
@@ -725,7 +724,7 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
         EXPECT_NE(context.takeError(), 0);
     }
     // A group without a view has one, and it is all of it; also at another rate.
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS}) {
         Crowd crowd(context, groupOf(context.createAsset(bumpySphere()), 2, scheme, 8));
         ASSERT_TRUE(crowd.valid());
         for (const uint32_t rate : {8u, 4u}) {
@@ -799,7 +798,7 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
 }
 
 TEST_P(LodRates, CommandsDoNotCountInstances) {
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         const auto unlimited = [](WrappedVulkan&) {};
         const DrawnRates one = drawRatesThrough(GetParam(), 1, 1000, scheme, unlimited);
         for (const uint32_t instances : {30u, 1000u}) {
@@ -819,7 +818,7 @@ TEST_P(LodRates, CommandsDoNotCountInstances) {
 
 TEST_P(LodRates, SplitDispatchesDrawTheSame) {
     const uint32_t instances = 600, capacity = 1200;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         const DrawnRates whole = drawRatesThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
         std::set<size_t> rates;
         for (const auto& [slot, drawn] : whole.instances) {

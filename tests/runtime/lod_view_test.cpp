@@ -19,7 +19,8 @@
 namespace supple::test {
 namespace {
 
-constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_BLEND};
+constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK,
+                                     SUPPLE_SCHEME_BLEND};
 
 class LodViewsOnce : public CrowdContexts {};
 class LodViews : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
@@ -116,7 +117,7 @@ public:
             for (uint32_t f = 0; f < cage.faceCount(); ++f) {
                 prep_.push_back(surface::prep::gatherPatch<double>(cage, *topology, coefficients, f));
             }
-        } else if (scheme == SUPPLE_SCHEME_EXACT) {
+        } else if (scheme == SUPPLE_SCHEME_CATMULL_CLARK) {
             quads_.emplace(cage);
             exact_.emplace(quads_->isolation.mesh, positions);
             exactFaces_ = quads_->patches(patches_).faces;
@@ -326,10 +327,10 @@ std::vector<Dolly> dollies() {
         {"mixed faces, P_m", SUPPLE_SCHEME_PM, mixed, {far, middle}},
         {"mixed faces, P_m, wide", SUPPLE_SCHEME_PM, mixed, {middle}, SUPPLE_MAPPING_WIDE},
         {"poles, P_m", SUPPLE_SCHEME_PM, poles, {far, near}},
-        {"sphere, exact", SUPPLE_SCHEME_EXACT, sphere, {far, near}},
-        {"sphere, exact, wide", SUPPLE_SCHEME_EXACT, sphere, {far, near}, SUPPLE_MAPPING_WIDE},
-        {"mixed faces, exact", SUPPLE_SCHEME_EXACT, mixed, {far, middle}},
-        {"poles, exact", SUPPLE_SCHEME_EXACT, poles, {far, near}},
+        {"sphere, exact", SUPPLE_SCHEME_CATMULL_CLARK, sphere, {far, near}},
+        {"sphere, exact, wide", SUPPLE_SCHEME_CATMULL_CLARK, sphere, {far, near}, SUPPLE_MAPPING_WIDE},
+        {"mixed faces, exact", SUPPLE_SCHEME_CATMULL_CLARK, mixed, {far, middle}},
+        {"poles, exact", SUPPLE_SCHEME_CATMULL_CLARK, poles, {far, near}},
         {"sphere, blend", SUPPLE_SCHEME_BLEND, sphere, {far, near}},
         {"sphere, blend, wide", SUPPLE_SCHEME_BLEND, sphere, {far}, SUPPLE_MAPPING_WIDE},
         {"mixed faces, blend", SUPPLE_SCHEME_BLEND, mixed, {middle}},
@@ -620,7 +621,7 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
     const SuppleAsset asset = context.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_BLEND}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_BLEND}) {
         TestView view(context, 400000, SUPPLE_VIEW_ATTRIBUTES);
         SuppleGroupDesc desc{};
         desc.asset = asset;
@@ -742,7 +743,7 @@ TEST_P(LodViews, GroupsComeAndGoAndShareTheView) {
     crowds.erase(crowds.begin() + 1); // leaves a gap among the runs
     run();
     add(SUPPLE_SCHEME_BLEND);
-    add(SUPPLE_SCHEME_EXACT);
+    add(SUPPLE_SCHEME_CATMULL_CLARK);
     add(SUPPLE_SCHEME_PM);
     run();
     crowds.erase(crowds.begin(), crowds.begin() + 2);

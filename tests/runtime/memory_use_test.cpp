@@ -143,10 +143,10 @@ TEST_F(MemoryUse, IsWhatTheCallbacksGaveToTheByte) {
     };
     constexpr uint32_t kFlags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES;
     add({.flags = kFlags | SUPPLE_GROUP_PATCHES, .scheme = SUPPLE_SCHEME_PM, .poseSource = SUPPLE_POSES_PLAYBACK});
-    add({.flags = kFlags, .scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+    add({.flags = kFlags, .scheme = SUPPLE_SCHEME_FRAGMENTS});
     add({.scheme = SUPPLE_SCHEME_CAGE});
     add({.scheme = SUPPLE_SCHEME_PM, .view = view});
-    add({.scheme = SUPPLE_SCHEME_CATMULL_CLARK, .view = view});
+    add({.scheme = SUPPLE_SCHEME_FRAGMENTS, .view = view});
     const SuppleMemoryUse before = use();
     context->evaluate(groups, SUPPLE_RECORD_TIMINGS);
     context->beginFrame();
@@ -348,7 +348,7 @@ TEST_F(MemoryBudget, ARefusalLosesNothing) {
     everywhere("group", groupOf({.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES,
                                  .scheme = SUPPLE_SCHEME_PREP,
                                  .poseSource = SUPPLE_POSES_PLAYBACK}));
-    everywhere("group in a view", groupOf({.scheme = SUPPLE_SCHEME_CATMULL_CLARK, .view = view}));
+    everywhere("group in a view", groupOf({.scheme = SUPPLE_SCHEME_FRAGMENTS, .view = view}));
     everywhere("view", [&] {
         SuppleViewDesc desc{};
         desc.structSize = sizeof desc;

@@ -117,7 +117,7 @@ struct MotionCase {
     [[nodiscard]] SuppleGroupDesc desc(CrowdContext& context, uint32_t capacity, uint32_t flags) const {
         SuppleGroupDesc desc{};
         // A small character where it subdivides: its wide mapping is slow without a GPU.
-        const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_LOOP;
+        const bool subdivides = scheme == SUPPLE_SCHEME_FRAGMENTS || scheme == SUPPLE_SCHEME_LOOP;
         desc.asset = context.asset(scheme == SUPPLE_SCHEME_PREP ? kPipQuads : subdivides ? kHelmet : kPip);
         desc.capacity = capacity;
         desc.scheme = scheme;
@@ -140,15 +140,15 @@ std::vector<MotionCase> motionCases() {
             const uint32_t subdivisionRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
             const MotionCase own[] = {{"Prep", SUPPLE_SCHEME_PREP, 3},
                                       {"Pm", SUPPLE_SCHEME_PM, 3},
-                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, subdivisionRate},
+                                      {"CatmullClark", SUPPLE_SCHEME_FRAGMENTS, subdivisionRate},
                                       {"Loop", SUPPLE_SCHEME_LOOP, subdivisionRate},
                                       {"Blend", SUPPLE_SCHEME_BLEND, 4},
                                       {"Polygons", SUPPLE_SCHEME_POLYGONS, 1},
                                       {"Polygons", SUPPLE_SCHEME_POLYGONS, 1}, // in both formats
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3},
-                                      {"Exact", SUPPLE_SCHEME_EXACT, 5},
-                                      {"ExactShared", SUPPLE_SCHEME_EXACT, 5}};
+                                      {"Exact", SUPPLE_SCHEME_CATMULL_CLARK, 5},
+                                      {"ExactShared", SUPPLE_SCHEME_CATMULL_CLARK, 5}};
             for (MotionCase c : own) {
                 c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_INDEXED_MESH : 0;
                 c.name = mappingName(mapping) + c.name + suffix;
@@ -281,7 +281,7 @@ TEST_F(MotionFrames, AChangedRateHasThePastAtTheNewRate) {
     const ValidationGuard guard;
     constexpr uint32_t kMax = 5;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
             MotionCase c{"", scheme, kMax, mapping, scheme == SUPPLE_SCHEME_PM ? SUPPLE_VERTEX_16 : SUPPLE_VERTEX_24};
             CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
@@ -346,13 +346,13 @@ TEST_F(MotionFrames, RefusedRatesLeaveEverythingAsItWas) {
         EXPECT_EQ(differences(crowd.previous(0), past), 0u);
         EXPECT_EQ(differences(crowd.positions(0), evaluated(c, 1, 0)), 0u);
     };
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
         const MotionCase c{"any rate", scheme, 3, SUPPLE_MAPPING_NARROW};
         refused(c, 0);
-        refused(c, scheme == SUPPLE_SCHEME_EXACT ? 5 : 4); // it rounds 3 up to 4
+        refused(c, scheme == SUPPLE_SCHEME_CATMULL_CLARK ? 5 : 4); // it rounds 3 up to 4
         refused(c, 0xFFFFFFFFu);
     }
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {
         for (const uint32_t rate : {0u, 3u, 64u, 65u}) {
             refused({"one rate", scheme, 4, SUPPLE_MAPPING_NARROW}, rate);
         }
@@ -485,12 +485,12 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
             CrowdContext small(**device, mapping);
             CrowdContext& large = context(mapping);
             ASSERT_TRUE(small.valid() && large.valid());
-            for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+            for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS}) {
                 SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme));
                 const auto desc = [&](CrowdContext& own) {
                     SuppleGroupDesc desc{};
                     // At rate 8 the narrow mapping subdivides through scratch memory.
-                    const bool subdivides = scheme == SUPPLE_SCHEME_CATMULL_CLARK;
+                    const bool subdivides = scheme == SUPPLE_SCHEME_FRAGMENTS;
                     desc.asset = own.createAsset(cage::makeCubeSphere(subdivides ? 2 : 4));
                     desc.capacity = kCapacity;
                     desc.scheme = scheme;

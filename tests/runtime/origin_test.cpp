@@ -47,18 +47,26 @@ Walked walkedOf(const Crowd& crowd) {
     return walked;
 }
 
-/// The greatest distance, as a part of the extent; and the greatest angle in degrees.
-std::pair<double, double> farthest(const Walked& a, const Walked& b) {
+struct Apart {
+    double distance = 0.0; ///< the greatest, as a part of the extent
+    double angle = 0.0;    ///< the greatest between normals, in degrees
+    double steep = 0.0;    ///< the share of samples with more than 0.05 degrees
+};
+Apart apart(const Walked& a, const Walked& b) {
     glm::vec3 low = a.positions[0], high = low;
     double distance = 0.0, angle = 0.0;
+    size_t steep = 0;
     for (size_t i = 0; i < a.positions.size(); ++i) {
         low = glm::min(low, a.positions[i]);
         high = glm::max(high, a.positions[i]);
         distance = std::max(distance, glm::length(glm::dvec3(a.positions[i]) - glm::dvec3(b.positions[i])));
         const glm::dvec3 n = glm::normalize(glm::dvec3(a.normals[i])), m = glm::normalize(glm::dvec3(b.normals[i]));
-        angle = std::max(angle, glm::degrees(std::atan2(glm::length(glm::cross(n, m)), glm::dot(n, m))));
+        const double between = glm::degrees(std::atan2(glm::length(glm::cross(n, m)), glm::dot(n, m)));
+        angle = std::max(angle, between);
+        steep += between > 0.05 ? 1 : 0;
     }
-    return {distance / glm::length(glm::dvec3(high - low)), angle};
+    return {distance / glm::length(glm::dvec3(high - low)), angle,
+            static_cast<double>(steep) / static_cast<double>(a.positions.size())};
 }
 
 /// A character walks away; wherever it is, it is what it was at the origin.
@@ -68,7 +76,7 @@ TEST_F(Origin, CharactersDoNotShakeFarAway) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         for (const SuppleScheme scheme :
-             {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_POLYGONS}) {
+             {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_POLYGONS}) {
             for (const SupplePoseSource source : {SUPPLE_POSES_SET, SUPPLE_POSES_PLAYBACK}) {
                 SuppleGroupDesc desc{};
                 desc.asset = own.asset(kWalker);
@@ -95,7 +103,7 @@ TEST_F(Origin, CharactersDoNotShakeFarAway) {
                 setOrigin(own, glm::dvec3(0.0));
                 crowd.run();
                 const Walked home = walkedOf(crowd);
-                double distance = 0.0, angle = 0.0;
+                Apart most;
                 for (double away = 0.5; away < 2e5; away *= 3.7) {
                     const glm::dvec3 position(away, 0.3 * away, -0.7 * away), camera(position + glm::dvec3(0, 1.0, 3));
                     setPosition(own, walker, position);
@@ -106,21 +114,21 @@ TEST_F(Origin, CharactersDoNotShakeFarAway) {
                     for (glm::vec3& p : there.positions) {
                         p -= moved;
                     }
-                    const auto [d, a] = farthest(home, there);
-                    distance = std::max(distance, d);
-                    angle = std::max(angle, a);
+                    const Apart now = apart(home, there);
+                    most = {std::max(most.distance, now.distance), std::max(most.angle, now.angle),
+                            std::max(most.steep, now.steep)};
                     float joint[16];
                     ASSERT_EQ(suppleGetJointTransform(own.handle(), walker, 0, joint), SUPPLE_OK);
                     EXPECT_LT(glm::length(glm::vec3(joint[12], joint[13], joint[14]) - moved), 10.0f);
                 }
-                std::printf("%s scheme %d source %d: %.2e of the extent, %.4f degrees\n", mappingName(mapping).c_str(),
-                            static_cast<int>(scheme), static_cast<int>(source), distance, angle);
-                EXPECT_LT(distance, 1e-5);
-                // Subdivision and exact patches refine positions, not differences of them: their normals are coarser.
-                const double most = scheme == SUPPLE_SCHEME_CATMULL_CLARK ? 0.2
-                                    : scheme == SUPPLE_SCHEME_EXACT       ? 0.3
-                                                                          : 0.05;
-                EXPECT_LT(angle, most);
+                std::printf("%s scheme %d source %d: %.2e of the extent, %.4f degrees, %.5f %% above 0.05\n",
+                            mappingName(mapping).c_str(), static_cast<int>(scheme), static_cast<int>(source),
+                            most.distance, most.angle, 100.0 * most.steep);
+                EXPECT_LT(most.distance, 1e-5);
+                // At four of its 63,500 samples the derivatives of the limit are within 0.2 degrees of one line.
+                const bool limit = scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_FRAGMENTS;
+                EXPECT_LT(most.angle, limit ? 0.3 : 0.05);
+                EXPECT_LT(most.steep, limit ? 1e-4 : 1e-9);
             }
         }
     }
@@ -136,13 +144,13 @@ constexpr OriginCase kOriginCases[] = {
     {"P_m", SUPPLE_SCHEME_PM, 0, false},
     {"p-rep", SUPPLE_SCHEME_PREP, 0, false},
     {"blend", SUPPLE_SCHEME_BLEND, 0, false},
-    {"exact", SUPPLE_SCHEME_EXACT, 0, false},
-    {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, 0, false},
+    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, 0, false},
+    {"Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, 0, false},
     {"polygons", SUPPLE_SCHEME_POLYGONS, 0, false},
     {"indexed mesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_INDEXED_MESH, false},
     {"P_m in a view", SUPPLE_SCHEME_PM, 0, true},
-    {"exact in a view", SUPPLE_SCHEME_EXACT, 0, true},
-    {"Catmull-Clark in a view", SUPPLE_SCHEME_CATMULL_CLARK, 0, true},
+    {"exact in a view", SUPPLE_SCHEME_CATMULL_CLARK, 0, true},
+    {"Catmull-Clark in a view", SUPPLE_SCHEME_FRAGMENTS, 0, true},
     {"polygons in a view", SUPPLE_SCHEME_POLYGONS, 0, true},
 };
 

@@ -165,8 +165,8 @@ TEST_F(PoseSources, APaletteCopiedOnTheDevicePosesACharacter) {
 TEST_F(PoseSources, CagesFromABufferHaveTheSameSurface) {
     const ValidationGuard guard;
     const std::pair<SuppleMapping, SuppleScheme> cases[] = {
-        {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_PM},       {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_CATMULL_CLARK},
-        {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_BLEND},    {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_EXACT},
+        {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_PM},       {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_FRAGMENTS},
+        {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_BLEND},    {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_CATMULL_CLARK},
         {SUPPLE_MAPPING_NARROW, SUPPLE_SCHEME_POLYGONS}, {SUPPLE_MAPPING_WIDE, SUPPLE_SCHEME_PM}};
     for (const auto& [mapping, scheme] : cases) {
         SCOPED_TRACE(mappingName(mapping) + " scheme " + std::to_string(scheme));

@@ -237,8 +237,8 @@ const UvCase kUvCases[] = {
     {"pmPentagons", SUPPLE_SCHEME_PM, dodecahedron},
     {"blend", SUPPLE_SCHEME_BLEND, roughQuads},
     {"blendOpen", SUPPLE_SCHEME_BLEND, roughGrid},
-    {"exact", SUPPLE_SCHEME_EXACT, roughQuads},
-    {"exactOpen", SUPPLE_SCHEME_EXACT, roughGrid},
+    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
+    {"exactOpen", SUPPLE_SCHEME_CATMULL_CLARK, roughGrid},
 };
 class SmoothUvsOf : public SmoothUvs, public testing::WithParamInterface<UvCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, SmoothUvsOf, testing::ValuesIn(kUvCases),
@@ -330,8 +330,8 @@ TEST_F(SmoothUvs, OfSubdivisionAreTheLimits) {
         cage::Cage cage;
     };
     using surface::Subdivision;
-    const Case cases[] = {{SUPPLE_SCHEME_CATMULL_CLARK, Subdivision::catmullClark, withSeams(roughQuads())},
-                          {SUPPLE_SCHEME_CATMULL_CLARK, Subdivision::catmullClark, withSeams(roughOpen())},
+    const Case cases[] = {{SUPPLE_SCHEME_FRAGMENTS, Subdivision::catmullClark, withSeams(roughQuads())},
+                          {SUPPLE_SCHEME_FRAGMENTS, Subdivision::catmullClark, withSeams(roughOpen())},
                           {SUPPLE_SCHEME_LOOP, Subdivision::loop, withSeams(roughTriangles())}};
     for (const Case& c : cases) {
         for (const SuppleMapping mapping : kMappings) {
@@ -376,8 +376,8 @@ TEST_F(SmoothUvs, OfExactPatchesAreThoseOfCatmullClark) {
             const SuppleAsset asset = own.createAsset(cage);
             for (const UvMode mode :
                  {UvMode::none, UvMode::cornersOnly, UvMode::cornersPlus1, UvMode::cornersPlus2, UvMode::boundaries}) {
-                Crowd exact(own, smoothDesc(asset, SUPPLE_SCHEME_EXACT, 8, mode));
-                Crowd refined(own, smoothDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 8, mode));
+                Crowd exact(own, smoothDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 8, mode));
+                Crowd refined(own, smoothDesc(asset, SUPPLE_SCHEME_FRAGMENTS, 8, mode));
                 ASSERT_TRUE(exact.valid() && refined.valid());
                 const Written a(exact), b(refined);
                 const uint32_t count = exact.output().grid.vertexCount, others = refined.output().grid.vertexCount;
@@ -511,7 +511,7 @@ TEST_P(SmoothUvsAtLevels, AgreeInEveryBit) {
         EXPECT_GT(shared, 100u);
         EXPECT_LT(worst, 1e-6) << "of " << shared;
         // Where a map folds, each side of an exact patch's edge rounds by itself, unless the fold halves its vertices.
-        if (c.scheme != SUPPLE_SCHEME_EXACT || c.cage == &roughGrid) {
+        if (c.scheme != SUPPLE_SCHEME_CATMULL_CLARK || c.cage == &roughGrid) {
             EXPECT_EQ(different, 0u) << "of " << shared;
         }
         (void)own.takeLines();
@@ -573,10 +573,10 @@ TEST_P(SmoothUvsOf, OfTheSecondSetAreAsOfTheFirst) {
 /// Samples of an indexed mesh are those of the grids.
 TEST_F(SmoothUvs, OfIndexedMeshesAreThoseOfGrids) {
     const ValidationGuard guard;
-    for (const UvCase& c :
-         {UvCase{"prep", SUPPLE_SCHEME_PREP, roughQuads}, UvCase{"pm", SUPPLE_SCHEME_PM, roughMixed},
-          UvCase{"polar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
-          UvCase{"exact", SUPPLE_SCHEME_EXACT, roughQuads}, UvCase{"exactMixed", SUPPLE_SCHEME_EXACT, roughMixed}}) {
+    for (const UvCase& c : {UvCase{"prep", SUPPLE_SCHEME_PREP, roughQuads}, UvCase{"pm", SUPPLE_SCHEME_PM, roughMixed},
+                            UvCase{"polar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
+                            UvCase{"exact", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
+                            UvCase{"exactMixed", SUPPLE_SCHEME_CATMULL_CLARK, roughMixed}}) {
         cage::Cage cage = withSeams(c.cage());
         cage.cornerUvs1 = cutAtRandom(cage, 29);
         for (const SuppleMapping mapping : kMappings) {

@@ -33,12 +33,11 @@ protected:
         return subdivisionMesh(cage, subdivisionOf(GetParam().options.scheme));
     }
 };
-INSTANTIATE_TEST_SUITE_P(
-    Mappings, SubdivisionOnGpu,
-    testing::ValuesIn(onBothMappings({{"CatmullClark",
-                                       {.scheme = SUPPLE_SCHEME_CATMULL_CLARK, .flags = SUPPLE_GROUP_ATTRIBUTES}},
-                                      {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
-    [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(Mappings, SubdivisionOnGpu,
+                         testing::ValuesIn(onBothMappings(
+                             {{"CatmullClark", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
+                              {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
+                         [](const auto& param) { return param.param.name; });
 
 /// Against double for exactness, and against float, whose sums are the device's own, for the bits.
 TEST_P(SubdivisionOnGpu, SurfaceMatchesTheReference) {
@@ -186,7 +185,7 @@ TEST(SubdivisionMappings, GiveTheSamePositionBits) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     ComparedBits bits;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         for (const SubdivisionCage& entry : subdivisionZoo()) {
             ASSERT_NO_FATAL_FAILURE(compareMappings(*device, entry.cage, {.scheme = scheme, .flags = 0}, bits));
         }
@@ -227,7 +226,7 @@ TEST(SubdivisionCharacters, HaveTheReferencesBits) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     forEachCharacter(allCharacters(), [&](const std::string& path, const cage::Character& character) {
-        compareCharacter(*device, path, character, SUPPLE_SCHEME_CATMULL_CLARK);
+        compareCharacter(*device, path, character, SUPPLE_SCHEME_FRAGMENTS);
         compareCharacter(*device, path, character, SUPPLE_SCHEME_LOOP);
     });
 }
@@ -244,7 +243,7 @@ TEST(SubdivisionRates, AreRoundedUp) {
     for (const Case& c : {Case{cube(), 1, 1}, Case{cube(), 2, 1}, Case{cube(), 3, 2}, Case{cube(), 8, 4},
                           Case{cube(), 9, 8}, Case{dodecahedron(), 1, 1}, Case{dodecahedron(), 8, 2}}) {
         GpuOptions options;
-        options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+        options.scheme = SUPPLE_SCHEME_FRAGMENTS;
         options.flags = 0;
         options.rate = c.asked;
         GpuSurface gpu(*device, c.cage, options);

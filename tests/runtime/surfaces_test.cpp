@@ -20,9 +20,9 @@ namespace {
 constexpr uint32_t kInstances = 3;
 
 /// The scheme of each part. Two parts have the first one, with others between them.
-constexpr SuppleScheme kPartSchemes[] = {SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_LOOP,     SUPPLE_SCHEME_PREP,
-                                         SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CATMULL_CLARK,
-                                         SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_PM};
+constexpr SuppleScheme kPartSchemes[] = {
+    SUPPLE_SCHEME_PM,       SUPPLE_SCHEME_LOOP,      SUPPLE_SCHEME_PREP,          SUPPLE_SCHEME_BLEND,
+    SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_PM};
 constexpr uint32_t kPartCount = std::size(kPartSchemes), kSurfaceCount = kPartCount - 1;
 
 /// All faces are quads, which every scheme takes.
@@ -371,7 +371,7 @@ TEST_F(SurfacesOnce, OfAuto) {
     SupplePartInfo part{};
     part.structSize = sizeof(part);
     ASSERT_EQ(suppleGetPartInfo(own.handle(), asset, 1, &part), SUPPLE_OK);
-    EXPECT_EQ(part.scheme, SUPPLE_SCHEME_PM);
+    EXPECT_EQ(part.scheme, SUPPLE_SCHEME_CATMULL_CLARK);
     EXPECT_STREQ(part.schemeReason, "its polygons are known");
 
     SuppleGroupDesc desc{};

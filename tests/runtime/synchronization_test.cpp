@@ -174,7 +174,7 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     EXPECT_EQ(handedOver({&group, 1}), wanted(false, false));
     // A second group of the same asset brings its own.
     const SmallGroup second =
-        createGroup(context->handle(), asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CATMULL_CLARK});
+        createGroup(context->handle(), asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_FRAGMENTS});
     SuppleBufferRange bounds{};
     ASSERT_EQ(suppleGetInstanceBounds(context->handle(), second.group, &bounds), SUPPLE_OK);
     const SuppleGroup both[] = {group, second.group};

@@ -193,7 +193,7 @@ const TangentCase kTangentCases[] = {
     {"pm", SUPPLE_SCHEME_PM, roughPolygons},
     {"pmPolar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
     {"pmPentagons", SUPPLE_SCHEME_PM, dodecahedron},
-    {"exact", SUPPLE_SCHEME_EXACT, roughBiped},
+    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, roughBiped},
     {"blend", SUPPLE_SCHEME_BLEND, roughBiped},
 };
 
@@ -451,7 +451,7 @@ TEST_P(TangentsOf, AnIndexedMeshAreThoseOfOneOfItsPatches) {
         for (const bool mirrored : {false, true}) {
             const SuppleAsset asset = own.createAsset(withSharedUvs(c.cage(), mirrored));
             for (const bool smooth : {false, true}) {
-                if (smooth && c.scheme == SUPPLE_SCHEME_EXACT) {
+                if (smooth && c.scheme == SUPPLE_SCHEME_CATMULL_CLARK) {
                     continue; // it has no smooth texture coordinates
                 }
                 SuppleGroupDesc desc = tangentDesc(asset, c.scheme, 5);
@@ -530,12 +530,12 @@ TEST_F(Tangents, AreSomeDirectionWhereThereIsNone) {
 TEST_F(Tangents, ThatASchemeLacksAreRefusedByName) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    SuppleGroupDesc desc = tangentDesc(own.createAsset(withUvs(roughBiped())), SUPPLE_SCHEME_CATMULL_CLARK, 4);
+    SuppleGroupDesc desc = tangentDesc(own.createAsset(withUvs(roughBiped())), SUPPLE_SCHEME_FRAGMENTS, 4);
     desc.structSize = sizeof desc;
     SuppleGroup group{};
     (void)own.takeLines();
     EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_NE(own.takeLines().at(0).text.find("Catmull-Clark has no tangents"), std::string::npos);
+    EXPECT_NE(own.takeLines().at(0).text.find("fragments has no tangents"), std::string::npos);
     desc.flags = SUPPLE_GROUP_TANGENTS;
     EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ARGUMENT);
     EXPECT_NE(own.takeLines().at(0).text.find("TANGENTS go with ATTRIBUTES"), std::string::npos);

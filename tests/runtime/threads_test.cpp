@@ -85,7 +85,7 @@ std::vector<std::vector<std::byte>> run(LoggedContext& context, uint32_t groupCo
     const SuppleGroupDesc descs[] = {
         {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, .capacity = kCapacity},
         {.capacity = kCapacity, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
-        {.flags = SUPPLE_GROUP_MOTION, .capacity = kCapacity, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
+        {.flags = SUPPLE_GROUP_MOTION, .capacity = kCapacity, .scheme = SUPPLE_SCHEME_FRAGMENTS},
         {.capacity = kCapacity, .vertexFormat = SUPPLE_VERTEX_24}};
     std::vector<SmallGroup> groups;
     for (uint32_t g = 0; g < groupCount; ++g) {

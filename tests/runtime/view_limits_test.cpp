@@ -133,9 +133,8 @@ TEST_P(ViewLimits, WithoutAFaceThereIsNoGroup) {
     }
     const SuppleAsset assets[] = {context.createAsset(quads), context.createAsset(triangles)};
     context.takeLines();
-    for (const SuppleScheme scheme :
-         {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP,
-          SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_EXACT}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS,
+                                      SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CATMULL_CLARK}) {
         for (const bool ofView : {false, true}) {
             SuppleGroupDesc desc{};
             desc.structSize = sizeof(desc);
@@ -184,7 +183,7 @@ TEST_P(ViewLimits, HostsMayBindWhatIsHandedOut) {
     add(sphere, SUPPLE_SCHEME_PREP);
     add(torus, SUPPLE_SCHEME_PM);
     add(sphere, SUPPLE_SCHEME_BLEND);
-    add(torus, SUPPLE_SCHEME_EXACT);
+    add(torus, SUPPLE_SCHEME_CATMULL_CLARK);
     add(sphere, SUPPLE_SCHEME_PM);
     const auto check = [&] {
         groups.clear();

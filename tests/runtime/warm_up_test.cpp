@@ -26,7 +26,7 @@ public:
         const SuppleAsset bipeds = context.createAsset(twoBipeds());
         constexpr uint32_t kAll = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES;
         constexpr uint32_t kMesh = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_INDEXED_MESH;
-        static constexpr SuppleScheme kTwo[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_CATMULL_CLARK};
+        static constexpr SuppleScheme kTwo[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_FRAGMENTS};
         const auto add = [&](SuppleGroupDesc desc, SuppleAsset asset) {
             if (asset.id == bipeds.id) {
                 desc.partSchemes = kTwo;
@@ -45,11 +45,11 @@ public:
         for (const uint32_t flags : {kAll, 0u}) { // 0: in the view
             add({.flags = flags, .scheme = SUPPLE_SCHEME_PM, .poseSource = SUPPLE_POSES_PLAYBACK}, tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES},
-                 .scheme = SUPPLE_SCHEME_CATMULL_CLARK,
+                 .scheme = SUPPLE_SCHEME_FRAGMENTS,
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
                 tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_BLEND}, tube);
-            add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_EXACT}, tube);
+            add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_CATMULL_CLARK}, tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES},
                  .scheme = SUPPLE_SCHEME_POLYGONS,
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,

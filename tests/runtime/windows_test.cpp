@@ -45,7 +45,7 @@ struct WindowCase {
 constexpr WindowCase kWindowCases[] = {
     {"P_m", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, 5},
     {"indexed mesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH, 6},
-    {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_ATTRIBUTES, 2},
+    {"Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_ATTRIBUTES, 2},
     {"polygons", SUPPLE_SCHEME_POLYGONS, 0, 1},
 };
 
@@ -135,7 +135,7 @@ TEST_F(GroupWindows, AreAskedForOrTheLargestCapacityIsNamed) {
             desc.structSize = sizeof desc;
             desc.asset = small.createAsset(cage::makeCubeSphere(3));
             desc.capacity = 1000;
-            desc.scheme = viewed ? SUPPLE_SCHEME_CATMULL_CLARK : SUPPLE_SCHEME_PM;
+            desc.scheme = viewed ? SUPPLE_SCHEME_FRAGMENTS : SUPPLE_SCHEME_PM;
             desc.rate = 4;
             desc.view = viewed ? view.handle() : SuppleView{};
             SuppleGroup group{};

@@ -51,7 +51,7 @@ struct ExactQuads {
         return turned[firstCorner];
     }
     /// (u, v) where the device takes a sample of a patch at levels: not within the last cell of a chain
-    /// (docs/exact.md).
+    /// (docs/catmull_clark.md).
     [[nodiscard]] glm::dvec2 atLevels(uint32_t face, glm::dvec2 uv) const {
         constexpr double kNearest = 1.0 / 64.0;
         const bool right = uv.x > 0.5, up = uv.y > 0.5;

@@ -214,9 +214,14 @@ private:
         case 110: // ConvertFToS, of whole numbers
         case 124: // Bitcast
         case 127: // FNegate
-        case 128: // IAdd, ISub, ShiftLeftLogical: integers are exact
+        case 128: // IAdd, ISub, IMul: integers are exact
         case 130: //
+        case 132: //
+        case 170: // IEqual, INotEqual
+        case 171: //
+        case 194: // ShiftRightLogical, ShiftLeftLogical, BitwiseOr
         case 196: //
+        case 197: //
         case 199: // BitwiseAnd: flags that share a struct with points
         case 245: // Phi
             return true;

@@ -160,7 +160,7 @@ std::vector<std::pair<std::string, cage::Cage>> zoo(SchemeId scheme) {
 
 class BoundsMargin : public testing::TestWithParam<SchemeId> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, BoundsMargin,
-                         testing::Values(SchemeId::prep, SchemeId::pm, SchemeId::catmullClark, SchemeId::loop,
+                         testing::Values(SchemeId::prep, SchemeId::pm, SchemeId::fragments, SchemeId::loop,
                                          SchemeId::blend));
 
 TEST_P(BoundsMargin, holdsWhateverThePositions) {

@@ -54,9 +54,9 @@ TEST(SchemeChoice, PolygonsAsDrawnAreSmoothedWhateverTheirNormals) {
     for (const PolygonSource source :
          {PolygonSource::cageExtension, PolygonSource::meshPolygon, PolygonSource::ngonEncoding,
           PolygonSource::hiddenEdges, PolygonSource::obj, PolygonSource::arrays}) {
-        expectChoice(characterOf(test::cube(), source), SchemeId::pm, reason);
-        expectChoice(characterOf(flatShaded(test::cube()), source), SchemeId::pm, reason);
-        expectChoice(characterOf(test::dodecahedron(), source), SchemeId::pm, reason);
+        expectChoice(characterOf(test::cube(), source), SchemeId::catmullClark, reason);
+        expectChoice(characterOf(flatShaded(test::cube()), source), SchemeId::catmullClark, reason);
+        expectChoice(characterOf(test::dodecahedron(), source), SchemeId::catmullClark, reason);
     }
 }
 
@@ -72,7 +72,7 @@ TEST(SchemeChoice, TrianglesAreTrianglesWhoeverSaysSo) {
 
 TEST(SchemeChoice, PairsAreQuadsUnlessTheyAreHard) {
     const cage::Cage cage = test::torus(8, 6);
-    expectChoice(characterOf(smoothShaded(cage), PolygonSource::pairedTriangles), SchemeId::pm,
+    expectChoice(characterOf(smoothShaded(cage), PolygonSource::pairedTriangles), SchemeId::catmullClark,
                  "its triangles pair into quads");
     expectChoice(characterOf(flatShaded(cage), PolygonSource::pairedTriangles), SchemeId::polygons,
                  "100 % of the edges where it bends are hard");
@@ -123,8 +123,9 @@ TEST(SchemeChoice, MixedFacesGoWithTheLargerHalf) {
     ASSERT_LT(few.faceCount(), 24u);
     ASSERT_GT(many.faceCount(), 24u);
     ASSERT_LT(many.faceCount(), 32u);
-    expectChoice(characterOf(few, PolygonSource::ngonEncoding), SchemeId::pm, "its polygons are known");
-    expectChoice(characterOf(few, PolygonSource::pairedTriangles), SchemeId::pm, "its triangles pair into quads");
+    expectChoice(characterOf(few, PolygonSource::ngonEncoding), SchemeId::catmullClark, "its polygons are known");
+    expectChoice(characterOf(few, PolygonSource::pairedTriangles), SchemeId::catmullClark,
+                 "its triangles pair into quads");
     expectChoice(characterOf(many, PolygonSource::ngonEncoding), SchemeId::loop,
                  "most of its faces are smooth triangles");
 }
@@ -159,12 +160,12 @@ TEST(SchemeChoice, EveryPartChooses) {
     const std::vector<SchemeChoice> choices = chooseSchemes(twoParts(false));
     ASSERT_EQ(choices.size(), 2u);
     EXPECT_EQ(choices[0].scheme, SchemeId::loop);
-    EXPECT_EQ(choices[1].scheme, SchemeId::pm);
+    EXPECT_EQ(choices[1].scheme, SchemeId::catmullClark);
 }
 
 TEST(SchemeChoice, SewnPartsChooseTogether) {
     Character character = twoParts(true);
-    expectChoice(character, SchemeId::pm, "most of its polygons are known");
+    expectChoice(character, SchemeId::catmullClark, "most of its polygons are known");
     // One quad less, and triangles are the larger half.
     cage::Cage& cage = character.cage;
     cage.faceStarts.pop_back();
@@ -188,7 +189,7 @@ TEST(SchemeChoice, CharactersModelledForSubdivisionAreSmoothed) {
     for (const std::string& path : test::allCharacters()) {
         const Result<Character> character = cage::readGltfFile(path);
         ASSERT_TRUE(character) << character.error().message;
-        expectChoice(*character, SchemeId::pm, "its polygons are known");
+        expectChoice(*character, SchemeId::catmullClark, "its polygons are known");
     }
 }
 

@@ -198,7 +198,7 @@ void expectGlbIsObj(const Glb& glb, const Obj& obj) {
 }
 
 TEST_F(BakeFiles, GlbIsTheObj) {
-    const std::string surface = kSamplePip + " --rate 3 --clip walk --time 0.4";
+    const std::string surface = kSamplePip + " --rate 4 --clip walk --time 0.4";
     ASSERT_NO_FATAL_FAILURE(bake(surface + " -o pip.obj"));
     ASSERT_NO_FATAL_FAILURE(bake(surface + " -o pip.glb"));
     EXPECT_EQ(said_, "");
@@ -313,7 +313,10 @@ TEST_F(BakeFiles, TangentsPointAlongTheTexture) {
             const glm::vec2 step = uvs[to] - uvs[from];
             if (step.x > 0.0f && step.y == 0.0f) {
                 const glm::vec3 along = glm::normalize(positions[to] - positions[from]);
-                EXPECT_GT(glm::dot(along, glm::vec3(tangents[from])), 0.99f);
+                // Lines bend most beside the corners, where three faces meet, however short the step.
+                const glm::vec2 fromCorner = 0.5f - glm::abs(uvs[from] - 0.5f);
+                const bool besideCorner = glm::all(glm::lessThan(fromCorner, glm::vec2(1.5f / 16.0f)));
+                EXPECT_GT(glm::dot(along, glm::vec3(tangents[from])), besideCorner ? 0.98f : 0.99f);
                 ++compared;
             }
         }

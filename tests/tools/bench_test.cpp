@@ -36,12 +36,12 @@ struct Expected {
 };
 std::vector<Expected> expectedCages() {
     std::vector<Expected> cages{
-        {"sphere", 1350, {"prep", "pm", "exact", "catmull-clark", "blend"}, true},
-        {"irregular", 1296, {"prep", "pm", "exact", "catmull-clark", "blend"}, true},
-        {"triangles", 2700, {"pm", "exact", "catmull-clark", "loop", "blend"}, false},
-        {"man_casual_quads", 3966, {"prep", "pm", "exact", "catmull-clark", "blend"}, false},
-        {"pip_quads", 1496, {"prep", "pm", "exact", "catmull-clark", "blend"}, false},
-        {"pip", 1832, {"pm", "exact", "catmull-clark", "loop", "blend"}, false},
+        {"sphere", 1350, {"prep", "pm", "catmull-clark", "fragments", "blend"}, true},
+        {"irregular", 1296, {"prep", "pm", "catmull-clark", "fragments", "blend"}, true},
+        {"triangles", 2700, {"pm", "catmull-clark", "fragments", "loop", "blend"}, false},
+        {"man_casual_quads", 3966, {"prep", "pm", "catmull-clark", "fragments", "blend"}, false},
+        {"pip_quads", 1496, {"prep", "pm", "catmull-clark", "fragments", "blend"}, false},
+        {"pip", 1832, {"pm", "catmull-clark", "fragments", "loop", "blend"}, false},
     };
     if (supple::test::sharedAssets({"characters/man_casual_quads.glb"}).empty()) {
         std::erase_if(cages, [](const Expected& expected) { return expected.cage == std::string("man_casual_quads"); });
@@ -98,7 +98,7 @@ TEST_F(Bench, QuickRunIsWhole) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
             ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
                            scheme + " frame / plain C++ bi-3"});
-            if (scheme == "prep" || scheme == "pm" || scheme == "exact") {
+            if (scheme == "prep" || scheme == "pm" || scheme == "catmull-clark") {
                 contestants.insert({scheme + " shared evaluate", scheme + " shared frame"});
                 ratios.insert({scheme + " shared evaluate / " + scheme + " evaluate",
                                scheme + " shared evaluate / plain C++ bi-3"});
@@ -113,7 +113,7 @@ TEST_F(Bench, QuickRunIsWhole) {
                 }
                 if (cpuPeer && hasGlsl) {
                     contestants.insert("OpenSubdiv GLSL, " + job);
-                    ratios.insert("catmull-clark evaluate / OpenSubdiv GLSL, " + job);
+                    ratios.insert("fragments evaluate / OpenSubdiv GLSL, " + job);
                 }
             }
         }
@@ -161,7 +161,7 @@ TEST_F(Bench, QuickRunIsWhole) {
         }
     }
     std::set<std::string> uses;
-    for (const std::string scheme : {"prep", "pm", "exact", "catmull-clark", "loop", "blend"}) {
+    for (const std::string scheme : {"prep", "pm", "catmull-clark", "fragments", "loop", "blend"}) {
         uses.insert(scheme + ", ");
     }
     uses.insert("prep, in a view");
@@ -184,8 +184,9 @@ TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
     EXPECT_EQ(row["triangles"], 2 * rate * rate * faces);
     EXPECT_TRUE(row["refused"].empty());
     EXPECT_TRUE(finitePositive(row["skinAloneMs"]) && finitePositive(row["skinAloneCpuMs"])) << row;
-    EXPECT_EQ(names(row["contestants"]), (std::set<std::string>{"polygons", "prep", "prep shared", "pm", "pm shared",
-                                                                "exact", "exact shared", "catmull-clark", "blend"}));
+    EXPECT_EQ(names(row["contestants"]),
+              (std::set<std::string>{"polygons", "prep", "prep shared", "pm", "pm shared", "catmull-clark",
+                                     "catmull-clark shared", "fragments", "blend"}));
     for (const Json& one : row["contestants"]) {
         // A closed mesh of quads has as many vertices as faces, and two more.
         EXPECT_EQ(one["skinnedVertices"], (one["name"] == "polygons" ? rate * rate * faces : faces) + 2) << one;

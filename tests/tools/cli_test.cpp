@@ -246,7 +246,7 @@ TEST_F(Cli, DamageIsRepairedOrRefusedByName) {
     const std::string edge = "file: 1 edge has three or more faces: edge (0, 1) of faces 0, 1, 2";
     const Json json = Json::parse(run("inspect fin.obj --json").out);
     EXPECT_EQ(json["warnings"], Json::array({twice + "; left out", edge + "; cut into sheets, 2 vertices repeated"}));
-    for (const char* scheme : {"pm", "catmull-clark", "loop", "blend"}) {
+    for (const char* scheme : {"catmull-clark", "pm", "fragments", "loop", "blend"}) {
         EXPECT_EQ(json["schemes"][scheme]["accepted"], true) << scheme;
     }
     const std::string bothLines = "supple: fin.obj: " + twice + "\nsupple: fin.obj: " + edge + "\n";
@@ -415,12 +415,12 @@ TEST_F(Cli, BakePatchesMatchTheSurface) {
 }
 
 TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
-    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --scheme catmull-clark --rate 3");
+    const Outcome outcome = runOnDevice("bake cube.gltf -o out.obj --scheme fragments --rate 3");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_NE(outcome.err.find("rate 3"), std::string::npos) << "that it was rounded up: " << outcome.err;
     EXPECT_EQ(readText(file("out.obj"))
-                  .rfind("# supple bake: scheme catmull-clark, rate 2 (3 asked for along an edge of "
+                  .rfind("# supple bake: scheme fragments, rate 2 (3 asked for along an edge of "
                          "the cage), 24 patches\n",
                          0),
               0u);
@@ -447,12 +447,15 @@ TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
 
 TEST_F(Cli, BakeWritesPatchesOfSchemesThatHaveCoefficients) {
     const std::vector<std::pair<std::string, bool>> schemes{
-        {"auto", true},           {"pm", true},     {"prep", true},      {"loop", false}, {"blend", false},
-        {"catmull-clark", false}, {"exact", false}, {"polygons", false}, {"cage", false}};
+        {"pm", true},         {"prep", true},           {"loop", false},     {"blend", false},
+        {"fragments", false}, {"catmull-clark", false}, {"polygons", false}, {"cage", false}};
+    // A cube has known polygons.
+    expectFailure(run("bake cube.gltf -o out.obj --patches p.json"), 2,
+                  "--patches: part 0 has scheme catmull-clark, which has no patch coefficients; pm, prep have");
     const std::string help = run("bake --help").out;
     const size_t list = help.find('{', help.find("--scheme"));
     ASSERT_NE(list, std::string::npos) << help;
-    std::set<std::string> named, known;
+    std::set<std::string> named, known{"auto"};
     std::istringstream names(help.substr(list + 1, help.find('}', list) - list - 1));
     for (std::string name; std::getline(names, name, ',');) {
         named.insert(name);
@@ -479,12 +482,12 @@ TEST_F(Cli, BakeWritesPatchesOfSchemesThatHaveCoefficients) {
 
 TEST_F(Cli, InspectKnowsSubdivision) {
     const Json schemes = Json::parse(run("inspect cube.gltf --json").out)["schemes"];
-    EXPECT_EQ(schemes["catmull-clark"]["patches"], Json({{"catmull-clark", 24}}));
-    EXPECT_EQ(schemes["catmull-clark"]["notes"], Json::array());
+    EXPECT_EQ(schemes["fragments"]["patches"], Json({{"fragment", 24}}));
+    EXPECT_EQ(schemes["fragments"]["notes"], Json::array());
     EXPECT_EQ(schemes["loop"]["patches"], Json({{"loop", 48}}));
     EXPECT_EQ(schemes["loop"]["notes"],
               Json::array({"6 faces have more than 3 sides, the first is face 0; split into triangles"}));
-    EXPECT_NE(run("inspect cube.gltf").out.find("accepted: 24 catmull-clark"), std::string::npos);
+    EXPECT_NE(run("inspect cube.gltf").out.find("accepted: 24 fragment"), std::string::npos);
 }
 
 TEST_F(Cli, ProfileOfAllSchemes) {
@@ -497,7 +500,7 @@ TEST_F(Cli, ProfileOfAllSchemes) {
         if (run["scheme"] == "polygons") { // has no rate
             continue;
         }
-        const bool subdivided = run["scheme"] == "catmull-clark" || run["scheme"] == "loop";
+        const bool subdivided = run["scheme"] == "fragments" || run["scheme"] == "loop";
         EXPECT_EQ(run["rate"], 6);
         EXPECT_EQ(run["patchRate"], subdivided ? 4 : 6) << run["scheme"];
     }
@@ -559,28 +562,28 @@ TEST_F(Cli, PartsHaveSchemesOfTheirOwn) {
     const Json parts = Json::parse(run("inspect cubes.gltf --json").out)["parts"];
     ASSERT_EQ(parts.size(), 3u);
     for (const Json& part : parts) {
-        EXPECT_EQ(part["scheme"], "pm");
+        EXPECT_EQ(part["scheme"], "catmull-clark");
         EXPECT_EQ(part["schemeReason"], "its polygons are known");
     }
-    EXPECT_NE(run("inspect cubes.gltf").out.find("auto: pm, its polygons are known"), std::string::npos);
+    EXPECT_NE(run("inspect cubes.gltf").out.find("auto: catmull-clark, its polygons are known"), std::string::npos);
 
     ASSERT_EQ(runOnDevice("bake cubes.gltf -o all.obj --rate 2 --scheme loop").exitCode, 0);
     ASSERT_EQ(runOnDevice("bake cubes.gltf -o mixed.obj --rate 2 --part-scheme far=loop").exitCode, 0);
-    ASSERT_EQ(runOnDevice("bake cubes.gltf -o pm.obj --rate 2").exitCode, 0);
-    const std::vector<std::string> loop = readObj(file("all.obj")).vLines, pm = readObj(file("pm.obj")).vLines;
+    ASSERT_EQ(runOnDevice("bake cubes.gltf -o quads.obj --rate 2").exitCode, 0);
+    const std::vector<std::string> loop = readObj(file("all.obj")).vLines, quads = readObj(file("quads.obj")).vLines;
     const std::vector<std::string> mixed = readObj(file("mixed.obj")).vLines;
-    ASSERT_EQ(pm.size(), 3u * 6 * 9) << "six patches of a cube";
+    ASSERT_EQ(quads.size(), 3u * 6 * 9) << "six patches of a cube";
     ASSERT_EQ(loop.size(), 3u * 48 * 3) << "four patches of each triangle";
-    std::vector<std::string> expected(pm.begin(), pm.begin() + 54); // parts in their order
+    std::vector<std::string> expected(quads.begin(), quads.begin() + 54); // parts in their order
     expected.insert(expected.end(), loop.begin() + 144, loop.begin() + 288);
-    expected.insert(expected.end(), pm.begin() + 108, pm.end());
+    expected.insert(expected.end(), quads.begin() + 108, quads.end());
     EXPECT_EQ(mixed, expected);
     const std::string text = readText(file("mixed.obj"));
-    EXPECT_NE(text.find("scheme pm, rate 2, 12 patches"), std::string::npos);
+    EXPECT_NE(text.find("scheme catmull-clark, rate 2, 12 patches"), std::string::npos);
     EXPECT_NE(text.find("scheme loop, rate 1 (2 asked for along an edge of the cage), 48 patches"), std::string::npos);
     EXPECT_NE(text.find("g patch_59\n"), std::string::npos) << "numbered through";
 
-    const std::string bake = "bake cubes.gltf -o x.obj --patches p.json --rate 2 ";
+    const std::string bake = "bake cubes.gltf -o x.obj --patches p.json --rate 2 --scheme pm ";
     expectFailure(run(bake + "--part-scheme 1=loop"), 2, "--patches: part 1 has scheme loop");
     ASSERT_EQ(runOnDevice(bake + "--part-scheme 1=prep").exitCode, 0);
     const Json patches = Json::parse(readText(file("p.json")));
@@ -589,7 +592,7 @@ TEST_F(Cli, PartsHaveSchemesOfTheirOwn) {
     EXPECT_EQ(patches["patches"][12]["face"], 6) << "of the second part";
 
     ASSERT_EQ(runOnDevice("profile cubes.gltf --frames 2 --json p.json --part-scheme 0=polygons").exitCode, 0);
-    EXPECT_EQ(Json::parse(readText(file("p.json")))["runs"][0]["scheme"], "polygons+pm");
+    EXPECT_EQ(Json::parse(readText(file("p.json")))["runs"][0]["scheme"], "polygons+catmull-clark");
     expectFailure(run("bake cubes.gltf -o x.obj --part-scheme far"), 2, "PART=SCHEME");
     expectFailure(run("bake cubes.gltf -o x.obj --part-scheme far=cage"), 2, "no scheme of a part");
     expectFailure(run("bake cubes.gltf -o x.obj --part-scheme nose=pm"), 1, "0 near, 1 far, 2 near");
@@ -756,7 +759,7 @@ TEST_F(Cli, ProfileWritesTableJsonCsvAndTrace) {
     EXPECT_NE(json["machine"]["device"], "");
     ASSERT_EQ(json["runs"].size(), 2u);
     for (const Json& run : json["runs"]) {
-        EXPECT_EQ(run["scheme"], "pm") << "what auto stands for";
+        EXPECT_EQ(run["scheme"], "catmull-clark") << "what auto stands for";
         EXPECT_EQ(run["instances"], 3);
         EXPECT_EQ(run["frames"], 7) << "no frame's timings were skipped";
         EXPECT_EQ(run["frame"]["points"], 3 * 6 * 81);

@@ -97,9 +97,9 @@ TEST_F(ClipFiles, ACharacterCutInTwoBakesTheSameBits) {
 TEST_F(ClipFiles, EveryCommandThatReadsCharactersTakesThem) {
     cut(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb");
     for (const char* command :
-         {"render still.glb -o a.png --size 40x40 --rate 1 --clip 1", "convert still.glb -o a.glb",
-          "sheet still.glb -o sheet.png --cell 24x24 --columns 1 --rate 1 --only 0,1",
-          "profile still.glb --frames 1 --rate 1 --clip 1", "bake still.glb -o a.obj --rate 1 --clip 1"}) {
+         {"render still.glb -o a.png --size 40x40 --rate 2 --clip 1", "convert still.glb -o a.glb",
+          "sheet still.glb -o sheet.png --cell 24x24 --columns 1 --rate 2 --only 0,1",
+          "profile still.glb --frames 1 --rate 2 --clip 1", "bake still.glb -o a.obj --rate 2 --clip 1"}) {
         const Outcome outcome = run(std::string(command) + " --clips clips.glb");
         EXPECT_EQ(outcome.exitCode, 0) << command << "\n" << outcome.err;
         EXPECT_EQ(outcome.err, "") << command;

@@ -68,10 +68,12 @@ TEST_F(Compare, FiguresOfACube) {
     const Json& prep = json["schemes"]["prep"];
     EXPECT_GT(prep["distance"]["max"], 1e-3);
     EXPECT_LT(prep["distance"]["max"], 1e-2);
-    const Json& same = json["schemes"]["catmull-clark"];
-    EXPECT_EQ(same["samples"], 24 * 25);
-    EXPECT_LT(same["distance"]["max"], 3e-7);
-    EXPECT_LT(same["normalDegrees"]["max"], 1e-3);
+    for (const auto& [scheme, samples] : {std::pair("catmull-clark", 6 * 81), std::pair("fragments", 24 * 25)}) {
+        const Json& same = json["schemes"][scheme];
+        EXPECT_EQ(same["samples"], samples) << scheme;
+        EXPECT_LT(same["distance"]["max"], 3e-7) << scheme;
+        EXPECT_LT(same["normalDegrees"]["max"], 1e-3) << scheme;
+    }
     const Json& loop = json["schemes"]["loop"];
     EXPECT_GT(loop["distance"]["max"], 1e-2) << "another surface";
     EXPECT_GT(json["schemes"]["blend"]["distance"]["max"], 5e-2) << "it passes through the cage's vertices";
@@ -95,8 +97,10 @@ TEST_F(Compare, ACharacterInMotion) {
         EXPECT_LT(schemes[scheme]["distance"]["max"], 3e-3) << scheme;
         EXPECT_LT(schemes[scheme]["normalDegrees"]["mean"], 1.5) << scheme;
     }
-    EXPECT_LT(schemes["catmull-clark"]["distance"]["max"], 5e-7);
-    EXPECT_LT(schemes["catmull-clark"]["normalDegrees"]["mean"], 1e-3);
+    for (const char* scheme : {"catmull-clark", "fragments"}) {
+        EXPECT_LT(schemes[scheme]["distance"]["max"], 5e-7) << scheme;
+        EXPECT_LT(schemes[scheme]["normalDegrees"]["mean"], 1e-3) << scheme;
+    }
     EXPECT_GT(schemes["loop"]["distance"]["mean"], schemes["pm"]["distance"]["mean"]);
     // The pose counts: another time gives other figures.
     const Json other = comparisonOf("--rate 4 --clip walk --time 1.1 '" + pip + "'");
@@ -110,7 +114,7 @@ TEST_F(Compare, RefusedSchemesSayWhy) {
     EXPECT_EQ(json["schemes"]["prep"]["accepted"], false);
     EXPECT_NE(json["schemes"]["prep"]["reason"].get<std::string>().find("3 sides"), std::string::npos);
     EXPECT_LT(json["schemes"]["catmull-clark"]["distance"]["max"], 3e-7);
-    EXPECT_LT(json["schemes"]["exact"]["distance"]["max"], 3e-7);
+    EXPECT_LT(json["schemes"]["fragments"]["distance"]["max"], 3e-7);
     const Outcome text = runOnDevice("inspect --compare prism.obj");
     EXPECT_NE(text.out.find("refused: prism.obj: p-rep takes quads only: "), std::string::npos) << text.out;
 }

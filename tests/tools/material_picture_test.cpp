@@ -167,8 +167,8 @@ void expectBumpsAlike(const Picture& picture) {
 TEST_F(MaterialPictureTest, NormalMapsTurnLightAsBumpsDoMirroredOrNot) {
     const SceneFile bumps = test::bumpScene(false);
     const Scene scene = facing({1.0f, -1.5f}, 4.2f);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_BLEND,
-                                      SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_POLYGONS}) {
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_POLYGONS}) {
         SCOPED_TRACE("scheme " + std::to_string(scheme));
         const Drawn drawn = drawWith(bumps, {.scheme = scheme, .rate = 4}, scene);
         EXPECT_TRUE(drawn.tangents || scheme != SUPPLE_SCHEME_PM);

@@ -142,7 +142,7 @@ std::vector<Picture> pictures() {
     all.push_back({"creasesClose", render + "ridge.obj --rate 4 --scheme loop --cage --zoom 2 --at 0.4,0.6"});
     all.push_back({"sharedSamples", render + "cube.obj --rate 4 --scheme prep --shared-samples"});
     all.push_back({"sharedSamplesWire", render + "%/pip.glb --rate 2 --shared-samples --view wire"});
-    all.push_back({"pose", render + "%/pip.glb --rate 1 --clip walk --time 0.4 --skinning dual-quaternion"});
+    all.push_back({"pose", render + "%/pip.glb --rate 2 --clip walk --time 0.4 --skinning dual-quaternion"});
     all.push_back({"sheet", "sheet %/helmet.glb --cell 40x40 --columns 2 --rate 2"});
     all.push_back({"sheetZebra", "sheet cube.obj --cell 40x40 --columns 1 --view zebra --cage --no-labels"});
     return all;

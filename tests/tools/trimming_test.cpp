@@ -203,7 +203,7 @@ const Distance kStraight = [](glm::vec2 at) { return straight(at); };
 
 constexpr std::pair<SuppleScheme, const char*> kSchemes[] = {{SUPPLE_SCHEME_PM, "P_m"},
                                                              {SUPPLE_SCHEME_PREP, "p-rep"},
-                                                             {SUPPLE_SCHEME_CATMULL_CLARK, "Catmull-Clark"},
+                                                             {SUPPLE_SCHEME_FRAGMENTS, "Catmull-Clark"},
                                                              {SUPPLE_SCHEME_LOOP, "Loop"}};
 
 TEST_F(TrimmingTest, ContoursAreWhereTheImageSaysInEveryScheme) {
@@ -390,7 +390,7 @@ TEST_F(TrimmingTest, FaceCoordinatesAreTheirFaces) {
     assetDesc.cage = &arrays.desc;
     SuppleAsset asset{};
     ASSERT_EQ(suppleCreateAsset(context_->handle(), &assetDesc, &asset), SUPPLE_OK);
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         SCOPED_TRACE(scheme);
         SuppleGroupDesc desc{};
         desc.structSize = sizeof(desc);

@@ -37,7 +37,7 @@ for scheme in auto cage; do
     cmp "$work/128.png" "$work/64.png" || fail "another picture when drawn again, scheme $scheme"
 done
 
-"$supple" view "$character" --frames 2 --size 160x120 --rate 3 --scheme catmull-clark --view patches $validate ||
+"$supple" view "$character" --frames 2 --size 160x120 --rate 3 --scheme fragments --view patches $validate ||
     fail "exit code $?"
 
 # A file that is refused does not keep the others from being shown, but it is said.

@@ -157,7 +157,7 @@ Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& wor
         return result;
     }
 
-    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, quads, SUPPLE_SCHEME_CATMULL_CLARK, 0);
+    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, quads, SUPPLE_SCHEME_FRAGMENTS, 0);
     if (!frame) {
         return frame.error();
     }
@@ -192,7 +192,7 @@ Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& wor
             largest = std::max(largest, nearest(p, theirs));
         }
     }
-    result.push_back({quads.name + ": device's Catmull-Clark against " + all->front().name, largest, kLimitBound});
+    result.push_back({quads.name + ": device's fragments against " + all->front().name, largest, kLimitBound});
     return result;
 }
 

@@ -47,7 +47,7 @@ std::vector<SuppleScheme> schemesFor(const cage::Cage& cage) {
     if (quads == cage.faceCount()) {
         schemes.push_back(SUPPLE_SCHEME_PREP);
     }
-    schemes.insert(schemes.end(), {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_EXACT, SUPPLE_SCHEME_CATMULL_CLARK});
+    schemes.insert(schemes.end(), {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_FRAGMENTS});
     if (triangles > 0) {
         schemes.push_back(SUPPLE_SCHEME_LOOP);
     }

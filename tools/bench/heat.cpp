@@ -251,7 +251,7 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }
-        if (scheme == "prep" || scheme == "pm" || scheme == "exact" || scheme == "catmull-clark") {
+        if (scheme == "prep" || scheme == "pm" || scheme == "catmull-clark" || scheme == "fragments") {
             for (const Peer& peer : peers_) {
                 add(scheme + " evaluate", peer.name, true);
             }

@@ -30,10 +30,10 @@ constexpr RatioTarget kRatios[] = {
     {"pm evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.04, 0.04, 0.04, 0.04}},
     {"prep frame / prep evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
     {"pm frame / pm evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
-    {"exact evaluate / OpenSubdiv CPU, limit stencils", "", "median", {0.15, 0.15, 0.15, 0.15}},
-    {"exact evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.05, 0.05, 0.05, 0.05}},
-    {"exact frame / exact evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"catmull-clark evaluate / OpenSubdiv CPU, limit stencils", "", "median", {0.15, 0.15, 0.15, 0.15}},
+    {"catmull-clark evaluate / OpenSubdiv GLSL, limit stencils", "", "median", {0.05, 0.05, 0.05, 0.05}},
     {"catmull-clark frame / catmull-clark evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
+    {"fragments frame / fragments evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
     {"loop frame / loop evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
     {"blend frame / blend evaluate", "", "median", {1.6, 1.25, 1.15, 0}},
 };

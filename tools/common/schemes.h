@@ -13,12 +13,12 @@ struct Scheme {
     bool smooth;       ///< a smooth surface, sampled in grids
 };
 
-inline constexpr Scheme kSchemes[] = {{"pm", SUPPLE_SCHEME_PM, true, true},
+inline constexpr Scheme kSchemes[] = {{"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false, true},
+                                      {"pm", SUPPLE_SCHEME_PM, true, true},
                                       {"prep", SUPPLE_SCHEME_PREP, true, true},
-                                      {"catmull-clark", SUPPLE_SCHEME_CATMULL_CLARK, false, true},
                                       {"loop", SUPPLE_SCHEME_LOOP, false, true},
                                       {"blend", SUPPLE_SCHEME_BLEND, false, true},
-                                      {"exact", SUPPLE_SCHEME_EXACT, false, true},
+                                      {"fragments", SUPPLE_SCHEME_FRAGMENTS, false, true},
                                       {"polygons", SUPPLE_SCHEME_POLYGONS, false, false}};
 
 [[nodiscard]] constexpr const char* schemeName(SuppleScheme scheme) {

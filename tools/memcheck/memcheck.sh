@@ -46,7 +46,7 @@ check() {
 check inspect box.obj --json
 check inspect box.obj --compare --rate 2
 check convert box.obj -o box.glb
-for scheme in pm prep catmull-clark loop blend exact polygons cage; do
+for scheme in catmull-clark pm prep fragments loop blend polygons cage; do
     check bake box.obj -o box_$scheme.obj --scheme $scheme --rate 2
     check render box.obj -o box.png --scheme $scheme --size 64x64 --rate 2
 done

@@ -1,4 +1,4 @@
-// Equation numbers are those of docs/exact.md.
+// Equation numbers are those of docs/catmull_clark.md.
 #include "tools/reference/exact.h"
 
 #include "surface/exact/arrangement.h"

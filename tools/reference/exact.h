@@ -1,5 +1,5 @@
 // The limit surface of Catmull-Clark at any parameter, in double: bicubic B-spline leaves of ever smaller quads round a
-// vertex, where creases are weights (docs/exact.md). For tests, comparisons and queries.
+// vertex, where creases are weights (docs/catmull_clark.md). For tests, comparisons and queries.
 #pragma once
 
 #include "surface/subdivision/mesh.h"

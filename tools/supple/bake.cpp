@@ -97,12 +97,23 @@ Status writePatches(const std::string& path, const Evaluation& baked) {
     return file.close();
 }
 
+/// "; pm, prep have"
+std::string whichHave() {
+    std::string names;
+    for (const Scheme& scheme : kSchemes) {
+        if (scheme.coefficients) {
+            names += (names.empty() ? "; " : ", ") + std::string(scheme.name);
+        }
+    }
+    return names + " have";
+}
+
 /// Why --patches cannot be, or empty: which part has a scheme without coefficients.
 std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& flags,
                          const std::vector<SuppleScheme>& partSchemes) {
     const SuppleScheme named = schemeOf(flags.scheme);
     if (partSchemes.empty() && named != SUPPLE_SCHEME_AUTO) {
-        return hasCoefficients(named) ? "" : "--patches: " + flags.scheme + " has no patch coefficients";
+        return hasCoefficients(named) ? "" : "--patches: " + flags.scheme + " has no patch coefficients" + whichHave();
     }
     const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
     for (size_t part = 0; part < choices.size(); ++part) {
@@ -111,7 +122,7 @@ std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& f
         scheme = scheme == SUPPLE_SCHEME_AUTO ? static_cast<SuppleScheme>(choices[part].scheme) : scheme;
         if (!hasCoefficients(scheme)) {
             return "--patches: part " + std::to_string(part) + " has scheme " + schemeName(scheme) +
-                   ", which has no patch coefficients";
+                   ", which has no patch coefficients" + whichHave();
         }
     }
     return {};

@@ -128,7 +128,7 @@ double extentOf(const std::vector<glm::dvec3>& positions) {
 }
 
 std::vector<std::string> notesFor(SuppleScheme scheme, const cage::Cage& cage) {
-    if (scheme == SUPPLE_SCHEME_CATMULL_CLARK) {
+    if (scheme == SUPPLE_SCHEME_CATMULL_CLARK || scheme == SUPPLE_SCHEME_FRAGMENTS) {
         return {"the same surface: what is left is float's rounding and the error of measuring"};
     }
     if (scheme != SUPPLE_SCHEME_LOOP) {

@@ -52,7 +52,7 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
 void bindRate(CLI::App& command, uint32_t& rate) {
     command
         .add_option("--rate", rate,
-                    "Segments along a patch edge; catmull-clark and loop: along an edge of the cage, rounded up to a "
+                    "Segments along a patch edge; fragments and loop: along an edge of the cage, rounded up to a "
                     "power of two")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
         ->capture_default_str();

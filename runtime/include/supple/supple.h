@@ -412,7 +412,9 @@ typedef enum SuppleScheme {
     SUPPLE_SCHEME_AUTO = 0,
     SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch per face; creases are ignored */
     SUPPLE_SCHEME_PM = 2,   /**< P_m: any polygons, polar fans, creases; G1 except at creases, one patch per facet */
-    SUPPLE_SCHEME_CATMULL_CLARK = 3, /**< subdivision: any polygons, semi-sharp creases; the limit itself */
+    /** The limit of Catmull-Clark subdivision by one patch per quad (docs/catmull_clark.md), at any rate: any polygons,
+     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
+    SUPPLE_SCHEME_CATMULL_CLARK = 3,
     SUPPLE_SCHEME_LOOP = 4, /**< subdivision: triangles (larger faces are split into them), semi-sharp creases */
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
@@ -420,9 +422,9 @@ typedef enum SuppleScheme {
     /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
-    /** The limit of Catmull-Clark subdivision by one patch per quad (docs/exact.md), at any rate: any polygons,
-     * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
-    SUPPLE_SCHEME_EXACT = 7,
+    /** The limit of Catmull-Clark too, but by refinement (docs/subdivision.md): rates are powers of two, views draw an
+     * instance at one of several rates, and evaluation costs several times as much. For comparisons. */
+    SUPPLE_SCHEME_FRAGMENTS = 7,
     SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
 } SuppleScheme;
 
@@ -696,8 +698,8 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
-    /** PREP, PM and EXACT without a view (POLYGONS has it in any case): an instance is one indexed mesh, which stores
-     * samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
+    /** PREP, PM and CATMULL_CLARK without a view (POLYGONS has it in any case): an instance is one indexed mesh, which
+     * stores samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
      * boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
@@ -723,19 +725,19 @@ typedef struct SuppleGroupDesc {
     uint32_t capacity; /**< instances that can exist at a time, 1 or more */
     SuppleScheme scheme;
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
-     * CATMULL_CLARK and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
-     * of them (SuppleGridOutput.rate). With CATMULL_CLARK, if the cage has faces that are no quads, it has a quarter.
-     * BLEND and EXACT: if the cage has faces that are no quads, `rate` counts segments along an edge of the cage. It is
-     * rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
+     * FRAGMENTS and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
+     * of them (SuppleGridOutput.rate). With FRAGMENTS, if the cage has faces that are no quads, it has a quarter.
+     * BLEND and CATMULL_CLARK: if the cage has faces that are no quads, `rate` counts segments along an edge of the
+     * cage. It is rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
-     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, EXACT and BLEND ignore `rate`
-     * and have a SuppleLevelOutput. With CATMULL_CLARK and LOOP each instance gets the rate that its level asks for, at
-     * most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * CATMULL_CLARK, LOOP and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
+     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK and BLEND ignore
+     * `rate` and have a SuppleLevelOutput. With FRAGMENTS and LOOP each instance gets the rate that its level asks for,
+     * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
+     * FRAGMENTS, LOOP and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
      * count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
@@ -782,10 +784,10 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
- * be 1 to the rate that the group was created with. Groups of CATMULL_CLARK, LOOP, BLEND or POLYGONS, or with
- * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. EXACT rounds it as
- * it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change it, none does;
- * only POLYGONS beside other schemes has no say. */
+ * be 1 to the rate that the group was created with. Groups of FRAGMENTS, LOOP, BLEND or POLYGONS, or with
+ * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. CATMULL_CLARK
+ * rounds it as it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change
+ * it, none does; only POLYGONS beside other schemes has no say. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
@@ -1092,8 +1094,8 @@ typedef struct SuppleVertexStreams {
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point. The bitangent is w * cross(normal, tangent), for a normal map whose
      * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
-     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM, EXACT, BLEND and POLYGONS
-     * have them. suppleCreateGroup fails if a scheme that you named has none. */
+     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM, CATMULL_CLARK, BLEND and
+     * POLYGONS have them. suppleCreateGroup fails if a scheme that you named has none. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
@@ -1177,20 +1179,22 @@ SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup g
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,          /**< 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1,        /**< 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,            /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,               /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,               /**< 25 */
-    SUPPLE_PATCH_P5 = 5,               /**< 31 */
-    SUPPLE_PATCH_CATMULL_CLARK = 6,    /**< none: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,             /**< none */
-    SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
-    SUPPLE_PATCH_IRREGULAR = 11,       /**< none, EXACT: a quad of leaves */
-    SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, EXACT: with sharp edges */
-    SUPPLE_PATCH_CREASED = 13 /**< none, EXACT: no corner has a chain of leaves, but a semi-sharp crease passes */
+    SUPPLE_PATCH_REGULAR = 0,   /**< 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1, /**< 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,     /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,        /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,        /**< 25 */
+    SUPPLE_PATCH_P5 = 5,        /**< 31 */
+    SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_CATMULL_CLARK = SUPPLE_PATCH_FRAGMENT, /**< the name that it had up to 0.2 */
+    SUPPLE_PATCH_LOOP = 7,                              /**< none */
+    SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
+    SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
+    SUPPLE_PATCH_CREASED =
+        13 /**< none, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
