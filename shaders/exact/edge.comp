@@ -31,7 +31,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 
 #ifndef WIDE
 const bool kInside = false;
-const uint kSides = 1u;
+const bool kSides = true;
 uint last;
 void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
     if (!own || (i == 0u && !at.begins)) return;
@@ -40,42 +40,25 @@ void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame f
 }
 #include "shaders/exact/nets.glsl"
 
-// Turned so that a side comes first.
-uvec4 turned(uvec4 v, uint side) {
-    uvec4 once = (side & 1u) != 0u ? v.yzwx : v;
-    return (side & 2u) != 0u ? once.zwxy : once;
-}
-IrregularQuad turnedQuad(IrregularQuad quad, uint side) {
-    uint flags = quad.flags >> kCubicSide & 15u;
-    return IrregularQuad(turned(quad.points, side), turned(quad.spokes, side), turned(quad.windows, side), turned(quad.sizes, side),
-                         uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), side)),
-                         (flags >> side | flags << (4u - side)) << kCubicSide, turned(quad.normals, side));
-}
-Net turnedNet(const PatchPlace at, uint side) {
-    Net net;
-    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
-        uint place = SUPPLE_EXACT_NET_PLACE(side, k % kNetSide, k / kNetSide);
-        net.p[k] = ownPoint(at, place);
-    }
-    return net;
-}
-
 void main() {
     uint item = itemOfLane(), record = push.table + elementOf(item) * kEdgeElements;
     PatchPlace at = placeOf(instanceOf(item), record, tableElement(record + 2u));
     uint side = tableElement(record).y;
     last = fixedRate();
-    QuadCells q;
-    q.quad = turnedQuad(quadOf(at.record), side);
-    q.net = turnedNet(at, side);
-    q.sides[0] = quadSide(at, q.quad, q.net, 0u);
-    q.sides[1] = q.sides[2] = q.sides[3] = q.sides[0]; // not read
-    q.limits = cornerLimits(at, q.quad);
-    storeCells(at, q, 0u);
+    // Turned so that the side comes first.
+    IrregularQuad quad = turnedQuad(quadOf(at.record), side), next = turnedQuad(quad, 1u);
+    Net net = turnedNet(at, side), nextNet = turnedOnce(net);
+    vec3 border[4] = sideCubic(at, quad, 0u);
+    OwnQuarter begin = ownQuarter(at, quad, net, 0u), end = ownQuarter(at, next, nextNet, 1u);
+    begin.first = begin.second = ownFirst(at, quad, net, border); // the second is not read, nor is the end's first
+    end.first = end.second = ownSecond(at, next, nextNet, border);
+    storeOwnQuarter(at, begin, true, false);
+    storeOwnQuarter(at, end, false, true);
     // Quarters without a chain have none of the samples.
-    Quarter begin = quarterOf(at, q, 0u), end = quarterOf(at, q, 1u);
-    if (hasChain(q.quad, 0u)) storeQuarter(at, q.quad, begin, true, false);
-    if (hasChain(q.quad, 1u)) storeQuarter(at, q.quad, end, false, true);
+    vec3 middle = begin.first.middle;
+    Quarter beginChain = quarterOf(at, quad, 0u, middle, middle), endChain = quarterOf(at, quad, 1u, middle, middle);
+    if (hasChain(quad, 0u)) storeQuarter(at, quad, beginChain, true, false);
+    if (hasChain(quad, 1u)) storeQuarter(at, quad, endChain, false, true);
 }
 #else
 #include "shaders/exact/sample.glsl"

@@ -28,7 +28,7 @@ layout(constant_id = kInteriorConstant) const bool kInterior = false; // edges h
 
 #if !defined(WIDE) || !defined(LEVELS)
 const bool kInside = true;
-const uint kSides = kInterior ? 0u : 4u;
+const bool kSides = !kInterior;
 uint last;
 void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
     if (!own) return;

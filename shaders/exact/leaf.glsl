@@ -1,7 +1,7 @@
 // A leaf of an irregular quad: uniform bicubic B-splines, where creases are other weights (docs/catmull_clark.md, (1) and (2)).
 //
 // Leaves come as the cells of nets. A net has 5 x 5 points and 2 x 2 cells, and a cell has 4 x 4 of the points. The four cells of a
-// quad's own net, points of level 1, are its quarters. Three cells of a chain's net are the leaves of a level; the fourth, next
+// quad's own net, points of level 1, are its quarters; each is seen from its corner. Three cells of a chain's net are the leaves of a level; the fourth, next
 // to the vertex, belongs to the levels that follow.
 #include "shaders/subdivision/sharpness.glsl"
 
@@ -40,12 +40,10 @@ LeafWeights leafWeights(float x, float sharpness) {
     }
     return LeafWeights(w, d);
 }
-// Along one parameter of a quad's own net: in the second cell from the far end, where a crease of its own may lie.
-LeafWeights quadWeights(bool second, vec2 pair, float low, float high) {
-    precise float begin = 2.0 * pair.x, end = 2.0 * pair.y;
-    if (!second) return leafWeights(begin, low);
-    LeafWeights back = leafWeights(end, high);
-    return LeafWeights(back.w.wzyx, -back.d.wzyx);
+// In a quarter without a chain, at a distance of 0..1/2 from its corner.
+LeafWeights quarterWeights(float distance, float sharpness) {
+    precise float x = 2.0 * distance;
+    return leafWeights(x, sharpness);
 }
 // Along one parameter of a chain's net, at x of 0..2. What happens on the corner's edges does not reach its second cell.
 LeafWeights chainWeights(bool second, float x, float sharpness) {

@@ -2,13 +2,14 @@
 // Before the include: what quad.glsl needs, pairs.glsl, and
 //   const bool kChains                                whether some corner has a chain
 //   const bool kInside                                whether samples inside are stored
-//   const uint kSides                                 how many sides' samples are stored, from the first one on; 0, 1 or 4
+//   const bool kSides                                 whether samples on its sides are stored
 //   uint last                                         number of the last sample along a side
 //   void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame)
 //
-// On lavapipe lanes go through both sides of every `if`, and once more through a loop that is tested at the top. So borders are not
-// told apart sample by sample, loops are tested at the bottom, and what must not be stored is computed all the same. What is
-// called `right` or `upper` is a constant: lanes have nets in registers, which they cannot index.
+// A quad is evaluated quarter by quarter, from each of its corners. Between them the quad is turned, so that a quarter is always the
+// one at corner 0: lanes have nets in registers, which they cannot index, and code for each corner would take drivers four times as
+// long to compile. On lavapipe lanes go through both sides of every `if`, and once more through a loop that is tested at the top. So
+// borders are not told apart sample by sample, loops are tested at the bottom, and what must not be stored is computed all the same.
 #include "shaders/exact/quad.glsl"
 
 struct Net {
@@ -24,6 +25,28 @@ Net quadNet(const PatchPlace at) {
         }
     }
     return net;
+}
+// Seen from the next corner, and from any.
+Net turnedOnce(Net net) {
+    Net turned;
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) turned.p[k] = net.p[SUPPLE_EXACT_NET_PLACE(1u, k % kNetSide, k / kNetSide)];
+    return turned;
+}
+Net turnedNet(const PatchPlace at, uint corner) {
+    Net net;
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k)
+        net.p[k] = ownPoint(at, SUPPLE_EXACT_NET_PLACE(corner, k % kNetSide, k / kNetSide));
+    return net;
+}
+uvec4 turned(uvec4 v, uint corner) {
+    uvec4 once = (corner & 1u) != 0u ? v.yzwx : v;
+    return (corner & 2u) != 0u ? once.zwxy : once;
+}
+IrregularQuad turnedQuad(IrregularQuad quad, uint corner) {
+    uint flags = quad.flags >> kCubicSide & 15u;
+    return IrregularQuad(turned(quad.points, corner), turned(quad.spokes, corner), turned(quad.windows, corner),
+                         turned(quad.sizes, corner), uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), corner)),
+                         (flags >> corner | flags << (4u - corner)) << kCubicSide, turned(quad.normals, corner));
 }
 Net chainNet(const PatchPlace at, Chain chain, uint level) {
     uint first = levelPoints(chain, level);
@@ -71,7 +94,7 @@ const bool kOwnBorders = true; // whose samples lie elsewhere than those of the 
 #else
 const bool kOwnBorders = false;
 #endif
-const uint kInsideU = 0u, kInsideV = 1u, kSide = 2u;
+const uint kSide = 2u; // pattern of the first side, behind those inside in u and in v
 vec2 pairOf(uint pattern, uint k) {
 #ifdef LEVELS
     return lodPair(patterns[pattern], k, last);
@@ -79,163 +102,155 @@ vec2 pairOf(uint pattern, uint k) {
     return parameterPair(k, last, push.pairs);
 #endif
 }
-const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
 
-// Four points for either half of a side, in ascending order; of a cubic they are the same.
-struct Side {
+// What positions on half of a side are made of, from the corner outwards.
+struct Half {
     bool cubic;
-    vec3 low[4], high[4], middle;
+    vec3 p[4], middle; // the middle of the side
 };
-Side netSide(Net net, uint begin, uint step, uint across, float share) {
+Half halfOf(Net net, uint along, uint across, float share) {
     vec3 e[kNetSide];
     [[unroll]] for (uint k = 0u; k < kNetSide; ++k) {
-        uint own = begin + k * step;
+        uint own = across + k * along;
         e[k] = onLine(net.p[own], net.p[own - across], net.p[own + across], share);
     }
-    return Side(false, vec3[4](e[0], e[1], e[2], e[3]), vec3[4](e[1], e[2], e[3], e[4]), middleOfLine(e[1], e[2], e[3]));
+    return Half(false, vec3[4](e[0], e[1], e[2], e[3]), middleOfLine(e[1], e[2], e[3]));
 }
-Side quadSide(const PatchPlace at, IrregularQuad quad, Net net, uint side) {
-    const uint kFirst[4] = uint[4](kNetSide, 3u, 3u * kNetSide, 1u);
-    bool alongU = (side & 1u) == 0u;
-    Side s = netSide(net, kFirst[side], alongU ? 1u : kNetSide, alongU ? kNetSide : 1u, besideLine(sharpnessOf(quad, side, 1u)));
-    vec3 g[4] = sideCubic(at, quad, side);
-    if (side >= 2u) g = vec3[4](g[3], g[2], g[1], g[0]);
-    s.cubic = isCubic(quad, side);
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        s.low[k] = s.cubic ? g[k] : s.low[k];
-        s.high[k] = s.cubic ? g[k] : s.high[k];
-    }
-    return s;
+Half firstHalf(Net net, float share) { return halfOf(net, 1u, kNetSide, share); }
+Half secondHalf(Net net, float share) { return halfOf(net, kNetSide, 1u, share); }
+void setCubic(inout Half h, bool cubic, vec3 g[4]) {
+    h.cubic = cubic;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) h.p[k] = cubic ? g[k] : h.p[k];
 }
 // `w`: of the leaf, along the side.
-vec3 onSide(Side s, uint second, vec2 pair, vec4 w) {
-    w = s.cubic ? bernstein3(pair) : w;
-    vec3 p = second == 0u ? sum4(w, s.low[0], s.low[1], s.low[2], s.low[3]) : sum4(w, s.high[0], s.high[1], s.high[2], s.high[3]);
-    return !s.cubic && pair.x == pair.y ? s.middle : p;
+vec3 onHalf(Half h, vec2 pair, vec4 w) {
+    w = h.cubic ? bernstein3(pair) : w;
+    vec3 p = sum4(w, h.p[0], h.p[1], h.p[2], h.p[3]);
+    return !h.cubic && pair.x == pair.y ? h.middle : p;
 }
 
-// The quad's own net: what its rows are made of.
-struct QuadCells {
+// Where a quarter's samples stand: counted from its corner, along its two edges.
+struct QuarterPlace {
+    uint corner;
+    uint countA, countB; // of samples that are its own
+};
+QuarterPlace quarterPlace(uint corner) {
+    // What lies in the middle belongs to the lower quarters.
+    bool turned = (corner & 1u) != 0u;
+    uint below = last / 2u + 1u, above = (last + 1u) / 2u;
+    uint countU = corner == 1u || corner == 2u ? above : below, countV = corner >= 2u ? above : below;
+    return QuarterPlace(corner, turned ? countV : countU, turned ? countU : countV);
+}
+uvec2 placeInQuad(uint corner, uint a, uint b) {
+    uint x = (corner & 1u) == 0u ? a : b, y = (corner & 1u) == 0u ? b : a;
+    return uvec2(corner == 1u || corner == 2u ? last - x : x, corner >= 2u ? last - y : y);
+}
+void storeInQuarter(const PatchPlace at, bool own, uint corner, uint a, uint b, vec3 position, vec3 da, vec3 db) {
+    uvec2 place = placeInQuad(corner, a, b);
+    store(at, own, place.x, place.y, position, turnedFrame(corner, da, db));
+}
+
+// A quarter without a chain: of the quad's own net, turned.
+struct OwnQuarter {
     IrregularQuad quad;
     Net net;
-    Side sides[4];
-    vec3[4] limits; // of the corners
+    Half first, second; // of the two edges
+    QuarterPlace place;
+    vec3 limit;
+    bool own; // its samples are stored
 };
-vec3[4] cornerLimits(const PatchPlace at, IrregularQuad quad) {
-    return vec3[4](poolPoint(at, quad.points.x), poolPoint(at, quad.points.y), poolPoint(at, quad.points.z),
-                   poolPoint(at, quad.points.w));
-}
-LeafWeights alongU(QuadCells q, uint right, vec2 u) {
-    return quadWeights(right != 0u, u, sharpnessOf(q.quad, 3u, 1u), sharpnessOf(q.quad, 1u, 1u));
-}
-LeafWeights alongV(QuadCells q, uint upper, vec2 v) {
-    return quadWeights(upper != 0u, v, sharpnessOf(q.quad, 0u, 1u), sharpnessOf(q.quad, 2u, 1u));
-}
-uint cornerOf(uint right, uint upper) { return upper == 0u ? right : 3u - right; }
-bool isOwn(QuadCells q, uint right, uint upper) { return !kChains || !hasChain(q.quad, cornerOf(right, upper)); }
+// At levels segments may have no length: such a sample is the corner, to the bit.
+vec3 orLimit(vec3 limit, float distance, vec3 position) { return kOwnBorders && distance == 0.0 ? limit : position; }
+LeafWeights ownAcross(OwnQuarter q, float distance) { return quarterWeights(distance, sharpnessOf(q.quad, 0u, 1u)); }
+LeafWeights ownAlong(OwnQuarter q, float distance) { return quarterWeights(distance, sharpnessOf(q.quad, 3u, 1u)); }
 
-// At levels segments may have no length: such a sample is the corner, to the bit. `u`, `v`: its pairs.
-vec3 orCorner(QuadCells q, uint right, uint upper, vec2 u, vec2 v, vec3 position) {
-    if (!kOwnBorders) return position;
-    return max(right == 0u ? u.x : u.y, upper == 0u ? v.x : v.y) == 0.0 ? q.limits[cornerOf(right, upper)] : position;
-}
-
-Frame quadFrame(NetRow row, uint right, LeafWeights x) {
-    vec3 du = rowAlongX(row, right, x.d), dv = rowAlongY(row, right, x.w);
-    return frameOf(du, dv);
-}
-void storeCorner(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper) {
-    uint corner = cornerOf(right, upper);
-    Frame frame = withStoredNormal(at, q.quad, corner, quadFrame(row, right, alongU(q, right, right == 0u ? kBegin : kEnd)));
-    store(at, isOwn(q, right, upper), right * last, upper * last, q.limits[corner], frame);
-}
-// Samples i to before `end` of the bottom or the top.
-void storeAlong(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, uint i, uint end) {
-    bool own = isOwn(q, right, upper);
+void storeOwnFirst(const PatchPlace at, OwnQuarter q) {
+    uint corner = q.place.corner, a = 1u;
+    NetRow row = netRow(q.net, 0u, ownAcross(q, 0.0));
+    LeafWeights begin = ownAlong(q, 0.0);
+    Frame frame = turnedFrame(corner, rowAlongX(row, 0u, begin.d), rowAlongY(row, 0u, begin.w));
+    uvec2 place = placeInQuad(corner, 0u, 0u);
+    store(at, q.own, place.x, place.y, q.limit, withStoredNormal(at, q.quad, 0u, frame));
     do {
-        vec2 u = pairOf(kOwnBorders ? kSide + 2u * upper : kInsideU, i);
-        LeafWeights x = alongU(q, right, u);
-        vec3 position = orCorner(q, right, upper, u, upper == 0u ? kBegin : kEnd, onSide(q.sides[2u * upper], right, u, x.w));
-        store(at, own && i < end, i, upper * last, position, quadFrame(row, right, x));
-    } while (++i < end);
+        vec2 pair = pairOf(kOwnBorders ? kSide + corner : 0u, a);
+        LeafWeights x = ownAlong(q, pair.x);
+        vec3 position = orLimit(q.limit, pair.x, onHalf(q.first, pair, x.w));
+        storeInQuarter(at, q.own && a < q.place.countA, corner, a, 0u, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+    } while (++a < q.place.countA);
 }
-// One of the left or the right side.
-void storeAcross(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, vec2 v, LeafWeights y) {
-    vec2 u = right == 0u ? kBegin : kEnd;
-    vec3 position = orCorner(q, right, upper, u, v, onSide(q.sides[3u - 2u * right], upper, v, y.w));
-    Frame frame = quadFrame(row, right, alongU(q, right, u));
-    store(at, own && isOwn(q, right, upper), right * last, j, position, frame);
+void storeOwnSecond(const PatchPlace at, OwnQuarter q, NetRow row, bool own, uint b, vec2 pair, LeafWeights y) {
+    LeafWeights x = ownAlong(q, 0.0);
+    vec3 position = orLimit(q.limit, pair.x, onHalf(q.second, pair, y.w));
+    storeInQuarter(at, own, q.place.corner, 0u, b, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
 }
-void storeInside(const PatchPlace at, QuadCells q, NetRow row, uint right, uint upper, bool own, uint j, vec2 v, uint i, uint end) {
-    own = own && isOwn(q, right, upper);
-    do {
-        vec2 u = pairOf(kInsideU, i);
-        LeafWeights x = alongU(q, right, u);
-        vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(row, right, x.w));
-        position = orCorner(q, right, upper, u, v, position);
-        store(at, own && i < end, i, j, position, quadFrame(row, right, x));
-    } while (++i < end);
-}
-
-// The lower or the upper cells.
-void storeCells(const PatchPlace at, QuadCells q, uint upper) {
-    uint upperFirst = last / 2u + 1u, j = upper == 0u ? 1u : upperFirst, end = upper == 0u ? upperFirst : last;
-    if (kSides > 0u) {
-        NetRow border = netRow(q.net, upper, alongV(q, upper, upper == 0u ? kBegin : kEnd));
-        storeCorner(at, q, border, 0u, upper);
-        if (kSides > 1u) storeCorner(at, q, border, 1u, upper);
-        storeAlong(at, q, border, 0u, upper, 1u, min(upperFirst, last));
-        storeAlong(at, q, border, 1u, upper, upperFirst, last);
+// `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
+void storeOwnQuarter(const PatchPlace at, OwnQuarter q, bool onA, bool onB) {
+    uint corner = q.place.corner, alongA = corner & 1u;
+    if (onA) storeOwnFirst(at, q);
+    bool apart = onB && (kOwnBorders || !kInside);
+    if (kInside || onB) {
+        uint b = 1u;
+        do {
+            bool own = q.own && b < q.place.countB;
+            vec2 across = pairOf(1u - alongA, b);
+            if (kInside) {
+                LeafWeights y = ownAcross(q, across.x);
+                NetRow row = netRow(q.net, 0u, y);
+                if (onB && !apart) storeOwnSecond(at, q, row, own, b, across, y);
+                uint a = 1u;
+                do {
+                    vec2 pair = pairOf(alongA, a);
+                    LeafWeights x = ownAlong(q, pair.x);
+                    vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(row, 0u, x.w));
+                    position = orLimit(q.limit, max(pair.x, across.x), position);
+                    storeInQuarter(at, own && a < q.place.countA, corner, a, b, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+                } while (++a < q.place.countA);
+            }
+            if (apart) {
+                vec2 pair = pairOf(kOwnBorders ? kSide + ((corner + 3u) & 3u) : 0u, b);
+                LeafWeights y = ownAcross(q, pair.x);
+                storeOwnSecond(at, q, netRow(q.net, 0u, y), own, b, pair, y);
+            }
+        } while (++b < q.place.countB);
     }
-    if (!kInside) return;
-    do {
-        bool own = j < end;
-        vec2 v = pairOf(kInsideV, j);
-        LeafWeights y = alongV(q, upper, v);
-        NetRow row = netRow(q.net, upper, y);
-        storeInside(at, q, row, 0u, upper, own, j, v, 1u, min(upperFirst, last));
-        storeInside(at, q, row, 1u, upper, own, j, v, upperFirst, last);
-        if (kSides == 0u) continue;
-        if (kOwnBorders) {
-            vec2 left = pairOf(kSide + 3u, j), right = pairOf(kSide + 1u, j);
-            LeafWeights onLeft = alongV(q, upper, left), onRight = alongV(q, upper, right);
-            storeAcross(at, q, netRow(q.net, upper, onLeft), 0u, upper, own, j, left, onLeft);
-            storeAcross(at, q, netRow(q.net, upper, onRight), 1u, upper, own, j, right, onRight);
-        } else {
-            storeAcross(at, q, row, 0u, upper, own, j, v, y);
-            storeAcross(at, q, row, 1u, upper, own, j, v, y);
-        }
-    } while (++j < end);
+}
+// The quad is turned, and so is the net.
+OwnQuarter ownQuarter(const PatchPlace at, IrregularQuad quad, Net net, uint corner) {
+    OwnQuarter q;
+    q.quad = quad;
+    q.net = net;
+    q.place = quarterPlace(corner);
+    q.limit = poolPoint(at, quad.points.x);
+    q.own = !kChains || !hasChain(quad, 0u);
+    return q;
+}
+Half ownFirst(const PatchPlace at, IrregularQuad quad, Net net, vec3 g[4]) {
+    Half h = firstHalf(net, besideLine(sharpnessOf(quad, 0u, 1u)));
+    setCubic(h, isCubic(quad, 0u), g);
+    return h;
+}
+Half ownSecond(const PatchPlace at, IrregularQuad quad, Net net, vec3 g[4]) {
+    Half h = secondHalf(net, besideLine(sharpnessOf(quad, 3u, 1u)));
+    setCubic(h, isCubic(quad, 3u), vec3[4](g[3], g[2], g[1], g[0]));
+    return h;
 }
 
-// A quarter with a chain. Samples are counted from its corner, along its two edges.
+// A quarter with a chain.
 struct Quarter {
-    uint corner;
+    QuarterPlace place;
     Chain chain;
     vec3 origin, limit, normal;
     vec3 middleA, middleB; // of the sides
-    uint countA, countB;   // of samples that are its own
 };
 Quarter quarterOf(const PatchPlace at, IrregularQuad quad, uint corner, vec3 middleA, vec3 middleB) {
     Quarter own;
-    own.corner = corner;
+    own.place = quarterPlace(corner);
     own.chain = chainOf(quad, corner);
     own.origin = chainOrigin(at, own.chain);
     own.normal = poolPoint(at, componentOf(quad.normals, corner));
     own.limit = poolPoint(at, componentOf(quad.points, corner));
     own.middleA = middleA, own.middleB = middleB;
-    // What lies in the middle belongs to the lower quarters.
-    bool turned = (corner & 1u) != 0u;
-    uint below = last / 2u + 1u, above = (last + 1u) / 2u;
-    uint countU = corner == 1u || corner == 2u ? above : below, countV = corner >= 2u ? above : below;
-    own.countA = turned ? countV : countU;
-    own.countB = turned ? countU : countV;
     return own;
-}
-Quarter quarterOf(const PatchPlace at, QuadCells q, uint corner) {
-    vec3 bottom = q.sides[0].middle, right = q.sides[1].middle, top = q.sides[2].middle, left = q.sides[3].middle;
-    return quarterOf(at, q.quad, corner, corner < 2u ? (corner == 0u ? bottom : right) : (corner == 2u ? top : left),
-                     corner < 2u ? (corner == 0u ? left : bottom) : (corner == 2u ? right : top));
 }
 #ifdef WIDE
 vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
@@ -249,15 +264,21 @@ vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
     return middleOfLine(e[0], e[1], e[2]);
 }
 #endif
-uvec2 placeInQuad(uint corner, uint a, uint b) {
-    uint x = (corner & 1u) == 0u ? a : b, y = (corner & 1u) == 0u ? b : a;
-    return uvec2(corner == 1u || corner == 2u ? last - x : x, corner >= 2u ? last - y : y);
+
+// Of a level: its second half, for the first belongs to the levels that follow.
+Half chainLine(Net net, uint along, uint across, float share) {
+    vec3 e[4];
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        uint own = across + (k + 1u) * along;
+        e[k] = onLine(net.p[own], net.p[own - across], net.p[own + across], share);
+    }
+    return Half(false, e, vec3(0.0));
 }
 
 // What a level of a chain has, and which samples are its own: from `first` to before `end`.
 struct ChainLevel {
     Net net;
-    Side lineA, lineB;
+    Half lineA, lineB;
     float scale, sharpA, sharpB;
     uint firstA, endA, firstB, endB;
 };
@@ -290,7 +311,7 @@ void storeOnBorder(const PatchPlace at, Quarter q, bool own, uint a, uint b, flo
         Frame stored = withNormal(frame, q.normal);
         if (atCorner) frame = stored;
     }
-    uvec2 place = placeInQuad(q.corner, a, b);
+    uvec2 place = placeInQuad(q.place.corner, a, b);
     store(at, own, place.x, place.y, p, frame);
 }
 void storeAlongA(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint pattern) {
@@ -298,32 +319,32 @@ void storeAlongA(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint 
     do {
         float distance = pairOf(pattern, a).x;
         LeafWeights x = chainWeights(true, parameterOf(q, l, distance), 0.0);
-        Frame frame = turnedFrame(q.corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
-        vec3 offset = sum4(x.w, l.lineA.high[0], l.lineA.high[1], l.lineA.high[2], l.lineA.high[3]);
+        Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
+        vec3 offset = sum4(x.w, l.lineA.p[0], l.lineA.p[1], l.lineA.p[2], l.lineA.p[3]);
         storeOnBorder(at, q, a < l.endA, a, 0u, distance, offset, q.middleA, frame);
     } while (++a < l.endA);
 }
 void storeOnB(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, bool own, uint b, float distance, LeafWeights y) {
     LeafWeights x = leafWeights(0.0, l.sharpB);
-    Frame frame = turnedFrame(q.corner, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
-    vec3 offset = sum4(y.w, l.lineB.high[0], l.lineB.high[1], l.lineB.high[2], l.lineB.high[3]);
+    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+    vec3 offset = sum4(y.w, l.lineB.p[0], l.lineB.p[1], l.lineB.p[2], l.lineB.p[3]);
     storeOnBorder(at, q, own, 0u, b, distance, offset, q.middleB, frame);
 }
 void storeChainRow(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint right, bool own, float fromA, uint b, uint a, uint end) {
     do {
-        float distance = pairOf(q.corner & 1u, a).x;
+        float distance = pairOf(q.place.corner & 1u, a).x;
         LeafWeights x = chainWeights(right != 0u, parameterOf(q, l, distance), l.sharpB);
         vec3 position = placed(q.origin, l.net.p[kNetMiddle], rowPoint(row, right, x.w));
-        Frame frame = turnedFrame(q.corner, rowAlongX(row, right, x.d), rowAlongY(row, right, x.w));
+        Frame frame = turnedFrame(q.place.corner, rowAlongX(row, right, x.d), rowAlongY(row, right, x.w));
         if (kOwnBorders) position = max(distance, fromA) == 0.0 ? q.limit : position;
-        uvec2 place = placeInQuad(q.corner, a, b);
+        uvec2 place = placeInQuad(q.place.corner, a, b);
         store(at, own && a < end, place.x, place.y, position, frame);
     } while (++a < end);
 }
 
 // The cells of a level but for borders that have patterns of their own.
 void storeLevel(const PatchPlace at, Quarter q, ChainLevel l) {
-    uint acrossA = 1u - (q.corner & 1u), b = 1u;
+    uint acrossA = 1u - (q.place.corner & 1u), b = 1u;
     do {
         float distance = pairOf(acrossA, b).x;
         NetRow row = netRow(l.net, 0u, chainWeights(false, parameterOf(q, l, distance), l.sharpA));
@@ -335,7 +356,7 @@ void storeLevel(const PatchPlace at, Quarter q, ChainLevel l) {
         float distance = pairOf(acrossA, b).x;
         LeafWeights y = chainWeights(true, parameterOf(q, l, distance), 0.0);
         NetRow row = netRow(l.net, 1u, y);
-        if (!kOwnBorders && kSides > 0u) storeOnB(at, q, l, row, own, b, distance, y);
+        if (!kOwnBorders && kSides) storeOnB(at, q, l, row, own, b, distance, y);
         storeChainRow(at, q, l, row, 0u, own, distance, b, 1u, l.firstA);
         storeChainRow(at, q, l, row, 1u, own, distance, b, l.firstA, l.endA);
     } while (++b < l.endB);
@@ -352,13 +373,13 @@ void storeAlongB(const PatchPlace at, Quarter q, ChainLevel l, uint pattern) {
 }
 
 ChainLevel chainLevel(const PatchPlace at, IrregularQuad quad, Quarter q, uint level, uint endA, uint endB) {
-    uint corner = q.corner, before = (corner + 3u) & 3u;
+    uint corner = q.place.corner, before = (corner + 3u) & 3u;
     ChainLevel l;
     l.net = chainNet(at, q.chain, level);
     l.scale = powerOfTwo(float(level));
     l.sharpA = sharpnessOf(quad, corner, level), l.sharpB = sharpnessOf(quad, before, level);
-    l.lineA = netSide(l.net, kNetSide, 1u, kNetSide, besideLine(l.sharpA));
-    l.lineB = netSide(l.net, 1u, kNetSide, 1u, besideLine(l.sharpB));
+    l.lineA = chainLine(l.net, 1u, kNetSide, besideLine(l.sharpA));
+    l.lineB = chainLine(l.net, kNetSide, 1u, besideLine(l.sharpB));
     l.endA = endA, l.endB = endB;
     l.firstA = firstOfLevel(corner & 1u, endA, level, q.chain.lastLevel);
     l.firstB = firstOfLevel(1u - (corner & 1u), endB, level, q.chain.lastLevel);
@@ -367,8 +388,8 @@ ChainLevel chainLevel(const PatchPlace at, IrregularQuad quad, Quarter q, uint l
 
 // `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
 void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, bool onB) {
-    uint corner = q.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
-    uvec2 first = uvec2(q.countA, q.countB), side = first; // the same of the borders
+    uint corner = q.place.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
+    uvec2 first = uvec2(q.place.countA, q.place.countB), side = first; // the same of the borders
     bool more;
     do {
         ChainLevel l = chainLevel(at, quad, q, level, first.x, first.y);
@@ -397,61 +418,47 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
     } while (more);
 }
 
-QuadCells quadCells(const PatchPlace at) {
-    QuadCells q;
-    q.quad = quadOf(at.record);
-    q.net = quadNet(at);
-    q.limits = cornerLimits(at, q.quad);
-    return q;
-}
-
 #ifndef WIDE
 void evaluateQuad(const PatchPlace at) {
-    QuadCells q = quadCells(at);
-    q.sides[0] = quadSide(at, q.quad, q.net, 0u);
-    q.sides[1] = quadSide(at, q.quad, q.net, 1u);
-    q.sides[2] = quadSide(at, q.quad, q.net, 2u);
-    q.sides[3] = quadSide(at, q.quad, q.net, 3u);
-    storeCells(at, q, 0u);
-    storeCells(at, q, 1u);
+    IrregularQuad record = quadOf(at.record), quad = record;
+    Net net = quadNet(at);
+    vec3 middles[4], before[4] = sideCubic(at, quad, 3u); // of the side that ends in the corner
+    uint corner = 0u;
+    do {
+        vec3 after[4] = sideCubic(at, quad, 0u);
+        OwnQuarter q = ownQuarter(at, quad, net, corner);
+        q.first = ownFirst(at, quad, net, after);
+        q.second = ownSecond(at, quad, net, before);
+        storeOwnQuarter(at, q, kSides, kSides);
+        middles = vec3[4](middles[1], middles[2], middles[3], q.first.middle);
+        before = after;
+        quad = turnedQuad(quad, 1u);
+        net = turnedOnce(net);
+    } while (++corner < 4u);
     if (!kChains) return;
     uint corners = 0u;
-    for (uint corner = 0u; corner < 4u; ++corner) corners |= hasChain(q.quad, corner) ? 1u << corner : 0u;
+    for (corner = 0u; corner < 4u; ++corner) corners |= hasChain(record, corner) ? 1u << corner : 0u;
     do {
-        storeQuarter(at, q.quad, quarterOf(at, q, uint(findLSB(corners))), kSides > 0u, kSides > 0u);
+        corner = uint(findLSB(corners));
+        vec3 middleA = corner < 2u ? (corner == 0u ? middles[0] : middles[1]) : (corner == 2u ? middles[2] : middles[3]);
+        vec3 middleB = corner < 2u ? (corner == 0u ? middles[3] : middles[0]) : (corner == 2u ? middles[1] : middles[2]);
+        storeQuarter(at, record, quarterOf(at, record, corner, middleA, middleB), kSides, kSides);
         corners &= corners - 1u;
     } while (corners != 0u);
 }
 #else
-// One cell of the quad's own net, with the samples on its part of the border.
-void storeCell(const PatchPlace at, uint right, uint upper) {
-    QuadCells q = quadCells(at);
-    uint begin = last / 2u + 1u; // of the second half
-    if (kSides > 0u) {
-        uint along = 2u * upper, across = 3u - 2u * right;
-        q.sides[along] = quadSide(at, q.quad, q.net, along);
-        q.sides[across] = quadSide(at, q.quad, q.net, across);
-        NetRow border = netRow(q.net, upper, alongV(q, upper, upper == 0u ? kBegin : kEnd));
-        storeCorner(at, q, border, right, upper);
-        storeAlong(at, q, border, right, upper, right == 0u ? 1u : begin, right == 0u ? min(begin, last) : last);
-    }
-    uint j = upper == 0u ? 1u : begin, end = upper == 0u ? min(begin, last) : last;
-    for (; j < end; ++j) {
-        vec2 v = pairOf(kInsideV, j);
-        LeafWeights y = alongV(q, upper, v);
-        NetRow row = netRow(q.net, upper, y);
-        storeInside(at, q, row, right, upper, true, j, v, right == 0u ? 1u : begin, right == 0u ? min(begin, last) : last);
-        if (kSides > 0u) storeAcross(at, q, row, right, upper, true, j, v, y);
-    }
-}
 void evaluateQuarter(const PatchPlace at, uint corner) {
     IrregularQuad quad = quadOf(at.record);
-    if (kChains && hasChain(quad, corner))
+    if (kChains && hasChain(quad, corner)) {
         storeQuarter(at, quad, quarterOf(at, quad, corner, middleOf(at, quad, corner), middleOf(at, quad, (corner + 3u) & 3u)),
-                     kSides > 0u, kSides > 0u);
-    else if (corner == 0u) storeCell(at, 0u, 0u);
-    else if (corner == 1u) storeCell(at, 1u, 0u);
-    else if (corner == 2u) storeCell(at, 1u, 1u);
-    else storeCell(at, 0u, 1u);
+                     kSides, kSides);
+        return;
+    }
+    quad = turnedQuad(quad, corner);
+    Net net = turnedNet(at, corner);
+    OwnQuarter q = ownQuarter(at, quad, net, corner);
+    q.first = ownFirst(at, quad, net, sideCubic(at, quad, 0u));
+    q.second = ownSecond(at, quad, net, sideCubic(at, quad, 3u));
+    storeOwnQuarter(at, q, kSides, kSides);
 }
 #endif

@@ -6,12 +6,13 @@
 vec3 netPoint(const PatchPlace at, uint k) { return ownPoint(at, k); }
 #endif
 
-// Where a net's points come from.
+// Where a net's points come from, as they are seen from a corner.
 struct NetSource {
     uint windows, first; // of a chain; windows 0: the quad's own
+    uint corner;
 };
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
-    if (net.windows == 0u) return netPoint(at, k);
+    if (net.windows == 0u) return netPoint(at, SUPPLE_EXACT_NET_PLACE(net.corner, k % kNetSide, k / kNetSide));
     uint halves = tableWord(4u * net.windows + k / 2u);
     return poolPoint(at, net.first + ((k & 1u) == 0u ? halves & 0xFFFFu : halves >> 16u));
 }
@@ -33,30 +34,30 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     uint corner = far == rising ? (side + 1u) & 3u : side;
     Chain chain = chainOf(quad, corner);
     bool middle = pair.x == pair.y, own = middle || chain.windows == 0u;
-    // The line's points, and where it lies across.
-    NetSource net = NetSource(0u, 0u);
-    uint begin = far && !middle ? 1u : 0u, step = alongU ? 1u : kNetSide, across = alongU ? kNetSide : 1u;
-    uint line = side == 0u || side == 3u ? 1u : 3u, level = 1u;
-    vec4 w = quadWeights(far, pair, sharpnessOf(quad, alongU ? 3u : 0u, 1u), sharpnessOf(quad, alongU ? 1u : 2u, 1u)).w;
+    bool onFirst = corner == side; // of the corner's two edges
+    uint beside = onFirst ? (corner + 3u) & 3u : corner, step = onFirst ? 1u : kNetSide, across = onFirst ? kNetSide : 1u;
+    float distance = far ? pair.y : pair.x;
+    NetSource net = NetSource(0u, 0u, corner);
+    uint begin = 0u, level = 1u;
+    vec4 w = quarterWeights(distance, sharpnessOf(quad, beside, 1u)).w;
     vec3 origin = vec3(0.0);
     if (!own) {
-        float distance = far ? pair.y : pair.x;
 #ifdef LEVELS
         distance = withinChain(distance, chain.lastLevel);
 #endif
         ChainPlace place = chainPlace(distance, chain.lastLevel);
         precise float x = distance * place.scale;
-        bool onFirst = corner == side, second = x >= 1.0;
+        bool second = x >= 1.0;
         level = place.level;
-        net = NetSource(chain.windows, levelPoints(chain, level));
-        begin = second ? 1u : 0u, line = 1u, step = onFirst ? 1u : kNetSide, across = onFirst ? kNetSide : 1u;
-        w = chainWeights(second, x, sharpnessOf(quad, onFirst ? (corner + 3u) & 3u : corner, level)).w;
+        net = NetSource(chain.windows, levelPoints(chain, level), corner);
+        begin = second ? 1u : 0u;
+        w = chainWeights(second, x, sharpnessOf(quad, beside, level)).w;
         origin = chainOrigin(at, chain);
     }
     float share = besideLine(sharpnessOf(quad, side, level));
     vec3 e[4];
     for (uint k = 0u; k < 4u; ++k) {
-        uint on = line * across + (begin + k) * step;
+        uint on = across + (begin + k) * step;
         e[k] = onLine(sourcePoint(at, net, on), sourcePoint(at, net, on - across), sourcePoint(at, net, on + across), share);
     }
     if (middle) return middleOfLine(e[1], e[2], e[3]);
@@ -91,16 +92,15 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
     bool onU = fromU == 0.0, onV = fromV == 0.0; // on a side
     Chain chain = chainOf(quad, corner);
 
-    NetSource net = NetSource(0u, 0u);
-    bool secondX = right, secondY = up;
+    NetSource net = NetSource(0u, 0u, corner);
+    bool secondX = false, secondY = false, turned = (corner & 1u) != 0u;
+    float a = turned ? fromV : fromU, b = turned ? fromU : fromV;
     LeafWeights x, y;
     vec3 origin = vec3(0.0);
     if (chain.windows == 0u) {
-        x = quadWeights(right, u, sharpnessOf(quad, 3u, 1u), sharpnessOf(quad, 1u, 1u));
-        y = quadWeights(up, v, sharpnessOf(quad, 0u, 1u), sharpnessOf(quad, 2u, 1u));
+        x = quarterWeights(a, sharpnessOf(quad, (corner + 3u) & 3u, 1u));
+        y = quarterWeights(b, sharpnessOf(quad, corner, 1u));
     } else {
-        bool turned = (corner & 1u) != 0u;
-        float a = turned ? fromV : fromU, b = turned ? fromU : fromV;
 #ifdef LEVELS
         a = withinChain(a, chain.lastLevel), b = withinChain(b, chain.lastLevel);
 #endif
@@ -110,7 +110,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
         secondX = xx >= 1.0, secondY = yy >= 1.0;
         x = chainWeights(secondX, xx, sharpnessOf(quad, (corner + 3u) & 3u, place.level));
         y = chainWeights(secondY, yy, sharpnessOf(quad, corner, place.level));
-        net = NetSource(chain.windows, levelPoints(chain, place.level));
+        net = NetSource(chain.windows, levelPoints(chain, place.level), corner);
         origin = chainOrigin(at, chain);
     }
 
@@ -120,7 +120,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
         LeafWeights begin = leafWeights(0.0, 0.0), across = leafWeights(0.0, sharpnessOf(quad, (corner + 3u) & 3u, chain.lastLevel));
         leaf.alongY = leafAt(at, net, false, true, across, begin).alongY;
     }
-    frame = turnedFrame(chain.windows == 0u ? 0u : corner, leaf.alongX, leaf.alongY);
+    frame = turnedFrame(corner, leaf.alongX, leaf.alongY);
 
     if (onU && onV) {
         position = poolPoint(at, componentOf(quad.points, corner));

@@ -217,6 +217,7 @@ private:
         case 128: // IAdd, ISub, IMul: integers are exact
         case 130: //
         case 132: //
+        case 134: // UDiv, of whole numbers
         case 170: // IEqual, INotEqual
         case 171: //
         case 194: // ShiftRightLogical, ShiftLeftLogical, BitwiseOr

@@ -1,0 +1,195 @@
+// Catmull-Clark on the device against OpenSubdiv's limit surface: shapes, characters and cages made for the tests.
+#include "tests/support/exact_quads.h"
+#include "tests/support/shared_assets.h"
+#include "tests/support/subdivision_zoo.h"
+#include "tools/common/character_file.h"
+#ifdef SUPPLE_HAS_OPENSUBDIV
+#include "tests/support/catmull_clark_limit.h"
+#endif
+
+#include <cstdio>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+#ifndef SUPPLE_HAS_OPENSUBDIV
+
+TEST(ExactOpenSubdiv, onTheDevice) {
+    GTEST_SKIP() << "built without OpenSubdiv (opensubdiv/far/topologyRefiner.h and the library osdCPU)";
+}
+
+#else
+
+constexpr uint32_t kRate = 5; ///< along a quad's edge: no sample lies where a step of subdivision has a vertex
+
+struct Figures {
+    double position = 0.0, normal = 0.0; ///< the largest, as a part of the extent and in degrees
+    /// The same at corners. OpenSubdiv's approximation at level 10 is 1e-5 from the limit at the tips of darts: points
+    /// of ever finer levels come near ours.
+    double corner = 0.0;
+    uint64_t samples = 0, normals = 0, steep = 0;
+
+    void add(const Figures& other) {
+        raise(position, other.position);
+        raise(normal, other.normal);
+        raise(corner, other.corner);
+        samples += other.samples;
+        normals += other.normals;
+        steep += other.steep;
+    }
+    void print(const char* name) const {
+        std::printf("%s: %llu samples, positions within %.1e of the extent, at corners %.1e; %llu of %llu normals "
+                    "above 0.05 degrees, at most %.2f\n",
+                    name, static_cast<unsigned long long>(samples), position, corner,
+                    static_cast<unsigned long long>(steep), static_cast<unsigned long long>(normals), normal);
+    }
+};
+
+/// The quads of the mesh as OpenSubdiv names them: those of the cage, or after a step one for each corner of a face.
+class QuadsOfFaces {
+public:
+    QuadsOfFaces(const cage::Cage& cage, bool stepped) : cage_(cage) {
+        for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+            for (uint32_t part = 0; part < (stepped ? cage.sides(face) : 1); ++part) {
+                quads_.push_back({face, part});
+            }
+        }
+        stepped_ = stepped;
+    }
+    [[nodiscard]] CatmullClarkLimit::Point at(const CatmullClarkLimit& limit, uint32_t quad, glm::dvec2 uv) const {
+        const auto [face, part] = quads_[quad];
+        if (!stepped_ || cage_.sides(face) != 4) {
+            return limit.at(face, part, uv.x, uv.y);
+        }
+        const glm::dvec2 half = 0.5 * uv;
+        const glm::dvec2 turned[] = {
+            half, {1.0 - half.y, half.x}, {1.0 - half.x, 1.0 - half.y}, {half.y, 1.0 - half.x}};
+        return limit.at(face, 0, turned[part].x, turned[part].y);
+    }
+
+private:
+    struct Quad {
+        uint32_t face, part;
+    };
+    const cage::Cage& cage_;
+    std::vector<Quad> quads_;
+    bool stepped_;
+};
+
+/// Of the extent, but of the largest coordinate where that is larger: float rounds there.
+double sizeOf(const std::vector<glm::dvec3>& positions) {
+    double size = extent(positions);
+    for (const glm::dvec3& p : positions) {
+        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    return size;
+}
+
+/// Every `stride`-th sample. At corners normals are not compared: OpenSubdiv's derivatives there are those of one quad.
+Figures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
+    Figures figures;
+    const ExactQuads quads(cage);
+    GpuOptions options;
+    options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    options.mapping = SUPPLE_MAPPING_NARROW;
+    options.flags = 0;
+    options.rate = quads.rateFor(kRate);
+    GpuSurface gpu(device, cage, options);
+    if (!gpu.valid()) {
+        ADD_FAILURE() << "no group";
+        return figures;
+    }
+    gpu.evaluate();
+    const std::vector<glm::dvec3> positions = doublePositions(cage);
+    const double size = sizeOf(positions);
+    const CatmullClarkLimit limit(cage, positions);
+    const QuadsOfFaces named(cage, quads.isolation.mesh.isolationSteps > 1);
+    const PatchFaces found = quads.patches(gpu.patches());
+    uint32_t next = 0;
+    for (uint32_t p = 0; p < found.faces.size(); ++p) {
+        for (uint32_t s = 0; s < gpu.sampleCount(p); ++s) {
+            if (next++ % stride != 0) {
+                continue;
+            }
+            const uint32_t i = s % (kRate + 1), j = s / (kRate + 1), face = found.faces[p];
+            const glm::dvec2 at = ExactQuads::inFace(static_cast<double>(i) / kRate, static_cast<double>(j) / kRate,
+                                                     found.firstCorners[face]);
+            const CatmullClarkLimit::Point expected = named.at(limit, face, at);
+            const GpuSurface::Vertex& vertex = gpu.vertex(0, p, s);
+            const bool corner = i % kRate == 0 && j % kRate == 0;
+            raise(corner ? figures.corner : figures.position,
+                  glm::length(glm::dvec3(vertex.position) - expected.position) / size);
+            ++figures.samples;
+            if (corner) {
+                continue;
+            }
+            const double angle = angleDegrees(vertex.normal, expected.normal());
+            ++figures.normals;
+            figures.steep += angle > 0.05 ? 1 : 0;
+            raise(figures.normal, angle);
+        }
+    }
+    return figures;
+}
+
+void expectEqual(const Figures& figures) {
+    EXPECT_LE(figures.position, 1e-6);
+    EXPECT_LE(figures.corner, 2e-5);
+    EXPECT_LE(static_cast<double>(figures.steep), 1e-3 * static_cast<double>(figures.normals)) << figures.normal;
+}
+
+/// Of a file: no more than some thousand samples.
+Figures compareFile(host::Device& device, const std::string& path, uint32_t& refused) {
+    const Result<host::CharacterFile> file = host::readCharacterFile(path);
+    if (!file) {
+        std::printf("  not read: %s\n", file.error().message.c_str());
+        ++refused;
+        return {};
+    }
+    cage::Cage cage = file->character.cage;
+    cage.faceMaterials.clear(); // the group is made of arrays without them
+    cage.faceParts.clear();
+    const std::string name = std::filesystem::path(path).filename().string();
+    SCOPED_TRACE(name);
+    const Figures figures = compare(device, cage, 1 + cage.faceCount() / 200);
+    expectEqual(figures);
+    if (figures.position > 5e-7 || figures.corner > 1e-6 || figures.steep > 0) {
+        figures.print(name.c_str());
+    }
+    return figures;
+}
+
+TEST(ExactOpenSubdiv, onTheDevice) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const std::string folder = sharedFolder() + "meshes";
+    const std::vector<std::string> shapes = filesBelow(folder, {".obj"});
+    if (shapes.empty()) {
+        std::printf("all shared meshes left out: %s is not present\n", folder.c_str());
+    }
+    for (const auto& [name, paths] : {std::pair("meshes", shapes), std::pair("characters", allCharacters())}) {
+        Figures all;
+        uint32_t refused = 0;
+        for (const std::string& path : paths) {
+            all.add(compareFile(*device, path, refused));
+        }
+        std::printf("%zu %s, %u not read. ", paths.size(), name, refused);
+        all.print("All");
+    }
+    Figures zoo;
+    for (const SubdivisionCage& made : subdivisionZoo()) {
+        SCOPED_TRACE(made.name);
+        const Figures figures = compare(*device, made.cage, 1);
+        expectEqual(figures);
+        zoo.add(figures);
+    }
+    zoo.print("Cages made for tests");
+}
+
+#endif
+
+} // namespace
+} // namespace supple::test
