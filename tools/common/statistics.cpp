@@ -19,7 +19,8 @@ double quantile(std::span<const double> ascending, double q) {
 Summary summarize(std::span<const double> values) {
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
-    return {quantile(sorted, 0.5), quantile(sorted, 0.95), quantile(sorted, 1.0)};
+    return {quantile(sorted, 0.5),  quantile(sorted, 0.95), quantile(sorted, 1.0), quantile(sorted, 0.0),
+            quantile(sorted, 0.05), quantile(sorted, 0.25), quantile(sorted, 0.75)};
 }
 
 } // namespace supple::tools

@@ -9,6 +9,7 @@ struct Summary {
     double median = 0.0;
     double p95 = 0.0;
     double max = 0.0;
+    double min = 0.0, p05 = 0.0, p25 = 0.0, p75 = 0.0;
 };
 
 /// The q-quantile (0 <= q <= 1) of ascending values by linear interpolation between the two nearest ranks, so that

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <supple/supple.h>
 
@@ -14,54 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNanosecondsInMillisecond = 1e6;
 constexpr double kNanosecondsInMicrosecond = 1e3;
-
-Summary summarizeFrames(const ProfileRun& run, const std::function<double(const FrameSample&)>& nanoseconds) {
-    std::vector<double> values;
-    values.reserve(run.frames.size());
-    for (const FrameSample& frame : run.frames) {
-        values.push_back(nanoseconds(frame) / kNanosecondsInMillisecond);
-    }
-    return summarize(values);
-}
-
-double firstBegin(const FrameSample& frame) {
-    double first = frame.passes.empty() ? 0.0 : frame.passes.front().gpuBegin;
-    for (const PassSample& pass : frame.passes) {
-        first = std::min(first, pass.gpuBegin);
-    }
-    return first;
-}
-
-double lastEnd(const FrameSample& frame) {
-    double last = frame.passes.empty() ? 0.0 : frame.passes.front().gpuEnd;
-    for (const PassSample& pass : frame.passes) {
-        last = std::max(last, pass.gpuEnd);
-    }
-    return last;
-}
-
-DrawnSummary summarizeDrawn(const ProfileRun& run) {
-    const auto median = [&](uint32_t DrawnSample::*count) {
-        std::vector<double> values;
-        for (const FrameSample& frame : run.frames) {
-            values.push_back(frame.drawn.*count);
-        }
-        return static_cast<uint64_t>(summarize(values).median);
-    };
-    DrawnSummary summary;
-    summary.vertices = median(&DrawnSample::vertices);
-    summary.wantedVertices = median(&DrawnSample::wantedVertices);
-    summary.patches = median(&DrawnSample::patches);
-    summary.drawnInstances = median(&DrawnSample::drawnInstances);
-    for (const FrameSample& frame : run.frames) {
-        summary.mostDropped = std::max(summary.mostDropped, frame.drawn.droppedInstances);
-        summary.leastLevelScale = std::min(summary.leastLevelScale, frame.drawn.levelScale);
-        summary.shortfallFrames += frame.drawn.shortfall ? 1 : 0;
-    }
-    return summary;
-}
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
     char line[512];
@@ -80,7 +32,8 @@ std::string tableRow(const PassSummary& pass) {
 }
 
 Json toJson(const Summary& summary) {
-    return {{"median", summary.median}, {"p95", summary.p95}, {"max", summary.max}};
+    return {{"median", summary.median}, {"p95", summary.p95}, {"max", summary.max}, {"min", summary.min},
+            {"p05", summary.p05},       {"p25", summary.p25}, {"p75", summary.p75}};
 }
 
 Json toJson(const PassSummary& pass) {
@@ -91,6 +44,15 @@ Json toJson(const PassSummary& pass) {
 Json toJson(const Machine& machine) {
     return {{"device", machine.device},   {"driver", machine.driver}, {"driverInfo", machine.driverInfo},
             {"mapping", machine.mapping}, {"cpu", machine.cpu},       {"cpuDevice", machine.cpuDevice}};
+}
+
+Json samplesOf(const ProfileRun& run) {
+    const FrameTimes times = frameTimes(run);
+    Json passes = Json::object();
+    for (const FrameTimes::Pass& pass : times.passes) {
+        passes[pass.pass] = pass.times;
+    }
+    return {{"frameMs", times.frame}, {"coveredMs", times.covered}, {"passMs", std::move(passes)}};
 }
 
 /// RFC 4180: quoted, quotes doubled.
@@ -117,70 +79,6 @@ Json traceSlice(const std::string& name, int process, int track, double begin, d
 
 } // namespace
 
-double PassSummary::megapointsPerSecond() const {
-    return gpu.median > 0.0 ? static_cast<double>(points) / (gpu.median * 1e3) : 0.0;
-}
-
-RunSummary summarizeRun(const ProfileRun& run) {
-    RunSummary summary;
-    summary.total.pass = "frame";
-    summary.total.gpu = summarizeFrames(run, [](const FrameSample& f) { return lastEnd(f) - firstBegin(f); });
-    summary.total.cpuRecord = summarizeFrames(run, [](const FrameSample& f) {
-        double sum = 0.0;
-        for (const PassSample& pass : f.passes) {
-            sum += pass.cpuRecord;
-        }
-        return sum;
-    });
-    summary.pose = summarizeFrames(run, [](const FrameSample& f) { return f.poseTime; });
-    summary.record = summarizeFrames(run, [](const FrameSample& f) { return f.recordTime; });
-
-    // A pass may be missing from some frames (uploads happen once), so each is summed up over the frames that had it. A
-    // frame may have it several times: a group each, or in parts.
-    std::vector<std::vector<double>> gpu;
-    std::vector<std::vector<double>> cpu;
-    for (const FrameSample& frame : run.frames) {
-        std::vector<bool> met(summary.passes.size(), false);
-        for (const PassSample& pass : frame.passes) {
-            const auto known = std::find_if(summary.passes.begin(), summary.passes.end(),
-                                            [&](const PassSummary& s) { return s.pass == pass.pass; });
-            const auto index = static_cast<size_t>(known - summary.passes.begin());
-            if (known == summary.passes.end()) {
-                summary.passes.push_back({pass.pass, {}, {}, 0, 0});
-                gpu.emplace_back();
-                cpu.emplace_back();
-                met.push_back(false);
-            }
-            if (!met[index]) {
-                met[index] = true;
-                gpu[index].push_back(0.0);
-                cpu[index].push_back(0.0);
-            }
-            if (gpu[index].size() == 1) { // points and bytes are the first such frame's
-                summary.passes[index].points += pass.points;
-                summary.passes[index].bytes += pass.bytes;
-            }
-            gpu[index].back() += (pass.gpuEnd - pass.gpuBegin) / kNanosecondsInMillisecond;
-            cpu[index].back() += pass.cpuRecord / kNanosecondsInMillisecond;
-        }
-    }
-    for (size_t i = 0; i < summary.passes.size(); ++i) {
-        summary.passes[i].gpu = summarize(gpu[i]);
-        summary.passes[i].cpuRecord = summarize(cpu[i]);
-        summary.total.bytes += summary.passes[i].bytes;
-        if (summary.passes[i].pass == "evaluate") { // what comes out of a frame is surface vertices
-            summary.total.points = summary.passes[i].points;
-        }
-    }
-    if (run.budget > 0) {
-        summary.drawn = summarizeDrawn(run);
-        if (summary.drawn.vertices > 0) { // subdivision's are the groups' own
-            summary.total.points = summary.drawn.vertices;
-        }
-    }
-    return summary;
-}
-
 std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
     const std::string fineness = run.budget > 0 ? format("in a view of %u vertices", run.budget)
@@ -196,6 +94,8 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
         table += tableRow(pass);
     }
     table += tableRow(summary.total);
+    table += format("  passes cover %.0f %% of the frame; what of them overlaps counts once\n",
+                    summary.total.gpu.median > 0.0 ? 100.0 * summary.covered.median / summary.total.gpu.median : 0.0);
     table += format("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
                     run.playback ? "time" : "poses", summary.record.median);
     if (run.budget > 0) {
@@ -234,6 +134,8 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
         }
         entry["frame"] = toJson(summary.total);
         entry["frame"].erase("pass");
+        entry["coveredMs"] = toJson(summary.covered);
+        entry["samples"] = samplesOf(run);
         entry["cpuPoseMs"] = toJson(summary.pose);
         entry["cpuRecordMs"] = toJson(summary.record);
         if (run.budget > 0) {
@@ -286,7 +188,11 @@ nlohmann::ordered_json toTrace(const Machine& machine, std::span<const ProfileRu
         if (run.frames.empty()) {
             continue;
         }
-        const double gpuOffset = run.frames.front().submitted - firstBegin(run.frames.front());
+        double first = run.frames.front().passes.front().gpuBegin;
+        for (const PassSample& pass : run.frames.front().passes) {
+            first = std::min(first, pass.gpuBegin);
+        }
+        const double gpuOffset = run.frames.front().submitted - first;
         for (const FrameSample& frame : run.frames) {
             const Json frameNumber = {{"frame", frame.frame}};
             Json pose = traceSlice("poses", process, kCpuTrack, frame.poseBegin, frame.poseTime);
