@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,13 @@ struct DeviceOptions {
     bool window = false;
     /// What suppleCreateContext is given instead of the loader's: tests count Vulkan calls through a wrapped table.
     PFN_vkGetInstanceProcAddr suppleGetInstanceProcAddr = nullptr;
+};
+
+/// The device's clock and the host's (CLOCK_MONOTONIC, which is std::chrono::steady_clock's) at one moment.
+struct ClockPair {
+    uint64_t ticks = 0;     ///< of the device, VkPhysicalDeviceLimits::timestampPeriod nanoseconds each
+    uint64_t host = 0;      ///< nanoseconds
+    uint64_t deviation = 0; ///< nanoseconds; they were read no further apart
 };
 
 enum class MemoryKind {
@@ -125,6 +133,9 @@ public:
     /// Outlives the device, so that what is said while the device is destroyed can be counted as well.
     [[nodiscard]] std::shared_ptr<const ValidationLog> validation() const { return validation_; }
 
+    /// By VK_EXT_calibrated_timestamps; nothing where the device does not have it.
+    [[nodiscard]] std::optional<ClockPair> readClocks() const;
+
     [[nodiscard]] Result<Buffer> createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind);
     [[nodiscard]] Result<Image> createImage(const ImageDesc& desc);
 
@@ -152,12 +163,15 @@ private:
     [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
+    /// Whether its clock can be read beside the host's.
+    [[nodiscard]] bool readsClocks() const;
     [[nodiscard]] Status createCommands();
     [[nodiscard]] Result<VkDeviceMemory> allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
 
     std::shared_ptr<ValidationLog> validation_ = std::make_shared<ValidationLog>();
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
+    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;

@@ -37,7 +37,7 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
 }
 
 double Timings::nanoseconds(uint64_t ticks) const {
-    return static_cast<double>((ticks - origin_) & tickMask_) * tickPeriod_;
+    return static_cast<double>((ticks - origin_.value_or(0)) & tickMask_) * tickPeriod_;
 }
 
 Result<bool> Timings::collect(Slot& slot, const std::function<Shortfall(const View*, uint64_t)>& shortfall) {
@@ -53,9 +53,8 @@ Result<bool> Timings::collect(Slot& slot, const std::function<Shortfall(const Vi
                 return false; // the host says that the frame is complete; the device does not
             }
         }
-        if (!originKnown_ && count > 0) {
+        if (!origin_ && count > 0) {
             origin_ = at(slot.marks[0] - 1).value;
-            originKnown_ = true;
         }
         for (size_t i = 0; i < count; ++i) {
             slot.entries[i].gpuBegin = nanoseconds(at(slot.marks[i] - 1).value);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,8 @@ public:
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }
+    /// In ticks: the first timestamp. Nothing before that.
+    [[nodiscard]] std::optional<uint64_t> origin() const { return origin_; }
 
     /// False: no such pass. Null stands for all passes together; 0 takes the budget away.
     [[nodiscard]] bool setBudget(const char* pass, double nanoseconds);
@@ -105,8 +108,7 @@ private:
     bool timestamps_ = false; ///< the queue family has them
     uint64_t tickMask_ = 0;
     double tickPeriod_ = 1.0;
-    bool originKnown_ = false;
-    uint64_t origin_ = 0; ///< first tick seen: differences are taken as integers, which doubles could not hold
+    std::optional<uint64_t> origin_; ///< first tick seen: differences are integers, which doubles could not hold
     std::vector<SuppleTiming> latest_;
     std::array<SuppleBudget, kPassCount + 1> budgets_{}; ///< the last: all passes
 };

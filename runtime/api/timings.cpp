@@ -18,6 +18,16 @@ SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t*
     });
 }
 
+SuppleResult suppleGetTimingOrigin(SuppleContext handle, uint64_t* ticks) {
+    return guarded(handle, "suppleGetTimingOrigin", [&](Context& context) {
+        if (ticks == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, "suppleGetTimingOrigin", "ticks is null");
+        }
+        *ticks = context.timings.origin().value_or(0);
+        return context.timings.origin() ? SUPPLE_OK : SUPPLE_NOT_READY;
+    });
+}
+
 SuppleResult suppleSetBudget(SuppleContext handle, const char* pass, double nanoseconds) {
     return guarded(handle, "suppleSetBudget", [&](Context& context) {
         if (!std::isfinite(nanoseconds)) {

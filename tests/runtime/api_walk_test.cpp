@@ -1759,6 +1759,16 @@ void measurements(Rows& r) {
             },
             phase);
     }
+    constexpr const char* kOrigin = "suppleGetTimingOrigin";
+    r.nullContext(kOrigin, [](World& w, SuppleContext c) { return suppleGetTimingOrigin(c, w.plain<uint64_t>(1)); });
+    r.refuse(kOrigin, "ticks null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetTimingOrigin(w.handle(), nullptr); });
+    r.add(kOrigin, "nothing timed", SUPPLE_NOT_READY, kSilent, [](World& w) {
+        auto* const ticks = w.plain<uint64_t>(1);
+        const SuppleResult result = suppleGetTimingOrigin(w.handle(), ticks);
+        EXPECT_EQ(*ticks, 0u);
+        return result;
+    });
     constexpr const char* kSet = "suppleSetBudget";
     constexpr const char* kGet = "suppleGetBudget";
     r.nullContext(kSet, [](World&, SuppleContext c) { return suppleSetBudget(c, "deform", 1.0); });

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -17,6 +18,7 @@ enum ExitCode : int {
     kExitBadInput = 1, ///< a file, a character or a value inside one; also everything that fails while running
     kExitUsage = 2,    ///< the command line itself
     kExitNoDevice = 3, ///< no device, none of that name, or it lacks something Supple needs
+    kExitGate = 4,     ///< a measurement is above what the command line allows
 };
 
 /// Prints "supple: reason" on stderr, once for each line of the reason, and returns `code`.
@@ -37,7 +39,8 @@ void bindInspect(CLI::App& app, int& exitCode);
 void bindBake(CLI::App& app, int& exitCode);
 void bindRender(CLI::App& app, int& exitCode);
 void bindSheet(CLI::App& app, int& exitCode);
-void bindProfile(CLI::App& app, int& exitCode);
+/// `arguments`: of the command line, which it hands on to another build.
+void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& arguments);
 void bindBench(CLI::App& app, int& exitCode);
 void bindView(CLI::App& app, int& exitCode);
 void bindConvert(CLI::App& app, int& exitCode);

@@ -2,6 +2,7 @@
 #include "tools/supple/command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <supple/supple.h>
 
@@ -20,14 +21,15 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", std::to_string(SUPPLE_VERSION_MAJOR) + "." +
                                           std::to_string(SUPPLE_VERSION_MINOR) + "." +
                                           std::to_string(SUPPLE_VERSION_PATCH));
-    app.footer("Exit codes: 0 ok, 1 bad input, 2 bad usage, 3 no suitable device.");
+    app.footer("Exit codes: 0 ok, 1 bad input, 2 bad usage, 3 no suitable device; profile: 4 above a limit of "
+               "--fail-above or --budget-ms.");
 
     int exitCode = kExitOk;
     bindInspect(app, exitCode);
     bindBake(app, exitCode);
     bindRender(app, exitCode);
     bindSheet(app, exitCode);
-    bindProfile(app, exitCode);
+    bindProfile(app, exitCode, {argv + std::min(argc, 1), argv + argc});
     bindBench(app, exitCode);
     bindView(app, exitCode);
     bindConvert(app, exitCode);

@@ -40,7 +40,8 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
         ->type_name("NAME|INDEX")
         ->allow_extra_args(false);
     command.add_flag("--shared-samples", draw.sharedSamples,
-                     "One mesh whose patches share the samples on their borders (catmull-clark, pm, prep); without lines of patches");
+                     "One mesh whose patches share the samples on their borders (catmull-clark, pm, prep); without "
+                     "lines of patches");
     command.add_option("--view", draw.view, "What is shown")
         ->check(CLI::IsMember({"shaded", "wire", "patches", "normals", "zebra"}))
         ->capture_default_str();

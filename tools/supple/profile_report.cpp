@@ -1,10 +1,11 @@
 #include "tools/supple/profile_report.h"
 
+#include "tools/common/formatted.h"
 #include "tools/supple/memory_report.h"
 
 #include <algorithm>
-#include <cstdarg>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <supple/supple.h>
 
@@ -15,20 +16,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kNanosecondsInMicrosecond = 1e3;
 
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-    char line[512];
-    va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(line, sizeof line, pattern, arguments);
-    va_end(arguments);
-    return line;
-}
-
 std::string tableRow(const PassSummary& pass) {
     const double rate = pass.megapointsPerSecond();
-    return format("  %-12s %10.4f %10.4f %10.4f %10.4f %12llu %13llu %10s\n", pass.pass.c_str(), pass.gpu.median,
-                  pass.gpu.p95, pass.gpu.max, pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
-                  static_cast<unsigned long long>(pass.bytes), rate > 0.0 ? format("%.1f", rate).c_str() : "-");
+    return formatted("  %-12s %10.4f %10.4f %10.4f %10.4f %12llu %13llu %10s\n", pass.pass.c_str(), pass.gpu.median,
+                     pass.gpu.p95, pass.gpu.max, pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
+                     static_cast<unsigned long long>(pass.bytes), rate > 0.0 ? formatted("%.1f", rate).c_str() : "-");
 }
 
 Json toJson(const Summary& summary) {
@@ -68,6 +60,29 @@ Json traceName(const char* kind, int process, int track, const std::string& name
     return {{"ph", "M"}, {"name", kind}, {"pid", process}, {"tid", track}, {"args", {{"name", name}}}};
 }
 
+Json traceCounter(const std::string& name, int process, double at, double value) {
+    return {{"ph", "C"},
+            {"name", name},
+            {"pid", process},
+            {"ts", at / kNanosecondsInMicrosecond},
+            {"args", {{name, value}}}};
+}
+
+/// From the device's clock to the run's.
+std::function<double(double)> clockOf(const ProfileRun& run) {
+    if (run.clocks.size() >= 2 && run.clocks.back().device > run.clocks.front().device) {
+        const ProfileRun::Clocks first = run.clocks.front(), last = run.clocks.back();
+        const double scale = (last.run - first.run) / (last.device - first.device);
+        return [first, scale](double device) { return first.run + (device - first.device) * scale; };
+    }
+    double begin = run.frames.front().passes.front().gpuBegin;
+    for (const PassSample& pass : run.frames.front().passes) {
+        begin = std::min(begin, pass.gpuBegin);
+    }
+    const double offset = run.frames.front().submitted - begin;
+    return [offset](double device) { return device + offset; };
+}
+
 Json traceSlice(const std::string& name, int process, int track, double begin, double duration) {
     return {{"ph", "X"},
             {"name", name},
@@ -77,30 +92,63 @@ Json traceSlice(const std::string& name, int process, int track, double begin, d
             {"dur", duration / kNanosecondsInMicrosecond}};
 }
 
+constexpr int kGpuTrack = 1;
+constexpr int kCpuTrack = 2;
+
+void addFrame(const FrameSample& frame, int process, const std::function<double(double)>& toRun, Json& events) {
+    const Json frameNumber = {{"frame", frame.frame}};
+    Json pose = traceSlice("poses", process, kCpuTrack, frame.poseBegin, frame.poseTime);
+    Json record = traceSlice("record", process, kCpuTrack, frame.recordBegin, frame.recordTime);
+    pose["args"] = frameNumber;
+    record["args"] = frameNumber;
+    events.push_back(std::move(pose));
+    events.push_back(std::move(record));
+    double cpu = frame.recordBegin, begin = frame.passes.front().gpuBegin, end = begin;
+    uint64_t vertices = 0, bytes = 0;
+    for (const PassSample& pass : frame.passes) {
+        const double from = toRun(pass.gpuBegin);
+        Json slice = traceSlice(pass.pass, process, kGpuTrack, from, toRun(pass.gpuEnd) - from);
+        slice["args"] = {{"frame", frame.frame}, {"points", pass.points}, {"bytes", pass.bytes}};
+        events.push_back(std::move(slice));
+        // The library tells how long recording a pass took, not when: they follow each other inside "record".
+        events.push_back(traceSlice(pass.pass, process, kCpuTrack, cpu, pass.cpuRecord));
+        cpu += pass.cpuRecord;
+        begin = std::min(begin, pass.gpuBegin);
+        end = std::max(end, pass.gpuEnd);
+        vertices += pass.pass == "evaluate" ? pass.points : 0;
+        bytes += pass.bytes;
+    }
+    const double at = toRun(begin);
+    events.push_back(traceCounter("frame ms", process, at, (end - begin) / kNanosecondsInMillisecond));
+    events.push_back(traceCounter("surface vertices", process, at, static_cast<double>(vertices)));
+    events.push_back(traceCounter("bytes written", process, at, static_cast<double>(bytes)));
+}
+
 } // namespace
 
 std::string toTable(const ProfileRun& run, const RunSummary& summary) {
-    const std::string patchRate = run.patchRate == run.rate ? "" : format(" (%u a patch)", run.patchRate);
-    const std::string fineness = run.budget > 0 ? format("in a view of %u vertices", run.budget)
-                                                : format("rate %u%s", run.rate, patchRate.c_str());
+    const std::string patchRate = run.patchRate == run.rate ? "" : formatted(" (%u a patch)", run.patchRate);
+    const std::string fineness = run.budget > 0 ? formatted("in a view of %u vertices", run.budget)
+                                                : formatted("rate %u%s", run.rate, patchRate.c_str());
     std::string table =
-        run.file + format(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
-        format(", %u instance%s of %s%u patches, %zu frames\n", run.instances, run.instances == 1 ? "" : "s",
-               run.budget > 0 ? "up to " : "", run.patches, run.frames.size());
+        run.file + formatted(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
+        formatted(", %u instance%s of %s%u patches, %zu frames\n", run.instances, run.instances == 1 ? "" : "s",
+                  run.budget > 0 ? "up to " : "", run.patches, run.frames.size());
     table += "  memory: " + memoryText(run.memory) + "\n";
-    table += format("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms", "points",
-                    "bytes", "Mpoints/s");
+    table += formatted("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms",
+                       "points", "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
         table += tableRow(pass);
     }
     table += tableRow(summary.total);
-    table += format("  passes cover %.0f %% of the frame; what of them overlaps counts once\n",
-                    summary.total.gpu.median > 0.0 ? 100.0 * summary.covered.median / summary.total.gpu.median : 0.0);
-    table += format("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
-                    run.playback ? "time" : "poses", summary.record.median);
+    table +=
+        formatted("  passes cover %.0f %% of the frame; what of them overlaps counts once\n",
+                  summary.total.gpu.median > 0.0 ? 100.0 * summary.covered.median / summary.total.gpu.median : 0.0);
+    table += formatted("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
+                       run.playback ? "time" : "poses", summary.record.median);
     if (run.budget > 0) {
         const DrawnSummary& drawn = summary.drawn;
-        table += format(
+        table += formatted(
             "  drawn: %llu vertices of %llu wanted, %llu patches, %llu instances; levels scaled by %.3f and "
             "more; %u instances dropped at most; shortfall in %zu of %zu frames\n",
             static_cast<unsigned long long>(drawn.vertices), static_cast<unsigned long long>(drawn.wantedVertices),
@@ -160,25 +208,25 @@ std::string toCsv(std::span<const ProfileRun> runs) {
         const RunSummary summary = summarizeRun(run);
         std::vector<PassSummary> rows = summary.passes;
         rows.push_back(summary.total);
-        const std::string view = run.budget == 0 ? ",,,"
-                                                 : format(",%u,%llu,%zu", run.budget,
-                                                          static_cast<unsigned long long>(summary.drawn.wantedVertices),
-                                                          summary.drawn.shortfallFrames);
+        const std::string view =
+            run.budget == 0
+                ? ",,,"
+                : formatted(",%u,%llu,%zu", run.budget, static_cast<unsigned long long>(summary.drawn.wantedVertices),
+                            summary.drawn.shortfallFrames);
         for (const PassSummary& pass : rows) {
             csv += csvText(run.file) +
-                   format(",%s,%u,%u,%zu,%s,%.6f,%.6f,%.6f,%.6f,%llu,%llu,%.3f%s\n", run.scheme.c_str(), run.rate,
-                          run.instances, run.frames.size(), pass.pass.c_str(), pass.gpu.median, pass.gpu.p95,
-                          pass.gpu.max, pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
-                          static_cast<unsigned long long>(pass.bytes), pass.megapointsPerSecond(), view.c_str());
+                   formatted(",%s,%u,%u,%zu,%s,%.6f,%.6f,%.6f,%.6f,%llu,%llu,%.3f%s\n", run.scheme.c_str(), run.rate,
+                             run.instances, run.frames.size(), pass.pass.c_str(), pass.gpu.median, pass.gpu.p95,
+                             pass.gpu.max, pass.cpuRecord.median, static_cast<unsigned long long>(pass.points),
+                             static_cast<unsigned long long>(pass.bytes), pass.megapointsPerSecond(), view.c_str());
         }
     }
     return csv;
 }
 
 nlohmann::ordered_json toTrace(const Machine& machine, std::span<const ProfileRun> runs) {
-    constexpr int kGpuTrack = 1;
-    constexpr int kCpuTrack = 2;
     Json events = Json::array();
+    Json other = toJson(machine);
     int process = 0;
     for (const ProfileRun& run : runs) {
         ++process;
@@ -188,33 +236,19 @@ nlohmann::ordered_json toTrace(const Machine& machine, std::span<const ProfileRu
         if (run.frames.empty()) {
             continue;
         }
-        double first = run.frames.front().passes.front().gpuBegin;
-        for (const PassSample& pass : run.frames.front().passes) {
-            first = std::min(first, pass.gpuBegin);
+        double deviation = 0.0;
+        for (const ProfileRun::Clocks& clocks : run.clocks) {
+            deviation = std::max(deviation, clocks.deviation);
         }
-        const double gpuOffset = run.frames.front().submitted - first;
+        other["clocks"] = run.clocks.size() < 2
+                              ? Json("laid together at the first frame's submission")
+                              : Json(formatted("read together, within %.3f us", deviation / kNanosecondsInMicrosecond));
+        const std::function<double(double)> toRun = clockOf(run);
         for (const FrameSample& frame : run.frames) {
-            const Json frameNumber = {{"frame", frame.frame}};
-            Json pose = traceSlice("poses", process, kCpuTrack, frame.poseBegin, frame.poseTime);
-            Json record = traceSlice("record", process, kCpuTrack, frame.recordBegin, frame.recordTime);
-            pose["args"] = frameNumber;
-            record["args"] = frameNumber;
-            events.push_back(std::move(pose));
-            events.push_back(std::move(record));
-            double cpu = frame.recordBegin;
-            for (const PassSample& pass : frame.passes) {
-                const Json args = {{"frame", frame.frame}, {"points", pass.points}, {"bytes", pass.bytes}};
-                Json slice =
-                    traceSlice(pass.pass, process, kGpuTrack, pass.gpuBegin + gpuOffset, pass.gpuEnd - pass.gpuBegin);
-                slice["args"] = args;
-                events.push_back(std::move(slice));
-                // The library tells how long recording a pass took, not when: they follow each other inside "record".
-                events.push_back(traceSlice(pass.pass, process, kCpuTrack, cpu, pass.cpuRecord));
-                cpu += pass.cpuRecord;
-            }
+            addFrame(frame, process, toRun, events);
         }
     }
-    return {{"displayTimeUnit", "ms"}, {"otherData", toJson(machine)}, {"traceEvents", std::move(events)}};
+    return {{"displayTimeUnit", "ms"}, {"otherData", std::move(other)}, {"traceEvents", std::move(events)}};
 }
 
 } // namespace supple::tools

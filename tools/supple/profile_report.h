@@ -14,7 +14,8 @@ namespace supple::tools {
 [[nodiscard]] nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun> runs);
 [[nodiscard]] std::string toCsv(std::span<const ProfileRun> runs);
 /// Chrome trace events, for Perfetto and chrome://tracing: a process a run, in it a track for the device and one for
-/// the CPU. The two clocks are laid together at the first frame: its work begins when it was submitted.
+/// the CPU, and counters. The two clocks were read together (VK_EXT_calibrated_timestamps); on a device without that
+/// they are laid together at the first frame: its work begins when it was submitted. otherData says which.
 [[nodiscard]] nlohmann::ordered_json toTrace(const Machine& machine, std::span<const ProfileRun> runs);
 
 } // namespace supple::tools

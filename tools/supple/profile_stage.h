@@ -25,8 +25,15 @@ struct ProfileOptions {
     bool playback = false;
     bool view = false;
     uint32_t budget = 1000000; ///< of the view
-    std::string json, csv, trace;
-    std::string hashes; ///< of what the view drew last
+    std::string json, csv, trace, html;
+    std::vector<std::string> sweeps;    ///< "instances=1,10", "rate=4,8": as typed
+    std::string compare;                ///< an earlier result
+    std::string against;                ///< another build's command
+    uint32_t rounds = 16;               ///< with it
+    double failAbove = 0.0;             ///< percent; 0: no gate
+    double budgetMs = 0.0;              ///< of the frame; 0: no gate
+    std::vector<std::string> arguments; ///< of the command line
+    std::string hashes;                 ///< of what the view drew last
 
     [[nodiscard]] bool plays() const { return playback || view; }
 };

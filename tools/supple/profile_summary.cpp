@@ -7,8 +7,6 @@
 namespace supple::tools {
 namespace {
 
-constexpr double kNanosecondsInMillisecond = 1e6;
-
 Summary summarizeFrames(const ProfileRun& run, const std::function<double(const FrameSample&)>& nanoseconds) {
     std::vector<double> values;
     values.reserve(run.frames.size());

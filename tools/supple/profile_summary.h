@@ -10,6 +10,8 @@
 
 namespace supple::tools {
 
+inline constexpr double kNanosecondsInMillisecond = 1e6;
+
 /// One pass of one frame.
 struct PassSample {
     std::string pass;
@@ -51,6 +53,13 @@ struct ProfileRun {
     uint32_t patches = 0;     ///< an instance; of several kinds the most
     SuppleMemoryUse memory{}; ///< of the context, after the last frame
     std::vector<FrameSample> frames;
+    /// The device's clock and the run's, in nanoseconds, before the first frame and after the last. Empty: the device
+    /// cannot tell, and the first frame's work is taken to begin when it was submitted.
+    struct Clocks {
+        double device = 0.0, run = 0.0;
+        double deviation = 0.0; ///< of the two readings
+    };
+    std::vector<Clocks> clocks;
     std::string hashes; ///< where they were asked for: hashView
 };
 

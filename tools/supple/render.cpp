@@ -167,6 +167,14 @@ bool parsePlace(const std::string& text, double& x, double& y) {
            x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0;
 }
 
+Status renderPicture(Session& session, const RenderOptions& options) {
+    const Result<VkExtent2D> size = parseSize(options.size);
+    const Result<uint32_t> view = parseView(options.draw.view);
+    if (!size || !view)
+        return !size ? size.error() : view.error();
+    return render(session, options, *size, *view);
+}
+
 int runRender(const RenderOptions& options) {
     const Result<VkExtent2D> size = parseSize(options.size);
     if (!size)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/supple/render_options.h"
+#include "tools/supple/session.h"
 
 #include <string>
 
@@ -24,6 +25,9 @@ inline constexpr const char* kAllSchemes = "all";
 
 /// "X,Y", both 0 to 1; false leaves x and y undefined.
 [[nodiscard]] bool parsePlace(const std::string& text, double& x, double& y);
+
+/// Draws the picture into its file.
+[[nodiscard]] Status renderPicture(Session& session, const RenderOptions& options);
 
 /// Draws the picture; returns the exit code and says why on stderr when it is not kExitOk.
 int runRender(const RenderOptions& options);

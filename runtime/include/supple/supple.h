@@ -1242,6 +1242,9 @@ typedef struct SuppleTiming {
 /** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
  * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
 SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
+/** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. With VK_EXT_calibrated_timestamps a
+ * host lays them beside its own clock: docs/profiling.md. SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. */
+SUPPLE_API SuppleResult suppleGetTimingOrigin(SuppleContext context, uint64_t* ticks);
 
 /** How well a pass has kept to its budget since the budget was set. */
 typedef struct SuppleBudget {

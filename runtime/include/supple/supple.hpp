@@ -160,6 +160,8 @@ public:
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
         return filled(out, [&](SuppleTiming* to, uint32_t* count) { return suppleGetTimings(handle_, to, count); });
     }
+    /// The device's tick that timings count from.
+    [[nodiscard]] SuppleResult timingOrigin(uint64_t& ticks) const { return suppleGetTimingOrigin(handle_, &ticks); }
 
 private:
     SuppleContext handle_ = nullptr;

@@ -1,0 +1,62 @@
+// Two measurements of supple profile, pass by pass: what changed, within which interval, and whether it is more than
+// noise.
+#pragma once
+
+#include "base/result.h"
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace supple::tools {
+
+/// Device times of one round of frames, in milliseconds.
+struct MeasuredRound {
+    std::vector<double> frame;
+    std::map<std::string, std::vector<double>> passes; ///< frames without the pass have 0
+};
+/// What one run measured, in one round or in several.
+struct MeasuredRun {
+    std::string name;                ///< file, scheme and settings: runs of the same name are compared
+    std::vector<std::string> passes; ///< in the order of the frame
+    std::vector<MeasuredRound> rounds;
+};
+
+/// The runs of a result of --json. `where` names it in errors: a result without the times of its frames is refused.
+[[nodiscard]] Result<std::vector<MeasuredRun>> measuredRuns(const nlohmann::ordered_json& result,
+                                                            const std::string& where);
+/// Adds the rounds of the runs of the same names; others come behind.
+void addRounds(std::vector<MeasuredRun>& runs, std::vector<MeasuredRun> more);
+
+/// A pass, or the whole frame. Changes are factors minus 1: 0.1 is 10 % slower.
+struct PassChange {
+    std::string pass;
+    double before = 0.0, after = 0.0;           ///< medians, milliseconds; 0: not measured
+    double change = 0.0, low = 0.0, high = 0.0; ///< and its interval
+    bool significant = false;                   ///< the interval has no 0, and the change is above the noise floor
+};
+struct RunChange {
+    std::string name;
+    size_t rounds = 1;
+    std::vector<PassChange> passes; ///< the frame comes last; empty: only one of both has this run
+};
+
+/// What is taken for noise. Where both have several rounds, these are paired, and the interval is that of the median of
+/// their changes; fewer than eleven rounds have a wider chance than `confidence`. Else it is a bootstrap over blocks of
+/// frames. Then nothing tells a slower build from a slower machine, so the floor is higher.
+struct CompareRules {
+    double confidence = 0.999;
+    double floor = 0.05;         ///< of a change between paired rounds
+    double floorOfFrames = 0.10; ///< of a change between two single rounds
+    double leastMilliseconds = 0.002;
+};
+[[nodiscard]] std::vector<RunChange> compareRuns(const std::vector<MeasuredRun>& before,
+                                                 const std::vector<MeasuredRun>& after, const CompareRules& rules = {});
+
+[[nodiscard]] std::string toTable(const RunChange& run);
+[[nodiscard]] nlohmann::ordered_json toJson(const std::vector<RunChange>& runs);
+/// "hero.glb, pm: evaluate 12.3 % slower" for each significant change above `percent`; none: empty.
+[[nodiscard]] std::vector<std::string> slowerThan(const std::vector<RunChange>& runs, double percent);
+
+} // namespace supple::tools
