@@ -381,8 +381,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     std::vector<const char*> extensions;
     if (options.window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    const bool clocks = readsClocks();
-    if (clocks)
+    if (readsClocks())
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     auto info = vkStruct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, enabledFeatures());
     info.queueCreateInfoCount = 1;
@@ -392,9 +391,8 @@ Status Device::createDevice(const DeviceOptions& options) {
     if (const VkResult result = vkCreateDevice(physicalDevice_, &info, nullptr, &device_); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
-    if (clocks)
-        getCalibratedTimestamps_ = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
-            vkGetDeviceProcAddr(device_, "vkGetCalibratedTimestampsEXT"));
+    getCalibratedTimestamps_ = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
+        vkGetDeviceProcAddr(device_, "vkGetCalibratedTimestampsEXT")); // null without the extension
 
     auto poolInfo = vkStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
