@@ -126,6 +126,34 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
     EXPECT_EQ(validation->messageCount(), 0u);
 }
 
+/// Scheme and skinning change as rates do; what a scheme refuses leaves the old surface.
+TEST(ViewStageTest, SchemeAndSkinningChange) {
+    Result<std::unique_ptr<host::Device>> device = host::Device::create();
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.framesInFlight = 2});
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
+        **device, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    Result<std::unique_ptr<ViewStage>> opened = ViewStage::create(**context, **renderer, {.rate = 6});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ViewStage& stage = **opened;
+    ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", {}, kAspect).ok());
+    EXPECT_EQ(stage.scheme(), SUPPLE_SCHEME_AUTO);
+    EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_CATMULL_CLARK);
+    ASSERT_TRUE(stage.setScheme(SUPPLE_SCHEME_LOOP, (*context)->lastFrame()).ok());
+    EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
+    EXPECT_EQ(stage.settings.rate, 8) << "a power of two";
+    const Status refused = stage.setScheme(SUPPLE_SCHEME_PREP, (*context)->lastFrame());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("quads only"), std::string::npos) << refused.error().message;
+    EXPECT_EQ(stage.scheme(), SUPPLE_SCHEME_LOOP);
+    EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
+    ASSERT_TRUE(stage.setSkinning(SUPPLE_SKINNING_DUAL_QUATERNION, (*context)->lastFrame()).ok());
+    EXPECT_EQ(stage.skinning(), SUPPLE_SKINNING_DUAL_QUATERNION);
+    vkDeviceWaitIdle((*device)->handle());
+}
+
 /// The rate that is shown is along an edge of the cage, of which subdivision's patches are a half or a quarter.
 TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
     Result<std::unique_ptr<host::Device>> device = host::Device::create();

@@ -4,6 +4,7 @@
 #include "tools/supple/options.h"
 #include "tools/supple/render.h"
 #include "tools/supple/view.h"
+#include "tools/supple/view_keys.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -108,6 +109,11 @@ void bindView(CLI::App& app, int& exitCode) {
         ->needs(frames)
         ->type_name("OUT.png");
     bindDraw(*command, options->draw);
+    std::string keys = "Keys:";
+    for (const ViewKey& key : kViewKeys) {
+        keys += std::string("\n  ") + key.keys + std::string(28 - std::string(key.keys).size(), ' ') + key.what;
+    }
+    command->footer(keys);
     command->callback([options, &exitCode] { exitCode = runView(*options); });
 }
 

@@ -58,6 +58,8 @@ public:
 private:
     [[nodiscard]] Status openFirst(float shape);
     void refuse(size_t file, const Error& error);
+    /// Figures are framed beside the panel, unless it takes half of the window and more.
+    void coverByPanel(uint32_t width);
     [[nodiscard]] Status fitTarget();
     [[nodiscard]] Status fulfil(const PanelWishes& wishes);
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
@@ -124,6 +126,7 @@ Status Viewer::open(VkExtent2D size) {
                               device_->name(),
                               0.0,
                               options_.frames == 0});
+    coverByPanel(size.width);
     if (const Status status = openFirst(static_cast<float>(size.width) / static_cast<float>(size.height)); !status)
         return status.error();
     window_->waitIdle(context_->lastFrame()); // opening evaluates frames of its own
@@ -152,6 +155,11 @@ Status Viewer::openFirst(float shape) {
     return success();
 }
 
+void Viewer::coverByPanel(uint32_t width) {
+    const float share = kPanelRight / static_cast<float>(width);
+    stage_->setCovered(stage_->settings.panel && share < 0.5f ? share : 0.0f);
+}
+
 void Viewer::refuse(size_t file, const Error& error) {
     panel_->refused[file] = true;
     panel_->message = error.message;
@@ -176,6 +184,7 @@ Status Viewer::run() {
         if (const Status status = fitTarget(); !status)
             return status.error();
         stage_->retire(window_->completedFrame());
+        coverByPanel(window_->swapchain().extent().width);
         stage_->advance(secondsSinceLast());
         overlay_->beginPanels();
         const PanelWishes wishes = buildPanel(*panel_, *stage_, aspect());
@@ -226,6 +235,15 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         panel_->file = *wishes.file;
         panel_->message.clear();
     }
+    Status remade = success();
+    if (wishes.scheme && *wishes.scheme != stage_->scheme())
+        remade = stage_->setScheme(*wishes.scheme, context_->lastFrame());
+    else if (wishes.skinning && *wishes.skinning != stage_->skinning())
+        remade = stage_->setSkinning(*wishes.skinning, context_->lastFrame());
+    if (!remade)
+        return remade.error();
+    if (wishes.scheme || wishes.skinning)
+        panel_->message.clear();
     const uint32_t before = stage_->group().edgeRate();
     if (wishes.rate && *wishes.rate == before)
         stage_->settings.rate = static_cast<int>(before); // the slider may have been let go between two rates

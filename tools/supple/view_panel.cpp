@@ -3,6 +3,7 @@
 #if SUPPLE_HAS_WINDOW
 
 #include "tools/supple/command.h"
+#include "tools/supple/view_keys.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -47,6 +48,10 @@ void handleKeys(ViewStage& stage, float aspect, PanelWishes& wishes) {
         if (pressed(GLFW_KEY_1 + i))
             stage.settings.view = static_cast<uint32_t>(i);
     }
+    if (pressed(GLFW_KEY_F1) || (pressed(GLFW_KEY_SLASH) && ImGui::GetIO().KeyShift))
+        stage.settings.keys = !stage.settings.keys;
+    if (pressed(GLFW_KEY_P))
+        stage.settings.panel = !stage.settings.panel;
     if (pressed(GLFW_KEY_C))
         stage.settings.cageOverlay = !stage.settings.cageOverlay;
     if (pressed(GLFW_KEY_F))
@@ -106,8 +111,26 @@ void buildPlayback(ViewStage& stage) {
     ImGui::SliderFloat("speed", &settings.speed, 0.05f, 3.0f, "%.2f x", ImGuiSliderFlags_Logarithmic);
 }
 
+/// What the surface is made by: a group of its own each.
+void buildScheme(const ViewStage& stage, PanelWishes& wishes) {
+    const SuppleScheme own = stage.scheme();
+    if (ImGui::BeginCombo("scheme", schemeName(own))) {
+        if (ImGui::Selectable("auto", own == SUPPLE_SCHEME_AUTO))
+            wishes.scheme = SUPPLE_SCHEME_AUTO;
+        for (const Scheme& scheme : kSchemes) {
+            if (ImGui::Selectable(scheme.name, own == scheme.scheme))
+                wishes.scheme = scheme.scheme;
+        }
+        ImGui::EndCombo();
+    }
+    int skinning = stage.skinning() == SUPPLE_SKINNING_DUAL_QUATERNION ? 1 : 0;
+    if (ImGui::Combo("skinning", &skinning, "linear\0dual quaternion\0"))
+        wishes.skinning = skinning == 1 ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
+}
+
 void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ViewSettings& settings = stage.settings;
+    buildScheme(stage, wishes);
     if (stage.ratesArePowersOfTwo()) {
         // The slider moves the exponent, so that it stops at the rates there are and nowhere else.
         constexpr int kMaxExponent = static_cast<int>(std::bit_width(SUPPLE_MAX_RATE)) - 1;
@@ -267,31 +290,58 @@ void buildTimings(const PanelState& state, const ViewStage& stage) {
     ImGui::Text("surface %.2f ms   frame %.1f ms", sum, state.frameMilliseconds);
 }
 
+void buildKeys(ViewStage& stage) {
+    if (!stage.settings.keys)
+        return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(size.x - 16.0f, 16.0f), ImGuiCond_Always, ImVec2(1.0f, 0.0f));
+    if (ImGui::Begin("keys", &stage.settings.keys,
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings) &&
+        ImGui::BeginTable("##keys", 2)) {
+        for (const ViewKey& key : kViewKeys) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(key.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", key.what);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+/// What the panel has, from above.
+void buildSections(const PanelState& state, ViewStage& stage, PanelWishes& wishes) {
+    buildFiles(state, wishes);
+    buildPlayback(stage);
+    ImGui::Separator();
+    buildSurface(stage, wishes);
+    buildMorphs(stage);
+    buildWarnings(stage);
+    buildParts(stage);
+    if (state.timings) {
+        ImGui::Separator();
+        buildTimings(state, stage);
+    }
+    if (!state.message.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
+        ImGui::TextWrapped("%s", printable(state.message).c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::TextDisabled("F1 shows the keys");
+}
+
 } // namespace
 
 PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) {
     PanelWishes wishes;
-    ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(300.0f, 0.0f), ImGuiCond_Always);
-    if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        buildFiles(state, wishes);
-        buildPlayback(stage);
-        ImGui::Separator();
-        buildSurface(stage, wishes);
-        buildMorphs(stage);
-        buildWarnings(stage);
-        buildParts(stage);
-        if (state.timings) {
-            ImGui::Separator();
-            buildTimings(state, stage);
-        }
-        if (!state.message.empty()) {
-            ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
-            ImGui::TextWrapped("%s", printable(state.message).c_str());
-            ImGui::PopStyleColor();
-        }
+    if (stage.settings.panel) {
+        ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize(ImVec2(kPanelRight - 32.0f, 0.0f), ImGuiCond_Always);
+        if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+            buildSections(state, stage, wishes);
+        ImGui::End();
     }
-    ImGui::End();
+    buildKeys(stage);
     moveCamera(stage);
     handleKeys(stage, aspect, wishes);
     return wishes;

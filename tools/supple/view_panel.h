@@ -23,8 +23,13 @@ struct PanelState {
 struct PanelWishes {
     std::optional<size_t> file;
     std::optional<uint32_t> rate;
+    std::optional<SuppleScheme> scheme;
+    std::optional<SuppleSkinning> skinning;
     bool close = false;
 };
+
+/// Pixels from the left that the panel takes, when it is shown.
+inline constexpr float kPanelRight = 332.0f;
 
 /// Builds the panel and moves the camera; changes the stage's settings in place.
 [[nodiscard]] PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect);

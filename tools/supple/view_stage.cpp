@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace supple::tools {
 
@@ -118,6 +119,26 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
+    return remakeGroup(rate, lastFrame);
+}
+
+Status ViewStage::setScheme(SuppleScheme scheme, uint64_t lastFrame) {
+    const SuppleScheme before = std::exchange(scheme_, scheme);
+    const Status made = remakeGroup(offeredRate(static_cast<uint32_t>(settings.rate)), lastFrame);
+    if (!made)
+        scheme_ = before;
+    return made;
+}
+
+Status ViewStage::setSkinning(SuppleSkinning skinning, uint64_t lastFrame) {
+    const SuppleSkinning before = std::exchange(skinning_, skinning);
+    const Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
+    if (!made)
+        skinning_ = before;
+    return made;
+}
+
+Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate);
     if (!group)
         return group.error();
@@ -158,7 +179,8 @@ void ViewStage::advance(double seconds) {
 }
 
 void ViewStage::frameFigure(float aspect) {
-    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect, kWindowMargin);
+    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect * (1.0f - covered_), kWindowMargin);
+    pan(-0.5f * covered_ * aspect, 0.0f);
 }
 
 void ViewStage::orbit(float yaw, float pitch) {

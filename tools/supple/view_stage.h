@@ -23,6 +23,8 @@ struct ViewSettings {
     bool cageFaces = false; ///< the cage instead of the surface
     bool cageOverlay = false;
     bool ground = true;
+    bool panel = true; ///< shown
+    bool keys = false; ///< the help window
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
     std::vector<bool> shownParts; ///< of the figure
@@ -56,12 +58,19 @@ public:
     /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
     [[nodiscard]] uint32_t offeredRate(uint32_t rate) const;
     [[nodiscard]] bool ratesArePowersOfTwo() const { return subdivides(scheme_); }
-    /// A group of the new rate takes the old one's place; the old one goes when its frames are completed.
+    [[nodiscard]] SuppleScheme scheme() const { return scheme_; }
+    [[nodiscard]] SuppleSkinning skinning() const { return skinning_; }
+    /// A group of the new kind takes the old one's place; the old one goes when its frames are completed. On failure it
+    /// stays.
     [[nodiscard]] Status setRate(uint32_t rate, uint64_t lastFrame);
+    [[nodiscard]] Status setScheme(SuppleScheme scheme, uint64_t lastFrame);
+    [[nodiscard]] Status setSkinning(SuppleSkinning skinning, uint64_t lastFrame);
     /// Lets go of what the completed frames used.
     void retire(uint64_t completedFrame);
 
     void advance(double seconds);
+    /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
+    void setCovered(float share) { covered_ = share; }
     void frameFigure(float aspect);
     void orbit(float yaw, float pitch);
     /// In fractions of the picture's height.
@@ -83,6 +92,7 @@ private:
 
     ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate) const;
+    [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
     void readTimings();
 
     host::Context& context_;
@@ -97,6 +107,7 @@ private:
     std::vector<std::string> parts_; ///< shown at first; none: all
     std::vector<host::PartScheme> partSchemes_;
     bool sharedSamples_ = false;
+    float covered_ = 0.0f;
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
