@@ -269,25 +269,59 @@ void buildParts(ViewStage& stage) {
     ImGui::TreePop();
 }
 
-void buildTimings(const PanelState& state, const ViewStage& stage) {
-    double sum = 0.0;
-    double longest = 1e-6;
-    for (const auto& [name, time] : stage.passTimes()) {
-        sum += time.gpuMilliseconds;
-        longest = std::max(longest, time.gpuMilliseconds);
+constexpr ImU32 kPassColors[] = {IM_COL32(74, 168, 224, 255),  IM_COL32(240, 183, 63, 255),
+                                 IM_COL32(51, 196, 154, 255),  IM_COL32(224, 160, 196, 255),
+                                 IM_COL32(143, 208, 247, 255), IM_COL32(245, 139, 76, 255),
+                                 IM_COL32(167, 157, 240, 255), IM_COL32(201, 199, 95, 255)};
+constexpr float kGraphHeight = 84.0f;
+
+/// The last frames, the newest on the right: passes one above the other, and the budget.
+void buildGraph(const PassHistory& history, float budgetMs) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, step = width / static_cast<float>(PassHistory::kFrames);
+    const float most = std::max({history.most(), 1.15f * budgetMs, 1e-3f});
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + kGraphHeight), ImGui::GetColorU32(ImGuiCol_FrameBg));
+    for (size_t i = 0; i < history.frames(); ++i) {
+        const float x = corner.x + width - step * static_cast<float>(history.frames() - i);
+        float bottom = corner.y + kGraphHeight;
+        for (size_t pass = 0; pass < history.row(i).size(); ++pass) {
+            const float top = bottom - kGraphHeight * history.row(i)[pass] / most;
+            draw.AddRectFilled(ImVec2(x, top), ImVec2(x + step, bottom), kPassColors[pass % std::size(kPassColors)]);
+            bottom = top;
+        }
     }
+    if (budgetMs > 0.0f) {
+        const float y = corner.y + kGraphHeight * (1.0f - budgetMs / most);
+        draw.AddLine(ImVec2(corner.x, y), ImVec2(corner.x + width, y), ImGui::GetColorU32(kFailureColor), 1.5f);
+    }
+    char label[32];
+    std::snprintf(label, sizeof label, "%.2f ms", static_cast<double>(most));
+    draw.AddText(ImVec2(corner.x + 4.0f, corner.y + 2.0f), ImGui::GetColorU32(ImGuiCol_Text), label);
+    ImGui::Dummy(ImVec2(width, kGraphHeight));
+}
+
+void buildTimings(const PanelState& state, ViewStage& stage) {
+    const PassHistory& history = stage.passHistory();
     ImGui::TextDisabled("%s", state.device.c_str());
-    for (const char* pass : {"upload", "deform", "vertex", "assemble", "patch", "evaluate", "attributes"}) {
-        const auto found = stage.passTimes().find(pass);
+    buildGraph(history, stage.settings.budgetMs);
+    double sum = 0.0;
+    for (size_t i = 0; i < history.passes().size(); ++i) {
+        const auto found = stage.passTimes().find(history.passes()[i]);
         if (found == stage.passTimes().end())
             continue;
-        ImGui::TextUnformatted(pass);
-        ImGui::SameLine(90.0f);
-        char label[32];
-        std::snprintf(label, sizeof label, "%.3f ms", found->second.gpuMilliseconds);
-        ImGui::ProgressBar(static_cast<float>(found->second.gpuMilliseconds / longest), ImVec2(-1.0f, 0.0f), label);
+        sum += found->second.gpuMilliseconds;
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 3.0f), ImVec2(at.x + 10.0f, at.y + 13.0f),
+                                                  kPassColors[i % std::size(kPassColors)]);
+        ImGui::Text("   %-12s %8.3f ms", history.passes()[i].c_str(), found->second.gpuMilliseconds);
     }
     ImGui::Text("surface %.2f ms   frame %.1f ms", sum, state.frameMilliseconds);
+    ImGui::Checkbox("pause", &stage.settings.timingsPaused);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(90.0f);
+    if (ImGui::InputFloat("budget ms", &stage.settings.budgetMs, 0.0f, 0.0f, "%.2f"))
+        stage.settings.budgetMs = std::max(stage.settings.budgetMs, 0.0f);
 }
 
 void buildKeys(ViewStage& stage) {

@@ -96,6 +96,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
+    passHistory_.clear();
     frameFigure(aspect);
     return success();
 }
@@ -248,12 +249,18 @@ void ViewStage::readTimings() {
     const SuppleResult result = suppleGetTimings(context_.handle(), timings, &count);
     if (result != SUPPLE_OK && result != SUPPLE_INCOMPLETE)
         return;
+    if (settings.timingsPaused)
+        return;
     std::map<std::string, PassTime> frame;
     for (uint32_t i = 0; i < count; ++i) {
         PassTime& pass = frame[timings[i].pass];
         pass.gpuMilliseconds += (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
         pass.cpuMilliseconds += timings[i].cpuRecord * 1e-6;
     }
+    std::vector<std::pair<std::string, double>> device; // in the order of the frame
+    for (uint32_t i = 0; i < count; ++i)
+        device.emplace_back(timings[i].pass, (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6);
+    passHistory_.add(timings[0].frame, device);
     for (const auto& [name, time] : frame) {
         const auto [shown, isNew] = passTimes_.try_emplace(name, time);
         if (isNew)

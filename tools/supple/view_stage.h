@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/surface_renderer.h"
+#include "tools/supple/pass_history.h"
 #include "tools/supple/render_stage.h"
 
 #include <cstdint>
@@ -25,6 +26,8 @@ struct ViewSettings {
     bool ground = true;
     bool panel = true; ///< shown
     bool keys = false; ///< the help window
+    bool timingsPaused = false;
+    float budgetMs = 0.0f; ///< of the passes together, a line in their graph; 0: none
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
     std::vector<bool> shownParts; ///< of the figure
@@ -54,6 +57,7 @@ public:
     [[nodiscard]] float morphWeight(const host::NamedTargets& morph) const;
     void setMorphWeight(const host::NamedTargets& morph, float weight);
     [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
+    [[nodiscard]] const PassHistory& passHistory() const { return passHistory_; }
 
     /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
     [[nodiscard]] uint32_t offeredRate(uint32_t rate) const;
@@ -119,6 +123,7 @@ private:
     Extent extent_;
     host::Camera camera_;
     std::map<std::string, PassTime> passTimes_;
+    PassHistory passHistory_;
 };
 
 } // namespace supple::tools
