@@ -95,12 +95,20 @@ TEST(ProfileCompare, OnlyResultsWithTimesOfFramesAreTaken) {
         ASSERT_FALSE(runs.ok()) << result;
         EXPECT_EQ(runs.error().message.rfind("old.json: ", 0), 0u) << runs.error().message;
     }
-    const Json good = {{"runs",
-                        {{{"file", "/there/a.glb"},
-                          {"scheme", "pm"},
-                          {"rate", 8},
-                          {"instances", 2},
-                          {"samples", {{"frameMs", {1.0, 2.0}}, {"passMs", {{"deform", {0.5, "x"}}}}}}}}}};
+    const auto resultWith = [](const Json& frameMs, const Json& passMs) {
+        return Json{{"runs",
+                     {{{"file", "/there/a.glb"},
+                       {"scheme", "pm"},
+                       {"rate", 8},
+                       {"instances", 2},
+                       {"samples", {{"frameMs", frameMs}, {"passMs", {{"deform", passMs}}}}}}}}};
+    };
+    for (const Json& bad : {Json{0.5, "x"}, Json{0.5, -1.0}, Json{0.5, 1e300}, Json{0.5, nullptr}}) {
+        EXPECT_FALSE(measuredRuns(resultWith({1.0, 2.0}, bad), "old.json").ok()) << bad;
+        EXPECT_FALSE(measuredRuns(resultWith(bad, {0.5, 0.0}), "old.json").ok()) << bad;
+    }
+    EXPECT_FALSE(measuredRuns(resultWith(Json::array(), {0.5}), "old.json").ok()) << "no frames";
+    const Json good = resultWith({1.0, 2.0}, {0.5, 0.0});
     const auto runs = measuredRuns(good, "old.json");
     ASSERT_TRUE(runs.ok());
     ASSERT_EQ(runs->size(), 1u);

@@ -88,11 +88,24 @@ TEST_F(ProfileGate, AnEarlierResultIsCompared) {
     EXPECT_EQ(comparison[0]["passes"].back()["significant"], true);
 
     const Outcome other = runOnDevice("profile cube.obj --frames 5 --rate 3 --compare fast.json --fail-above 10");
-    EXPECT_EQ(other.exitCode, 0) << "another rate has nothing to be compared with";
-    EXPECT_NE(other.out.find("not in what it is compared with"), std::string::npos) << other.out;
+    EXPECT_EQ(other.exitCode, 1) << "a gate that compares nothing would always be open";
+    EXPECT_NE(other.err.find("--fail-above: fast.json has none of these runs"), std::string::npos) << other.err;
+    EXPECT_EQ(runOnDevice("profile cube.obj --frames 5 --rate 3 --compare fast.json").exitCode, 0);
     writeText(file("none.json"), "{}");
-    expectFailure(run("profile cube.obj --compare none.json"), 1, "none.json: is no result of supple profile");
+    expectFailure(run("profile cube.obj --compare none.json"), 1, "none.json: is not a result of supple profile");
     expectFailure(run("profile cube.obj --compare missing.json"), 1, "missing.json: cannot be read");
+    expectFailure(run("profile cube.obj --compare ."), 1, ".: cannot be read");
+}
+
+TEST_F(ProfileGate, GatesThatCannotCloseAreRefused) {
+    expectFailure(run("profile cube.obj --fail-above 5"), 2, "--fail-above");
+    expectFailure(run("profile cube.obj --compare a.json --against ./b"), 2, "--against");
+    expectFailure(run("profile cube.obj --against ./b --html p.html"), 2, "--against");
+    expectFailure(run("profile cube.obj --against ./b --budget-ms 5"), 2, "--budget-ms");
+    expectFailure(run("profile cube.obj --against ''"), 2, "--against");
+    for (const std::string bad : {"0", "-1", "nan", "inf", "5x", "''"}) {
+        expectFailure(run("profile cube.obj --budget-ms " + bad), 2, "--budget-ms");
+    }
 }
 
 TEST_F(ProfileGate, AnotherBuildIsMeasuredInTurns) {

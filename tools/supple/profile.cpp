@@ -13,7 +13,11 @@
 #include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -61,10 +65,22 @@ Result<std::vector<MeasuredRun>> earlierRuns(const ProfileOptions& options) {
         return std::vector<MeasuredRun>{};
     }
     std::ifstream file(options.compare);
-    if (!file) {
+    if (!file || std::filesystem::is_directory(options.compare)) {
         return Error{ErrorCode::asset, options.compare + ": cannot be read"};
     }
     return measuredRuns(nlohmann::ordered_json::parse(file, nullptr, false), options.compare);
+}
+
+/// A gate that has nothing to compare with would always be open.
+Status comparedSomething(const ProfileOptions& options, const std::vector<RunChange>& changes) {
+    const bool none =
+        std::all_of(changes.begin(), changes.end(), [](const RunChange& run) { return run.passes.empty(); });
+    if (options.failAbove > 0.0 && none) {
+        return Error{ErrorCode::asset,
+                     "--fail-above: " + (options.compare.empty() ? options.against : options.compare) +
+                         " has none of these runs"};
+    }
+    return success();
 }
 
 /// What of the runs is above the limits of the command line.
@@ -101,6 +117,9 @@ int profileAgainst(const ProfileOptions& options) {
     }
     const std::vector<RunChange> changes = compareRuns(pair->before, pair->after);
     printChanges(changes);
+    if (const Status some = comparedSomething(options, changes); !some) {
+        return fail(some.error());
+    }
     if (!options.json.empty()) {
         const Status kept = writeTextFile(options.json, dump({{"comparison", toJson(changes)}}, 2));
         if (!kept) {
@@ -177,6 +196,10 @@ Result<std::vector<ProfileRun>> profile(Session& session, const ProfileOptions& 
         rules.floorOfFrames = machine.cpuDevice ? kFloorOnCpu : rules.floorOfFrames;
         changes = compareRuns(earlier, *measured, rules);
         printChanges(changes);
+        if (!earlier.empty() && earlier.front().device != machine.device) {
+            warn(options.compare + " was measured on another device: " +
+                 (earlier.front().device.empty() ? "it does not say which" : earlier.front().device));
+        }
         if (machine.cpuDevice) {
             std::printf("On a CPU device two runs can differ by half. Changes below that count for nothing here; "
                         "--against compares two builds in turns.\n");
@@ -195,6 +218,9 @@ Result<std::vector<ProfileRun>> profile(Session& session, const ProfileOptions& 
 int runProfile(const ProfileOptions& options) {
     if (!options.against.empty()) {
         return profileAgainst(options);
+    }
+    if (options.failAbove > 0.0 && options.compare.empty()) {
+        return fail(kExitUsage, "--fail-above: needs --compare or --against");
     }
     const Result<std::vector<MeasuredRun>> earlier = earlierRuns(options);
     if (!earlier) {
@@ -216,7 +242,7 @@ int runProfile(const ProfileOptions& options) {
             return runs.error();
         }
         above = aboveLimits(options, *runs, changes);
-        return success();
+        return comparedSomething(options, changes);
     });
     if (code != kExitOk) {
         return code;
@@ -227,29 +253,43 @@ int runProfile(const ProfileOptions& options) {
     return above.empty() ? kExitOk : kExitGate;
 }
 
+/// A number above 0 that is finite.
+std::string whyNoLimit(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool whole = !text.empty() && end == text.c_str() + text.size();
+    return whole && std::isfinite(value) && value > 0.0 ? "" : text + " is no number above 0";
+}
+
 void bindGates(CLI::App& command, ProfileOptions& options) {
-    CLI::Option* const compare =
-        command.add_option("--compare", options.compare, "Compare with an earlier --json, pass by pass")
-            ->type_name("OLD.json");
+    const auto given = [](const std::string& text) { return std::string(text.empty() ? "no name is given" : ""); };
+    command.add_option("--compare", options.compare, "Compare with an earlier --json, pass by pass")
+        ->check(given)
+        ->type_name("OLD.json");
     CLI::Option* const against =
         command
             .add_option("--against", options.against,
                         "Compare with another build of this command: both are measured in turns")
-            ->type_name("SUPPLE")
-            ->excludes(compare);
+            ->check(given)
+            ->type_name("SUPPLE");
+    for (const char* other : {"--compare", "--html", "--csv", "--trace", "--sweep", "--hashes"}) {
+        against->excludes(command.get_option(other));
+    }
     command.add_option("--rounds", options.rounds, "With --against: how often each is measured, --frames a time")
         ->needs(against)
-        ->check(CLI::Range(4u, 1000u))
+        ->check(CLI::Range(kLeastRounds, 1000u))
         ->capture_default_str();
     command
         .add_option("--fail-above", options.failAbove,
-                    "End with exit code 4 if a pass or the frame is slower by more than this, and it is no noise")
-        ->check(CLI::PositiveNumber)
+                    "With --compare or --against: end with exit code 4 if a pass or the frame is marked as slower, "
+                    "by more than this")
+        ->check(whyNoLimit)
         ->type_name("PERCENT");
     command
         .add_option("--budget-ms", options.budgetMs,
                     "End with exit code 4 if more than one frame in twenty takes longer on the device")
-        ->check(CLI::PositiveNumber)
+        ->check(whyNoLimit)
+        ->excludes(against)
         ->type_name("MS");
 }
 

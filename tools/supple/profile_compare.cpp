@@ -16,7 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFrame = "frame";
-constexpr size_t kLeastRounds = 4; ///< for an interval over rounds
 constexpr size_t kResamples = 4000;
 constexpr size_t kNeighbours = 8; ///< frames: neighbours have the same disturbance
 
@@ -161,40 +160,73 @@ std::string nameOf(const Json& run) {
     } else {
         name += ", rate " + run.value("rate", Json()).dump();
     }
-    return name + ", " + run.value("instances", Json()).dump() + " instances" +
+    const std::string instances = run.value("instances", Json()).dump();
+    return name + ", " + instances + (instances == "1" ? " instance" : " instances") +
            (run.value("playback", false) ? ", playback" : "");
 }
 
-std::vector<double> numbersOf(const Json& array) {
-    std::vector<double> numbers;
+/// Times of passes: 0, or between a femtosecond and a week. What is none of these comes from no measurement.
+Result<std::vector<double>> timesOf(const Json& array, const std::string& where) {
+    constexpr double kLeast = 1e-12, kMost = 6e8;
+    std::vector<double> times;
     for (const Json& number : array) {
-        numbers.push_back(number.is_number() ? number.get<double>() : 0.0);
+        const double time = number.is_number() ? number.get<double>() : -1.0;
+        if (!(time == 0.0 || (time >= kLeast && time <= kMost))) {
+            return Error{ErrorCode::asset, where + ": has " + number.dump().substr(0, 40) + " among its times"};
+        }
+        times.push_back(time);
     }
-    return numbers;
+    return times;
+}
+
+Result<MeasuredRun> measuredRun(const Json& entry, const std::string& device, const std::string& where) {
+    const Json& samples = entry.at("samples");
+    MeasuredRun run;
+    run.name = nameOf(entry);
+    run.device = device;
+    MeasuredRound round;
+    Result<std::vector<double>> frame = timesOf(samples.at("frameMs"), where);
+    if (!frame) {
+        return frame.error();
+    }
+    if (frame->empty()) {
+        return Error{ErrorCode::asset, where + ": has a run without frames"};
+    }
+    round.frame = std::move(*frame);
+    for (const auto& [pass, array] : samples.at("passMs").items()) {
+        Result<std::vector<double>> times = timesOf(array, where);
+        if (!times) {
+            return times.error();
+        }
+        run.passes.push_back(pass);
+        round.passes[pass] = std::move(*times);
+    }
+    run.rounds.push_back(std::move(round));
+    return run;
 }
 
 } // namespace
 
 Result<std::vector<MeasuredRun>> measuredRuns(const Json& result, const std::string& where) {
     if (!result.is_object() || !result.contains("runs") || !result["runs"].is_array()) {
-        return Error{ErrorCode::asset, where + ": is no result of supple profile --json"};
+        return Error{ErrorCode::asset, where + ": is not a result of supple profile --json"};
     }
     std::vector<MeasuredRun> runs;
-    for (const Json& entry : result["runs"]) {
-        if (!entry.is_object() || !entry.contains("samples") || !entry["samples"].is_object() ||
-            !entry["samples"].contains("frameMs") || !entry["samples"].contains("passMs")) {
-            return Error{ErrorCode::asset, where + ": has no times of its frames (an older supple profile wrote it)"};
+    try { // members of other types than ours
+        const std::string device = result.value("machine", Json::object()).value("device", std::string());
+        for (const Json& entry : result["runs"]) {
+            if (!entry.is_object() || !entry.contains("samples")) {
+                return Error{ErrorCode::asset,
+                             where + ": has no times of its frames (an older supple profile wrote it)"};
+            }
+            Result<MeasuredRun> run = measuredRun(entry, device, where);
+            if (!run) {
+                return run.error();
+            }
+            addRounds(runs, {std::move(*run)});
         }
-        MeasuredRun run;
-        run.name = nameOf(entry);
-        MeasuredRound round;
-        round.frame = numbersOf(entry["samples"]["frameMs"]);
-        for (const auto& [pass, times] : entry["samples"]["passMs"].items()) {
-            run.passes.push_back(pass);
-            round.passes[pass] = numbersOf(times);
-        }
-        run.rounds.push_back(std::move(round));
-        addRounds(runs, {std::move(run)});
+    } catch (const Json::exception&) {
+        return Error{ErrorCode::asset, where + ": is not a result of supple profile --json"};
     }
     return runs;
 }
@@ -248,8 +280,10 @@ std::string toTable(const RunChange& run) {
     if (run.passes.empty()) {
         return table + " not in what it is compared with\n";
     }
-    std::snprintf(line, sizeof line, " %zu round%s\n", run.rounds, run.rounds == 1 ? "" : "s");
-    table += line;
+    if (run.rounds > 1) {
+        table += " " + std::to_string(run.rounds) + " rounds";
+    }
+    table += "\n";
     std::snprintf(line, sizeof line, "  %-12s %10s %10s %9s   %s\n", "pass", "before ms", "after ms", "change",
                   "within, at 99.9 %");
     table += line;

@@ -21,6 +21,7 @@ struct MeasuredRun {
     std::string name;                ///< file, scheme and settings: runs of the same name are compared
     std::vector<std::string> passes; ///< in the order of the frame
     std::vector<MeasuredRound> rounds;
+    std::string device; ///< its name
 };
 
 /// The runs of a result of --json. `where` names it in errors: a result without the times of its frames is refused.
@@ -42,8 +43,11 @@ struct RunChange {
     std::vector<PassChange> passes; ///< the frame comes last; empty: only one of both has this run
 };
 
+/// Fewer rounds have no interval at 99.9 %: half of the chances in two to the power of ten.
+inline constexpr uint32_t kLeastRounds = 11;
+
 /// What is taken for noise. Where both have several rounds, these are paired, and the interval is that of the median of
-/// their changes; fewer than eleven rounds have a wider chance than `confidence`. Else it is a bootstrap over blocks of
+/// their changes. Else it is a bootstrap over blocks of
 /// frames. Then nothing tells a slower build from a slower machine, so the floor is higher.
 struct CompareRules {
     double confidence = 0.999;

@@ -50,8 +50,13 @@ Status runCommand(const std::string& command, std::vector<std::string> arguments
         return Error{ErrorCode::asset, command + ": cannot be run"};
     }
     int status = 0;
-    if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        return Error{ErrorCode::asset, command + ": failed with these arguments"};
+    waitpid(child, &status, 0);
+    if (WIFSIGNALED(status)) {
+        return Error{ErrorCode::asset, command + ": ended by signal " + std::to_string(WTERMSIG(status))};
+    }
+    if (WEXITSTATUS(status) != 0) {
+        return Error{ErrorCode::asset,
+                     command + ": failed with these arguments, exit code " + std::to_string(WEXITSTATUS(status))};
     }
     return success();
 }
@@ -100,19 +105,27 @@ Result<MeasuredPair> measureInTurns(const RoundsOptions& options) {
     if (failed) {
         return Error{ErrorCode::asset, "--against: this command does not find its own file"};
     }
+    const auto endLine = [] {
+        if (isatty(STDERR_FILENO) != 0) {
+            std::fprintf(stderr, "\n");
+        }
+    };
     MeasuredPair pair;
     for (uint32_t round = 0; round < options.rounds; ++round) {
-        std::fprintf(stderr, "round %u of %u\r", round + 1, options.rounds);
+        if (isatty(STDERR_FILENO) != 0) {
+            std::fprintf(stderr, "\rround %u of %u", round + 1, options.rounds);
+        }
         for (const bool second : {false, true}) {
             const bool before = (round % 2 == 0) != second;
             const Status status = before ? measure(options.against, arguments, scratch, pair.before)
                                          : measure(own, arguments, scratch, pair.after);
             if (!status) {
+                endLine();
                 return status.error();
             }
         }
     }
-    std::fprintf(stderr, "\n");
+    endLine();
     return pair;
 }
 
