@@ -265,7 +265,7 @@ vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
 }
 #endif
 
-// Of a level: its second half, for the first belongs to the levels that follow.
+// The second half of a level's line. Its first half belongs to the levels that follow.
 Half chainLine(Net net, uint along, uint across, float share) {
     vec3 e[4];
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {

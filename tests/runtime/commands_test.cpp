@@ -39,10 +39,10 @@ const CommandCase kFixedRates[] = {
     {"p-rep, shared samples", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH},
     {"P_m", SUPPLE_SCHEME_PM, kAllOutputs, false, true},
     {"P_m, shared samples", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH, false, true},
-    {"Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES},
+    {"fragments", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES},
     {"Loop", SUPPLE_SCHEME_LOOP, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"blend", SUPPLE_SCHEME_BLEND, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
-    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
+    {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"polygons", SUPPLE_SCHEME_POLYGONS, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, false, true},
     {"p-rep, playing", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_MOTION, true},
 };
@@ -50,14 +50,14 @@ const CommandCase kViews[] = {
     {"view, p-rep", SUPPLE_SCHEME_PREP, 0, false, false, kLevelOutputs},
     {"view, P_m", SUPPLE_SCHEME_PM, 0, false, true, kLevelOutputs},
     {"view, blend", SUPPLE_SCHEME_BLEND, 0, false, true, kLevelOutputs},
-    {"view, exact", SUPPLE_SCHEME_CATMULL_CLARK, 0, false, true, kLevelOutputs},
+    {"view, Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, 0, false, true, kLevelOutputs},
     {"view, polygons", SUPPLE_SCHEME_POLYGONS, 0, false, true, kLevelOutputs},
     {"view, one level an instance", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_ONE_LEVEL, false, false, kLevelOutputs},
     {"view, culling of all kinds", SUPPLE_SCHEME_PM, 0, false, false,
      SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION | SUPPLE_VIEW_BACK_FACES},
     {"view, playing", SUPPLE_SCHEME_PM, 0, true, false, kLevelOutputs},
-    {"view, Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, 0, false, false, kLevelOutputs},
-    {"view, Catmull-Clark in a budget", SUPPLE_SCHEME_FRAGMENTS, 0, false, false, kLevelOutputs, 200000},
+    {"view, fragments", SUPPLE_SCHEME_FRAGMENTS, 0, false, false, kLevelOutputs},
+    {"view, fragments in a budget", SUPPLE_SCHEME_FRAGMENTS, 0, false, false, kLevelOutputs, 200000},
 };
 
 /// Six frames of `visible` instances of `capacity`: what each recorded, and what the last one left.

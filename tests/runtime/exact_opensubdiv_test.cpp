@@ -78,7 +78,7 @@ private:
     bool stepped_;
 };
 
-/// Of the extent, but of the largest coordinate where that is larger: float rounds there.
+/// What errors are measured by: the extent, or the largest coordinate where that is larger, since float rounds there.
 double sizeOf(const std::vector<glm::dvec3>& positions) {
     double size = extent(positions);
     for (const glm::dvec3& p : positions) {
@@ -140,7 +140,7 @@ void expectEqual(const Figures& figures) {
     EXPECT_LE(static_cast<double>(figures.steep), 1e-3 * static_cast<double>(figures.normals)) << figures.normal;
 }
 
-/// Of a file: no more than some thousand samples.
+/// Compares no more than some thousand samples of a file.
 Figures compareFile(host::Device& device, const std::string& path, uint32_t& refused) {
     const Result<host::CharacterFile> file = host::readCharacterFile(path);
     if (!file) {

@@ -186,8 +186,8 @@ TEST_P(LodCrowds, OneLevelAnInstance) {
         float least = 0.84f, most = 1.25f; ///< of what the finest asks for
     } cases[] = {{SUPPLE_SCHEME_PREP, "p-rep", bumpySphere(4)},
                  {SUPPLE_SCHEME_PM, "P_m", cage::makeSplitTorus(8, 7)},
-                 {SUPPLE_SCHEME_CATMULL_CLARK, "exact", cage::makeSplitTorus(8, 7), 0.7f},
-                 {SUPPLE_SCHEME_CATMULL_CLARK, "exact, sphere", bumpySphere(4), 0.84f, 1.5f},
+                 {SUPPLE_SCHEME_CATMULL_CLARK, "Catmull-Clark", cage::makeSplitTorus(8, 7), 0.7f},
+                 {SUPPLE_SCHEME_CATMULL_CLARK, "Catmull-Clark, sphere", bumpySphere(4), 0.84f, 1.5f},
                  {SUPPLE_SCHEME_BLEND, "blend, quads", bumpySphere(4)},
                  {SUPPLE_SCHEME_BLEND, "blend, triangles", inTriangles(bumpySphere(4)), 0.68f, 1.35f}}; // a step first
     for (const auto& [scheme, name, cage, least, most] : cases) {

@@ -58,7 +58,7 @@ struct LodCase {
 };
 constexpr LodCase kLodCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
                                  {"P_m", SUPPLE_SCHEME_PM},
-                                 {"exact", SUPPLE_SCHEME_CATMULL_CLARK},
+                                 {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK},
                                  {"blend", SUPPLE_SCHEME_BLEND},
                                  {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
 

@@ -248,10 +248,10 @@ std::vector<RateCase> rateCases() {
     const cage::Cage mixed = withUvs(named->cage);
     const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
     std::vector<RateCase> cases{
-        {"Catmull-Clark, quads", SUPPLE_SCHEME_FRAGMENTS, bodyOf(quads)},
-        {"Catmull-Clark, quads, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(quads))},
-        {"Catmull-Clark, mixed", SUPPLE_SCHEME_FRAGMENTS, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
-        {"Catmull-Clark, mixed, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
+        {"fragments, quads", SUPPLE_SCHEME_FRAGMENTS, bodyOf(quads)},
+        {"fragments, quads, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(quads))},
+        {"fragments, mixed", SUPPLE_SCHEME_FRAGMENTS, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
+        {"fragments, mixed, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
         {"Loop, triangles", SUPPLE_SCHEME_LOOP, bodyOf(triangles)},
         {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
         {"Loop, mixed", SUPPLE_SCHEME_LOOP, bodyOf(mixed)},
@@ -259,7 +259,7 @@ std::vector<RateCase> rateCases() {
     const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
     EXPECT_TRUE(pip.ok());
     if (pip.ok()) {
-        cases.push_back({"Catmull-Clark, animated", SUPPLE_SCHEME_FRAGMENTS, *pip, 0, 2, 4, 3});
+        cases.push_back({"fragments, animated", SUPPLE_SCHEME_FRAGMENTS, *pip, 0, 2, 4, 3});
     }
     return cases;
 }

@@ -140,15 +140,15 @@ std::vector<MotionCase> motionCases() {
             const uint32_t subdivisionRate = mapping == SUPPLE_MAPPING_NARROW ? 8 : 4;
             const MotionCase own[] = {{"Prep", SUPPLE_SCHEME_PREP, 3},
                                       {"Pm", SUPPLE_SCHEME_PM, 3},
-                                      {"CatmullClark", SUPPLE_SCHEME_FRAGMENTS, subdivisionRate},
+                                      {"Fragments", SUPPLE_SCHEME_FRAGMENTS, subdivisionRate},
                                       {"Loop", SUPPLE_SCHEME_LOOP, subdivisionRate},
                                       {"Blend", SUPPLE_SCHEME_BLEND, 4},
                                       {"Polygons", SUPPLE_SCHEME_POLYGONS, 1},
                                       {"Polygons", SUPPLE_SCHEME_POLYGONS, 1}, // in both formats
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3},
-                                      {"Exact", SUPPLE_SCHEME_CATMULL_CLARK, 5},
-                                      {"ExactShared", SUPPLE_SCHEME_CATMULL_CLARK, 5}};
+                                      {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, 5},
+                                      {"CatmullClarkShared", SUPPLE_SCHEME_CATMULL_CLARK, 5}};
             for (MotionCase c : own) {
                 c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_INDEXED_MESH : 0;
                 c.name = mappingName(mapping) + c.name + suffix;

@@ -144,13 +144,13 @@ constexpr OriginCase kOriginCases[] = {
     {"P_m", SUPPLE_SCHEME_PM, 0, false},
     {"p-rep", SUPPLE_SCHEME_PREP, 0, false},
     {"blend", SUPPLE_SCHEME_BLEND, 0, false},
-    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, 0, false},
-    {"Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, 0, false},
+    {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, 0, false},
+    {"fragments", SUPPLE_SCHEME_FRAGMENTS, 0, false},
     {"polygons", SUPPLE_SCHEME_POLYGONS, 0, false},
     {"indexed mesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_INDEXED_MESH, false},
     {"P_m in a view", SUPPLE_SCHEME_PM, 0, true},
-    {"exact in a view", SUPPLE_SCHEME_CATMULL_CLARK, 0, true},
-    {"Catmull-Clark in a view", SUPPLE_SCHEME_FRAGMENTS, 0, true},
+    {"Catmull-Clark in a view", SUPPLE_SCHEME_CATMULL_CLARK, 0, true},
+    {"fragments in a view", SUPPLE_SCHEME_FRAGMENTS, 0, true},
     {"polygons in a view", SUPPLE_SCHEME_POLYGONS, 0, true},
 };
 

@@ -162,10 +162,12 @@ struct SewnCase {
     const char* file;
     SuppleScheme scheme;
 };
-constexpr SewnCase kSewnCases[] = {
-    {"Prep", "pip_quads.glb", SUPPLE_SCHEME_PREP},        {"Pm", "pip.glb", SUPPLE_SCHEME_PM},
-    {"CatmullClark", "pip.glb", SUPPLE_SCHEME_FRAGMENTS}, {"Loop", "pip.glb", SUPPLE_SCHEME_LOOP},
-    {"Exact", "pip.glb", SUPPLE_SCHEME_CATMULL_CLARK},    {"Blend", "pip.glb", SUPPLE_SCHEME_BLEND}};
+constexpr SewnCase kSewnCases[] = {{"Prep", "pip_quads.glb", SUPPLE_SCHEME_PREP},
+                                   {"Pm", "pip.glb", SUPPLE_SCHEME_PM},
+                                   {"Fragments", "pip.glb", SUPPLE_SCHEME_FRAGMENTS},
+                                   {"Loop", "pip.glb", SUPPLE_SCHEME_LOOP},
+                                   {"CatmullClark", "pip.glb", SUPPLE_SCHEME_CATMULL_CLARK},
+                                   {"Blend", "pip.glb", SUPPLE_SCHEME_BLEND}};
 
 class SewnParts : public testing::TestWithParam<SewnCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, SewnParts, testing::ValuesIn(kSewnCases),

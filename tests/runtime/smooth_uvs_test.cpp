@@ -237,8 +237,8 @@ const UvCase kUvCases[] = {
     {"pmPentagons", SUPPLE_SCHEME_PM, dodecahedron},
     {"blend", SUPPLE_SCHEME_BLEND, roughQuads},
     {"blendOpen", SUPPLE_SCHEME_BLEND, roughGrid},
-    {"exact", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
-    {"exactOpen", SUPPLE_SCHEME_CATMULL_CLARK, roughGrid},
+    {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
+    {"catmullClarkOpen", SUPPLE_SCHEME_CATMULL_CLARK, roughGrid},
 };
 class SmoothUvsOf : public SmoothUvs, public testing::WithParamInterface<UvCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, SmoothUvsOf, testing::ValuesIn(kUvCases),
@@ -575,8 +575,8 @@ TEST_F(SmoothUvs, OfIndexedMeshesAreThoseOfGrids) {
     const ValidationGuard guard;
     for (const UvCase& c : {UvCase{"prep", SUPPLE_SCHEME_PREP, roughQuads}, UvCase{"pm", SUPPLE_SCHEME_PM, roughMixed},
                             UvCase{"polar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
-                            UvCase{"exact", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
-                            UvCase{"exactMixed", SUPPLE_SCHEME_CATMULL_CLARK, roughMixed}}) {
+                            UvCase{"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
+                            UvCase{"catmullClarkMixed", SUPPLE_SCHEME_CATMULL_CLARK, roughMixed}}) {
         cage::Cage cage = withSeams(c.cage());
         cage.cornerUvs1 = cutAtRandom(cage, 29);
         for (const SuppleMapping mapping : kMappings) {

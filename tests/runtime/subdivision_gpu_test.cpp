@@ -35,7 +35,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Mappings, SubdivisionOnGpu,
                          testing::ValuesIn(onBothMappings(
-                             {{"CatmullClark", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
+                             {{"Fragments", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
                               {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
                          [](const auto& param) { return param.param.name; });
 
@@ -215,7 +215,7 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
             }
         });
     std::printf("%-24s %-13s %8llu samples, %llu differ from the float reference\n",
-                std::filesystem::path(path).filename().c_str(), scheme == SUPPLE_SCHEME_LOOP ? "Loop" : "Catmull-Clark",
+                std::filesystem::path(path).filename().c_str(), scheme == SUPPLE_SCHEME_LOOP ? "Loop" : "fragments",
                 static_cast<unsigned long long>(bits.samples), static_cast<unsigned long long>(bits.different));
     EXPECT_EQ(bits.different, 0u);
 }

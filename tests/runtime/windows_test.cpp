@@ -45,7 +45,7 @@ struct WindowCase {
 constexpr WindowCase kWindowCases[] = {
     {"P_m", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, 5},
     {"indexed mesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH, 6},
-    {"Catmull-Clark", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_ATTRIBUTES, 2},
+    {"fragments", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_ATTRIBUTES, 2},
     {"polygons", SUPPLE_SCHEME_POLYGONS, 0, 1},
 };
 

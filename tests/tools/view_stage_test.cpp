@@ -126,43 +126,53 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
     EXPECT_EQ(validation->messageCount(), 0u);
 }
 
+/// What a stage stands on, without frames.
+class RemadeStage : public testing::Test {
+protected:
+    void SetUp() override {
+        device_ = host::Device::create();
+        ASSERT_TRUE(device_.ok()) << device_.error().message;
+        context_ = host::Context::create(**device_, {.framesInFlight = 2});
+        ASSERT_TRUE(context_.ok()) << context_.error().message;
+        renderer_ = host::SurfaceRenderer::create(
+            **device_, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
+        ASSERT_TRUE(renderer_.ok()) << renderer_.error().message;
+    }
+    [[nodiscard]] Result<std::unique_ptr<ViewStage>> create(const DrawOptions& options) {
+        return ViewStage::create(**context_, **renderer_, options);
+    }
+    [[nodiscard]] uint64_t lastFrame() const { return (*context_)->lastFrame(); }
+    void waitIdle() const { vkDeviceWaitIdle((*device_)->handle()); }
+
+private:
+    Result<std::unique_ptr<host::Device>> device_ = Error{ErrorCode::vulkan, "not made"};
+    Result<std::unique_ptr<host::Context>> context_ = Error{ErrorCode::vulkan, "not made"};
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer_ = Error{ErrorCode::vulkan, "not made"};
+};
+
 /// Scheme and skinning change as rates do; what a scheme refuses leaves the old surface.
-TEST(ViewStageTest, SchemeAndSkinningChange) {
-    Result<std::unique_ptr<host::Device>> device = host::Device::create();
-    ASSERT_TRUE(device.ok()) << device.error().message;
-    Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.framesInFlight = 2});
-    ASSERT_TRUE(context.ok()) << context.error().message;
-    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
-        **device, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
-    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
-    Result<std::unique_ptr<ViewStage>> opened = ViewStage::create(**context, **renderer, {.rate = 6});
+TEST_F(RemadeStage, SchemeAndSkinningChange) {
+    Result<std::unique_ptr<ViewStage>> opened = create({.rate = 6});
     ASSERT_TRUE(opened.ok()) << opened.error().message;
     ViewStage& stage = **opened;
     ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", {}, kAspect).ok());
     EXPECT_EQ(stage.scheme(), SUPPLE_SCHEME_AUTO);
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_CATMULL_CLARK);
-    ASSERT_TRUE(stage.setScheme(SUPPLE_SCHEME_LOOP, (*context)->lastFrame()).ok());
+    ASSERT_TRUE(stage.setScheme(SUPPLE_SCHEME_LOOP, lastFrame()).ok());
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
     EXPECT_EQ(stage.settings.rate, 8) << "a power of two";
-    const Status refused = stage.setScheme(SUPPLE_SCHEME_PREP, (*context)->lastFrame());
+    const Status refused = stage.setScheme(SUPPLE_SCHEME_PREP, lastFrame());
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().message.find("quads only"), std::string::npos) << refused.error().message;
     EXPECT_EQ(stage.scheme(), SUPPLE_SCHEME_LOOP);
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
-    ASSERT_TRUE(stage.setSkinning(SUPPLE_SKINNING_DUAL_QUATERNION, (*context)->lastFrame()).ok());
+    ASSERT_TRUE(stage.setSkinning(SUPPLE_SKINNING_DUAL_QUATERNION, lastFrame()).ok());
     EXPECT_EQ(stage.skinning(), SUPPLE_SKINNING_DUAL_QUATERNION);
-    vkDeviceWaitIdle((*device)->handle());
+    waitIdle();
 }
 
 /// The rate that is shown is along an edge of the cage, of which subdivision's patches are a half or a quarter.
-TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
-    Result<std::unique_ptr<host::Device>> device = host::Device::create();
-    ASSERT_TRUE(device.ok()) << device.error().message;
-    Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.framesInFlight = 2});
-    ASSERT_TRUE(context.ok()) << context.error().message;
-    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
-        **device, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
-    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+TEST_F(RemadeStage, RatesOfSubdivisionArePowersOfTwo) {
     struct Case {
         const char* file;
         const char* scheme;
@@ -173,7 +183,7 @@ TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
         DrawOptions options;
         options.scheme = c.scheme;
         options.rate = 5;
-        Result<std::unique_ptr<ViewStage>> opened = ViewStage::create(**context, **renderer, options);
+        Result<std::unique_ptr<ViewStage>> opened = create(options);
         ASSERT_TRUE(opened.ok()) << opened.error().message;
         ViewStage& stage = **opened;
         EXPECT_TRUE(stage.ratesArePowersOfTwo());
@@ -184,10 +194,10 @@ TEST(ViewStageTest, RatesOfSubdivisionArePowersOfTwo) {
         ASSERT_TRUE(status.ok()) << status.error().message;
         EXPECT_EQ(stage.settings.rate, 8);
         EXPECT_EQ(stage.group().surfaces()[0].output.grid.rate, 8u >> c.steps);
-        ASSERT_TRUE(stage.setRate(2, (*context)->lastFrame()).ok());
+        ASSERT_TRUE(stage.setRate(2, lastFrame()).ok());
         EXPECT_EQ(stage.settings.rate, 1 << c.steps) << "no fewer segments than patches";
         EXPECT_EQ(stage.group().surfaces()[0].output.grid.rate, 1u);
-        vkDeviceWaitIdle((*device)->handle());
+        waitIdle();
     }
 }
 

@@ -47,7 +47,7 @@ struct ShareBar {
 
 /// Classes of the page's style sheet: c0, c1, .. for areas, sc0, sc1, .. for lines.
 inline constexpr size_t kChartColors = 10;
-/// Of a series: its class in the page's style sheet.
+/// The class of a series in the page's style sheet.
 [[nodiscard]] std::string colorClass(size_t series);
 /// & < > " as HTML has them.
 [[nodiscard]] std::string escaped(const std::string& text);

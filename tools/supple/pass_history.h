@@ -20,7 +20,7 @@ public:
     /// In the order in which they came first.
     [[nodiscard]] const std::vector<std::string>& passes() const { return passes_; }
     [[nodiscard]] size_t frames() const { return rows_.size(); }
-    /// Of a frame, 0 the oldest: by pass; a pass that came later is missing at the end.
+    /// The times of a frame by pass. Frame 0 is the oldest. Passes that came first in a later frame are missing.
     [[nodiscard]] const std::vector<float>& row(size_t frame) const { return rows_[frame]; }
     /// The largest sum of a frame.
     [[nodiscard]] float most() const;

@@ -192,6 +192,9 @@ Result<std::vector<ProfileRun>> profile(Session& session, const ProfileOptions& 
     }
     if (!options.compare.empty()) {
         const Result<std::vector<MeasuredRun>> measured = measuredRuns(toJson(machine, *runs), "this run");
+        if (!measured) {
+            return measured.error();
+        }
         CompareRules rules;
         rules.floorOfFrames = machine.cpuDevice ? kFloorOnCpu : rules.floorOfFrames;
         changes = compareRuns(earlier, *measured, rules);

@@ -26,8 +26,8 @@ double median(std::vector<double> values) {
 struct Interval {
     double middle = 0.0, low = 0.0, high = 0.0;
 };
-/// Of the median, between two of the values: so a disturbed round or two move nothing. By how many of as many coins
-/// could fall on one side (Thompson 1936).
+/// The interval of the median. It reaches from one of the values to another, so a few disturbed rounds move nothing.
+/// Which values these are follows from the binomial distribution (Thompson 1936).
 Interval intervalOfMedian(std::vector<double> values, double confidence) {
     std::sort(values.begin(), values.end());
     const size_t count = values.size();

@@ -3,6 +3,7 @@
 #include "tools/common/formatted.h"
 #include "tools/supple/charts.h"
 #include "tools/supple/memory_report.h"
+#include "tools/supple/profile_report.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -172,13 +173,7 @@ std::string sectionOf(const ProfileRun& run, const HtmlReport& report) {
     text += "<div style=\"flex:1;min-width:300px\">" + tilesOf(run, summary) + "</div></div>";
     text += framesOf(run, summary, report.budgetMs) + "<h3>Passes</h3>" + passTable(summary) + memoryOf(run);
     if (run.budget > 0) {
-        const DrawnSummary& drawn = summary.drawn;
-        text += formatted(
-            "<p>Drawn: %llu vertices of %llu wanted, %llu patches, %llu instances. Levels scaled by %.3f and "
-            "more; %u instances dropped at most; shortfall in %zu frames.</p>",
-            static_cast<unsigned long long>(drawn.vertices), static_cast<unsigned long long>(drawn.wantedVertices),
-            static_cast<unsigned long long>(drawn.patches), static_cast<unsigned long long>(drawn.drawnInstances),
-            static_cast<double>(drawn.leastLevelScale), drawn.mostDropped, drawn.shortfallFrames);
+        text += "<p>Drawn: " + drawnText(run, summary) + ".</p>";
     }
     return text;
 }

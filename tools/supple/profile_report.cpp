@@ -126,6 +126,16 @@ void addFrame(const FrameSample& frame, int process, const std::function<double(
 
 } // namespace
 
+std::string drawnText(const ProfileRun& run, const RunSummary& summary) {
+    const DrawnSummary& drawn = summary.drawn;
+    return formatted(
+        "%llu vertices of %llu wanted, %llu patches, %llu instances; levels scaled by %.3f and more; %u instances "
+        "dropped at most; shortfall in %zu of %zu frames",
+        static_cast<unsigned long long>(drawn.vertices), static_cast<unsigned long long>(drawn.wantedVertices),
+        static_cast<unsigned long long>(drawn.patches), static_cast<unsigned long long>(drawn.drawnInstances),
+        static_cast<double>(drawn.leastLevelScale), drawn.mostDropped, drawn.shortfallFrames, run.frames.size());
+}
+
 std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     const std::string patchRate = run.patchRate == run.rate ? "" : formatted(" (%u a patch)", run.patchRate);
     const std::string fineness = run.budget > 0 ? formatted("in a view of %u vertices", run.budget)
@@ -147,13 +157,7 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     table += formatted("  CPU a frame: %.4f ms to set the %s, %.4f ms to record (medians)\n", summary.pose.median,
                        run.playback ? "time" : "poses", summary.record.median);
     if (run.budget > 0) {
-        const DrawnSummary& drawn = summary.drawn;
-        table += formatted(
-            "  drawn: %llu vertices of %llu wanted, %llu patches, %llu instances; levels scaled by %.3f and "
-            "more; %u instances dropped at most; shortfall in %zu of %zu frames\n",
-            static_cast<unsigned long long>(drawn.vertices), static_cast<unsigned long long>(drawn.wantedVertices),
-            static_cast<unsigned long long>(drawn.patches), static_cast<unsigned long long>(drawn.drawnInstances),
-            static_cast<double>(drawn.leastLevelScale), drawn.mostDropped, drawn.shortfallFrames, run.frames.size());
+        table += "  drawn: " + drawnText(run, summary) + "\n";
     }
     return table;
 }

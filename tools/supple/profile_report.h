@@ -10,6 +10,8 @@
 
 namespace supple::tools {
 
+/// "30000 vertices of 42000 wanted, ..": what a view drew.
+[[nodiscard]] std::string drawnText(const ProfileRun& run, const RunSummary& summary);
 [[nodiscard]] std::string toTable(const ProfileRun& run, const RunSummary& summary);
 [[nodiscard]] nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun> runs);
 [[nodiscard]] std::string toCsv(std::span<const ProfileRun> runs);

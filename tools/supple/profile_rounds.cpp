@@ -1,7 +1,7 @@
 #include "tools/supple/profile_rounds.h"
 
 #include <algorithm>
-#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
@@ -50,7 +50,11 @@ Status runCommand(const std::string& command, std::vector<std::string> arguments
         return Error{ErrorCode::asset, command + ": cannot be run"};
     }
     int status = 0;
-    waitpid(child, &status, 0);
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            return Error{ErrorCode::asset, command + ": its end was not seen"};
+        }
+    }
     if (WIFSIGNALED(status)) {
         return Error{ErrorCode::asset, command + ": ended by signal " + std::to_string(WTERMSIG(status))};
     }
@@ -86,6 +90,8 @@ Status measure(const std::string& command, const std::vector<std::string>& argum
     }
     std::ifstream file(scratch.file());
     const auto result = nlohmann::ordered_json::parse(file, nullptr, false);
+    file.close();
+    std::filesystem::remove(scratch.file()); // a command that writes nothing must not seem to have measured this
     Result<std::vector<MeasuredRun>> measured = measuredRuns(result, command);
     if (!measured) {
         return measured.error();

@@ -84,7 +84,7 @@ double envelope(const FrameSample& frame) {
     return end - begin;
 }
 
-/// Of all frames, in the order in which they come first.
+/// The names of all passes, in the order in which frames have them first.
 std::vector<std::string> passNames(const ProfileRun& run) {
     std::vector<std::string> names;
     for (const FrameSample& frame : run.frames) {
