@@ -1193,8 +1193,8 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
     SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
     SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
-    SUPPLE_PATCH_CREASED =
-        13 /**< none, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes */
+    /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
+    SUPPLE_PATCH_CREASED = 13
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
@@ -1242,8 +1242,9 @@ typedef struct SuppleTiming {
 /** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
  * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
 SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
-/** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. With VK_EXT_calibrated_timestamps a
- * host lays them beside its own clock: docs/profiling.md. SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. */
+/** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. It stays as long as the context
+ * does. With VK_EXT_calibrated_timestamps a host lays the timings beside its own clock (docs/profiling.md).
+ * SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. Never waits. */
 SUPPLE_API SuppleResult suppleGetTimingOrigin(SuppleContext context, uint64_t* ticks);
 
 /** How well a pass has kept to its budget since the budget was set. */
