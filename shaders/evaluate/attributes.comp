@@ -11,6 +11,7 @@
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/sectors.glsl"
+#include "shaders/evaluate/pentagon.glsl"
 #include "shaders/lod/record.glsl"
 
 #if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES) || defined(QUADS)
@@ -37,8 +38,8 @@ layout(set = 0, binding = kDirectionOutputBinding, std430) writeonly buffer Dire
 const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u
                       : kDomain == kVertexDomain ? 1u : 3u;
 
-// Linear on triangles, bilinear on quads; pentagons are linear between an edge and the centre, the mean of the corners;
-// on polar patches the corner at the apex takes over linearly.
+// Linear on triangles, bilinear on quads and on the quads of a pentagon. On polar patches the corner at the apex takes over
+// linearly.
 float[5] bilinear(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, u.x * v.x, u.y * v.x, 0.0); }
 float[5] polar(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, v.x, 0.0, 0.0); }
 
@@ -49,10 +50,7 @@ float[5] cornerWeights(uint index) {
     if (kDomain == kPolarDomain) return polar(u, v);
     float rest = parameterPair(push.rate - at.x - at.y, push.rate, push.pairs).x;
     if (kDomain == kTriangleDomain) return float[5](rest, u.x, v.x, 0.0, 0.0);
-    float w[5];
-    for (uint k = 0u; k < 5u; ++k)
-        w[k] = v.x * 0.2 + (k == at.z ? rest : 0.0) + (k == (at.z + 1u) % 5u ? u.x : 0.0);
-    return w;
+    return pentagonWeights(at.z, vec3(rest, u.x, v.x));
 }
 
 vec2 squareCorner(uint k) { return vec2(k == 1u || k == 2u, k >= 2u); }
@@ -63,6 +61,7 @@ float[5] sectorWeights(uint sector, vec3 l) {
         vec2 p = l.x * squareCorner(sector & 3u) + l.y * squareCorner((sector + 1u) & 3u) + l.z * vec2(0.5);
         return bilinear(vec2(p.x, 1.0 - p.x), vec2(p.y, 1.0 - p.y));
     }
+    if (kDomain == kPentagonDomain) return pentagonWeights(sector, l);
     float w[5];
     for (uint c = 0u; c < 5u; ++c)
         w[c] = c < kCorners ? l.z / float(kCorners) + (c == sector ? l.x : 0.0) + (c == (sector + 1u) % kCorners ? l.y : 0.0)
@@ -183,6 +182,11 @@ Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
         Slopes uv = slopesAt(c, vec2(p.x, 1.0 - p.x), vec2(p.y, 1.0 - p.y));
         vec2 a = along.x * uv.a + along.y * uv.b, across = inwards.x * uv.a + inwards.y * uv.b;
         return Slopes(a, 0.5 * (a + across));
+    }
+    if (kDomain == kPentagonDomain) {
+        Slopes slopes;
+        pentagonSlopes(c.uv, sector, l, slopes.a, slopes.b);
+        return slopes;
     }
     return Slopes(c.uv[next] - c.uv[sector], uvCentre(c, kCorners) - c.uv[sector]);
 }
@@ -405,6 +409,11 @@ Slopes curveSlopes(uint first, vec2 t, bool sectors) {
 // Along its side and inwards, as evaluate/edge.comp has the derivatives of the position.
 Slopes slopesOnEdge(Corners c, uint side, uint corners, bool sectors, vec2 t) {
     vec2 own = c.uv[side], next = c.uv[side + 1u == corners ? 0u : side + 1u], along = next - own;
+    if (corners == 5u) {
+        Slopes slopes;
+        pentagonSlopes(c.uv, side, vec3(t.y, t.x, 0.0), slopes.a, slopes.b);
+        return slopes;
+    }
     if (sectors && corners != 4u) return Slopes(along, uvCentre(c, corners) - own);
     if (corners == 3u) { // polar
         if (side == 0u) return Slopes(along, c.uv[2] - (t.y * own + t.x * next));
