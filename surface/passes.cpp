@@ -56,7 +56,7 @@ constexpr struct {
     {storage(kUv1Binding), in({attributes})},
     {storage(kFaceUvBinding), in({attributes})},
     {storage(kTangentBinding), in({evaluate, subdivide, evaluateLevels})},
-    {storage(kDirectionBinding), in({evaluate, evaluateLevels})},
+    {storage(kDirectionBinding), in({evaluate, subdivide, evaluateLevels})},
     {storage(kDirectionOutputBinding), in({attributes})},
     {storage(kPairBinding), in({evaluate, attributes})},
     {storage(kScratchBinding), in({subdivide, levels})},
@@ -68,17 +68,21 @@ constexpr struct {
     {narrowTexels(kLodTexelBinding), in({evaluateLevels, attributes, levels})},
 };
 
-/// A new stream is one more buffer that evaluation or attributes write. Their layouts have room for it.
-constexpr bool hasRoom(SetKind kind) {
+constexpr uint32_t storageBuffers(SetKind kind) {
     uint32_t narrow = 0, wide = 0;
     for (const auto& [binding, kinds] : kResources) {
         const uint32_t has = (kinds & in({kind})) != 0 && binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ? 1 : 0;
         narrow += binding.isIn(false) ? has : 0;
         wide += binding.isIn(true) ? has : 0;
     }
-    return std::max(narrow, wide) < gpu::kMaxStorageBuffers;
+    return std::max(narrow, wide);
 }
-static_assert(hasRoom(evaluate) && hasRoom(subdivide) && hasRoom(evaluateLevels) && hasRoom(attributes));
+/// A new stream is one more buffer that evaluation or attributes write. But for the subdivision, layouts have room for
+/// it.
+static_assert(storageBuffers(evaluate) < gpu::kMaxStorageBuffers &&
+              storageBuffers(evaluateLevels) < gpu::kMaxStorageBuffers &&
+              storageBuffers(attributes) < gpu::kMaxStorageBuffers &&
+              storageBuffers(subdivide) <= gpu::kMaxStorageBuffers);
 
 /// By SetKind.
 constexpr struct {

@@ -102,12 +102,8 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
 }
 
 bool Tables::hasTangents() const {
-    if (!triangles.indices.empty()) {
-        return triangles.directions != 0;
-    }
-    return (!hasIndexedMesh() || mesh.tangents) && !ranges.empty() &&
-           std::all_of(ranges.begin(), ranges.end(),
-                       [](const PatchRange& range) { return rowOf(range.patchClass).evaluate != Kernel::count; });
+    return triangles.indices.empty() ? !ranges.empty() && (!hasIndexedMesh() || mesh.tangents)
+                                     : triangles.directions != 0;
 }
 
 bool Tables::has(Stage stage) const {

@@ -147,27 +147,14 @@ Status Tessellation::buildTables() {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
     }
-    const Status tangents = keepTangents();
-    if (!tangents) {
-        return tangents;
+    if (!own.hasTangents()) { // there is nothing to draw
+        wanted_.remove(Stream::tangents);
     }
     wanted_.keepAttributes(own.attributeOutputs());
     if (own.patches.empty()) {
         wanted_.remove(Stream::previousPositions);
     }
     evaluation_.rate = own.rate == 0 ? askedRate_ : own.rate;
-    return success();
-}
-
-Status Tessellation::keepTangents() {
-    if (!wanted_.has(Stream::tangents) || tables().hasTangents()) {
-        return success();
-    }
-    if (view() == nullptr && !desc_.schemeChosen) {
-        return Error{ErrorCode::argument, desc_.asset->character.name + ": " +
-                                              surface::schemeOf(scheme_->recipe.scheme).name + " has no tangents"};
-    }
-    wanted_.remove(Stream::tangents);
     return success();
 }
 

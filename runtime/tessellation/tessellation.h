@@ -162,8 +162,6 @@ protected:
 
     /// Builds the tables of the description; `rate` in segments along an edge of the cage.
     [[nodiscard]] Status buildTables();
-    /// Leaves tangents out, or refuses, if the scheme has none.
-    [[nodiscard]] Status keepTangents();
     /// What the passes write for this group.
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();

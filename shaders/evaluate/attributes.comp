@@ -169,6 +169,7 @@ struct Slopes {
 };
 Slopes slopesAt(Corners c, vec2 u, vec2 v) {
     // On polar patches both derivatives along u lack the factor 1 - v.
+    if (kDomain == kTriangleDomain) return Slopes(c.uv[1] - c.uv[0], c.uv[2] - c.uv[0]);
     if (kDomain == kPolarDomain) return Slopes(c.uv[1] - c.uv[0], c.uv[2] - (u.y * c.uv[0] + u.x * c.uv[1]));
     return Slopes(v.y * (c.uv[1] - c.uv[0]) + v.x * (c.uv[2] - c.uv[3]),
                   u.y * (c.uv[3] - c.uv[0]) + u.x * (c.uv[2] - c.uv[1]));

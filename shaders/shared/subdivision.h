@@ -13,13 +13,14 @@
 //   stencil entries    two an element: (cage vertex, weight, cage vertex, weight)
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
-//   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | kRightSide, sample of
-//                      the sector); those that no strip holds come first
+//   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | turns from the first
+//                      neighbour to the sector's first edge << kTurnShift | kRightSide, sample of the sector); those that no strip
+//                      holds come first
 //   row lists          one word a point of a level: pattern rows that no cell makes, rising
 //   cells              one element a cell, 16 bits each: the points it makes (kNoTarget: none), and its own
 //   strips             one element a strip: (first column, columns, sector, 0); a column is an element: (point before |
 //                      point of the strip << 16, point behind | sample << 16, kNoSample or Loop's axis, 0)
-//   masks              (0 or kCornerMask, first sector, sectors, points of ring 1), then one element a point of ring 1:
+//   masks              (kCornerMask, kWholeMask or 0, first sector, sectors, points of ring 1), then one element a point of ring 1:
 //                      (position, first tangent, second tangent, 0); one an arrangement of sharp spokes and run
 //   class words        [point][fragment] net: pool indices; [spoke][fragment] sharpness; [sector][fragment] patches or
 //                      kNoPatch; [sector][fragment] mask elements
@@ -48,7 +49,10 @@ SUPPLE_SHARED_CONST kCentreRule = 3u;
 
 SUPPLE_SHARED_CONST kSharpClass = 0x80000000u; // flags of a class header
 SUPPLE_SHARED_CONST kRightSide = 0x80000000u;
+SUPPLE_SHARED_CONST kTurnShift = 28u; // 3 bits
+SUPPLE_SHARED_CONST kSectorMask = (1u << kTurnShift) - 1u;
 SUPPLE_SHARED_CONST kCornerMask = 0x80000000u;
+SUPPLE_SHARED_CONST kWholeMask = 0x40000000u; // of all sectors round a smooth vertex
 SUPPLE_SHARED_CONST kNoPatch = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kBlockLanes = 32u;
 

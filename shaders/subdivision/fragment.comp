@@ -1,5 +1,5 @@
 // The subdivision in workgroup memory: a workgroup takes a fragment, refines it step by step between two regions, and writes
-// limit points and normals of its sectors. One workgroup per fragment and instance.
+// limit points and frames of its sectors. One workgroup per fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -59,11 +59,12 @@ void main() {
     for (uint i = gl_LocalInvocationID.x; i < last.w; i += gl_WorkGroupSize.x) {
         uint at = last.z + 2u * i;
         uvec4 row = tableElement(at + 1u);
-        vec3 position, normal;
-        limitSample(tableElement(at), row, header, fragments, fragment, push.step, position, normal);
-        uint patchIndex = tableWord(patches + (row.z & ~kRightSide) * fragments + fragment);
+        vec3 position;
+        Frame frame;
+        limitSample(tableElement(at), row, header, fragments, fragment, push.step, position, frame);
+        uint patchIndex = tableWord(patches + (row.z & kSectorMask) * fragments + fragment);
+        uint own = push.firstVertex + patchIndex * push.samples + row.w;
         if (patchIndex != kNoPatch)
-            storeSurfaceVertex(instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + row.w,
-                               position, normal);
+            storeSurfaceVertex(instance * push.verticesPerInstance + own, own, position, frame);
     }
 }

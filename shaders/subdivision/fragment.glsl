@@ -40,28 +40,3 @@ vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint header, uint fragments,
     }
     return p;
 }
-
-// Limit position and normal of the centre in one of its sectors, by the mask of the sector's run.
-void centreLimit(uint mask, out vec3 position, out vec3 normal) {
-    const uint stride = kLoop ? 1u : 2u;
-    uvec4 head = tableElement(mask);
-    vec3 c = point(0u);
-    precise vec3 sum = vec3(0.0), first = vec3(0.0), second = vec3(0.0);
-    for (uint i = 1u; i <= head.w; ++i) {
-        vec4 w = uintBitsToFloat(tableElement(mask + i));
-        precise vec3 d = point(i) - c;
-        sum = sum + w.x * d;
-        first = first + w.y * d;
-        second = second + w.z * d;
-    }
-    precise vec3 n = crossProduct(first, second);
-    uint spokes = head.w / stride; // an open fan's last spoke has no face point
-    spokes += head.w - stride * spokes;
-    for (uint h = head.y; h < ((head.x & kCornerMask) != 0u ? head.y + head.z : 0u); ++h) {
-        precise vec3 a = point(1u + stride * (h % spokes)) - c, b = point(1u + stride * ((h + 1u) % spokes)) - c;
-        n = n + crossProduct(a, b);
-    }
-    precise vec3 p = c + sum;
-    position = withPositiveZeros(p);
-    normal = n;
-}

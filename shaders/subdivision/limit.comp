@@ -1,4 +1,4 @@
-// Limit points and normals of all fragments' samples, from the last step in the scratch buffer. One invocation per strip or
+// Limit points and frames of all fragments' samples, from the last step in the scratch buffer. One invocation per strip or
 // sample, fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,9 +15,9 @@
 #include "shaders/subdivision/fragment.glsl"
 #include "shaders/subdivision/samples.glsl"
 
-void writeSample(uint patchIndex, uint sampleIndex, vec3 position, vec3 normal) {
-    storeSurfaceVertex(lane.instance * push.verticesPerInstance + push.firstVertex + patchIndex * push.samples + sampleIndex,
-                       position, normal);
+void writeSample(uint patchIndex, uint sampleIndex, vec3 position, Frame frame) {
+    uint own = push.firstVertex + patchIndex * push.samples + sampleIndex;
+    storeSurfaceVertex(lane.instance * push.verticesPerInstance + own, own, position, frame);
 }
 
 // Along the strip, with the three columns round the sample at hand.
@@ -41,9 +41,10 @@ void limitStrip() {
         } else {
             n = vec3[8](behind[1], behind[2], here[2], before[2], before[1], before[0], here[0], behind[0]);
         }
-        vec3 position, normal;
-        limitPoint(here[1], n, 0.0, false, position, normal);
-        if (drawn && i >= 2u && place.z != kNoSample) writeSample(patchIndex, place.y >> 16, position, normal);
+        vec3 position;
+        Frame frame;
+        limitPoint(here[1], n, 0.0, false, kLoop ? 6u - place.z : 0u, position, frame);
+        if (drawn && i >= 2u && place.z != kNoSample) writeSample(patchIndex, place.y >> 16, position, frame);
     }
 }
 
@@ -56,8 +57,9 @@ void main() {
     }
     uint at = lane.rows + 2u * lane.place;
     uvec4 around = tableElement(at), place = tableElement(at + 1u);
-    vec3 position, normal;
-    limitSample(around, place, tableElement(lane.record + 2u).y, lane.fragments, lane.fragment, push.step, position, normal);
-    uint patchIndex = tableWord(lane.list + (place.z & ~kRightSide) * lane.fragments + lane.fragment);
-    if (!lane.idle && patchIndex != kNoPatch) writeSample(patchIndex, place.w, position, normal);
+    vec3 position;
+    Frame frame;
+    limitSample(around, place, tableElement(lane.record + 2u).y, lane.fragments, lane.fragment, push.step, position, frame);
+    uint patchIndex = tableWord(lane.list + (place.z & kSectorMask) * lane.fragments + lane.fragment);
+    if (!lane.idle && patchIndex != kNoPatch) writeSample(patchIndex, place.w, position, frame);
 }

@@ -296,6 +296,19 @@ private:
         return shared::kNoSample;
     }
 
+    /// How often to turn from a point's first neighbour to the direction of the sector's first edge, by quarters (Loop:
+    /// sixths). Of a centre 0.
+    [[nodiscard]] uint32_t turnsAt(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
+                                   int32_t b) const {
+        const uint32_t next = pointAt(key, sector, a + 1, b), step = loop_ ? 1 : 2;
+        for (uint32_t turns = 0; turns * step < (loop_ ? 6u : 8u); ++turns) {
+            if (neighbours[turns * step] == next) {
+                return turns;
+            }
+        }
+        return 0;
+    }
+
     /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
@@ -332,7 +345,12 @@ private:
                         // A facet lies right of the lines through c0 and c2, left of that through c1.
                         const bool right = facet ? spoke != 1 : a == 0;
                         (axis == shared::kNoSample ? oneByOne : inStrips)
-                            .push_back({point, sector | (right ? shared::kRightSide : 0u), sample});
+                            .push_back(
+                                {point,
+                                 sector |
+                                     turnsAt(c.key, pattern.neighbours[point], sector, a, b) << shared::kTurnShift |
+                                     (right ? shared::kRightSide : 0u),
+                                 sample});
                     }
                     writer_.put({at(b - 1) | point << 16, at(b + 1) | sample << 16, axis, 0u});
                     sample += isSample ? 1 : 0;
@@ -417,7 +435,11 @@ private:
         masks_.resize(first + fan.sectors);
         const uint32_t ring = pointCount(fan, 1) - 1;
         for (const CentreRun& run : limit.runs) {
-            std::vector<uint32_t> words = {run.corner ? shared::kCornerMask : 0u, run.firstSector, run.sectors, ring};
+            const bool whole = limit.runs.size() == 1 && !fan.open && !run.corner;
+            std::vector<uint32_t> words = {run.corner ? shared::kCornerMask
+                                           : whole    ? shared::kWholeMask
+                                                      : 0u,
+                                           run.firstSector, run.sectors, ring};
             for (uint32_t i = 1; i <= ring; ++i) {
                 words.insert(words.end(), {floatBits(limit.position[i]), run.corner ? 0u : floatBits(run.first[i]),
                                            run.corner ? 0u : floatBits(run.second[i]), 0u});

@@ -40,7 +40,8 @@ class Evaluator {
 public:
     Evaluator(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass)
         : builder_(builder), fragments_(builder.tables.fragments), format_(pass.format), steps_(*pass.steps),
-          loop_(fragments_.loop ? 1 : 0), net_(format_ == kVertexPosition ? kFromPastNet : kFromNet) {
+          loop_(fragments_.loop ? 1 : 0), tangents_(tangentsConstant(builder, format_)),
+          net_(format_ == kVertexPosition ? kFromPastNet : kFromNet) {
         const Evaluation& evaluation = builder.evaluation;
         push_.poolStride = builder.tables.poolStride;
         push_.scratchStride = fragments_.scratchStride;
@@ -76,10 +77,12 @@ private:
                  ++c) {
                 push_.count += fragments_.classes[c].fragments.count;
             }
-            add(builder_.kernel(
-                    SetKind::subdivide, Kernel::subdivisionFragment,
-                    {{kLoopConstant, loop_}, {kVertexFormatConstant, format_}, {kWorkgroupPointsConstant, points}},
-                    "supple subdivision, shared memory"),
+            add(builder_.kernel(SetKind::subdivide, Kernel::subdivisionFragment,
+                                {{kLoopConstant, loop_},
+                                 {kVertexFormatConstant, format_},
+                                 {kTangentsConstant, tangents_},
+                                 {kWorkgroupPointsConstant, points}},
+                                "supple subdivision, shared memory"),
                 {push_.count, 1}, Order::free);
         }
         return c;
@@ -100,6 +103,7 @@ private:
             limit[kind] = builder_.kernel(SetKind::subdivide, Kernel::subdivisionLimit,
                                           {{kLoopConstant, loop_},
                                            {kVertexFormatConstant, format_},
+                                           {kTangentsConstant, tangents_},
                                            {kSourceConstant, fragments_.steps == 0 ? net_ : kFromScratch},
                                            {kWorkConstant, kind}},
                                           "supple subdivision, limit");
@@ -136,7 +140,7 @@ private:
     const Fragments& fragments_;
     uint32_t format_;
     Steps& steps_;
-    uint32_t loop_;
+    uint32_t loop_, tangents_;
     uint32_t net_; ///< where the isolated level is read
     SubdivisionPush push_{};
 };

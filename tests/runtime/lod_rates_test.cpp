@@ -50,7 +50,7 @@ struct RateOutput {
 struct ReadBack {
     host::GroupOutput output{};
     std::vector<RateOutput> rates;
-    std::vector<std::byte> vertices, previous, attributes, uvs1;
+    std::vector<std::byte> vertices, previous, tangents, attributes, uvs1;
 
     /// What lies between two vertices of an instance.
     [[nodiscard]] static std::vector<std::byte> part(const std::vector<std::byte>& bytes, size_t stride, size_t first,
@@ -71,6 +71,9 @@ struct ReadBack {
     }
     [[nodiscard]] std::vector<std::byte> previousOf(uint32_t slot, size_t r) const {
         return part(previous, 12, firstVertex(slot, r), vertexCount(r));
+    }
+    [[nodiscard]] std::vector<std::byte> tangentsOf(uint32_t slot, size_t r) const {
+        return part(tangents, 4, firstVertex(slot, r), vertexCount(r));
     }
     /// Positions of verticesOf, without normals.
     [[nodiscard]] std::vector<std::byte> positionsOf(uint32_t slot, size_t r) const {
@@ -102,6 +105,7 @@ ReadBack readBack(const Crowd& crowd, Parts parts = Parts::all) {
     if (parts == Parts::all) {
         written.vertices = crowd.read(o.streams.vertices);
         written.previous = crowd.read(o.streams.previousPositions);
+        written.tangents = crowd.read(o.streams.tangents);
         written.attributes = crowd.read(o.streams.attributes);
         written.uvs1 = crowd.read(o.streams.uvs1);
     }
@@ -269,7 +273,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
     const ValidationGuard guard;
     for (const RateCase& c : rateCases()) {
         SCOPED_TRACE(c.name);
-        TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1);
+        TestView view(context, 1024,
+                      SUPPLE_VIEW_MOTION | SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_UVS1 | SUPPLE_VIEW_TANGENTS);
         const SuppleAsset asset =
             c.clip == SUPPLE_BIND_POSE ? context.createAsset(c.character.cage) : context.createAsset(c.character);
         SuppleGroupDesc desc = groupOf(asset, 10, c.scheme, c.rate);
@@ -279,7 +284,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
         const uint32_t rates = static_cast<uint32_t>(std::countr_zero(c.rate) - std::countr_zero(c.firstRate)) + 1;
         ASSERT_EQ(crowd.output().grid.rateCount, rates);
         ASSERT_EQ(crowd.output().levels.drawCount, 0u);
-        RateTwins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, c.firstRate);
+        RateTwins twins(crowd, desc, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS,
+                        c.firstRate);
         for (uint32_t i = 0; i < c.instances; ++i) {
             twins.spawn();
         }
@@ -352,6 +358,8 @@ TEST_P(LodRates, EveryInstanceIsThatOfAGroupOfItsRate) {
 
                 EXPECT_EQ(written.verticesOf(slot, *rate), alone[*rate].verticesOf(slot, 0)) << "slot " << slot;
                 EXPECT_EQ(written.previousOf(slot, *rate), alone[*rate].previousOf(slot, 0)) << "slot " << slot;
+                EXPECT_EQ(written.tangentsOf(slot, *rate), alone[*rate].tangentsOf(slot, 0)) << "slot " << slot;
+                EXPECT_EQ(written.tangentsOf(slot, *rate).size(), 4 * written.vertexCount(*rate));
                 const bool fresh = written.previousOf(slot, *rate) == written.positionsOf(slot, *rate);
                 EXPECT_EQ(fresh, frame == 0 || (frame == 3 && slot >= c.instances))
                     << "slot " << slot << ", frame " << frame;

@@ -128,8 +128,7 @@ std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& f
     return {};
 }
 
-/// With all that the file has a place for. Only the library knows which schemes have tangents: where it refuses them,
-/// the file goes without.
+/// With all that the file has a place for.
 Result<Evaluation> evaluateForBake(Session& session, SuppleAsset asset, const cage::Character& character,
                                    const BakeOptions& options, const Pose& pose) {
     const BakeFormat format = *bakeFormatOf(options.output);
@@ -144,22 +143,7 @@ Result<Evaluation> evaluateForBake(Session& session, SuppleAsset asset, const ca
         flags |= SUPPLE_GROUP_PATCHES;
     }
     if (surface && uvs && format == BakeFormat::glb && !options.noTangentFrames) {
-        Result<Evaluation> baked =
-            evaluate(session, asset, character, options.surface, pose, flags | SUPPLE_GROUP_TANGENTS);
-        if (baked) {
-            for (const EvaluatedSurface& part : baked->surfaces) {
-                if (part.tangents.empty()) {
-                    warn(character.name + ": " + schemeName(part.output.surface.scheme) +
-                         " has no tangents; its parts go without");
-                }
-            }
-            return baked;
-        }
-        Result<Evaluation> without = evaluate(session, asset, character, options.surface, pose, flags);
-        if (without) {
-            warn(baked.error().message + "; all parts go without");
-        }
-        return without;
+        flags |= SUPPLE_GROUP_TANGENTS;
     }
     return evaluate(session, asset, character, options.surface, pose, flags);
 }

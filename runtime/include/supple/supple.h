@@ -1094,8 +1094,7 @@ typedef struct SuppleVertexStreams {
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point. The bitangent is w * cross(normal, tangent), for a normal map whose
      * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
-     * (suppleSetTransform) keeps w: negate it. Null if the scheme has no tangents: PREP, PM, CATMULL_CLARK, BLEND and
-     * POLYGONS have them. suppleCreateGroup fails if a scheme that you named has none. */
+     * (suppleSetTransform) keeps w: negate it. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
