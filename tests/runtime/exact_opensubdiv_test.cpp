@@ -47,37 +47,6 @@ struct Figures {
     }
 };
 
-/// The quads of the mesh as OpenSubdiv names them: those of the cage, or after a step one for each corner of a face.
-class QuadsOfFaces {
-public:
-    QuadsOfFaces(const cage::Cage& cage, bool stepped) : cage_(cage) {
-        for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-            for (uint32_t part = 0; part < (stepped ? cage.sides(face) : 1); ++part) {
-                quads_.push_back({face, part});
-            }
-        }
-        stepped_ = stepped;
-    }
-    [[nodiscard]] CatmullClarkLimit::Point at(const CatmullClarkLimit& limit, uint32_t quad, glm::dvec2 uv) const {
-        const auto [face, part] = quads_[quad];
-        if (!stepped_ || cage_.sides(face) != 4) {
-            return limit.at(face, part, uv.x, uv.y);
-        }
-        const glm::dvec2 half = 0.5 * uv;
-        const glm::dvec2 turned[] = {
-            half, {1.0 - half.y, half.x}, {1.0 - half.x, 1.0 - half.y}, {half.y, 1.0 - half.x}};
-        return limit.at(face, 0, turned[part].x, turned[part].y);
-    }
-
-private:
-    struct Quad {
-        uint32_t face, part;
-    };
-    const cage::Cage& cage_;
-    std::vector<Quad> quads_;
-    bool stepped_;
-};
-
 /// What errors are measured by: the extent, or the largest coordinate where that is larger, since float rounds there.
 double sizeOf(const std::vector<glm::dvec3>& positions) {
     double size = extent(positions);
@@ -105,7 +74,7 @@ Figures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
     const std::vector<glm::dvec3> positions = doublePositions(cage);
     const double size = sizeOf(positions);
     const CatmullClarkLimit limit(cage, positions);
-    const QuadsOfFaces named(cage, quads.isolation.mesh.isolationSteps > 1);
+    const QuadsOfFaces named(cage, quads);
     const PatchFaces found = quads.patches(gpu.patches());
     uint32_t next = 0;
     for (uint32_t p = 0; p < found.faces.size(); ++p) {
@@ -116,7 +85,8 @@ Figures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
             const uint32_t i = s % (kRate + 1), j = s / (kRate + 1), face = found.faces[p];
             const glm::dvec2 at = ExactQuads::inFace(static_cast<double>(i) / kRate, static_cast<double>(j) / kRate,
                                                      found.firstCorners[face]);
-            const CatmullClarkLimit::Point expected = named.at(limit, face, at);
+            const auto [cageFace, part, uv] = named.at(face, at);
+            const CatmullClarkLimit::Point expected = limit.at(cageFace, part, uv.x, uv.y);
             const GpuSurface::Vertex& vertex = gpu.vertex(0, p, s);
             const bool corner = i % kRate == 0 && j % kRate == 0;
             raise(corner ? figures.corner : figures.position,

@@ -1,17 +1,21 @@
 // Tangents of surface vertices (docs/tangents.md) against differences of positions and texture coordinates, which know
 // nothing of schemes; and their signs.
 #include "cage/procedural.h"
+#include "cage/tangents.h"
 #include "surface/grid.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
+#include "tools/common/character_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -478,6 +482,75 @@ TEST_P(TangentsOfPatches, AnIndexedMeshAreThoseOfOneOfItsPatches) {
                 pose(mesh);
                 compareWithPatches(grid, mesh, std::string(c.name) + (smooth ? ", smooth" : ", linear"));
             }
+        }
+        (void)own.takeLines();
+    }
+}
+
+/// The mean angle between the tangents of an indexed mesh and MikkTSpace's of its triangles, at their corners.
+double fromMikkTSpace(const Crowd& crowd) {
+    const Streams streams(crowd);
+    const auto indices = as<uint32_t>(crowd.read(crowd.output().grid.indices));
+    cage::Cage refined;
+    for (size_t v = 0; v < streams.tangents.size(); ++v) {
+        refined.positions.emplace_back(streams.position(v));
+    }
+    std::vector<uint32_t> corners;
+    std::vector<glm::vec3> normals;
+    for (const uint32_t v : indices) {
+        corners.push_back(static_cast<uint32_t>(corners.size()));
+        refined.cornerUvs.emplace_back(streams.uv(v));
+        normals.emplace_back(streams.normal(v));
+    }
+    refined.faceVertices = indices;
+    for (uint32_t c = 0; c <= corners.size(); c += 3) {
+        refined.faceStarts.push_back(c);
+    }
+    const std::vector<glm::vec4> theirs = cage::triangleTangents(refined, corners, normals);
+    double sum = 0.0;
+    size_t count = 0;
+    for (const uint32_t c : corners) {
+        const glm::dvec4 own = decodeTangent(streams.tangents[indices[c]]);
+        if (glm::length(glm::vec3(theirs[c])) > 0.0f && theirs[c].w == static_cast<float>(own.w)) {
+            sum += angleBetween(glm::dvec3(own), glm::dvec3(glm::vec3(theirs[c])));
+            ++count;
+        }
+    }
+    EXPECT_GT(count, indices.size() * 49 / 50);
+    return sum / static_cast<double>(count);
+}
+
+/// Renderers and baking programs make tangents of triangles. The finer these are, the nearer they come to the surface's
+/// own.
+TEST_F(Tangents, AreWhatMikkTSpaceConvergesTo) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    std::vector<std::string> paths = sharedAssets({"characters/spot_uvsplit.glb"});
+    paths.push_back(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
+    paths.push_back(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
+    for (const std::string& path : paths) {
+        SCOPED_TRACE(path);
+        const Result<host::CharacterFile> file = host::readCharacterFile(path);
+        ASSERT_TRUE(file.ok());
+        const SuppleAsset asset = own.createAsset(file->character.cage);
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_PM}) {
+            std::vector<double> means;
+            for (const uint32_t rate : {2u, 4u, 8u}) {
+                SuppleGroupDesc desc = tangentDesc(asset, scheme, rate);
+                desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+                Crowd crowd(own, desc);
+                ASSERT_TRUE(crowd.valid());
+                crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+                crowd.run();
+                means.push_back(fromMikkTSpace(crowd));
+            }
+            std::printf("%s, scheme %d: %.3f, %.3f, %.3f degrees from MikkTSpace at rates 2, 4, 8\n",
+                        std::filesystem::path(path).filename().c_str(), static_cast<int>(scheme), means[0], means[1],
+                        means[2]);
+            EXPECT_LT(means[1], 0.5 * means[0]);
+            EXPECT_LT(means[2], 0.5 * means[1]);
+            EXPECT_LT(means[2], 0.5);
         }
         (void)own.takeLines();
     }

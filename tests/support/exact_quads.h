@@ -91,4 +91,40 @@ inline void nameCorners(const ExactQuads& quads, std::vector<surface::PatchInfo>
     }
 }
 
+/// The quads in the faces of their cage, as OpenSubdiv names these: those of the cage, or after a step one for each
+/// corner of a face.
+class QuadsOfFaces {
+public:
+    QuadsOfFaces(const cage::Cage& cage, const ExactQuads& quads)
+        : cage_(cage), stepped_(quads.isolation.mesh.isolationSteps > 1) {
+        for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+            for (uint32_t part = 0; part < (stepped_ ? cage.sides(face) : 1); ++part) {
+                quads_.push_back({face, part, {}});
+            }
+        }
+    }
+    /// A quad is one part. Another face has a part at each corner.
+    struct Place {
+        uint32_t face = 0, part = 0;
+        glm::dvec2 uv{0.0};
+    };
+    [[nodiscard]] Place at(uint32_t quad, glm::dvec2 uv) const {
+        Place place = quads_[quad];
+        place.uv = uv;
+        if (stepped_ && cage_.sides(place.face) == 4) {
+            const glm::dvec2 half = 0.5 * uv;
+            const glm::dvec2 turned[] = {
+                half, {1.0 - half.y, half.x}, {1.0 - half.x, 1.0 - half.y}, {half.y, 1.0 - half.x}};
+            place.uv = turned[place.part];
+            place.part = 0;
+        }
+        return place;
+    }
+
+private:
+    const cage::Cage& cage_;
+    bool stepped_;
+    std::vector<Place> quads_;
+};
+
 } // namespace supple::test

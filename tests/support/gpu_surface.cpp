@@ -129,6 +129,7 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.asset = asset_;
     group.capacity = options.instanceCount;
     group.scheme = options.scheme;
+    group.uvInterpolation = options.uvInterpolation;
     group.rate = options.rate;
     group.vertexFormat = options.format;
     const SupplePrepOptions prep{sizeof(prep), options.tangents, options.corners};

@@ -39,6 +39,7 @@ struct GpuOptions {
     SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
     SuppleCreaseMode creases = SUPPLE_CREASES_CUT;
     uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
+    SuppleUvInterpolation uvInterpolation = SUPPLE_UV_FROM_FILE;
 };
 
 /// The normal of a vertex of 16 bytes.

@@ -9,7 +9,8 @@ namespace supple::bench {
 
 using namespace OpenSubdiv;
 
-std::unique_ptr<Far::TopologyRefiner> opensubdivRefiner(const cage::Cage& cage, Sdc::SchemeType scheme) {
+std::unique_ptr<Far::TopologyRefiner> opensubdivRefiner(const cage::Cage& cage, Sdc::SchemeType scheme,
+                                                        const FaceVaryingChannel* channel) {
     std::vector<int> sides, vertices(cage.faceVertices.begin(), cage.faceVertices.end()), creases, corners, holes;
     std::vector<float> creaseWeights, cornerWeights;
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
@@ -38,7 +39,15 @@ std::unique_ptr<Far::TopologyRefiner> opensubdivRefiner(const cage::Cage& cage, 
     descriptor.cornerWeights = cornerWeights.data();
     descriptor.numHoles = static_cast<int>(holes.size());
     descriptor.holeIndices = holes.data();
+    Far::TopologyDescriptor::FVarChannel values;
     Sdc::Options options;
+    if (channel != nullptr) {
+        values.numValues = channel->count;
+        values.valueIndices = channel->values.data();
+        descriptor.numFVarChannels = 1;
+        descriptor.fvarChannels = &values;
+        options.SetFVarLinearInterpolation(channel->linear);
+    }
     options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
     return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(descriptor, Factory::Options(scheme, options)));
