@@ -15,7 +15,7 @@ constexpr uint64_t kMaxMorphElements = 1u << 26;
 
 } // namespace
 
-std::vector<int> findMorphTargets(const supple_tinygltf::Primitive& primitive) {
+std::vector<int> findMorphTargets(const file::Primitive& primitive) {
     std::vector<int> accessors;
     for (const auto& target : primitive.targets) {
         const auto position = target.find("POSITION");
@@ -51,7 +51,7 @@ void VertexMorphs::append(const Document& document, const std::vector<int>& targ
         }
         const std::string name = element + " " + at("target", t) + " POSITION";
         checkVertexCount(document, targets[t], count, name);
-        const auto values = readFloats(document, targets[t], TINYGLTF_TYPE_VEC3, allowed, name);
+        const auto values = readFloats(document, targets[t], file::kVec3, allowed, name);
         for (uint32_t v = 0; v < count; ++v) {
             const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
             if (!std::isfinite(delta.x) || !std::isfinite(delta.y) || !std::isfinite(delta.z)) {
@@ -80,21 +80,21 @@ std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.
-std::vector<std::string> readTargetNames(const json& mesh, const std::string& element, Warnings& warnings) {
-    const json* extras = member(mesh, "extras");
-    const json* names = extras != nullptr && extras->is_object() ? member(*extras, "targetNames") : nullptr;
+std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element, Warnings& warnings) {
+    const Json* extras = member(mesh, "extras");
+    const Json* names = extras != nullptr && extras->isObject() ? member(*extras, "targetNames") : nullptr;
     if (names == nullptr) {
         return {};
     }
     const std::string place = element + " extras targetNames";
-    if (!names->is_array()) {
+    if (!names->isArray()) {
         warn(warnings, place, "not an array; ignored");
         return {};
     }
     std::vector<std::string> read(names->size());
     for (size_t i = 0; i < names->size(); ++i) {
-        if ((*names)[i].is_string()) {
-            read[i] = (*names)[i].get<std::string>();
+        if ((*names)[i].isString()) {
+            read[i] = (*names)[i].string();
         } else {
             warn(warnings, item(place, i), "not a string; ignored");
         }

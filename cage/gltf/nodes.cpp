@@ -10,7 +10,7 @@
 namespace supple::cage::gltf {
 namespace {
 
-using supple_tinygltf::Model;
+using file::Model;
 
 void orderParentsFirst(const Model& model, Skeleton& skeleton) {
     // Breadth-first from the roots, no recursion; the document has made sure that this is a forest.

@@ -170,7 +170,7 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     Character character;
     Warnings& warnings = character.warnings;
     warnings = document.warnings;
-    character.copyright = document.model.asset.copyright;
+    character.copyright = document.model.copyright;
     character.skeleton = readSkeleton(document);
     character.images = document.images;
     Refusals refusals;

@@ -34,7 +34,7 @@ Result<DataUri> fetch(const std::string& uri, const FileReader& readFile) {
 }
 
 /// The bytes of a buffer; owned by the document if they come from elsewhere than the container.
-std::span<const std::byte> loadBuffer(const json& buffer, size_t index, const Container& container,
+std::span<const std::byte> loadBuffer(const Json& buffer, size_t index, const Container& container,
                                       const FileReader& readFile, Document& document) {
     const std::string element = at("buffer", index);
     const uint64_t length = unsignedMember(buffer, "byteLength", element, std::nullopt);
@@ -42,7 +42,7 @@ std::span<const std::byte> loadBuffer(const json& buffer, size_t index, const Co
         refuse(element + " byteLength", "zero");
     }
     std::span<const std::byte> bytes;
-    const json* uri = member(buffer, "uri");
+    const Json* uri = member(buffer, "uri");
     if (uri == nullptr) {
         if (index != 0 || !container.isBinary) {
             refuse(element, "no uri");
@@ -68,7 +68,7 @@ std::span<const std::byte> loadBuffer(const json& buffer, size_t index, const Co
 
 } // namespace
 
-void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, const Container& container,
+void loadBuffers(const Json& buffers, std::span<const uint8_t> placeholder, const Container& container,
                  const FileReader& readFile, Document& document) {
     document.owned.resize(buffers.size());
     document.buffers.resize(buffers.size());
@@ -82,18 +82,18 @@ void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, cons
 }
 
 /// A character without its texture is still a character: whatever is wrong with an image is a warning.
-void loadImages(const json& images, const json& views, const FileReader& readFile, Document& document) {
+void loadImages(const Json& images, const FileReader& readFile, Document& document) {
     for (size_t i = 0; i < images.size(); ++i) {
         const std::string element = at("image", i);
         Image image;
         image.name = stringMember(images[i], "name", element);
         image.mimeType = stringMember(images[i], "mimeType", element);
         if (member(images[i], "bufferView") != nullptr) {
+            const auto& views = document.model.bufferViews;
             checkIndexMember(images[i], "bufferView", element, "bufferView", views.size());
-            const json& view = views[images[i].at("bufferView").get<size_t>()];
-            const size_t offset = unsignedMember(view, "byteOffset", element, 0);
-            const auto bytes =
-                document.buffers[view.at("buffer").get<size_t>()].subspan(offset, view.at("byteLength").get<size_t>());
+            const file::BufferView& view = views[images[i].at("bufferView").index()];
+            const auto bytes = document.buffers[view.buffer].subspan(static_cast<size_t>(view.byteOffset),
+                                                                     static_cast<size_t>(view.byteLength));
             image.bytes.assign(bytes.begin(), bytes.end());
         } else {
             const std::string uri = stringMember(images[i], "uri", element);

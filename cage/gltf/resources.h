@@ -13,10 +13,10 @@
 namespace supple::cage::gltf {
 
 /// Fills document.buffers and what is behind them, empty where `placeholder` is 1. Throws Refusal.
-void loadBuffers(const json& buffers, std::span<const uint8_t> placeholder, const Container& container,
+void loadBuffers(const Json& buffers, std::span<const uint8_t> placeholder, const Container& container,
                  const FileReader& readFile, Document& document);
 
 /// Fills document.images, with a warning for those that cannot be read. The views have passed checkStructure().
-void loadImages(const json& images, const json& views, const FileReader& readFile, Document& document);
+void loadImages(const Json& images, const FileReader& readFile, Document& document);
 
 } // namespace supple::cage::gltf
