@@ -112,6 +112,8 @@ std::vector<std::byte> packed(const Document& document, int index, int type, uin
     const uint64_t elementSize =
         uint64_t{file::componentSize(accessor.componentType)} * file::componentsOf(accessor.type);
     const uint64_t count = accessor.count;
+    // The bytes, numbers of four bytes each, and what is made of these.
+    const uint64_t perElement = elementSize + 3 * sizeof(float) * file::componentsOf(accessor.type);
     std::vector<std::byte> bytes;
     if (accessor.bufferView < 0) {
         if (count > kMaxZeroElements) {
@@ -120,11 +122,13 @@ std::vector<std::byte> packed(const Document& document, int index, int type, uin
                        std::to_string(kMaxZeroElements) + " are read",
                    ErrorCode::limit);
         }
+        document.memory->take(count, perElement, element);
         bytes.resize(static_cast<size_t>(count * elementSize));
     } else {
         uint64_t stride = 0;
         const auto source =
             viewBytes(document, accessor.bufferView, accessor.byteOffset, count, elementSize, stride, element);
+        document.memory->take(count, perElement, element);
         bytes.resize(static_cast<size_t>(count * elementSize));
         for (uint64_t i = 0; i < count; ++i) {
             std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);

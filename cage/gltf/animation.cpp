@@ -149,6 +149,7 @@ public:
         clip.name = animation.name.empty() ? "clip_" + std::to_string(index) : animation.name;
         ignored_.clear();
         targets_.clear();
+        document_.memory->take(animation.channels.size(), 4 * sizeof(Channel), element);
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
@@ -222,7 +223,7 @@ ClipSet readMotion(const Document& document, const std::string& name) {
     set.skeleton = readSkeleton(document);
     Warnings ofMeshes; // which are not read
     for (size_t m = 0; m < meshes.size(); ++m) {
-        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), ofMeshes));
+        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes));
     }
     std::vector<size_t> targetCounts;
     for (const auto& node : document.model.nodes) {

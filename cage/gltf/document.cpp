@@ -7,32 +7,56 @@
 #include "cage/gltf/structure.h"
 #include "cage/gltf/texture.h"
 
-#include <algorithm>
+#include <cstdint>
 
 namespace supple::cage::gltf {
 
+namespace {
+
+/// What one of a table becomes, in the model and in the character, with its share of what is held while they are made.
+constexpr struct {
+    const char* name;
+    uint64_t bytes;
+} kTables[] = {
+    {"nodes", 4 * sizeof(file::Node)}, {"materials", 3 * sizeof(Material)}, {"textures", 2 * sizeof(Texture)},
+    {"samplers", 2 * sizeof(Texture)}, {"images", 6 * sizeof(Image)},       {"meshes", 3 * sizeof(file::Mesh)},
+    {"animations", 4 * sizeof(Clip)},
+};
+
+/// Elements of a few bytes become structs of hundreds.
+void takeTables(const Json& root, MemoryBudget& memory) {
+    for (const auto& [name, bytes] : kTables) {
+        memory.take(table(root, name).size(), bytes, name);
+    }
+}
+
+} // namespace
+
 bool isUsed(const Document& document, const char* extension) {
-    const auto& used = document.model.extensionsUsed;
-    return std::find(used.begin(), used.end(), extension) != used.end() || isRequired(document, extension);
+    return document.model.extensionsUsed.contains(extension) || isRequired(document, extension);
 }
 
 bool isRequired(const Document& document, const char* extension) {
-    const auto& required = document.model.extensionsRequired;
-    return std::find(required.begin(), required.end(), extension) != required.end();
+    return document.model.extensionsRequired.contains(extension);
 }
 
-Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, Content content) {
+Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
+                      Content content) {
     const Container container = openContainer(bytes);
     Document document;
-    document.json = parseJson(container.text);
+    document.memory = std::make_unique<MemoryBudget>(memoryLimit);
+    document.memory->addFile(bytes.size());
+    document.json = parseJson(container.text, *document.memory);
     const Json& root = document.json.root();
     checkHeader(root);
-    loadBuffers(table(root, "buffers"), findPlaceholders(root), container, readFile, document);
+    Resources resources(readFile, document);
+    loadBuffers(table(root, "buffers"), findPlaceholders(root), container, resources, document);
     decodeMeshopt(root, document);
     checkStructure(root, document.buffers, document.decodedInto);
+    takeTables(root, *document.memory);
     document.model = file::toModel(root, document.decodedInto);
     if (content == Content::all) {
-        loadImages(table(root, "images"), readFile, document);
+        loadImages(table(root, "images"), resources, document);
         document.textures = readTextures(root, document.warnings);
         nameUnreadLook(root, document.warnings);
         document.materials = table(root, "materials");

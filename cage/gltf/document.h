@@ -6,8 +6,10 @@
 #include "cage/gltf/json.h"
 #include "cage/gltf/model.h"
 #include "cage/gltf/reader.h"
+#include "cage/memory_budget.h"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,7 +32,8 @@ struct Document {
     std::vector<Image> images;    ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;
 
-    std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
+    std::vector<SharedBytes> owned; ///< behind the buffers that are not in the caller's bytes
+    std::unique_ptr<MemoryBudget> memory;
 };
 
 /// Whether the file names an extension among those it uses or requires.
@@ -38,8 +41,8 @@ struct Document {
 /// Whether the file names an extension among those it requires.
 [[nodiscard]] bool isRequired(const Document& document, const char* extension);
 
-/// Throws Refusal. The document refers to `bytes`.
-[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile,
+/// Throws Refusal. The document refers to `bytes`. `memoryLimit`: as GltfOptions has it.
+[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
                                     Content content = Content::all);
 
 } // namespace supple::cage::gltf

@@ -45,11 +45,13 @@ JsonCount countValues(std::string_view text) {
 
 } // namespace
 
-JsonTree parseJson(std::string_view text) {
+JsonTree parseJson(std::string_view text, MemoryBudget& memory) {
     if (text.size() > std::numeric_limits<uint32_t>::max()) {
         refuse("JSON", "larger than 4 GiB", ErrorCode::limit);
     }
-    JsonTree tree(text, countValues(text));
+    const JsonCount count = countValues(text);
+    memory.take(count.treeBytes(), "JSON");
+    JsonTree tree(text, count);
     if (!tree.root().isObject()) {
         refuse("JSON", "not an object");
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cage/gltf/json_tree.h"
+#include "cage/memory_budget.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ inline constexpr int kMaxJsonDepth = 64;
 // All of these throw Refusal. A member that is null counts as absent; absent members pass the checks unless required.
 
 /// The file's JSON object, its root.
-[[nodiscard]] JsonTree parseJson(std::string_view text);
+[[nodiscard]] JsonTree parseJson(std::string_view text, MemoryBudget& memory);
 
 /// Null where absent.
 [[nodiscard]] const Json* member(const Json& object, const char* key);

@@ -94,6 +94,11 @@ struct JsonCount {
     size_t items = 0;
     size_t members = 0;
     size_t bytes = 0; ///< of strings
+
+    /// What the tree takes while it is made.
+    [[nodiscard]] uint64_t treeBytes() const {
+        return items * sizeof(Json) + members * sizeof(JsonMember) + (items + members) * sizeof(JsonMember) + bytes;
+    }
 };
 
 /// Owns what values refer to. It may be moved, and they stay where they are.

@@ -23,6 +23,10 @@ using file::Primitive;
 // Accessors may be shared; see kMaxVertices.
 constexpr uint64_t kMaxAttributeFloats = 1u << 27;
 
+// What a cage takes while it is made, beside its attributes: measured, and rounded up.
+constexpr uint64_t kVertexBytes = 128;
+constexpr uint64_t kCornerBytes = 160;
+
 class MeshReader {
 public:
     MeshReader(const Document& document, size_t jointCount, std::span<const Material> materials, Warnings& warnings)
@@ -130,7 +134,9 @@ private:
         const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
         primitive.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
+        takeCorners(from, primitive, count);
         if (isNew) {
+            document_.memory->take(count, kVertexBytes, element);
             readVertices(position->second, sets, count, element);
             out_.morphs.append(document_, targets, count, element);
             if (cageNumbers >= 0) {
@@ -154,6 +160,16 @@ private:
         }
         readCornerAttributes(from, element, primitive);
         readTrimTiles(document_, from, materials_, primitive);
+    }
+
+    /// Triangles and polygons; strips and fans have three corners an index.
+    void takeCorners(const Primitive& from, const MeshPrimitive& primitive, size_t vertexCount) {
+        uint64_t corners = from.indices < 0 ? vertexCount : accessorCount(document_, from.indices);
+        corners *= from.mode == file::kTriangles ? 1 : 3;
+        if (primitive.extension && primitive.extension->faceVertexIndices >= 0) {
+            corners += accessorCount(document_, primitive.extension->faceVertexIndices);
+        }
+        document_.memory->take(corners, kCornerBytes, primitive.element);
     }
 
     /// Blender's exporter has no integer attributes: its numbers are floats.

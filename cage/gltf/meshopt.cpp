@@ -209,8 +209,9 @@ void decodeMeshopt(const Json& root, Document& document) {
              " compressed: such files usually had their triangles and vertices reordered, and polygons that are read "
              "from that order are lost");
     for (const Compressed& compressed : all) {
-        document.owned.push_back(decode(compressed));
-        document.buffers.push_back(document.owned.back());
+        document.memory->take(compressed.count, compressed.stride, compressed.element);
+        document.owned.emplace_back(decode(compressed));
+        document.buffers.emplace_back(document.owned.back());
         document.decodedInto[compressed.view] = static_cast<int>(document.buffers.size()) - 1;
     }
 }

@@ -36,11 +36,11 @@ std::vector<double> numbersIn(const Json& object, const char* key) {
     return numbers;
 }
 
-std::vector<std::string> stringsIn(const Json& object, const char* key) {
-    std::vector<std::string> strings;
+std::set<std::string, std::less<>> stringsIn(const Json& object, const char* key) {
+    std::set<std::string, std::less<>> strings;
     if (const Json* values = member(object, key)) {
         for (const Json& value : *values) {
-            strings.push_back(value.string());
+            strings.insert(value.string());
         }
     }
     return strings;

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -112,7 +114,7 @@ struct Scene {
 /// Every index is in range, and every array of numbers has its right length and finite members.
 struct Model {
     std::string copyright;
-    std::vector<std::string> extensionsUsed, extensionsRequired;
+    std::set<std::string, std::less<>> extensionsUsed, extensionsRequired;
     std::vector<BufferView> bufferViews;
     std::vector<Accessor> accessors;
     std::vector<Mesh> meshes;
@@ -124,7 +126,7 @@ struct Model {
 };
 
 /// Of a document that checkStructure() has passed. Where decodedInto[view] is not -1, that buffer takes the place of
-/// what the bufferView names. Throws Refusal if the tables would take too much memory.
+/// what the bufferView names.
 [[nodiscard]] Model toModel(const Json& root, const std::vector<int>& decodedInto);
 
 [[nodiscard]] size_t componentSize(int componentType);

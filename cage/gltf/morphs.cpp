@@ -80,7 +80,8 @@ std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.
-std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element, Warnings& warnings) {
+std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element, MemoryBudget& memory,
+                                         Warnings& warnings) {
     const Json* extras = member(mesh, "extras");
     const Json* names = extras != nullptr && extras->isObject() ? member(*extras, "targetNames") : nullptr;
     if (names == nullptr) {
@@ -91,6 +92,11 @@ std::vector<std::string> readTargetNames(const Json& mesh, const std::string& el
         warn(warnings, place, "not an array; ignored");
         return {};
     }
+    uint64_t bytes = 0;
+    for (const Json& name : *names) {
+        bytes += sizeof(MorphTarget) + 2 * name.string().size();
+    }
+    memory.take(2 * bytes, place); // nodes may share a mesh
     std::vector<std::string> read(names->size());
     for (size_t i = 0; i < names->size(); ++i) {
         if ((*names)[i].isString()) {
@@ -106,6 +112,7 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
     const auto& node = document.model.nodes[meshNode];
     const auto meshIndex = static_cast<size_t>(node.mesh);
     Morphs morphs;
+    document.memory->take(targetCount, 4 * sizeof(MorphTarget), at("mesh", meshIndex));
     morphs.targets.resize(targetCount);
     morphs.weights.assign(targetCount, 0.0f);
 
@@ -132,7 +139,8 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
         morphs.weights[i] = static_cast<float>(weights[i]);
     }
     const std::string element = at("mesh", meshIndex);
-    const std::vector<std::string> names = readTargetNames(document.meshes[meshIndex], element, warnings);
+    const std::vector<std::string> names =
+        readTargetNames(document.meshes[meshIndex], element, *document.memory, warnings);
     if (!names.empty() && names.size() != targetCount) {
         warn(warnings, element + " extras targetNames",
              counted(names.size(), "name", "names") + " for " + counted(targetCount, "morph target", "morph targets"));

@@ -42,7 +42,7 @@ private:
 
 /// Names of a mesh's morph targets, mesh.extras.targetNames: empty where the file has no string.
 [[nodiscard]] std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element,
-                                                       Warnings& warnings);
+                                                       MemoryBudget& memory, Warnings& warnings);
 
 /// Names and weights of the mesh's targets; their displacements are for who has the cage's vertices.
 [[nodiscard]] Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings);

@@ -13,6 +13,9 @@ namespace {
 /// Half a unit in the last place of a weight near 1, as floats round.
 constexpr double kFloatRounding = 1.0 / (1u << 24);
 
+/// A joint of a skin as a node has it: inverse binds, and places in palettes. Nodes may share a skin.
+constexpr uint64_t kJointBytes = 512;
+
 constexpr size_t kMaxSkinSets = 16; // of four influences each
 
 /// What JOINTS_n and WEIGHTS_n hold, by n; four values a vertex.
@@ -83,6 +86,7 @@ Skin readSkin(const Document& document, uint32_t meshNode) {
         return skin;
     }
     const auto& from = document.model.skins[static_cast<size_t>(index)];
+    document.memory->take(from.joints.size(), kJointBytes, at("skin", static_cast<size_t>(index)));
     for (const int joint : from.joints) {
         skin.joints.push_back(static_cast<uint32_t>(joint));
     }

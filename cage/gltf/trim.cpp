@@ -22,7 +22,7 @@ Texture textureOf(const Document& document, const Json& info, TrimDomain domain,
     if (texture.image == kNone) {
         refuse(element, at("texture", info.at("index").index()) + " has no image in a core format");
     }
-    const std::vector<std::byte>& bytes = document.images[texture.image].bytes;
+    const SharedBytes& bytes = document.images[texture.image].bytes;
     if (bytes.empty()) {
         refuse(element, at("image", texture.image) + " is missing");
     }

@@ -81,6 +81,7 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }
+    options.memoryLimit = desc.memoryLimit;
     options.readFile = reader(desc.files);
     for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
         const SuppleClipFile& file = desc.clipFiles[i];
