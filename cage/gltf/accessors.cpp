@@ -99,6 +99,35 @@ std::span<const std::byte> viewBytes(const Document& document, int view, uint64_
                                                        static_cast<size_t>((count - 1) * stride + elementSize));
 }
 
+/// Puts a sparse accessor's values in place of those it changes.
+void substitute(const Document& document, const Accessor& accessor, uint64_t elementSize, const std::string& element,
+                std::vector<std::byte>& bytes) {
+    const uint64_t count = accessor.count;
+    const uint64_t sparseCount = accessor.sparseCount;
+    const file::SparsePart& indices = accessor.sparseIndices;
+    const file::SparsePart& values = accessor.sparseValues;
+    const uint64_t indexSize = file::componentSize(indices.componentType);
+    uint64_t indexStride = indexSize;
+    uint64_t valueStride = elementSize;
+    const auto indexBytes = viewBytes(document, indices.bufferView, indices.byteOffset, sparseCount, indexSize,
+                                      indexStride, element + " sparse indices");
+    const auto valueBytes = viewBytes(document, values.bufferView, values.byteOffset, sparseCount, elementSize,
+                                      valueStride, element + " sparse values");
+    uint64_t previous = 0;
+    for (uint64_t i = 0; i < sparseCount; ++i) {
+        const uint64_t target = loadInteger(indexBytes.data() + i * indexSize, indices.componentType);
+        if (target >= count) {
+            refuse(element + " sparse indices", std::to_string(target) + " is out of range: the accessor has " +
+                                                    std::to_string(count) + " elements");
+        }
+        if (i > 0 && target <= previous) {
+            refuse(element + " sparse indices", "not strictly increasing");
+        }
+        previous = target;
+        std::memcpy(bytes.data() + target * elementSize, valueBytes.data() + i * elementSize, elementSize);
+    }
+}
+
 /// All elements, packed.
 std::vector<std::byte> packed(const Document& document, int index, int type, uint32_t allowed,
                               const std::string& element, Sparse sparse) {
@@ -134,32 +163,8 @@ std::vector<std::byte> packed(const Document& document, int index, int type, uin
             std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);
         }
     }
-    if (accessor.sparseCount == 0 || sparse == Sparse::ignored) {
-        return bytes;
-    }
-
-    const uint64_t sparseCount = accessor.sparseCount;
-    const file::SparsePart& indices = accessor.sparseIndices;
-    const file::SparsePart& values = accessor.sparseValues;
-    const uint64_t indexSize = file::componentSize(indices.componentType);
-    uint64_t indexStride = indexSize;
-    uint64_t valueStride = elementSize;
-    const auto indexBytes = viewBytes(document, indices.bufferView, indices.byteOffset, sparseCount, indexSize,
-                                      indexStride, element + " sparse indices");
-    const auto valueBytes = viewBytes(document, values.bufferView, values.byteOffset, sparseCount, elementSize,
-                                      valueStride, element + " sparse values");
-    uint64_t previous = 0;
-    for (uint64_t i = 0; i < sparseCount; ++i) {
-        const uint64_t target = loadInteger(indexBytes.data() + i * indexSize, indices.componentType);
-        if (target >= count) {
-            refuse(element + " sparse indices", std::to_string(target) + " is out of range: the accessor has " +
-                                                    std::to_string(count) + " elements");
-        }
-        if (i > 0 && target <= previous) {
-            refuse(element + " sparse indices", "not strictly increasing");
-        }
-        previous = target;
-        std::memcpy(bytes.data() + target * elementSize, valueBytes.data() + i * elementSize, elementSize);
+    if (accessor.sparseCount > 0 && sparse == Sparse::applied) {
+        substitute(document, accessor, elementSize, element, bytes);
     }
     return bytes;
 }

@@ -4,6 +4,7 @@
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -102,8 +103,8 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
                            (cubic ? " of CUBICSPLINE" : ""));
     }
     for (size_t k = 0; k < channel.values.size(); ++k) {
-        if (!std::isfinite(channel.values[k])) {
-            refuse(item(output, k / (channel.values.size() / elements)), "not finite");
+        if (const char* fault = faultOfCoordinate(channel.values[k])) {
+            refuse(item(output, k / (channel.values.size() / elements)), fault);
         }
     }
     if (channel.path == ChannelPath::rotation) {

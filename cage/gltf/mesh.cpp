@@ -201,11 +201,10 @@ private:
         const auto values = readFloats(document_, position, file::kVec3, quantized_ ? kFloat | kQuantized : kFloat,
                                        element + " POSITION");
         for (size_t v = 0; v < count; ++v) {
-            const glm::vec3 p(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                refuse(item(element + " POSITION", v), "not finite");
+            if (const char* fault = faultOfCoordinates(&values[3 * v], 3)) {
+                refuse(item(element + " POSITION", v), fault);
             }
-            out_.positions.push_back(p);
+            out_.positions.emplace_back(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
         }
         if (sets.joints.empty()) {
             out_.weights.appendUnskinned(count);

@@ -1,6 +1,7 @@
 #include "cage/gltf/morphs.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ void VertexMorphs::append(const Document& document, const std::vector<int>& targ
         const auto values = readFloats(document, targets[t], file::kVec3, allowed, name);
         for (uint32_t v = 0; v < count; ++v) {
             const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
-            if (!std::isfinite(delta.x) || !std::isfinite(delta.y) || !std::isfinite(delta.z)) {
-                refuse(item(name, v), "not finite");
+            if (const char* fault = faultOfCoordinates(&values[3 * size_t{v}], 3)) {
+                refuse(item(name, v), fault);
             }
             if (delta != glm::vec3(0.0f)) {
                 read.push_back({v, {static_cast<uint32_t>(t), delta}});

@@ -231,9 +231,7 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         if (const Status sound = reportDamages(character, options.strict); !sound) {
             return sound.error();
         }
-        for (std::string& warning : character.warnings) {
-            warning = oneLine(std::move(warning));
-        }
+        character.warnings = readableLines(character.warnings);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

@@ -2,6 +2,7 @@
 
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/nodes.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -102,8 +103,8 @@ Skin readSkin(const Document& document, uint32_t meshNode) {
     }
     for (size_t j = 0; j < skin.joints.size(); ++j) {
         for (size_t k = 0; k < 16; ++k) {
-            if (!std::isfinite(values[16 * j + k])) {
-                refuse(item(element, j), "not finite");
+            if (const char* fault = faultOfCoordinate(values[16 * j + k])) {
+                refuse(item(element, j), fault);
             }
             skin.inverseBinds[j][static_cast<int>(k / 4)][static_cast<int>(k % 4)] = values[16 * j + k];
         }

@@ -70,6 +70,14 @@ void given(void* memory) noexcept {
     const auto a = static_cast<std::size_t>(alignment);
     return taken(fails() ? nullptr : std::aligned_alloc(a, (size + a - 1) / a * a));
 }
+/// Does not fail: who asks so does without, and nobody learns of it.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    const supple::test::HostMemoryPause pause;
+    return ::operator new(size);
+}
+[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept {
+    given(memory);
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
     given(memory);
 }
