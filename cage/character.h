@@ -2,6 +2,8 @@
 // Filled by the readers of this folder, read by every floor above. Units are the asset's; +Y up, right-handed, as glTF.
 #pragma once
 
+#include "cage/shared_bytes.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -162,7 +164,7 @@ struct Morphs {
 struct Image {
     std::string name;
     std::string mimeType; ///< "image/png", "image/jpeg", "image/webp", "image/ktx2", what else the file says, or empty
-    std::vector<std::byte> bytes;
+    SharedBytes bytes;
 };
 
 enum class AlphaMode { opaque, mask, blend };

@@ -1,9 +1,71 @@
 #include "cage/message.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <iterator>
+#include <map>
 
 namespace supple::cage {
+namespace {
+
+struct CodePoint {
+    uint32_t code;
+    size_t bytes;
+};
+
+/// 0xFFFD and one byte for what is no UTF-8.
+CodePoint firstOf(std::string_view text) {
+    constexpr CodePoint kNone{0xFFFD, 1};
+    const auto at = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = at(0);
+    if (first < 0x80) {
+        return {first, 1};
+    }
+    const size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    if (first < 0xC2 || first > 0xF4 || text.size() < bytes) {
+        return kNone;
+    }
+    uint32_t code = first & (0x7Fu >> bytes);
+    for (size_t i = 1; i < bytes; ++i) {
+        if ((at(i) & 0xC0) != 0x80) {
+            return kNone;
+        }
+        code = code << 6 | (at(i) & 0x3Fu);
+    }
+    constexpr uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+    return code < kSmallest[bytes] || surrogate || code > 0x10FFFF ? kNone : CodePoint{code, bytes};
+}
+
+/// Neither a control character nor one that turns what stands beside it round, or cannot be seen.
+bool isReadable(uint32_t code) {
+    constexpr struct {
+        uint32_t first, last;
+    } kUnreadable[] = {{0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},      {0x61C, 0x61C},
+                       {0x200B, 0x200B}, {0x200E, 0x200F}, {0x2028, 0x202E},  {0x2060, 0x206F},
+                       {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFD}, {0xE0000, 0xE0FFF}};
+    return std::none_of(std::begin(kUnreadable), std::end(kUnreadable),
+                        [code](const auto& range) { return code >= range.first && code <= range.last; });
+}
+
+/// A line without its numbers and quoted names.
+std::string kindOf(const std::string& line) {
+    std::string kind;
+    bool quotedName = false;
+    for (const char c : line) {
+        quotedName = quotedName != (c == '"');
+        const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+        if (!quotedName && !digit) {
+            kind += c;
+        } else if (digit && !quotedName && (kind.empty() || kind.back() != '#')) {
+            kind += '#';
+        }
+    }
+    return kind;
+}
+
+} // namespace
 
 std::string at(const char* what, size_t index) {
     return std::string(what) + " " + std::to_string(index);
@@ -31,13 +93,51 @@ std::string shortNumber(double value) {
     return text;
 }
 
-std::string oneLine(std::string text) {
-    for (char& c : text) {
-        if (std::iscntrl(static_cast<unsigned char>(c)) != 0) {
-            c = '?';
+std::string oneLine(std::string_view text, char instead) {
+    std::string line;
+    line.reserve(text.size());
+    while (!text.empty()) {
+        const CodePoint next = firstOf(text);
+        if (isReadable(next.code)) {
+            line += text.substr(0, next.bytes);
+        } else {
+            line += instead;
+        }
+        text.remove_prefix(next.bytes);
+    }
+    return line;
+}
+
+std::string cutOff(std::string line) {
+    if (line.size() > kLongestLine) {
+        line.resize(kLongestLine);
+        line += "...";
+    }
+    return line;
+}
+
+std::vector<std::string> readableLines(const std::vector<std::string>& lines) {
+    std::map<std::string, size_t> counts;
+    for (const std::string& line : lines) {
+        ++counts[kindOf(line)];
+    }
+    std::vector<std::string> told;
+    for (const std::string& line : lines) {
+        size_t& count = counts[kindOf(line)];
+        if (count == 0) {
+            continue;
+        }
+        if (told.size() == kMostLines) {
+            told.push_back("file: " + counted(lines.size() - kMostLines, "more line", "more lines") + " of warnings");
+            break;
+        }
+        told.push_back(oneLine(cutOff(line)));
+        if (count > kMostAlike) {
+            told.back() += " (and " + counted(count - 1, "line", "lines") + " like this one)";
+            count = 0;
         }
     }
-    return text;
+    return told;
 }
 
 std::string Found::told(const char* one, const char* many) const {

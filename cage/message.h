@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace supple::cage {
@@ -19,8 +20,17 @@ namespace supple::cage {
 [[nodiscard]] std::string quoted(const std::string& text);
 /// Three significant digits.
 [[nodiscard]] std::string shortNumber(double value);
-/// Messages are one line, whatever a file calls its parts.
-[[nodiscard]] std::string oneLine(std::string text);
+/// Messages are one line that reads as it stands, whatever a file calls its parts: `instead` takes the place of control
+/// characters, of those that turn the direction of text or cannot be seen, and of bytes that are no UTF-8.
+[[nodiscard]] std::string oneLine(std::string_view text, char instead = '?');
+/// The same for lines of which a file can cause any number: of more than kMostAlike that differ in numbers and quoted
+/// names alone, only the first stays, with their count. There are kMostLines in all, and one that counts the rest.
+[[nodiscard]] std::vector<std::string> readableLines(const std::vector<std::string>& lines);
+inline constexpr size_t kMostAlike = 8;
+inline constexpr size_t kMostLines = 256;
+/// Longer messages are cut off here: a file can have names of any length.
+inline constexpr size_t kLongestLine = 1024;
+[[nodiscard]] std::string cutOff(std::string line);
 
 /// Faces that one message lists.
 inline constexpr size_t kMaxListedFaces = 8;

@@ -42,7 +42,7 @@ void Refusals::raise() const {
 Error asError(const Refusal& refusal, const std::string& name) {
     std::string message;
     for (const std::string& fault : refusal.faults) {
-        message.append(message.empty() ? "" : "\n").append(oneLine(name + ": " + fault));
+        message.append(message.empty() ? "" : "\n").append(oneLine(cutOff(name + ": " + fault)));
     }
     return {refusal.code, message};
 }

@@ -3,7 +3,6 @@
 #include "cage/message.h"
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -302,27 +301,23 @@ uint32_t findEdge(const Cage& cage, const Topology& topology, uint32_t a, uint32
 }
 
 Result<Topology> buildTopology(const Cage& cage) {
-    try {
-        if (std::optional<Error> error = checkArrays(cage)) {
-            return *error;
-        }
-        Topology topology;
-        topology.cornerFaces.resize(cage.cornerCount());
-        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-            std::fill(topology.cornerFaces.begin() + cage.faceStarts[f],
-                      topology.cornerFaces.begin() + cage.faceStarts[f + 1], f);
-        }
-        if (std::optional<Error> error = pairHalfEdges(cage, topology)) {
-            return *error;
-        }
-        if (std::optional<Error> error = buildFans(cage, topology)) {
-            return *error;
-        }
-        numberEdges(topology);
-        return topology;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::hostMemory, "out of memory for the cage's topology"};
+    if (std::optional<Error> error = checkArrays(cage)) {
+        return *error;
     }
+    Topology topology;
+    topology.cornerFaces.resize(cage.cornerCount());
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        std::fill(topology.cornerFaces.begin() + cage.faceStarts[f],
+                  topology.cornerFaces.begin() + cage.faceStarts[f + 1], f);
+    }
+    if (std::optional<Error> error = pairHalfEdges(cage, topology)) {
+        return *error;
+    }
+    if (std::optional<Error> error = buildFans(cage, topology)) {
+        return *error;
+    }
+    numberEdges(topology);
+    return topology;
 }
 
 } // namespace supple::cage

@@ -1,5 +1,7 @@
 #include "host/picture.h"
 
+#include "host/whole_file.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,19 +9,13 @@
 #include <cstring>
 #include <memory>
 
-// The one place where stb is compiled; static, so that it never meets another copy (imgui, tinygltf) in the linker.
+// The one place where stb is compiled; static, so that it never meets another copy (imgui) in the linker.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wsign-compare"
 #endif
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -33,8 +29,6 @@
 namespace supple::host {
 
 namespace {
-
-constexpr uint32_t kMaxSide = 16384;
 
 struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -134,11 +128,7 @@ Status writePng(const Picture& picture, const std::string& path) {
     if (stbi_write_png_to_func(append, &encoded, static_cast<int>(picture.width), static_cast<int>(picture.height), 4,
                                picture.rgba.data(), stride) == 0)
         return Error{ErrorCode::io, path + ": cannot encode the picture"};
-    File file(std::fopen(path.c_str(), "wb"));
-    if (!file || std::fwrite(encoded.data(), 1, encoded.size(), file.get()) != encoded.size() ||
-        std::fflush(file.get()) != 0)
-        return Error{ErrorCode::io, path + ": " + std::strerror(errno)};
-    return success();
+    return writeWhole(path, std::as_bytes(std::span(encoded)));
 }
 
 Result<Picture> readPng(const std::string& path) {
@@ -150,26 +140,6 @@ Result<Picture> readPng(const std::string& path) {
     for (size_t count = 0; (count = std::fread(chunk, 1, sizeof chunk, file.get())) > 0;)
         bytes.insert(bytes.end(), chunk, chunk + count);
     return decodePicture(bytes, path);
-}
-
-Result<Picture> decodePicture(std::span<const std::byte> bytes, const std::string& name) {
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int size = static_cast<int>(std::min<size_t>(bytes.size(), INT32_MAX));
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    // The header first: a few bytes may claim a picture of gigabytes.
-    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
-        return Error{ErrorCode::asset, name + ": not a PNG or JPEG"};
-    if (static_cast<uint32_t>(width) > kMaxSide || static_cast<uint32_t>(height) > kMaxSide)
-        return Error{ErrorCode::limit, name + ": larger than 16384 pixels"};
-    stbi_uc* pixels = stbi_load_from_memory(data, size, &width, &height, &channels, 4);
-    if (pixels == nullptr)
-        return Error{ErrorCode::asset, name + ": " + stbi_failure_reason()};
-    Picture picture{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
-    picture.rgba.assign(pixels, pixels + picture.width * size_t{picture.height} * 4);
-    stbi_image_free(pixels);
-    return picture;
 }
 
 } // namespace supple::host

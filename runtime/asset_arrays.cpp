@@ -1,4 +1,5 @@
 // A character out of a host's arrays.
+#include "cage/limits.h"
 #include "cage/message.h"
 #include "cage/repair.h"
 #include "cage/single_joint.h"
@@ -67,13 +68,13 @@ private:
         cage::Found found;
         for (uint32_t v = 0; v < desc_.vertexCount; ++v) {
             const float* p = desc_.positions + 3 * size_t{v};
-            if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+            if (cage::faultOfCoordinates(p, 3) != nullptr) {
                 found.add([&] { return "vertex " + to_string(v); });
             }
             cage_.positions.emplace_back(p[0], p[1], p[2]);
             cage_.sourceVertices.push_back(v);
         }
-        note(found, "position is not finite", "positions are not finite");
+        note(found, "position is not finite or beyond 1e+09", "positions are not finite or beyond 1e+09");
     }
 
     Status readFaces() {

@@ -303,6 +303,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
                                               "feature drawIndirectFirstInstance"};
     }
     tellNotes(**group);
+    makeRoom(retired_, groups.slotCount() + 1);
     return groups.insert(std::move(*group));
 }
 
@@ -392,7 +393,7 @@ Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
 }
 
 void Context::replace(std::vector<Remade>& remade) {
-    retired_.reserve(retired_.size() + remade.size());
+    makeRoom(retired_, groups.slotCount() + remade.size());
     for (Remade& own : remade) {
         retired_.push_back(retired(groups.replace(own.id, std::move(own.group))));
     }
@@ -483,6 +484,7 @@ Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
     if (!view) {
         return view.error();
     }
+    makeRoom(retiredViews_, views.slotCount() + 1);
     return views.insert(std::move(*view));
 }
 

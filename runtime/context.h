@@ -158,6 +158,13 @@ private:
         const uint64_t last = object->lastRecordedFrame() > 0 ? frame_ : 0;
         return {std::move(object), last};
     }
+    /// Room for `more` than there are: what is alive must find it when it is destroyed.
+    template <class T>
+    static void makeRoom(std::vector<Retired<T>>& list, size_t more) {
+        if (list.capacity() < list.size() + more) {
+            list.reserve(2 * (list.size() + more));
+        }
+    }
     std::vector<Retired<Group>> retired_;
     std::vector<Retired<View>> retiredViews_;
 };

@@ -27,12 +27,21 @@ inline constexpr size_t kFirstSize<SuppleRequirements> = offsetof(SuppleRequirem
 template <>
 inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);
 
-/// Reads what the caller's version has of a struct; the rest is zero. False: smaller than the first version's, or with
-/// something in fields that this library does not know.
+/// No version's struct is larger than ours by more than this: a size beyond is what happened to lie there.
+inline constexpr size_t kMostGrowth = 4096;
+
+/// Whether a caller's struct can be of some version.
+template <class T>
+[[nodiscard]] bool isPossibleSize(size_t size, size_t firstSize = kFirstSize<T>) {
+    return size >= firstSize && size <= sizeof(T) + kMostGrowth;
+}
+
+/// Reads what the caller's version has of a struct; the rest is zero. False: of no possible size, or with something in
+/// fields that this library does not know.
 template <class T>
 [[nodiscard]] bool readSized(const T& from, T& to, size_t firstSize = kFirstSize<T>) {
     const size_t size = from.structSize;
-    if (size < firstSize) {
+    if (!isPossibleSize<T>(size, firstSize)) {
         return false;
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(&from);
@@ -55,7 +64,7 @@ template <class E>
 }
 
 /// Writes what the caller's version has room for. What a newer caller has beyond is zeroed. The caller has checked
-/// that structSize is at least the first version's.
+/// that structSize is possible.
 template <class T>
 void writeSized(const T& from, T& to) {
     const size_t size = to.structSize;

@@ -21,6 +21,8 @@ public:
         uint32_t index = 0;
         if (free_.empty()) {
             index = static_cast<uint32_t>(slots_.size());
+            // So that remove() needs no memory: what is destroyed must not be lost halfway.
+            free_.reserve(slots_.capacity() > slots_.size() ? slots_.capacity() : 2 * slots_.size() + 8);
             slots_.push_back({nullptr, firstGeneration()});
         } else {
             index = free_.back();
@@ -29,15 +31,17 @@ public:
         slots_[index].value = std::move(value);
         return (static_cast<uint64_t>(slots_[index].generation) << 32) | (index + 1u);
     }
+    /// Values there are room for without another slot.
+    [[nodiscard]] size_t slotCount() const { return slots_.size(); }
     /// Null for a stale or foreign id.
-    [[nodiscard]] std::shared_ptr<T> find(uint64_t id) const {
+    [[nodiscard]] std::shared_ptr<T> find(uint64_t id) const noexcept {
         const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
         if (index >= slots_.size() || slots_[index].generation != id >> 32) {
             return nullptr;
         }
         return slots_[index].value;
     }
-    std::shared_ptr<T> remove(uint64_t id) {
+    std::shared_ptr<T> remove(uint64_t id) noexcept {
         if (find(id) == nullptr) {
             return nullptr;
         }

@@ -11,24 +11,24 @@
 namespace supple::cage::gltf {
 namespace {
 
-using supple_tinygltf::Accessor;
+using file::Accessor;
 
 std::string componentName(const Accessor& accessor) {
     std::string name;
     switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case file::kByte:
         name = "BYTE";
         break;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case file::kUnsignedByte:
         name = "UNSIGNED_BYTE";
         break;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case file::kShort:
         name = "SHORT";
         break;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case file::kUnsignedShort:
         name = "UNSIGNED_SHORT";
         break;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case file::kUnsignedInt:
         name = "UNSIGNED_INT";
         break;
     default:
@@ -38,46 +38,23 @@ std::string componentName(const Accessor& accessor) {
     return accessor.normalized ? "normalized " + name : name;
 }
 
-const char* typeName(int type) {
-    switch (type) {
-    case TINYGLTF_TYPE_SCALAR:
-        return "SCALAR";
-    case TINYGLTF_TYPE_VEC2:
-        return "VEC2";
-    case TINYGLTF_TYPE_VEC3:
-        return "VEC3";
-    case TINYGLTF_TYPE_VEC4:
-        return "VEC4";
-    case TINYGLTF_TYPE_MAT2:
-        return "MAT2";
-    case TINYGLTF_TYPE_MAT3:
-        return "MAT3";
-    default:
-        return "MAT4";
-    }
-}
-
 uint32_t componentBit(const Accessor& accessor) {
     switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case file::kByte:
         return accessor.normalized ? kNormalizedS8 : kS8;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case file::kUnsignedByte:
         return accessor.normalized ? kNormalizedU8 : kU8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case file::kShort:
         return accessor.normalized ? kNormalizedS16 : kS16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case file::kUnsignedShort:
         return accessor.normalized ? kNormalizedU16 : kU16;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case file::kUnsignedInt:
         return accessor.normalized ? 0u : kU32;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case file::kFloat:
         return accessor.normalized ? 0u : kFloat;
     default:
         return 0;
     }
-}
-
-size_t componentSize(int componentType) {
-    return static_cast<size_t>(supple_tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(componentType)));
 }
 
 template <class T>
@@ -90,9 +67,9 @@ T load(const std::byte* from) {
 
 uint32_t loadInteger(const std::byte* from, int componentType) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case file::kUnsignedByte:
         return load<uint8_t>(from);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case file::kUnsignedShort:
         return load<uint16_t>(from);
     default:
         return load<uint32_t>(from);
@@ -118,56 +95,24 @@ std::span<const std::byte> viewBytes(const Document& document, int view, uint64_
                             " are out of range: bufferView " + std::to_string(view) + " has " +
                             std::to_string(available) + " bytes");
     }
-    return document.buffers[static_cast<size_t>(bufferView.buffer)].subspan(
-        bufferView.byteOffset + static_cast<size_t>(offset), static_cast<size_t>((count - 1) * stride + elementSize));
+    return document.buffers[bufferView.buffer].subspan(static_cast<size_t>(bufferView.byteOffset + offset),
+                                                       static_cast<size_t>((count - 1) * stride + elementSize));
 }
 
-/// All elements, packed.
-std::vector<std::byte> packed(const Document& document, int index, int type, uint32_t allowed,
-                              const std::string& element, Sparse sparse) {
-    const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
-    if (accessor.type != type) {
-        refuse(element, std::string(typeName(accessor.type)) + " instead of " + typeName(type));
-    }
-    if ((componentBit(accessor) & allowed) == 0) {
-        refuse(element, componentName(accessor) + " components are not allowed here");
-    }
-    const uint64_t elementSize =
-        componentSize(accessor.componentType) *
-        static_cast<uint64_t>(supple_tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
+/// Puts a sparse accessor's values in place of those it changes.
+void substitute(const Document& document, const Accessor& accessor, uint64_t elementSize, const std::string& element,
+                std::vector<std::byte>& bytes) {
     const uint64_t count = accessor.count;
-    std::vector<std::byte> bytes;
-    if (accessor.bufferView < 0) {
-        if (count > kMaxZeroElements) {
-            refuse(element,
-                   "accessor without bufferView: " + std::to_string(count) + " elements, at most " +
-                       std::to_string(kMaxZeroElements) + " are read",
-                   ErrorCode::limit);
-        }
-        bytes.resize(static_cast<size_t>(count * elementSize));
-    } else {
-        uint64_t stride = 0;
-        const auto source =
-            viewBytes(document, accessor.bufferView, accessor.byteOffset, count, elementSize, stride, element);
-        bytes.resize(static_cast<size_t>(count * elementSize));
-        for (uint64_t i = 0; i < count; ++i) {
-            std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);
-        }
-    }
-    if (!accessor.sparse.isSparse || sparse == Sparse::ignored) {
-        return bytes;
-    }
-
-    const auto sparseCount = static_cast<uint64_t>(accessor.sparse.count);
-    const auto& indices = accessor.sparse.indices;
-    const uint64_t indexSize = componentSize(indices.componentType);
+    const uint64_t sparseCount = accessor.sparseCount;
+    const file::SparsePart& indices = accessor.sparseIndices;
+    const file::SparsePart& values = accessor.sparseValues;
+    const uint64_t indexSize = file::componentSize(indices.componentType);
     uint64_t indexStride = indexSize;
     uint64_t valueStride = elementSize;
-    const auto indexBytes = viewBytes(document, indices.bufferView, static_cast<uint64_t>(indices.byteOffset),
-                                      sparseCount, indexSize, indexStride, element + " sparse indices");
-    const auto valueBytes =
-        viewBytes(document, accessor.sparse.values.bufferView, static_cast<uint64_t>(accessor.sparse.values.byteOffset),
-                  sparseCount, elementSize, valueStride, element + " sparse values");
+    const auto indexBytes = viewBytes(document, indices.bufferView, indices.byteOffset, sparseCount, indexSize,
+                                      indexStride, element + " sparse indices");
+    const auto valueBytes = viewBytes(document, values.bufferView, values.byteOffset, sparseCount, elementSize,
+                                      valueStride, element + " sparse values");
     uint64_t previous = 0;
     for (uint64_t i = 0; i < sparseCount; ++i) {
         const uint64_t target = loadInteger(indexBytes.data() + i * indexSize, indices.componentType);
@@ -181,6 +126,46 @@ std::vector<std::byte> packed(const Document& document, int index, int type, uin
         previous = target;
         std::memcpy(bytes.data() + target * elementSize, valueBytes.data() + i * elementSize, elementSize);
     }
+}
+
+/// All elements, packed.
+std::vector<std::byte> packed(const Document& document, int index, int type, uint32_t allowed,
+                              const std::string& element, Sparse sparse) {
+    const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    if (accessor.type != type) {
+        refuse(element, std::string(file::kTypeNames[accessor.type]) + " instead of " + file::kTypeNames[type]);
+    }
+    if ((componentBit(accessor) & allowed) == 0) {
+        refuse(element, componentName(accessor) + " components are not allowed here");
+    }
+    const uint64_t elementSize =
+        uint64_t{file::componentSize(accessor.componentType)} * file::componentsOf(accessor.type);
+    const uint64_t count = accessor.count;
+    // The bytes, numbers of four bytes each, and what is made of these.
+    const uint64_t perElement = elementSize + 3 * sizeof(float) * file::componentsOf(accessor.type);
+    std::vector<std::byte> bytes;
+    if (accessor.bufferView < 0) {
+        if (count > kMaxZeroElements) {
+            refuse(element,
+                   "accessor without bufferView: " + std::to_string(count) + " elements, at most " +
+                       std::to_string(kMaxZeroElements) + " are read",
+                   ErrorCode::limit);
+        }
+        document.memory->take(count, perElement, element);
+        bytes.resize(static_cast<size_t>(count * elementSize));
+    } else {
+        uint64_t stride = 0;
+        const auto source =
+            viewBytes(document, accessor.bufferView, accessor.byteOffset, count, elementSize, stride, element);
+        document.memory->take(count, perElement, element);
+        bytes.resize(static_cast<size_t>(count * elementSize));
+        for (uint64_t i = 0; i < count; ++i) {
+            std::memcpy(bytes.data() + i * elementSize, source.data() + i * stride, elementSize);
+        }
+    }
+    if (accessor.sparseCount > 0 && sparse == Sparse::applied) {
+        substitute(document, accessor, elementSize, element, bytes);
+    }
     return bytes;
 }
 
@@ -191,25 +176,25 @@ std::vector<float> readFloats(const Document& document, int accessor, int type, 
     const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, Sparse::applied);
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
     const bool normalized = document.model.accessors[static_cast<size_t>(accessor)].normalized;
-    const size_t size = componentSize(componentType);
+    const size_t size = file::componentSize(componentType);
     std::vector<float> values(bytes.size() / size);
     for (size_t i = 0; i < values.size(); ++i) {
         const std::byte* from = bytes.data() + i * size;
         float largest = 1.0f;
         switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case file::kByte:
             values[i] = load<int8_t>(from);
             largest = 127.0f;
             break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case file::kUnsignedByte:
             values[i] = load<uint8_t>(from);
             largest = 255.0f;
             break;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
+        case file::kShort:
             values[i] = load<int16_t>(from);
             largest = 32767.0f;
             break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case file::kUnsignedShort:
             values[i] = load<uint16_t>(from);
             largest = 65535.0f;
             break;
@@ -228,7 +213,7 @@ std::vector<uint32_t> readIntegers(const Document& document, int accessor, int t
                                    const std::string& element, Sparse sparse) {
     const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, sparse);
     const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
-    const size_t size = componentSize(componentType);
+    const size_t size = file::componentSize(componentType);
     std::vector<uint32_t> values(bytes.size() / size);
     for (size_t i = 0; i < values.size(); ++i) {
         values[i] = loadInteger(bytes.data() + i * size, componentType);
@@ -238,13 +223,11 @@ std::vector<uint32_t> readIntegers(const Document& document, int accessor, int t
 
 uint32_t restartIndex(const Document& document, int accessor) {
     const int type = document.model.accessors[static_cast<size_t>(accessor)].componentType;
-    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xFFu
-           : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xFFFFu
-                                                            : 0xFFFFFFFFu;
+    return type == file::kUnsignedByte ? 0xFFu : type == file::kUnsignedShort ? 0xFFFFu : 0xFFFFFFFFu;
 }
 
 size_t accessorCount(const Document& document, int accessor) {
-    return document.model.accessors[static_cast<size_t>(accessor)].count;
+    return static_cast<size_t>(document.model.accessors[static_cast<size_t>(accessor)].count);
 }
 
 void checkVertexCount(const Document& document, int accessor, size_t vertexCount, const std::string& element) {

@@ -33,7 +33,7 @@ inline constexpr uint32_t kIntegers = kU8 | kU16 | kU32;
 inline constexpr uint32_t kQuantizedSigned = kNormalizedS8 | kNormalizedS16 | kS8 | kS16;
 inline constexpr uint32_t kQuantized = kQuantizedSigned | kNormalizedU8 | kNormalizedU16 | kU8 | kU16;
 
-/// Elements of `type` (TINYGLTF_TYPE_*) as floats, element after element; normalized integers are divided by their
+/// Elements of `type` (file::ElementType) as floats, element after element; normalized integers are divided by their
 /// largest value, others are taken as they are. Throws Refusal that names `element` when type or component type are not
 /// allowed there or the data is out of range.
 [[nodiscard]] std::vector<float> readFloats(const Document& document, int accessor, int type, uint32_t allowed,

@@ -4,6 +4,7 @@
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -47,24 +48,24 @@ struct Output {
 std::optional<Output> outputOf(const std::string& path, size_t targetCount) {
     constexpr uint32_t kAny = kFloat | kNormalizedU8 | kNormalizedU16 | kNormalizedS8 | kNormalizedS16;
     if (path == "translation") {
-        return Output{ChannelPath::translation, TINYGLTF_TYPE_VEC3, kFloat, 1};
+        return Output{ChannelPath::translation, file::kVec3, kFloat, 1};
     }
     if (path == "rotation") {
-        return Output{ChannelPath::rotation, TINYGLTF_TYPE_VEC4, kAny, 1};
+        return Output{ChannelPath::rotation, file::kVec4, kAny, 1};
     }
     if (path == "scale") {
-        return Output{ChannelPath::scale, TINYGLTF_TYPE_VEC3, kFloat, 1};
+        return Output{ChannelPath::scale, file::kVec3, kFloat, 1};
     }
     if (path == "weights" && targetCount > 0) {
-        return Output{ChannelPath::weights, TINYGLTF_TYPE_SCALAR, kAny, targetCount};
+        return Output{ChannelPath::weights, file::kScalar, kAny, targetCount};
     }
     return std::nullopt;
 }
 
-Channel readChannel(const Document& document, const supple_tinygltf::Animation& animation,
-                    const supple_tinygltf::AnimationChannel& from, const Output& kind, const std::string& element) {
+Channel readChannel(const Document& document, const file::Animation& animation, const file::AnimationChannel& from,
+                    const Output& kind, const std::string& element) {
     Channel channel;
-    channel.node = static_cast<uint32_t>(from.target_node);
+    channel.node = static_cast<uint32_t>(from.node);
     channel.path = kind.path;
     const auto& sampler = animation.samplers[static_cast<size_t>(from.sampler)];
     channel.interpolation = sampler.interpolation == "STEP"          ? Interpolation::step
@@ -72,7 +73,7 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
                                                                      : Interpolation::linear;
 
     const std::string input = element + " input";
-    channel.times = readFloats(document, sampler.input, TINYGLTF_TYPE_SCALAR, kFloat, input);
+    channel.times = readFloats(document, sampler.input, file::kScalar, kFloat, input);
     for (size_t k = 0; k < channel.times.size(); ++k) {
         if (!std::isfinite(channel.times[k])) {
             refuse(item(input, k), "not finite");
@@ -102,8 +103,8 @@ Channel readChannel(const Document& document, const supple_tinygltf::Animation& 
                            (cubic ? " of CUBICSPLINE" : ""));
     }
     for (size_t k = 0; k < channel.values.size(); ++k) {
-        if (!std::isfinite(channel.values[k])) {
-            refuse(item(output, k / (channel.values.size() / elements)), "not finite");
+        if (const char* fault = faultOfCoordinate(channel.values[k])) {
+            refuse(item(output, k / (channel.values.size() / elements)), fault);
         }
     }
     if (channel.path == ChannelPath::rotation) {
@@ -149,6 +150,7 @@ public:
         clip.name = animation.name.empty() ? "clip_" + std::to_string(index) : animation.name;
         ignored_.clear();
         targets_.clear();
+        document_.memory->take(animation.channels.size(), 4 * sizeof(Channel), element);
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
@@ -156,7 +158,7 @@ public:
         for (const Channel& channel : clip.channels) {
             clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
         }
-        clip.markers = readMarkers(document_.animationExtras[index], element, first, clip.duration, warnings_);
+        clip.markers = readMarkers(animation.extras, element, first, clip.duration, warnings_);
         for (const auto& [path, count] : ignored_) {
             warn(warnings_, element,
                  counted(count, "channel", "channels") + " of " +
@@ -169,20 +171,20 @@ public:
     }
 
 private:
-    void addChannel(const supple_tinygltf::Animation& animation, size_t k, const std::string& element, Clip& clip) {
+    void addChannel(const file::Animation& animation, size_t k, const std::string& element, Clip& clip) {
         const auto& channel = animation.channels[k];
-        const std::string& path = channel.target_path;
+        const std::string& path = channel.path;
         const std::optional<Output> kind =
-            outputOf(path, channel.target_node < 0 ? 0 : targetCounts_[static_cast<size_t>(channel.target_node)]);
+            outputOf(path, channel.node < 0 ? 0 : targetCounts_[static_cast<size_t>(channel.node)]);
         if (!kind) {
             ++ignored_[path];
             return;
         }
-        if (!targets_.emplace(channel.target_node, path).second) {
-            refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.target_node));
+        if (!targets_.emplace(channel.node, path).second) {
+            refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.node));
         }
-        if (kind->path != ChannelPath::weights && skeleton_.nodes[static_cast<size_t>(channel.target_node)].hasMatrix) {
-            refuse(element, "animates node " + std::to_string(channel.target_node) + ", which has a matrix");
+        if (kind->path != ChannelPath::weights && skeleton_.nodes[static_cast<size_t>(channel.node)].hasMatrix) {
+            refuse(element, "animates node " + std::to_string(channel.node) + ", which has a matrix");
         }
         clip.channels.push_back(readChannel(document_, animation, channel, *kind, element));
         floats_ += clip.channels.back().times.size() + clip.channels.back().values.size();
@@ -222,7 +224,7 @@ ClipSet readMotion(const Document& document, const std::string& name) {
     set.skeleton = readSkeleton(document);
     Warnings ofMeshes; // which are not read
     for (size_t m = 0; m < meshes.size(); ++m) {
-        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), ofMeshes));
+        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes));
     }
     std::vector<size_t> targetCounts;
     for (const auto& node : document.model.nodes) {

@@ -18,7 +18,7 @@ void checkTogether(const CageExtension& extension, const char* a, int accessorA,
 }
 
 /// A rule by OpenSubdiv's names. The scheme and its rules are the host's choice; what none here can follow is reported.
-void checkRule(const json& object, const char* key, std::initializer_list<std::string_view> followed,
+void checkRule(const Json& object, const char* key, std::initializer_list<std::string_view> followed,
                std::initializer_list<std::string_view> others, const std::string& element, Warnings& warnings) {
     const std::string value = stringMember(object, key, element);
     if (value.empty() || std::find(followed.begin(), followed.end(), value) != followed.end()) {
@@ -35,8 +35,8 @@ SharpList readSharpList(const Document& document, const CageExtension& extension
     SharpList list;
     list.element = extension.element + " " + indicesKey;
     const std::string place = extension.element + " " + sharpnessesKey;
-    list.vertices = readIntegers(document, indices, TINYGLTF_TYPE_SCALAR, kIntegers, list.element);
-    list.sharpnesses = readFloats(document, sharpnesses, TINYGLTF_TYPE_SCALAR, kFloat, place);
+    list.vertices = readIntegers(document, indices, file::kScalar, kIntegers, list.element);
+    list.sharpnesses = readFloats(document, sharpnesses, file::kScalar, kFloat, place);
     if (list.vertices.size() % width != 0 || list.vertices.size() / width != list.sharpnesses.size()) {
         refuse(place, counted(list.sharpnesses.size(), "sharpness", "sharpnesses") + " for " +
                           counted(list.vertices.size(), "index", "indices"));
@@ -51,20 +51,20 @@ SharpList readSharpList(const Document& document, const CageExtension& extension
 
 } // namespace
 
-std::optional<CageExtension> findCageExtension(const Document& document, const json& primitive,
+std::optional<CageExtension> findCageExtension(const Document& document, const Json& primitive,
                                                const std::string& element, Warnings& warnings) {
     if (!hasExtension(primitive, "SUPPLE_mesh_cage")) {
         return std::nullopt;
     }
     CageExtension extension;
     extension.element = element + " SUPPLE_mesh_cage";
-    const json* object = objectMember(primitive.at("extensions"), "SUPPLE_mesh_cage", element);
+    const Json* object = objectMember(primitive.at("extensions"), "SUPPLE_mesh_cage", element);
     if (object == nullptr) {
         return std::nullopt;
     }
     const auto accessor = [&](const char* key) {
         checkIndexMember(*object, key, extension.element, "accessor", document.model.accessors.size());
-        return member(*object, key) == nullptr ? -1 : object->at(key).get<int>();
+        return member(*object, key) == nullptr ? -1 : static_cast<int>(object->at(key).index());
     };
     extension.faceVertexCounts = accessor("faceVertexCounts");
     extension.faceVertexIndices = accessor("faceVertexIndices");

@@ -30,7 +30,7 @@ struct CageExtension {
 };
 
 /// Warns of rules that surfaces here do not follow.
-[[nodiscard]] std::optional<CageExtension> findCageExtension(const Document& document, const json& primitive,
+[[nodiscard]] std::optional<CageExtension> findCageExtension(const Document& document, const Json& primitive,
                                                              const std::string& element, Warnings& warnings);
 
 /// Creases or corners as written: two vertices or one, and a sharpness, each.

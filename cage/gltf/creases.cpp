@@ -121,12 +121,12 @@ public:
         : cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {}
 
     /// Of `vertexCount` vertices and a sharpness each.
-    void readList(const json& extras, const char* key, const std::string& name, size_t vertexCount) {
-        const json* entries = extras.is_object() ? member(extras, key) : nullptr;
+    void readList(const Json& extras, const char* key, const std::string& name, size_t vertexCount) {
+        const Json* entries = extras.isObject() ? member(extras, key) : nullptr;
         if (entries == nullptr) {
             return;
         }
-        if (!entries->is_array()) {
+        if (!entries->isArray()) {
             warn(warnings_, name, "not an array; ignored");
             return;
         }
@@ -141,17 +141,16 @@ public:
     }
 
 private:
-    std::optional<std::string> readEntry(const json& entry, size_t vertexCount) {
-        if (!entry.is_array() || entry.size() != vertexCount + 1) {
+    std::optional<std::string> readEntry(const Json& entry, size_t vertexCount) {
+        if (!entry.isArray() || entry.size() != vertexCount + 1) {
             return vertexCount == 2 ? "not [vertex, vertex, sharpness]" : "not [vertex, sharpness]";
         }
         uint32_t vertices[2] = {0, 0};
         for (size_t k = 0; k < vertexCount; ++k) {
-            if (!entry[k].is_number_unsigned()) {
-                return "not a vertex number: " +
-                       entry[k].dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
+            if (!entry[k].isUnsigned()) {
+                return "not a vertex number: " + shown(entry[k], 40);
             }
-            const auto number = entry[k].get<uint64_t>();
+            const auto number = entry[k].unsignedInteger();
             if (number >= cageVertices_.size()) {
                 return "vertex " + std::to_string(number) + " is out of range: the mesh has " +
                        std::to_string(cageVertices_.size());
@@ -161,16 +160,16 @@ private:
                 return "vertex " + std::to_string(number) + " has no face";
             }
         }
-        const json& sharpness = entry[vertexCount];
-        if (!sharpness.is_number() || !isFiniteFloat(sharpness) || sharpness.get<float>() < 0.0f) {
+        const Json& sharpness = entry[vertexCount];
+        if (!sharpness.isNumber() || !isFiniteFloat(sharpness) || sharpness.real() < 0.0f) {
             return "sharpness is not a number of at least 0";
         }
         if (vertexCount == 1) {
-            features_.addCorner(vertices[0], sharpness.get<float>(), cage_);
+            features_.addCorner(vertices[0], sharpness.real(), cage_);
         } else if (vertices[0] == vertices[1]) {
             return "both ends are one vertex of the cage";
         } else {
-            features_.addCrease(vertices[0], vertices[1], sharpness.get<float>(), cage_);
+            features_.addCrease(vertices[0], vertices[1], sharpness.real(), cage_);
         }
         return std::nullopt;
     }
@@ -198,7 +197,7 @@ void readCreases(const Document& document, const Mesh& mesh, std::span<const uin
             corners = true;
         }
     }
-    const json* extras = member(document.meshes[mesh.index], "extras");
+    const Json* extras = member(document.meshes[mesh.index], "extras");
     if (extras == nullptr) {
         return;
     }

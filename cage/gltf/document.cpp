@@ -1,138 +1,67 @@
 #include "cage/gltf/document.h"
 
 #include "cage/gltf/container.h"
-#include "cage/gltf/json.h"
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/meshopt.h"
 #include "cage/gltf/resources.h"
 #include "cage/gltf/structure.h"
 #include "cage/gltf/texture.h"
-#include "cage/refusal.h"
 
-#include <algorithm>
-#include <fstream> // tinygltf.h leaves it out with TINYGLTF_NO_FS, but uses it
-#include <limits>
-
-// A second look at the header: tinygltf.h only declared.
-#define TINYGLTF_IMPLEMENTATION
-#include <tiny_gltf.h>
+#include <cstdint>
 
 namespace supple::cage::gltf {
+
 namespace {
 
-/// Removes extras, and all of extensions but their names: nobody asks the model for them, and tinygltf would keep them
-/// as Values, which take far more memory than the text. Recursion is bounded by kMaxJsonDepth.
-void stripUnread(json& value) {
-    if (value.is_object()) {
-        value.erase("extras");
-        for (auto& [key, part] : value.items()) {
-            if (key != "extensions" || !part.is_object()) {
-                stripUnread(part);
-                continue;
-            }
-            for (auto& extension : part) {
-                extension = json::object();
-            }
-        }
-    } else if (value.is_array()) {
-        for (json& part : value) {
-            stripUnread(part);
-        }
-    }
-}
+/// What one of a table becomes, in the model and in the character, with its share of what is held while they are made.
+constexpr struct {
+    const char* name;
+    uint64_t bytes;
+} kTables[] = {
+    {"nodes", 4 * sizeof(file::Node)}, {"materials", 3 * sizeof(Material)}, {"textures", 2 * sizeof(Texture)},
+    {"samplers", 2 * sizeof(Texture)}, {"images", 6 * sizeof(Image)},       {"meshes", 3 * sizeof(file::Mesh)},
+    {"animations", 4 * sizeof(Clip)},
+};
 
-size_t countOf(const json& object, const char* key) {
-    const json* list = member(object, key);
-    return list == nullptr ? 0 : list->size();
-}
-
-/// tinygltf drops what it cannot parse; after the checks nothing should have been.
-bool isComplete(const supple_tinygltf::Model& model, const json& root) {
-    bool complete = model.accessors.size() == table(root, "accessors").size() &&
-                    model.bufferViews.size() == table(root, "bufferViews").size() &&
-                    model.nodes.size() == table(root, "nodes").size() &&
-                    model.skins.size() == table(root, "skins").size() &&
-                    model.meshes.size() == table(root, "meshes").size() &&
-                    model.animations.size() == table(root, "animations").size();
-    for (size_t i = 0; complete && i < model.meshes.size(); ++i) {
-        complete = model.meshes[i].primitives.size() == countOf(root["meshes"][i], "primitives");
+/// Elements of a few bytes become structs of hundreds.
+void takeTables(const Json& root, MemoryBudget& memory) {
+    for (const auto& [name, bytes] : kTables) {
+        memory.take(table(root, name).size(), bytes, name);
     }
-    for (size_t i = 0; complete && i < model.animations.size(); ++i) {
-        const json& animation = root["animations"][i];
-        complete = model.animations[i].channels.size() == countOf(animation, "channels") &&
-                   model.animations[i].samplers.size() == countOf(animation, "samplers");
-    }
-    return complete;
-}
-
-/// Makes the model of a checked document, and leaves in `root` what it is made of.
-///
-/// This is the one place where JSON is parsed a second time, because tinygltf reads text alone: it takes no parsed
-/// document, gives none out, and its functions for single tables (ParseMesh() and others) are private to its header and
-/// change from version to version. The checks cannot wait for it either: tinygltf drops what it cannot parse, narrows
-/// integers silently, and does not bound memory. So the checked document is written out again, without all that the
-/// model is not asked for, and tinygltf parses that.
-supple_tinygltf::Model toModel(json& root) {
-    for (const char* key : {"buffers", "images", "samplers", "textures", "materials", "cameras", "extensions"}) {
-        root.erase(key);
-    }
-    if (const auto accessors = root.find("accessors"); accessors != root.end()) {
-        for (json& accessor : *accessors) {
-            accessor.erase("min");
-            accessor.erase("max");
-        }
-    }
-    stripUnread(root);
-    const std::string text = root.dump();
-    if (text.size() > std::numeric_limits<unsigned int>::max()) {
-        refuse("JSON", "larger than 4 GiB", ErrorCode::limit);
-    }
-
-    supple_tinygltf::Model model;
-    supple_tinygltf::TinyGLTF parser;
-    std::string error;
-    std::string warning;
-    const bool parsed =
-        parser.LoadASCIIFromString(&model, &error, &warning, text.c_str(), static_cast<unsigned int>(text.size()), "");
-    if (!parsed || !isComplete(model, root)) {
-        refuse("JSON", error.empty() ? "not understood" : error.substr(0, 200));
-    }
-    return model;
 }
 
 } // namespace
 
 bool isUsed(const Document& document, const char* extension) {
-    const auto& used = document.model.extensionsUsed;
-    return std::find(used.begin(), used.end(), extension) != used.end() || isRequired(document, extension);
+    return document.model.extensionsUsed.contains(extension) || isRequired(document, extension);
 }
 
 bool isRequired(const Document& document, const char* extension) {
-    const auto& required = document.model.extensionsRequired;
-    return std::find(required.begin(), required.end(), extension) != required.end();
+    return document.model.extensionsRequired.contains(extension);
 }
 
-Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, Content content) {
+Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
+                      Content content) {
     const Container container = openContainer(bytes);
-    json root = parseJson(container.text);
-    checkHeader(root);
-
     Document document;
-    loadBuffers(table(root, "buffers"), findPlaceholders(root), container, readFile, document);
+    document.memory = std::make_unique<MemoryBudget>(memoryLimit);
+    document.memory->addFile(bytes.size());
+    document.json = parseJson(container.text, *document.memory);
+    const Json& root = document.json.root();
+    checkHeader(root);
+    Resources resources(readFile, document);
+    loadBuffers(table(root, "buffers"), findPlaceholders(root), container, resources, document);
     decodeMeshopt(root, document);
-    checkStructure(root, document.buffers);
+    checkStructure(root, document.buffers, document.decodedInto);
+    takeTables(root, *document.memory);
+    document.model = file::toModel(root, document.decodedInto);
     if (content == Content::all) {
-        loadImages(table(root, "images"), table(root, "bufferViews"), readFile, document);
+        loadImages(table(root, "images"), resources, document);
         document.textures = readTextures(root, document.warnings);
         nameUnreadLook(root, document.warnings);
         document.materials = table(root, "materials");
     }
     document.meshes = table(root, "meshes");
-    for (const json& animation : table(root, "animations")) {
-        const json* extras = member(animation, "extras");
-        document.animationExtras.push_back(extras != nullptr ? *extras : json());
-    }
-    document.model = toModel(root);
     return document;
 }
 

@@ -4,10 +4,12 @@
 
 #include "cage/character.h"
 #include "cage/gltf/json.h"
+#include "cage/gltf/model.h"
 #include "cage/gltf/reader.h"
-#include "cage/gltf/tinygltf.h"
+#include "cage/memory_budget.h"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,19 +23,17 @@ enum class Content {
 };
 
 struct Document {
-    /// Everything but buffers, images, textures, materials, cameras, bounds of accessors and top-level extensions:
-    /// these tinygltf never sees. Every index is in range, and every array of numbers has its right length and finite
-    /// members.
-    supple_tinygltf::Model model;
-    json meshes;    ///< as the file has them: with the extensions and extras that the model lacks, unchecked
-    json materials; ///< likewise
-    std::vector<json> animationExtras;               ///< by animation; null where absent
+    JsonTree json;          ///< owns what the others refer to
+    file::Model model;      ///< all but buffers, images, textures and materials
+    Json meshes, materials; ///< as the file has them: with the extensions and extras that the model lacks, unchecked
     std::vector<Texture> textures;                   ///< see readTextures()
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
-    std::vector<Image> images;                       ///< same indices as the file's; bytes empty where missing
+    std::vector<int> decodedInto; ///< per bufferView: the buffer behind the file's own that it is decoded into, or -1
+    std::vector<Image> images;    ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;
 
-    std::vector<std::vector<std::byte>> owned; ///< behind the buffers that are not in the caller's bytes
+    std::vector<SharedBytes> owned; ///< behind the buffers that are not in the caller's bytes
+    std::unique_ptr<MemoryBudget> memory;
 };
 
 /// Whether the file names an extension among those it uses or requires.
@@ -41,8 +41,8 @@ struct Document {
 /// Whether the file names an extension among those it requires.
 [[nodiscard]] bool isRequired(const Document& document, const char* extension);
 
-/// Throws Refusal. The document refers to `bytes`.
-[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile,
+/// Throws Refusal. The document refers to `bytes`. `memoryLimit`: as GltfOptions has it.
+[[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
                                     Content content = Content::all);
 
 } // namespace supple::cage::gltf

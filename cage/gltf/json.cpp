@@ -9,7 +9,10 @@
 namespace supple::cage::gltf {
 namespace {
 
-void checkNesting(std::string_view text) {
+/// Looks through the text once: refuses deep nesting, and counts what the tree will hold, which cannot be more than
+/// the marks between values.
+JsonCount countValues(std::string_view text) {
+    JsonCount count{1, 0, 0};
     int depth = 0;
     bool inString = false;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -20,9 +23,15 @@ void checkNesting(std::string_view text) {
             } else if (c == '"') {
                 inString = false;
             }
+            ++count.bytes; // no escape decodes to more bytes than it is counted here
         } else if (c == '"') {
             inString = true;
+        } else if (c == ',') {
+            ++count.items;
+        } else if (c == ':') {
+            ++count.members;
         } else if (c == '{' || c == '[') {
+            ++count.items;
             if (++depth > kMaxJsonDepth) {
                 refuse("JSON", "nested deeper than " + std::to_string(kMaxJsonDepth) + " at byte " + std::to_string(i),
                        ErrorCode::limit);
@@ -31,78 +40,71 @@ void checkNesting(std::string_view text) {
             --depth;
         }
     }
+    return count;
 }
 
 } // namespace
 
-json parseJson(std::string_view text) {
-    checkNesting(text);
-    try {
-        json root = json::parse(text.begin(), text.end());
-        if (!root.is_object()) {
-            refuse("JSON", "not an object");
-        }
-        return root;
-    } catch (const json::exception& error) {
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." -> from "parse error" on
-        const std::string what = error.what();
-        const size_t end = what.find("] ");
-        std::string reason = end == std::string::npos ? what : what.substr(end + 2);
-        if (reason.size() > 200) {
-            reason = reason.substr(0, 200) + "...";
-        }
-        refuse("JSON", reason);
+JsonTree parseJson(std::string_view text, MemoryBudget& memory) {
+    if (text.size() > std::numeric_limits<uint32_t>::max()) {
+        refuse("JSON", "larger than 4 GiB", ErrorCode::limit);
     }
+    const JsonCount count = countValues(text);
+    memory.take(count.treeBytes(), "JSON");
+    JsonTree tree(text, count);
+    if (!tree.root().isObject()) {
+        refuse("JSON", "not an object");
+    }
+    return tree;
 }
 
-const json* member(const json& object, const char* key) {
-    const auto it = object.find(key);
-    return it == object.end() || it->is_null() ? nullptr : &*it;
+const Json* member(const Json& object, const char* key) {
+    const Json* value = object.find(key);
+    return value == nullptr || value->isNull() ? nullptr : value;
 }
 
-const json* objectMember(const json& object, const char* key, const std::string& element) {
-    const json* value = member(object, key);
-    if (value != nullptr && !value->is_object()) {
+const Json* objectMember(const Json& object, const char* key, const std::string& element) {
+    const Json* value = member(object, key);
+    if (value != nullptr && !value->isObject()) {
         refuse(element + " " + key, "not an object");
     }
     return value;
 }
 
-const json* arrayMember(const json& object, const char* key, const std::string& element) {
-    const json* value = member(object, key);
-    if (value != nullptr && !value->is_array()) {
+const Json* arrayMember(const Json& object, const char* key, const std::string& element) {
+    const Json* value = member(object, key);
+    if (value != nullptr && !value->isArray()) {
         refuse(element.empty() ? key : element + " " + key, "not an array");
     }
     return value;
 }
 
-const json& table(const json& root, const char* key) {
-    static const json none = json::array();
-    const json* value = arrayMember(root, key, "");
+Json table(const Json& root, const char* key) {
+    const Json* value = arrayMember(root, key, "");
     if (value == nullptr) {
-        return none;
+        return {};
     }
     for (size_t i = 0; i < value->size(); ++i) {
-        if (!(*value)[i].is_object()) {
+        if (!(*value)[i].isObject()) {
             refuse(at(key, i), "not an object");
         }
     }
     return *value;
 }
 
-uint64_t toUnsigned(const json& value, const std::string& element) {
-    if (!value.is_number_integer()) {
+uint64_t toUnsigned(const Json& value, const std::string& element) {
+    if (!value.isInteger()) {
         refuse(element, "not an integer");
     }
-    if (!value.is_number_unsigned()) {
-        refuse(element, std::to_string(value.get<int64_t>()) + " is negative");
+    if (!value.isUnsigned()) {
+        refuse(element, std::to_string(value.negativeInteger()) + " is negative");
     }
-    return value.get<uint64_t>();
+    return value.unsignedInteger();
 }
 
-uint64_t unsignedMember(const json& object, const char* key, const std::string& element,
+uint64_t unsignedMember(const Json& object, const char* key, const std::string& element,
                         std::optional<uint64_t> fallback) {
-    const json* value = member(object, key);
+    const Json* value = member(object, key);
     if (value == nullptr) {
         if (!fallback) {
             refuse(element, std::string(key) + " is missing");
@@ -112,16 +114,16 @@ uint64_t unsignedMember(const json& object, const char* key, const std::string& 
     return toUnsigned(*value, element + " " + key);
 }
 
-void checkIndex(const json& value, const std::string& element, const char* what, size_t count) {
+void checkIndex(const Json& value, const std::string& element, const char* what, size_t count) {
     const uint64_t index = toUnsigned(value, element);
     if (index >= count) {
         refuse(element, at(what, index) + " is out of range: the file has " + std::to_string(count));
     }
 }
 
-void checkIndexMember(const json& object, const char* key, const std::string& element, const char* what, size_t count,
+void checkIndexMember(const Json& object, const char* key, const std::string& element, const char* what, size_t count,
                       bool required) {
-    const json* value = member(object, key);
+    const Json* value = member(object, key);
     if (value != nullptr) {
         checkIndex(*value, element + " " + key, what, count);
     } else if (required) {
@@ -129,8 +131,8 @@ void checkIndexMember(const json& object, const char* key, const std::string& el
     }
 }
 
-void checkIndexArray(const json& object, const char* key, const std::string& element, const char* what, size_t count) {
-    const json* values = arrayMember(object, key, element);
+void checkIndexArray(const Json& object, const char* key, const std::string& element, const char* what, size_t count) {
+    const Json* values = arrayMember(object, key, element);
     if (values == nullptr) {
         return;
     }
@@ -139,13 +141,13 @@ void checkIndexArray(const json& object, const char* key, const std::string& ele
     }
 }
 
-bool isFiniteFloat(const json& number) {
+bool isFiniteFloat(const Json& number) {
     // Written so that a NaN fails too.
-    return std::abs(number.get<double>()) <= std::numeric_limits<float>::max();
+    return std::abs(number.number()) <= std::numeric_limits<float>::max();
 }
 
-void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length) {
-    const json* values = arrayMember(object, key, element);
+void checkNumbers(const Json& object, const char* key, const std::string& element, std::optional<size_t> length) {
+    const Json* values = arrayMember(object, key, element);
     if (values == nullptr) {
         return;
     }
@@ -153,8 +155,8 @@ void checkNumbers(const json& object, const char* key, const std::string& elemen
     if (length && values->size() != *length) {
         refuse(place, std::to_string(values->size()) + " numbers instead of " + std::to_string(*length));
     }
-    for (const json& value : *values) {
-        if (!value.is_number()) {
+    for (const Json& value : *values) {
+        if (!value.isNumber()) {
             refuse(place, "not all numbers");
         }
         if (!isFiniteFloat(value)) {
@@ -163,22 +165,22 @@ void checkNumbers(const json& object, const char* key, const std::string& elemen
     }
 }
 
-void checkString(const json& object, const char* key, const std::string& element) {
-    const json* value = member(object, key);
-    if (value != nullptr && !value->is_string()) {
+void checkString(const Json& object, const char* key, const std::string& element) {
+    const Json* value = member(object, key);
+    if (value != nullptr && !value->isString()) {
         refuse(element + " " + key, "not a string");
     }
 }
 
-std::string stringMember(const json& object, const char* key, const std::string& element) {
+std::string stringMember(const Json& object, const char* key, const std::string& element) {
     checkString(object, key, element);
-    const json* value = member(object, key);
-    return value == nullptr ? std::string() : value->get<std::string>();
+    const Json* value = member(object, key);
+    return value == nullptr ? std::string() : value->string();
 }
 
-bool hasExtension(const json& object, const char* name) {
-    const json* extensions = member(object, "extensions");
-    return extensions != nullptr && extensions->is_object() && extensions->contains(name);
+bool hasExtension(const Json& object, const char* name) {
+    const Json* extensions = member(object, "extensions");
+    return extensions != nullptr && extensions->isObject() && extensions->contains(name);
 }
 
 } // namespace supple::cage::gltf

@@ -2,61 +2,51 @@
 // cage/gltf/.
 #pragma once
 
+#include "cage/gltf/json_tree.h"
+#include "cage/memory_budget.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace supple::cage::gltf {
 
-using nlohmann::json;
-
 /// JSON nested deeper than this is refused before it is parsed: parsers and writers recurse.
 inline constexpr int kMaxJsonDepth = 64;
 
 // All of these throw Refusal. A member that is null counts as absent; absent members pass the checks unless required.
 
-/// The file's JSON object.
-[[nodiscard]] json parseJson(std::string_view text);
+/// The file's JSON object, its root.
+[[nodiscard]] JsonTree parseJson(std::string_view text, MemoryBudget& memory);
 
 /// Null where absent.
-[[nodiscard]] const json* member(const json& object, const char* key);
-const json* objectMember(const json& object, const char* key, const std::string& element);
-[[nodiscard]] const json* arrayMember(const json& object, const char* key, const std::string& element);
+[[nodiscard]] const Json* member(const Json& object, const char* key);
+const Json* objectMember(const Json& object, const char* key, const std::string& element);
+[[nodiscard]] const Json* arrayMember(const Json& object, const char* key, const std::string& element);
 
 /// A top-level array of objects, or an empty array where the file has none.
-[[nodiscard]] const json& table(const json& root, const char* key);
+[[nodiscard]] Json table(const Json& root, const char* key);
 
-[[nodiscard]] uint64_t toUnsigned(const json& value, const std::string& element);
+[[nodiscard]] uint64_t toUnsigned(const Json& value, const std::string& element);
 /// Without a fallback the member is required.
-uint64_t unsignedMember(const json& object, const char* key, const std::string& element,
+uint64_t unsignedMember(const Json& object, const char* key, const std::string& element,
                         std::optional<uint64_t> fallback);
 /// Empty where absent.
-[[nodiscard]] std::string stringMember(const json& object, const char* key, const std::string& element);
-[[nodiscard]] bool hasExtension(const json& object, const char* name);
+[[nodiscard]] std::string stringMember(const Json& object, const char* key, const std::string& element);
+[[nodiscard]] bool hasExtension(const Json& object, const char* name);
 
 /// An index into the file's `count` elements called `what`.
-void checkIndex(const json& value, const std::string& element, const char* what, size_t count);
-void checkIndexMember(const json& object, const char* key, const std::string& element, const char* what, size_t count,
+void checkIndex(const Json& value, const std::string& element, const char* what, size_t count);
+void checkIndexMember(const Json& object, const char* key, const std::string& element, const char* what, size_t count,
                       bool required = false);
-void checkIndexArray(const json& object, const char* key, const std::string& element, const char* what, size_t count);
+void checkIndexArray(const Json& object, const char* key, const std::string& element, const char* what, size_t count);
 
 /// Whether a number is finite as the float it becomes.
-[[nodiscard]] bool isFiniteFloat(const json& number);
+[[nodiscard]] bool isFiniteFloat(const Json& number);
 /// An array of finite numbers, `length` of them where it is given.
-void checkNumbers(const json& object, const char* key, const std::string& element, std::optional<size_t> length);
-void checkString(const json& object, const char* key, const std::string& element);
-
-/// An array of the vector's components.
-template <class Vec>
-[[nodiscard]] json numbers(const Vec& vector) {
-    json list = json::array();
-    for (int k = 0; k < vector.length(); ++k) {
-        list.push_back(static_cast<double>(vector[k]));
-    }
-    return list;
-}
+void checkNumbers(const Json& object, const char* key, const std::string& element, std::optional<size_t> length);
+void checkString(const Json& object, const char* key, const std::string& element);
 
 } // namespace supple::cage::gltf

@@ -16,14 +16,14 @@ public:
     }
 
     /// Of a part of the file that has to do with nothing but looks.
-    void addAllOf(const json& object, const std::string& element) {
-        const json* extensions = object.is_object() ? member(object, "extensions") : nullptr;
-        if (extensions == nullptr || !extensions->is_object()) {
+    void addAllOf(const Json& object, const std::string& element) {
+        const Json* extensions = object.isObject() ? member(object, "extensions") : nullptr;
+        if (extensions == nullptr || !extensions->isObject()) {
             return;
         }
-        for (const auto& [name, value] : extensions->items()) {
+        for (const auto& [name, value] : extensions->members()) {
             if (std::find(kLookExtensions.begin(), kLookExtensions.end(), name) == kLookExtensions.end()) {
-                add(name, element);
+                add(std::string(name), element);
             }
         }
     }
@@ -44,40 +44,40 @@ private:
     std::map<std::string, Place> met_;
 };
 
-void addMaterial(const json& material, const std::string& element, UnreadExtensions& unread) {
+void addMaterial(const Json& material, const std::string& element, UnreadExtensions& unread) {
     unread.addAllOf(material, element);
-    const auto addTextures = [&](const json& object) {
+    const auto addTextures = [&](const Json& object) {
         for (const char* key :
              {"baseColorTexture", "metallicRoughnessTexture", "normalTexture", "occlusionTexture", "emissiveTexture"}) {
-            if (const json* info = member(object, key)) {
+            if (const Json* info = member(object, key)) {
                 unread.addAllOf(*info, within(element, key));
             }
         }
     };
     addTextures(material);
-    const json* pbr = member(material, "pbrMetallicRoughness");
-    if (pbr != nullptr && pbr->is_object()) {
+    const Json* pbr = member(material, "pbrMetallicRoughness");
+    if (pbr != nullptr && pbr->isObject()) {
         addTextures(*pbr);
     }
 }
 
 } // namespace
 
-void nameUnreadLook(const json& root, Warnings& warnings) {
+void nameUnreadLook(const Json& root, Warnings& warnings) {
     UnreadExtensions unread;
-    const json& materials = table(root, "materials");
+    const Json materials = table(root, "materials");
     for (size_t i = 0; i < materials.size(); ++i) {
         addMaterial(materials[i], at("material", i), unread);
     }
     for (const auto& [key, what] : {std::pair("textures", "texture"), {"samplers", "sampler"}}) {
-        const json& list = table(root, key);
+        const Json list = table(root, key);
         for (size_t i = 0; i < list.size(); ++i) {
             unread.addAllOf(list[i], at(what, i));
         }
     }
-    const json& meshes = table(root, "meshes");
+    const Json meshes = table(root, "meshes");
     for (size_t i = 0; i < meshes.size(); ++i) {
-        for (const json& primitive : meshes[i].at("primitives")) {
+        for (const Json& primitive : meshes[i].at("primitives")) {
             if (hasExtension(primitive, "KHR_materials_variants")) {
                 unread.add("KHR_materials_variants", at("mesh", i));
             }

@@ -16,6 +16,6 @@ inline constexpr std::array<std::string_view, 5> kLookExtensions{
 
 /// Names every other one that a material, a textureInfo, a texture or a sampler has, and KHR_materials_variants: each
 /// once, where it is met first. The document must be checked.
-void nameUnreadLook(const json& root, Warnings& warnings);
+void nameUnreadLook(const Json& root, Warnings& warnings);
 
 } // namespace supple::cage::gltf

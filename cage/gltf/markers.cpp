@@ -13,19 +13,19 @@ namespace {
 constexpr double kTimeRounding = 1e-6;
 
 /// Why an entry is no marker, or nothing.
-std::optional<std::string> readMarker(const json& entry, double first, double duration, Marker& marker) {
-    if (!entry.is_object()) {
+std::optional<std::string> readMarker(const Json& entry, double first, double duration, Marker& marker) {
+    if (!entry.isObject()) {
         return "not an object";
     }
-    const json* name = member(entry, "name");
-    const json* time = member(entry, "time");
-    if (name == nullptr || !name->is_string()) {
+    const Json* name = member(entry, "name");
+    const Json* time = member(entry, "time");
+    if (name == nullptr || !name->isString()) {
         return "name is not a string";
     }
-    if (time == nullptr || !time->is_number() || !isFiniteFloat(*time)) {
+    if (time == nullptr || !time->isNumber() || !isFiniteFloat(*time)) {
         return "time is not a finite number";
     }
-    const double given = time->get<double>();
+    const double given = time->number();
     const double slack = kTimeRounding * std::max({std::abs(given), std::abs(first), duration});
     if (given - first < -slack) {
         return "time " + shortNumber(given) + " is before the clip's beginning";
@@ -33,20 +33,20 @@ std::optional<std::string> readMarker(const json& entry, double first, double du
     if (given - first > duration + slack) {
         return "time " + shortNumber(given) + " is behind the clip's end, " + shortNumber(first + duration) + " s";
     }
-    marker = {name->get<std::string>(), std::clamp(given - first, 0.0, duration)};
+    marker = {name->string(), std::clamp(given - first, 0.0, duration)};
     return std::nullopt;
 }
 
 } // namespace
 
-std::vector<Marker> readMarkers(const json& extras, const std::string& element, double first, double duration,
+std::vector<Marker> readMarkers(const Json& extras, const std::string& element, double first, double duration,
                                 Warnings& warnings) {
-    const json* entries = extras.is_object() ? member(extras, "markers") : nullptr;
+    const Json* entries = extras.isObject() ? member(extras, "markers") : nullptr;
     if (entries == nullptr) {
         return {};
     }
     const std::string list = element + " extras markers";
-    if (!entries->is_array()) {
+    if (!entries->isArray()) {
         warn(warnings, list, "not an array; ignored");
         return {};
     }

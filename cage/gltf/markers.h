@@ -13,7 +13,7 @@ namespace supple::cage::gltf {
 /// The markers that the extras of an animation list, by rising time; equal times keep their order. `first`: the time of
 /// the file at which the clip begins. Entries that are malformed or lie outside the clip are left out, with one
 /// warning.
-[[nodiscard]] std::vector<Marker> readMarkers(const json& extras, const std::string& element, double first,
+[[nodiscard]] std::vector<Marker> readMarkers(const Json& extras, const std::string& element, double first,
                                               double duration, Warnings& warnings);
 
 } // namespace supple::cage::gltf

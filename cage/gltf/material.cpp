@@ -36,7 +36,7 @@ public:
         material_.name = stringMember(from_, "name", element_);
         material_.doubleSided = readFlag("doubleSided");
         readAlpha();
-        if (const json* pbr = objectMember(from_, "pbrMetallicRoughness", element_)) {
+        if (const Json* pbr = objectMember(from_, "pbrMetallicRoughness", element_)) {
             readColor(*pbr, "baseColorFactor", material_.baseColorFactor);
             material_.baseColorTexture = readTexture(*pbr, "baseColorTexture");
             material_.metallicFactor = readNumber(*pbr, "metallicFactor", 1.0f, {});
@@ -44,11 +44,11 @@ public:
             material_.metallicRoughnessTexture = readTexture(*pbr, "metallicRoughnessTexture");
         }
         material_.normalTexture = readTexture(from_, "normalTexture");
-        if (const json* normal = member(from_, "normalTexture")) {
+        if (const Json* normal = member(from_, "normalTexture")) {
             material_.normalScale = readNumber(*normal, "scale", 1.0f, {-kUnbounded, kUnbounded}, " normalTexture");
         }
         material_.occlusionTexture = readTexture(from_, "occlusionTexture");
-        if (const json* occlusion = member(from_, "occlusionTexture")) {
+        if (const Json* occlusion = member(from_, "occlusionTexture")) {
             material_.occlusionStrength = readNumber(*occlusion, "strength", 1.0f, {}, " occlusionTexture");
         }
         readEmission();
@@ -76,45 +76,44 @@ private:
         if (!hasExtension(from_, kName)) {
             return;
         }
-        if (const json* extension = objectMember(from_.at("extensions"), kName, element_)) {
+        if (const Json* extension = objectMember(from_.at("extensions"), kName, element_)) {
             material_.emissiveStrength = readNumber(*extension, "emissiveStrength", 1.0f, {0.0f, kUnbounded});
         }
     }
 
     bool readFlag(const char* key) {
-        const json* value = member(from_, key);
-        if (value != nullptr && !value->is_boolean()) {
+        const Json* value = member(from_, key);
+        if (value != nullptr && !value->isBoolean()) {
             refuse(within(element_, key), "not a boolean");
         }
-        return value != nullptr && value->get<bool>();
+        return value != nullptr && value->boolean();
     }
 
-    float readNumber(const json& object, const char* key, float fallback, Range range, const char* part = "") {
-        const json* value = member(object, key);
+    float readNumber(const Json& object, const char* key, float fallback, Range range, const char* part = "") {
+        const Json* value = member(object, key);
         if (value == nullptr) {
             return fallback;
         }
         const std::string place = within(element_ + part, key);
-        if (!value->is_number() || !isFiniteFloat(*value)) {
+        if (!value->isNumber() || !isFiniteFloat(*value)) {
             refuse(place, "not a finite number");
         }
-        return clamped(value->get<float>(), range, place, warnings_);
+        return clamped(value->real(), range, place, warnings_);
     }
 
     template <class Color>
-    void readColor(const json& object, const char* key, Color& color) {
+    void readColor(const Json& object, const char* key, Color& color) {
         checkNumbers(object, key, element_, static_cast<size_t>(Color::length()));
-        if (const json* values = member(object, key)) {
+        if (const Json* values = member(object, key)) {
             for (int k = 0; k < Color::length(); ++k) {
                 const auto channel = static_cast<size_t>(k);
-                color[k] =
-                    clamped((*values)[channel].get<float>(), {}, item(within(element_, key), channel), warnings_);
+                color[k] = clamped((*values)[channel].real(), {}, item(within(element_, key), channel), warnings_);
             }
         }
     }
 
-    Texture readTexture(const json& object, const char* key) {
-        const json* info = objectMember(object, key, element_);
+    Texture readTexture(const Json& object, const char* key) {
+        const Json* info = objectMember(object, key, element_);
         if (info == nullptr) {
             return {};
         }
@@ -126,8 +125,7 @@ private:
             return {};
         }
         if (texture.image == kNone && texture.alternateImage == kNone) {
-            warn(warnings_, at("texture", info->at("index").get<size_t>()),
-                 "no image in a format that is read; left out");
+            warn(warnings_, at("texture", info->at("index").index()), "no image in a format that is read; left out");
             return {};
         }
         // An image without bytes has a warning of its own.
@@ -142,7 +140,7 @@ private:
     }
 
     const Document& document_;
-    const json& from_;
+    const Json& from_;
     const std::string element_;
     Warnings& warnings_;
     Material material_;

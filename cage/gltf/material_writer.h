@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cage/character.h"
-#include "cage/gltf/json.h"
 #include "cage/gltf/packer.h"
+#include "cage/gltf/written_json.h"
 #include "cage/message.h"
 
 #include <span>

@@ -17,11 +17,15 @@
 namespace supple::cage::gltf {
 namespace {
 
-using supple_tinygltf::Model;
-using supple_tinygltf::Primitive;
+using file::Model;
+using file::Primitive;
 
 // Accessors may be shared; see kMaxVertices.
 constexpr uint64_t kMaxAttributeFloats = 1u << 27;
+
+// What a cage takes while it is made, beside its attributes: measured, and rounded up.
+constexpr uint64_t kVertexBytes = 128;
+constexpr uint64_t kCornerBytes = 160;
 
 class MeshReader {
 public:
@@ -42,11 +46,11 @@ public:
             if (hasTriangles(from.mode)) {
                 MeshPrimitive& primitive = out_.primitives.emplace_back();
                 primitive.element = element;
-                primitive.extension = findCageExtension(document_, primitiveJson(k), element, warnings_);
+                primitive.extension = findCageExtension(document_, from.json, element, warnings_);
                 numbers.push_back(k);
                 continue;
             }
-            const bool polygons = from.extensions.count("EXT_mesh_polygon") != 0;
+            const bool polygons = hasExtension(from.json, "EXT_mesh_polygon");
             const std::string reason =
                 std::string(modeName(from.mode)) + " instead of TRIANGLES" +
                 (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
@@ -61,8 +65,7 @@ public:
         findCageNumbers(mesh, numbers);
         Refusals refusals;
         for (size_t i = 0; i < numbers.size(); ++i) {
-            refusals.gather(
-                [&] { readPrimitive(mesh.primitives[numbers[i]], primitiveJson(numbers[i]), out_.primitives[i]); });
+            refusals.gather([&] { readPrimitive(mesh.primitives[numbers[i]], out_.primitives[i]); });
         }
         refusals.raise();
         out_.weights.report(out_.element, warnings_);
@@ -73,10 +76,8 @@ private:
     /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
     using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
 
-    [[nodiscard]] const json& primitiveJson(size_t k) const { return document_.meshes[out_.index].at("primitives")[k]; }
-
     /// Which accessors number the cage's vertices: all primitives' or none.
-    void findCageNumbers(const supple_tinygltf::Mesh& mesh, const std::vector<size_t>& numbers) {
+    void findCageNumbers(const file::Mesh& mesh, const std::vector<size_t>& numbers) {
         const auto find = [&](WeldSource source, auto accessorOf) {
             cageNumbers_.clear();
             out_.numberSource = source;
@@ -109,7 +110,7 @@ private:
         }
     }
 
-    void readPrimitive(const Primitive& from, const json& fromJson, MeshPrimitive& primitive) {
+    void readPrimitive(const Primitive& from, MeshPrimitive& primitive) {
         const std::string& element = primitive.element;
         primitive.material = from.material;
 
@@ -117,7 +118,7 @@ private:
         if (position == from.attributes.end()) {
             refuse(element, "no POSITION");
         }
-        if (from.extensions.count("KHR_draco_mesh_compression") != 0 &&
+        if (hasExtension(from.json, "KHR_draco_mesh_compression") &&
             model_.accessors[static_cast<size_t>(position->second)].bufferView < 0) {
             refuse(element, "compressed with KHR_draco_mesh_compression; export the mesh uncompressed");
         }
@@ -133,7 +134,9 @@ private:
         const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
         primitive.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
+        takeCorners(from, primitive, count);
         if (isNew) {
+            document_.memory->take(count, kVertexBytes, element);
             readVertices(position->second, sets, count, element);
             out_.morphs.append(document_, targets, count, element);
             if (cageNumbers >= 0) {
@@ -144,7 +147,7 @@ private:
         primitive.vertexCount = static_cast<uint32_t>(count);
 
         primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
-        primitive.faces = readPolygons(document_, fromJson, from.mode, primitive.extension, primitive.triangles,
+        primitive.faces = readPolygons(document_, from.json, from.mode, primitive.extension, primitive.triangles,
                                        primitive.vertexCount, element, warnings_);
         for (std::vector<uint32_t>* vertices : {&primitive.triangles, &primitive.faces.polygons.vertices}) {
             for (uint32_t& vertex : *vertices) {
@@ -159,19 +162,28 @@ private:
         readTrimTiles(document_, from, materials_, primitive);
     }
 
+    /// Triangles and polygons; strips and fans have three corners an index.
+    void takeCorners(const Primitive& from, const MeshPrimitive& primitive, size_t vertexCount) {
+        uint64_t corners = from.indices < 0 ? vertexCount : accessorCount(document_, from.indices);
+        corners *= from.mode == file::kTriangles ? 1 : 3;
+        if (primitive.extension && primitive.extension->faceVertexIndices >= 0) {
+            corners += accessorCount(document_, primitive.extension->faceVertexIndices);
+        }
+        document_.memory->take(corners, kCornerBytes, primitive.element);
+    }
+
     /// Blender's exporter has no integer attributes: its numbers are floats.
     void readCageNumbers(int accessor, size_t count, const std::string& element) {
         const bool ofExtension = out_.numberSource == WeldSource::cageExtension;
         const std::string name = element + (ofExtension ? " SUPPLE_mesh_cage cageVertices" : " _CAGE_VERTEX");
         checkVertexCount(document_, accessor, count, name);
-        const bool isFloat =
-            model_.accessors[static_cast<size_t>(accessor)].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool isFloat = model_.accessors[static_cast<size_t>(accessor)].componentType == file::kFloat;
         if (ofExtension || !isFloat) {
-            const auto values = readIntegers(document_, accessor, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
+            const auto values = readIntegers(document_, accessor, file::kScalar, kU8 | kU16 | kU32, name);
             out_.cageNumbers.insert(out_.cageNumbers.end(), values.begin(), values.end());
             return;
         }
-        const auto values = readFloats(document_, accessor, TINYGLTF_TYPE_SCALAR, kFloat, name);
+        const auto values = readFloats(document_, accessor, file::kScalar, kFloat, name);
         for (size_t v = 0; v < values.size(); ++v) {
             // Beyond 2^24 not every number is a float; written so that a NaN is refused too.
             if (!(values[v] >= 0.0f && values[v] <= 16777216.0f) || std::floor(values[v]) != values[v]) {
@@ -186,14 +198,13 @@ private:
         if (out_.positions.size() + count > kMaxVertices) {
             refuse(element, "more than " + std::to_string(kMaxVertices) + " vertices", ErrorCode::limit);
         }
-        const auto values = readFloats(document_, position, TINYGLTF_TYPE_VEC3,
-                                       quantized_ ? kFloat | kQuantized : kFloat, element + " POSITION");
+        const auto values = readFloats(document_, position, file::kVec3, quantized_ ? kFloat | kQuantized : kFloat,
+                                       element + " POSITION");
         for (size_t v = 0; v < count; ++v) {
-            const glm::vec3 p(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                refuse(item(element + " POSITION", v), "not finite");
+            if (const char* fault = faultOfCoordinates(&values[3 * v], 3)) {
+                refuse(item(element + " POSITION", v), fault);
             }
-            out_.positions.push_back(p);
+            out_.positions.emplace_back(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
         }
         if (sets.joints.empty()) {
             out_.weights.appendUnskinned(count);
@@ -237,8 +248,8 @@ private:
             return values;
         };
         constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
-        primitive.uvs = read("TEXCOORD_0", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
-        primitive.uvs1 = read("TEXCOORD_1", TINYGLTF_TYPE_VEC2, quantized_ ? kCore | kQuantized : kCore);
+        primitive.uvs = read("TEXCOORD_0", file::kVec2, quantized_ ? kCore | kQuantized : kCore);
+        primitive.uvs1 = read("TEXCOORD_1", file::kVec2, quantized_ ? kCore | kQuantized : kCore);
         primitive.normals = readNormals(document_, from, primitive.vertexCount, element, warnings_);
         countAttributeFloats(3 * primitive.normals.size(), element + " NORMAL");
         primitive.tangents = readTangents(document_, from, primitive.vertexCount, element, warnings_);
@@ -250,11 +261,11 @@ private:
         if (color == from.attributes.end()) {
             return;
         }
-        if (model_.accessors[static_cast<size_t>(color->second)].type != TINYGLTF_TYPE_VEC3) {
-            primitive.colors = read("COLOR_0", TINYGLTF_TYPE_VEC4, kCore);
+        if (model_.accessors[static_cast<size_t>(color->second)].type != file::kVec3) {
+            primitive.colors = read("COLOR_0", file::kVec4, kCore);
             return;
         }
-        const auto rgb = read("COLOR_0", TINYGLTF_TYPE_VEC3, kCore);
+        const auto rgb = read("COLOR_0", file::kVec3, kCore);
         primitive.colors.resize(rgb.size() / 3 * 4, 1.0f);
         for (size_t i = 0; i < rgb.size(); ++i) {
             primitive.colors[i / 3 * 4 + i % 3] = rgb[i];
@@ -278,13 +289,13 @@ private:
 
 } // namespace
 
-std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh) {
+std::string nameOfNoTriangles(const file::Mesh& mesh) {
     const auto any = [&](int first, int last) {
         return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
                            [&](const Primitive& p) { return p.mode >= first && p.mode <= last; });
     };
-    const bool points = any(TINYGLTF_MODE_POINTS, TINYGLTF_MODE_POINTS);
-    const bool lines = any(TINYGLTF_MODE_LINE, TINYGLTF_MODE_LINE_STRIP);
+    const bool points = any(file::kPoints, file::kPoints);
+    const bool lines = any(file::kLines, file::kLineStrip);
     if (mesh.primitives.empty()) {
         return "empty: no primitives, so there is no surface";
     }

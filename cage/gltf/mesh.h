@@ -53,6 +53,6 @@ struct Mesh {
                                            std::span<const Material> materials, Warnings& warnings);
 
 /// What a mesh without triangles is.
-[[nodiscard]] std::string nameOfNoTriangles(const supple_tinygltf::Mesh& mesh);
+[[nodiscard]] std::string nameOfNoTriangles(const file::Mesh& mesh);
 
 } // namespace supple::cage::gltf

@@ -29,7 +29,7 @@ constexpr uint64_t kMostDecodedPerByte = 64;
 constexpr uint64_t kMaxDecodedBytes = 1u << 30;
 
 /// The extension's object on a bufferView or buffer, and its name.
-std::pair<const json*, const char*> extensionOf(const json& object) {
+std::pair<const Json*, const char*> extensionOf(const Json& object) {
     for (const char* name : kExtensions) {
         if (hasExtension(object, name)) {
             return {&object.at("extensions").at(name), name};
@@ -49,11 +49,11 @@ struct Compressed {
 };
 
 /// Everything that can be checked before decoding.
-Compressed readCompressed(const json& object, const json& view, const Document& document, const std::string& element) {
+Compressed readCompressed(const Json& object, const Json& view, const Document& document, const std::string& element) {
     Compressed compressed;
     compressed.element = element;
     checkIndexMember(object, "buffer", element, "buffer", document.buffers.size(), true);
-    const auto buffer = document.buffers[object.at("buffer").get<size_t>()];
+    const auto buffer = document.buffers[object.at("buffer").index()];
     const uint64_t offset = unsignedMember(object, "byteOffset", element, 0);
     const uint64_t length = unsignedMember(object, "byteLength", element, std::nullopt);
     if (length == 0 || offset > buffer.size() || length > buffer.size() - offset) {
@@ -138,20 +138,19 @@ std::vector<std::byte> decode(const Compressed& compressed) {
 
 } // namespace
 
-std::vector<uint8_t> findPlaceholders(const json& root) {
-    const json& buffers = table(root, "buffers");
+std::vector<uint8_t> findPlaceholders(const Json& root) {
+    const Json buffers = table(root, "buffers");
     std::vector<uint8_t> placeholder(buffers.size(), 0);
     // What is malformed here is refused where it is read.
-    const auto of = [&](const json& object) -> size_t {
-        const json* number = object.is_object() ? member(object, "buffer") : nullptr;
-        return number != nullptr && number->is_number_unsigned() && number->get<uint64_t>() < buffers.size()
-                   ? number->get<size_t>()
-                   : buffers.size();
+    const auto of = [&](const Json& object) -> size_t {
+        const Json* number = object.isObject() ? member(object, "buffer") : nullptr;
+        return number != nullptr && number->isUnsigned() && number->unsignedInteger() < buffers.size() ? number->index()
+                                                                                                       : buffers.size();
     };
     std::vector<uint8_t> needed(buffers.size() + 1, 0);
     std::vector<uint8_t> replaced(buffers.size() + 1, 0);
-    for (const json& view : table(root, "bufferViews")) {
-        const json* extension = extensionOf(view).first;
+    for (const Json& view : table(root, "bufferViews")) {
+        const Json* extension = extensionOf(view).first;
         if (extension == nullptr) {
             needed[of(view)] = 1;
         } else {
@@ -160,17 +159,18 @@ std::vector<uint8_t> findPlaceholders(const json& root) {
         }
     }
     for (size_t i = 0; i < buffers.size(); ++i) {
-        const json* extension = extensionOf(buffers[i]).first;
-        const json* tag = extension != nullptr && extension->is_object() ? member(*extension, "fallback") : nullptr;
-        const bool tagged = tag != nullptr && tag->is_boolean() && tag->get<bool>();
+        const Json* extension = extensionOf(buffers[i]).first;
+        const Json* tag = extension != nullptr && extension->isObject() ? member(*extension, "fallback") : nullptr;
+        const bool tagged = tag != nullptr && tag->isBoolean() && tag->boolean();
         placeholder[i] = needed[i] == 0 && (tagged || replaced[i] != 0) ? 1 : 0;
     }
     return placeholder;
 }
 
-void decodeMeshopt(json& root, Document& document) {
-    const json& views = table(root, "bufferViews");
+void decodeMeshopt(const Json& root, Document& document) {
+    const Json views = table(root, "bufferViews");
     const size_t bufferCount = document.buffers.size();
+    document.decodedInto.assign(views.size(), -1);
     std::vector<Compressed> all;
     uint64_t total = 0;
     Refusals refusals;
@@ -185,7 +185,7 @@ void decodeMeshopt(json& root, Document& document) {
         if (!kCanDecode) {
             refuse(element, "this build of Supple reads no meshopt-compressed files (SUPPLE_WITH_MESHOPT is off)");
         }
-        if (!object->is_object()) {
+        if (!object->isObject()) {
             refuse(element, "not an object");
         }
         all.push_back(readCompressed(*object, views[i], document, element));
@@ -209,12 +209,10 @@ void decodeMeshopt(json& root, Document& document) {
              " compressed: such files usually had their triangles and vertices reordered, and polygons that are read "
              "from that order are lost");
     for (const Compressed& compressed : all) {
-        json& view = root["bufferViews"][compressed.view];
-        document.owned.push_back(decode(compressed));
-        document.buffers.push_back(document.owned.back());
-        view["buffer"] = document.buffers.size() - 1;
-        view.erase("byteOffset");
-        view.erase("extensions");
+        document.memory->take(compressed.count, compressed.stride, compressed.element);
+        document.owned.emplace_back(decode(compressed));
+        document.buffers.emplace_back(document.owned.back());
+        document.decodedInto[compressed.view] = static_cast<int>(document.buffers.size()) - 1;
     }
 }
 

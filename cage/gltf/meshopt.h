@@ -11,10 +11,10 @@
 namespace supple::cage::gltf {
 
 /// Per buffer: 1 where it stands in for the decoded bytes, and is not read.
-[[nodiscard]] std::vector<uint8_t> findPlaceholders(const json& root);
+[[nodiscard]] std::vector<uint8_t> findPlaceholders(const Json& root);
 
-/// Decodes what is compressed, gives every such bufferView of `root` a buffer of its own in the document, and takes the
-/// extension off it: the rest of the reader sees plain bufferViews. One warning in all.
-void decodeMeshopt(json& root, Document& document);
+/// Decodes what is compressed, gives every such bufferView a buffer of its own in the document, and fills
+/// document.decodedInto. One warning in all.
+void decodeMeshopt(const Json& root, Document& document);
 
 } // namespace supple::cage::gltf

@@ -1,6 +1,7 @@
 #include "cage/gltf/morphs.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr uint64_t kMaxMorphElements = 1u << 26;
 
 } // namespace
 
-std::vector<int> findMorphTargets(const supple_tinygltf::Primitive& primitive) {
+std::vector<int> findMorphTargets(const file::Primitive& primitive) {
     std::vector<int> accessors;
     for (const auto& target : primitive.targets) {
         const auto position = target.find("POSITION");
@@ -51,11 +52,11 @@ void VertexMorphs::append(const Document& document, const std::vector<int>& targ
         }
         const std::string name = element + " " + at("target", t) + " POSITION";
         checkVertexCount(document, targets[t], count, name);
-        const auto values = readFloats(document, targets[t], TINYGLTF_TYPE_VEC3, allowed, name);
+        const auto values = readFloats(document, targets[t], file::kVec3, allowed, name);
         for (uint32_t v = 0; v < count; ++v) {
             const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
-            if (!std::isfinite(delta.x) || !std::isfinite(delta.y) || !std::isfinite(delta.z)) {
-                refuse(item(name, v), "not finite");
+            if (const char* fault = faultOfCoordinates(&values[3 * size_t{v}], 3)) {
+                refuse(item(name, v), fault);
             }
             if (delta != glm::vec3(0.0f)) {
                 read.push_back({v, {static_cast<uint32_t>(t), delta}});
@@ -80,21 +81,27 @@ std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.
-std::vector<std::string> readTargetNames(const json& mesh, const std::string& element, Warnings& warnings) {
-    const json* extras = member(mesh, "extras");
-    const json* names = extras != nullptr && extras->is_object() ? member(*extras, "targetNames") : nullptr;
+std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element, MemoryBudget& memory,
+                                         Warnings& warnings) {
+    const Json* extras = member(mesh, "extras");
+    const Json* names = extras != nullptr && extras->isObject() ? member(*extras, "targetNames") : nullptr;
     if (names == nullptr) {
         return {};
     }
     const std::string place = element + " extras targetNames";
-    if (!names->is_array()) {
+    if (!names->isArray()) {
         warn(warnings, place, "not an array; ignored");
         return {};
     }
+    uint64_t bytes = 0;
+    for (const Json& name : *names) {
+        bytes += sizeof(MorphTarget) + 2 * name.string().size();
+    }
+    memory.take(2 * bytes, place); // nodes may share a mesh
     std::vector<std::string> read(names->size());
     for (size_t i = 0; i < names->size(); ++i) {
-        if ((*names)[i].is_string()) {
-            read[i] = (*names)[i].get<std::string>();
+        if ((*names)[i].isString()) {
+            read[i] = (*names)[i].string();
         } else {
             warn(warnings, item(place, i), "not a string; ignored");
         }
@@ -106,6 +113,7 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
     const auto& node = document.model.nodes[meshNode];
     const auto meshIndex = static_cast<size_t>(node.mesh);
     Morphs morphs;
+    document.memory->take(targetCount, 4 * sizeof(MorphTarget), at("mesh", meshIndex));
     morphs.targets.resize(targetCount);
     morphs.weights.assign(targetCount, 0.0f);
 
@@ -132,7 +140,8 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
         morphs.weights[i] = static_cast<float>(weights[i]);
     }
     const std::string element = at("mesh", meshIndex);
-    const std::vector<std::string> names = readTargetNames(document.meshes[meshIndex], element, warnings);
+    const std::vector<std::string> names =
+        readTargetNames(document.meshes[meshIndex], element, *document.memory, warnings);
     if (!names.empty() && names.size() != targetCount) {
         warn(warnings, element + " extras targetNames",
              counted(names.size(), "name", "names") + " for " + counted(targetCount, "morph target", "morph targets"));

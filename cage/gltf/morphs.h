@@ -14,7 +14,7 @@
 namespace supple::cage::gltf {
 
 /// Per morph target the accessor of its displacements, -1 where it moves no positions.
-[[nodiscard]] std::vector<int> findMorphTargets(const supple_tinygltf::Primitive& primitive);
+[[nodiscard]] std::vector<int> findMorphTargets(const file::Primitive& primitive);
 
 /// One vertex's displacement in one target.
 struct MorphDelta {
@@ -41,8 +41,8 @@ private:
 };
 
 /// Names of a mesh's morph targets, mesh.extras.targetNames: empty where the file has no string.
-[[nodiscard]] std::vector<std::string> readTargetNames(const json& mesh, const std::string& element,
-                                                       Warnings& warnings);
+[[nodiscard]] std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element,
+                                                       MemoryBudget& memory, Warnings& warnings);
 
 /// Names and weights of the mesh's targets; their displacements are for who has the cage's vertices.
 [[nodiscard]] Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings);

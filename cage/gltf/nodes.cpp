@@ -1,16 +1,18 @@
 #include "cage/gltf/nodes.h"
 
 #include "cage/gltf/reader.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace supple::cage::gltf {
 namespace {
 
-using supple_tinygltf::Model;
+using file::Model;
 
 void orderParentsFirst(const Model& model, Skeleton& skeleton) {
     // Breadth-first from the roots, no recursion; the document has made sure that this is a forest.
@@ -57,6 +59,12 @@ std::vector<uint32_t> nodesOfScene(const Model& model, size_t scene) {
     return order;
 }
 
+void checkPlacing(std::span<const float> values, const std::string& element) {
+    if (const char* fault = faultOfCoordinates(values.data(), values.size())) {
+        refuse(element, fault);
+    }
+}
+
 /// A file of clips alone is none that cannot be read.
 std::string insteadOfMeshes(const Model& model) {
     return model.animations.empty() ? ""
@@ -94,6 +102,7 @@ Skeleton readSkeleton(const Document& document) {
             for (int k = 0; k < 16; ++k) {
                 node.matrix[k / 4][k % 4] = static_cast<float>(from.matrix[static_cast<size_t>(k)]);
             }
+            checkPlacing({&node.matrix[0][0], 16}, at("node", i) + " matrix");
             makeAffine(node.matrix, at("node", i) + " matrix");
             continue;
         }
@@ -105,6 +114,8 @@ Skeleton readSkeleton(const Document& document) {
                 node.scale[k] = static_cast<float>(from.scale[static_cast<size_t>(k)]);
             }
         }
+        checkPlacing({&node.translation[0], 3}, at("node", i) + " translation");
+        checkPlacing({&node.scale[0], 3}, at("node", i) + " scale");
         if (!from.rotation.empty()) {
             const auto& q = from.rotation;
             const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

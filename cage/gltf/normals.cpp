@@ -8,8 +8,8 @@ namespace supple::cage::gltf {
 namespace {
 
 /// The components of an attribute of directions; empty if the primitive does not have it.
-std::vector<float> readDirections(const Document& document, const supple_tinygltf::Primitive& primitive,
-                                  const char* attribute, int type, size_t vertexCount, const std::string& name) {
+std::vector<float> readDirections(const Document& document, const file::Primitive& primitive, const char* attribute,
+                                  int type, size_t vertexCount, const std::string& name) {
     const auto found = primitive.attributes.find(attribute);
     if (found == primitive.attributes.end()) {
         return {};
@@ -22,11 +22,10 @@ std::vector<float> readDirections(const Document& document, const supple_tinyglt
 
 } // namespace
 
-std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygltf::Primitive& primitive,
-                                   size_t vertexCount, const std::string& element, Warnings& warnings) {
+std::vector<glm::vec3> readNormals(const Document& document, const file::Primitive& primitive, size_t vertexCount,
+                                   const std::string& element, Warnings& warnings) {
     const std::string name = element + " NORMAL";
-    const std::vector<float> values =
-        readDirections(document, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertexCount, name);
+    const std::vector<float> values = readDirections(document, primitive, "NORMAL", file::kVec3, vertexCount, name);
     std::vector<glm::vec3> normals;
     normals.reserve(values.size() / 3);
     size_t missing = 0;
@@ -41,14 +40,13 @@ std::vector<glm::vec3> readNormals(const Document& document, const supple_tinygl
     return normals;
 }
 
-std::vector<glm::vec4> readTangents(const Document& document, const supple_tinygltf::Primitive& primitive,
-                                    size_t vertexCount, const std::string& element, Warnings& warnings) {
+std::vector<glm::vec4> readTangents(const Document& document, const file::Primitive& primitive, size_t vertexCount,
+                                    const std::string& element, Warnings& warnings) {
     if (primitive.attributes.count("NORMAL") == 0) {
         return {}; // glTF 2.0, 3.7.2.1: tangents without normals are to be ignored
     }
     const std::string name = element + " TANGENT";
-    const std::vector<float> values =
-        readDirections(document, primitive, "TANGENT", TINYGLTF_TYPE_VEC4, vertexCount, name);
+    const std::vector<float> values = readDirections(document, primitive, "TANGENT", file::kVec4, vertexCount, name);
     std::vector<glm::vec4> tangents;
     tangents.reserve(values.size() / 4);
     size_t missing = 0;

@@ -31,10 +31,9 @@ void checkPolygons(const Polygons& polygons, size_t vertexCount, const std::stri
 Polygons readCagePolygons(const Document& document, const CageExtension& extension, size_t vertexCount) {
     const std::string countsName = extension.element + " faceVertexCounts";
     const std::string indicesName = extension.element + " faceVertexIndices";
-    const auto counts = readIntegers(document, extension.faceVertexCounts, TINYGLTF_TYPE_SCALAR, kIntegers, countsName);
+    const auto counts = readIntegers(document, extension.faceVertexCounts, file::kScalar, kIntegers, countsName);
     Polygons polygons;
-    polygons.vertices =
-        readIntegers(document, extension.faceVertexIndices, TINYGLTF_TYPE_SCALAR, kIntegers, indicesName);
+    polygons.vertices = readIntegers(document, extension.faceVertexIndices, file::kScalar, kIntegers, indicesName);
     uint64_t end = 0;
     for (size_t f = 0; f < counts.size(); ++f) {
         if (counts[f] < 3) {
@@ -53,7 +52,7 @@ Polygons readCagePolygons(const Document& document, const CageExtension& extensi
 
 std::vector<uint32_t> readHoles(const Document& document, const CageExtension& extension, size_t faceCount) {
     const std::string name = extension.element + " holeIndices";
-    auto holes = readIntegers(document, extension.holeIndices, TINYGLTF_TYPE_SCALAR, kIntegers, name);
+    auto holes = readIntegers(document, extension.holeIndices, file::kScalar, kIntegers, name);
     for (size_t i = 0; i < holes.size(); ++i) {
         if (holes[i] >= faceCount) {
             refuse(item(name, i), "face " + std::to_string(holes[i]) + " is out of range: the primitive has " +
@@ -67,10 +66,10 @@ std::vector<uint32_t> readHoles(const Document& document, const CageExtension& e
 }
 
 /// One of EXT_mesh_polygon's accessors of offsets: one a polygon, rising from 0, into a list of `length`.
-std::vector<uint32_t> readOffsets(const Document& document, const json& object, const char* key, size_t count,
+std::vector<uint32_t> readOffsets(const Document& document, const Json& object, const char* key, size_t count,
                                   size_t length, const std::string& element) {
     const std::string name = element + " " + key;
-    auto offsets = readIntegers(document, object.at(key).get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, name);
+    auto offsets = readIntegers(document, static_cast<int>(object.at(key).index()), file::kScalar, kIntegers, name);
     if (offsets.size() != count) {
         refuse(name, counted(offsets.size(), "offset", "offsets") + " for " + counted(count, "polygon", "polygons"));
     }
@@ -110,7 +109,7 @@ void checkCovered(const Polygons& polygons, std::span<const uint32_t> triangles,
 /// EXT_mesh_polygon as the draft had it at KhronosGroup/glTF 43df01ab: the exterior loop of every polygon, then its
 /// holes, with restart values between loops and perhaps behind them. Nothing, and why, where a polygon has a hole, or
 /// where the object is of another form of the draft.
-std::optional<Polygons> readMeshPolygons(const Document& document, const json& object,
+std::optional<Polygons> readMeshPolygons(const Document& document, const Json& object,
                                          std::span<const uint32_t> triangles, size_t vertexCount,
                                          const std::string& element, std::string& whyNot) {
     for (const char* key : {"count", "indicesOffsets", "loopIndices", "loopIndicesOffsets"}) {
@@ -123,8 +122,8 @@ std::optional<Polygons> readMeshPolygons(const Document& document, const json& o
         checkIndexMember(object, key, element, "accessor", document.model.accessors.size());
     }
     const std::string loopsName = element + " loopIndices";
-    const int loopsAccessor = object.at("loopIndices").get<int>();
-    const auto loops = readIntegers(document, loopsAccessor, TINYGLTF_TYPE_SCALAR, kIntegers, loopsName);
+    const int loopsAccessor = static_cast<int>(object.at("loopIndices").index());
+    const auto loops = readIntegers(document, loopsAccessor, file::kScalar, kIntegers, loopsName);
     const uint32_t restart = restartIndex(document, loopsAccessor);
     const auto count = static_cast<size_t>(unsignedMember(object, "count", element, std::nullopt));
     if (count == 0) {
@@ -162,9 +161,9 @@ std::optional<Polygons> readMeshPolygons(const Document& document, const json& o
 
 /// The edges that EXT_mesh_primitive_edge_visibility hides: neither in `visibility`, of two bits an edge, nor in one of
 /// the lineStrings. (A silhouette edge hides one of its two sides only.)
-std::vector<uint8_t> readHiddenEdges(const Document& document, const json& object, std::span<const uint32_t> triangles,
+std::vector<uint8_t> readHiddenEdges(const Document& document, const Json& object, std::span<const uint32_t> triangles,
                                      size_t vertexCount, const std::string& element) {
-    const json* lineStrings = arrayMember(object, "lineStrings", element);
+    const Json* lineStrings = arrayMember(object, "lineStrings", element);
     if (member(object, "visibility") == nullptr && lineStrings == nullptr) {
         refuse(element, "neither visibility nor lineStrings");
     }
@@ -172,7 +171,8 @@ std::vector<uint8_t> readHiddenEdges(const Document& document, const json& objec
     if (member(object, "visibility") != nullptr) {
         const std::string name = element + " visibility";
         checkIndexMember(object, "visibility", element, "accessor", document.model.accessors.size());
-        const auto bytes = readIntegers(document, object.at("visibility").get<int>(), TINYGLTF_TYPE_SCALAR, kU8, name);
+        const auto bytes =
+            readIntegers(document, static_cast<int>(object.at("visibility").index()), file::kScalar, kU8, name);
         if (bytes.size() != (2 * triangles.size() + 7) / 8) {
             refuse(name, counted(bytes.size(), "byte", "bytes") + " for " +
                              counted(triangles.size() / 3, "triangle", "triangles"));
@@ -184,12 +184,12 @@ std::vector<uint8_t> readHiddenEdges(const Document& document, const json& objec
     std::vector<std::pair<uint32_t, uint32_t>> drawn;
     for (size_t s = 0; lineStrings != nullptr && s < lineStrings->size(); ++s) {
         const std::string place = element + " " + at("lineString", s);
-        if (!(*lineStrings)[s].is_object()) {
+        if (!(*lineStrings)[s].isObject()) {
             refuse(place, "not an object");
         }
         checkIndexMember((*lineStrings)[s], "indices", place, "accessor", document.model.accessors.size(), true);
-        const int accessor = (*lineStrings)[s].at("indices").get<int>();
-        const auto line = readIntegers(document, accessor, TINYGLTF_TYPE_SCALAR, kIntegers, place + " indices");
+        const int accessor = static_cast<int>((*lineStrings)[s].at("indices").index());
+        const auto line = readIntegers(document, accessor, file::kScalar, kIntegers, place + " indices");
         const uint32_t restart = restartIndex(document, accessor);
         for (size_t i = 0; i < line.size(); ++i) {
             if (line[i] != restart && line[i] >= vertexCount) {
@@ -214,9 +214,9 @@ std::vector<uint8_t> readHiddenEdges(const Document& document, const json& objec
 }
 
 /// The extensions that say something of each triangle count those of TRIANGLES.
-bool sayNothingOfRuns(const Document& document, const json& primitive, int mode, const std::string& element,
+bool sayNothingOfRuns(const Document& document, const Json& primitive, int mode, const std::string& element,
                       Warnings& warnings) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (mode == file::kTriangles) {
         return false;
     }
     for (const char* name : {"EXT_mesh_polygon", "FB_ngon_encoding", "EXT_mesh_primitive_edge_visibility"}) {
@@ -233,7 +233,7 @@ bool sayNothingOfRuns(const Document& document, const json& primitive, int mode,
 
 } // namespace
 
-PolygonData readPolygons(const Document& document, const json& primitive, int mode,
+PolygonData readPolygons(const Document& document, const Json& primitive, int mode,
                          const std::optional<CageExtension>& extension, std::span<const uint32_t> triangles,
                          size_t vertexCount, const std::string& element, Warnings& warnings) {
     PolygonData data;
@@ -248,10 +248,10 @@ PolygonData readPolygons(const Document& document, const json& primitive, int mo
     if (sayNothingOfRuns(document, primitive, mode, element, warnings)) {
         return data;
     }
-    const auto extensionObject = [&](const char* name) -> const json* {
+    const auto extensionObject = [&](const char* name) -> const Json* {
         return hasExtension(primitive, name) ? objectMember(primitive.at("extensions"), name, element) : nullptr;
     };
-    if (const json* object = extensionObject("EXT_mesh_polygon")) {
+    if (const Json* object = extensionObject("EXT_mesh_polygon")) {
         const std::string place = element + " EXT_mesh_polygon";
         std::string whyNot;
         std::optional<Polygons> polygons = readMeshPolygons(document, *object, triangles, vertexCount, place, whyNot);
@@ -269,7 +269,7 @@ PolygonData readPolygons(const Document& document, const json& primitive, int mo
         data.source = PolygonSource::ngonEncoding;
         return data;
     }
-    if (const json* object = extensionObject("EXT_mesh_primitive_edge_visibility")) {
+    if (const Json* object = extensionObject("EXT_mesh_primitive_edge_visibility")) {
         data.source = PolygonSource::hiddenEdges;
         data.hidden =
             readHiddenEdges(document, *object, triangles, vertexCount, element + " EXT_mesh_primitive_edge_visibility");

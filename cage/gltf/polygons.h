@@ -27,7 +27,7 @@ struct PolygonData {
 /// Looks at the sources in the order of PolygonSource. One that is malformed is refused by name; one of a form that is
 /// not understood is passed over with a warning. `triangles` and the polygons count the primitive's own vertices.
 /// Throws Refusal.
-[[nodiscard]] PolygonData readPolygons(const Document& document, const json& primitive, int mode,
+[[nodiscard]] PolygonData readPolygons(const Document& document, const Json& primitive, int mode,
                                        const std::optional<CageExtension>& extension,
                                        std::span<const uint32_t> triangles, size_t vertexCount,
                                        const std::string& element, Warnings& warnings);

@@ -34,6 +34,9 @@ namespace {
 constexpr uint64_t kMaxParts = 1u << 14;
 constexpr uint64_t kMaxDisplacements = 1u << 26;
 
+/// A part without vertices and faces: measured, and rounded up.
+constexpr uint64_t kPartBytes = 2048;
+
 /// What has been read so far; refuses too much.
 class Amount {
 public:
@@ -64,6 +67,8 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
                   const Character& character, Warnings& warnings) {
     const auto& from = document.model.nodes[node];
     PartCage part;
+    const size_t nameBytes = from.name.size() + document.model.meshes[static_cast<size_t>(from.mesh)].name.size();
+    document.memory->take(kPartBytes + 4 * nameBytes, at("node", node));
     part.part.name = from.name.empty() ? document.model.meshes[static_cast<size_t>(from.mesh)].name : from.name;
     part.part.node = node;
     const std::optional<Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
@@ -152,10 +157,11 @@ void warnOfPairs(const std::vector<PartCage>& parts, Warnings& warnings) {
 }
 
 /// Clips of a file take the file's name if they have none.
-ClipSet readClipSet(const ClipFile& file) {
+ClipSet readClipSet(const ClipFile& file, uint64_t memoryLimit) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return readBelow(file.baseDirectory, path); };
-        const Document document = loadDocument(file.bytes, file.readFile ? file.readFile : readFolder, Content::motion);
+        const Document document =
+            loadDocument(file.bytes, file.readFile ? file.readFile : readFolder, memoryLimit, Content::motion);
         return readMotion(document, file.name);
     } catch (const Refusal& refusal) {
         Refusal named{refusal.code, {}};
@@ -170,7 +176,7 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     Character character;
     Warnings& warnings = character.warnings;
     warnings = document.warnings;
-    character.copyright = document.model.asset.copyright;
+    character.copyright = document.model.copyright;
     character.skeleton = readSkeleton(document);
     character.images = document.images;
     Refusals refusals;
@@ -185,7 +191,7 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
     }
     character.clips = readClips(document, character.skeleton, targetCounts, refusals, warnings);
     for (const ClipFile& file : options.clipFiles) {
-        refusals.gather([&] { takeClips(readClipSet(file), parts, character); });
+        refusals.gather([&] { takeClips(readClipSet(file, options.memoryLimit), parts, character); });
     }
     refusals.raise();
     const CageNames names = joinParts(std::move(parts), character);
@@ -219,15 +225,13 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
                            const GltfOptions& options) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
-        Character character =
-            gltf::toCharacter(gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder), options);
+        Character character = gltf::toCharacter(
+            gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder, options.memoryLimit), options);
         character.name = name;
         if (const Status sound = reportDamages(character, options.strict); !sound) {
             return sound.error();
         }
-        for (std::string& warning : character.warnings) {
-            warning = oneLine(std::move(warning));
-        }
+        character.warnings = readableLines(character.warnings);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

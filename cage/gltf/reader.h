@@ -47,6 +47,9 @@ struct GltfOptions {
     bool creasesFromNormals = false;
     /// Refuse a damaged cage instead of repairing it (cage/repair.h). The error has one line for each kind of damage.
     bool strict = false;
+    /// Most bytes that reading a file may take; 0: kBaseMemory, and kMemoryPerByte for each of its own
+    /// (cage/memory_budget.h).
+    uint64_t memoryLimit = 0;
     /// Where external buffers and images come from, instead of the folder given to readGltf().
     FileReader readFile;
     /// Files whose clips come behind the character's own, file after file (cage/clip_set.h). Their meshes are not read.

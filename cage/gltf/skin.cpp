@@ -2,6 +2,7 @@
 
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/nodes.h"
+#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -12,6 +13,9 @@ namespace {
 
 /// Half a unit in the last place of a weight near 1, as floats round.
 constexpr double kFloatRounding = 1.0 / (1u << 24);
+
+/// A joint of a skin as a node has it: inverse binds, and places in palettes. Nodes may share a skin.
+constexpr uint64_t kJointBytes = 512;
 
 constexpr size_t kMaxSkinSets = 16; // of four influences each
 
@@ -29,13 +33,13 @@ SetValues readSets(const Document& document, const SkinSets& sets, size_t count,
         const std::string weightName = element + " WEIGHTS_" + std::to_string(n);
         checkVertexCount(document, sets.joints[n], count, jointName);
         checkVertexCount(document, sets.weights[n], count, weightName);
-        values.joints.push_back(readIntegers(document, sets.joints[n], TINYGLTF_TYPE_VEC4, kU8 | kU16, jointName));
-        values.weights.push_back(readFloats(document, sets.weights[n], TINYGLTF_TYPE_VEC4,
-                                            kFloat | kNormalizedU8 | kNormalizedU16, weightName));
+        values.joints.push_back(readIntegers(document, sets.joints[n], file::kVec4, kU8 | kU16, jointName));
+        values.weights.push_back(
+            readFloats(document, sets.weights[n], file::kVec4, kFloat | kNormalizedU8 | kNormalizedU16, weightName));
         const int type = document.model.accessors[static_cast<size_t>(sets.weights[n])].componentType;
-        if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
+        if (type == file::kUnsignedByte) {
             values.rounding = std::max(values.rounding, 0.5 / 255.0);
-        } else if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+        } else if (type == file::kUnsignedShort) {
             values.rounding = std::max(values.rounding, 0.5 / 65535.0);
         }
     }
@@ -83,6 +87,7 @@ Skin readSkin(const Document& document, uint32_t meshNode) {
         return skin;
     }
     const auto& from = document.model.skins[static_cast<size_t>(index)];
+    document.memory->take(from.joints.size(), kJointBytes, at("skin", static_cast<size_t>(index)));
     for (const int joint : from.joints) {
         skin.joints.push_back(static_cast<uint32_t>(joint));
     }
@@ -91,15 +96,15 @@ Skin readSkin(const Document& document, uint32_t meshNode) {
         return skin;
     }
     const std::string element = at("skin", static_cast<size_t>(index)) + " inverseBindMatrices";
-    const auto values = readFloats(document, from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, kFloat, element);
+    const auto values = readFloats(document, from.inverseBindMatrices, file::kMat4, kFloat, element);
     if (values.size() / 16 < skin.joints.size()) {
         refuse(element, counted(values.size() / 16, "matrix", "matrices") + " for " +
                             counted(skin.joints.size(), "joint", "joints"));
     }
     for (size_t j = 0; j < skin.joints.size(); ++j) {
         for (size_t k = 0; k < 16; ++k) {
-            if (!std::isfinite(values[16 * j + k])) {
-                refuse(item(element, j), "not finite");
+            if (const char* fault = faultOfCoordinate(values[16 * j + k])) {
+                refuse(item(element, j), fault);
             }
             skin.inverseBinds[j][static_cast<int>(k / 4)][static_cast<int>(k % 4)] = values[16 * j + k];
         }
@@ -108,7 +113,7 @@ Skin readSkin(const Document& document, uint32_t meshNode) {
     return skin;
 }
 
-SkinSets findSkinSets(const supple_tinygltf::Primitive& primitive, const std::string& element) {
+SkinSets findSkinSets(const file::Primitive& primitive, const std::string& element) {
     SkinSets sets;
     for (size_t n = 0;; ++n) {
         const auto joint = primitive.attributes.find("JOINTS_" + std::to_string(n));

@@ -24,7 +24,7 @@ struct SkinSets {
 };
 
 /// At least one set; refuses numbers that do not continue from 0.
-[[nodiscard]] SkinSets findSkinSets(const supple_tinygltf::Primitive& primitive, const std::string& element);
+[[nodiscard]] SkinSets findSkinSets(const file::Primitive& primitive, const std::string& element);
 
 /// The influences of vertices that are appended one after the other: by joint, normalised, at least one a vertex.
 class VertexWeights {

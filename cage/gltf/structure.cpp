@@ -1,13 +1,14 @@
 #include "cage/gltf/structure.h"
 
 #include "cage/gltf/look_extensions.h"
+#include "cage/gltf/model.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,8 +17,8 @@
 namespace supple::cage::gltf {
 namespace {
 
-void checkAsset(const json& root) {
-    const json* asset = objectMember(root, "asset", "JSON");
+void checkAsset(const Json& root) {
+    const Json* asset = objectMember(root, "asset", "JSON");
     if (asset == nullptr) {
         refuse("asset", "missing: not a glTF 2.0 file");
     }
@@ -41,24 +42,24 @@ constexpr std::array<std::string_view, 10> kUnderstood{
     "KHR_mesh_primitive_restart", "EXT_mesh_primitive_restart",
 };
 
-void checkExtensions(const json& root) {
+void checkExtensions(const Json& root) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
-        const json* names = arrayMember(root, key, "");
+        const Json* names = arrayMember(root, key, "");
         if (names == nullptr) {
             continue;
         }
-        for (const json& name : *names) {
-            if (!name.is_string()) {
+        for (const Json& name : *names) {
+            if (!name.isString()) {
                 refuse(key, "not all strings");
             }
         }
     }
-    const json* required = member(root, "extensionsRequired");
+    const Json* required = member(root, "extensionsRequired");
     if (required == nullptr) {
         return;
     }
-    for (const json& entry : *required) {
-        const std::string name = entry.get<std::string>();
+    for (const Json& entry : *required) {
+        const std::string name = entry.string();
         if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end() ||
             std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end()) {
             continue;
@@ -72,16 +73,16 @@ void checkExtensions(const json& root) {
 }
 
 /// Child lists make the node tree; it must be a forest before anybody walks it. Recursion-free.
-void checkNodeTree(const json& nodes) {
+void checkNodeTree(const Json& nodes) {
     const size_t count = nodes.size();
     std::vector<size_t> parents(count, count);
     for (size_t parent = 0; parent < count; ++parent) {
-        const json* children = member(nodes[parent], "children");
+        const Json* children = member(nodes[parent], "children");
         if (children == nullptr) {
             continue;
         }
-        for (const json& entry : *children) {
-            const auto child = entry.get<size_t>();
+        for (const Json& entry : *children) {
+            const auto child = entry.index();
             if (child == parent) {
                 refuse(at("node", child), "is its own child");
             }
@@ -116,11 +117,13 @@ void checkNodeTree(const json& nodes) {
     }
 }
 
-void checkBufferView(const json& view, const std::string& element,
-                     std::span<const std::span<const std::byte>> buffers) {
+/// `decodedInto`: the buffer that takes the place of what the view names, or -1.
+void checkBufferView(const Json& view, const std::string& element, std::span<const std::span<const std::byte>> buffers,
+                     int decodedInto) {
     checkIndexMember(view, "buffer", element, "buffer", buffers.size(), true);
-    const size_t available = buffers[view.at("buffer").get<size_t>()].size();
-    const uint64_t offset = unsignedMember(view, "byteOffset", element, 0);
+    const bool decoded = decodedInto >= 0;
+    const size_t available = buffers[decoded ? static_cast<size_t>(decodedInto) : view.at("buffer").index()].size();
+    const uint64_t offset = decoded ? 0 : unsignedMember(view, "byteOffset", element, 0);
     const uint64_t length = unsignedMember(view, "byteLength", element, std::nullopt);
     if (length == 0) {
         refuse(element + " byteLength", "zero");
@@ -129,7 +132,7 @@ void checkBufferView(const json& view, const std::string& element,
         refuse(element, "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
                             " are out of range: the buffer has " + std::to_string(available));
     }
-    const json* stride = member(view, "byteStride");
+    const Json* stride = member(view, "byteStride");
     if (stride != nullptr) {
         const uint64_t value = toUnsigned(*stride, element + " byteStride");
         if (value < 4 || value > 252 || value % 4 != 0) {
@@ -139,7 +142,7 @@ void checkBufferView(const json& view, const std::string& element,
     checkString(view, "name", element);
 }
 
-void checkComponentType(const json& object, const std::string& element, bool indicesOnly) {
+void checkComponentType(const Json& object, const std::string& element, bool indicesOnly) {
     const uint64_t type = unsignedMember(object, "componentType", element, std::nullopt);
     const bool isIndex = type == 5121 || type == 5123 || type == 5125;
     if (!isIndex && (indicesOnly || (type != 5120 && type != 5122 && type != 5126))) {
@@ -147,37 +150,30 @@ void checkComponentType(const json& object, const std::string& element, bool ind
     }
 }
 
-void checkSparse(const json& accessor, const std::string& element, size_t viewCount) {
-    const json* sparse = objectMember(accessor, "sparse", element);
+void checkSparse(const Json& accessor, const std::string& element, size_t viewCount) {
+    const Json* sparse = objectMember(accessor, "sparse", element);
     if (sparse == nullptr) {
         return;
     }
     const std::string place = element + " sparse";
     const uint64_t count = unsignedMember(*sparse, "count", place, std::nullopt);
-    if (count == 0 || count > accessor.at("count").get<uint64_t>()) {
+    if (count == 0 || count > accessor.at("count").unsignedInteger()) {
         refuse(place + " count",
-               std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").get<uint64_t>()));
+               std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").unsignedInteger()));
     }
     for (const char* part : {"indices", "values"}) {
-        const json* object = objectMember(*sparse, part, place);
+        const Json* object = objectMember(*sparse, part, place);
         const std::string partPlace = place + " " + part;
         if (object == nullptr) {
             refuse(partPlace, "missing");
         }
         checkIndexMember(*object, "bufferView", partPlace, "bufferView", viewCount, true);
-        // tinygltf keeps sparse offsets as int.
-        if (unsignedMember(*object, "byteOffset", partPlace, 0) > std::numeric_limits<int>::max()) {
-            refuse(partPlace + " byteOffset", "out of range");
-        }
-    }
-    if (count > static_cast<uint64_t>(std::numeric_limits<int>::max())) {
-        refuse(place + " count", "out of range");
+        unsignedMember(*object, "byteOffset", partPlace, 0);
     }
     checkComponentType(sparse->at("indices"), place + " indices", true);
 }
 
-void checkAccessor(const json& accessor, const std::string& element, size_t viewCount) {
-    constexpr std::array<const char*, 7> types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+void checkAccessor(const Json& accessor, const std::string& element, size_t viewCount) {
     checkIndexMember(accessor, "bufferView", element, "bufferView", viewCount);
     unsignedMember(accessor, "byteOffset", element, 0);
     checkComponentType(accessor, element, false);
@@ -185,56 +181,52 @@ void checkAccessor(const json& accessor, const std::string& element, size_t view
         refuse(element + " count", "zero");
     }
     const std::string type = stringMember(accessor, "type", element);
-    if (std::none_of(types.begin(), types.end(), [&](const char* known) { return type == known; })) {
+    if (std::find(std::begin(file::kTypeNames), std::end(file::kTypeNames), type) == std::end(file::kTypeNames)) {
         refuse(element + " type", quoted(type) + " is not allowed");
     }
-    const json* normalized = member(accessor, "normalized");
-    if (normalized != nullptr && !normalized->is_boolean()) {
+    const Json* normalized = member(accessor, "normalized");
+    if (normalized != nullptr && !normalized->isBoolean()) {
         refuse(element + " normalized", "not a boolean");
     }
     checkSparse(accessor, element, viewCount);
 }
 
-void checkTargets(const json& primitive, const std::string& element, size_t accessorCount) {
-    const json* targets = arrayMember(primitive, "targets", element);
+void checkTargets(const Json& primitive, const std::string& element, size_t accessorCount) {
+    const Json* targets = arrayMember(primitive, "targets", element);
     for (size_t i = 0; targets != nullptr && i < targets->size(); ++i) {
         const std::string place = element + " " + at("target", i);
-        if (!(*targets)[i].is_object()) {
+        if (!(*targets)[i].isObject()) {
             refuse(place, "not an object");
         }
-        for (const auto& [name, value] : (*targets)[i].items()) {
-            checkIndex(value, within(place, name), "accessor", accessorCount);
+        for (const auto& [name, value] : (*targets)[i].members()) {
+            checkIndex(value, within(place, std::string(name)), "accessor", accessorCount);
         }
     }
 }
 
 /// What others name by number. (table() looks at all elements, so it is not called for each of them.)
 struct Named {
-    const json& accessors;
-    const json& materials;
-    const json& meshes;
-    const json& nodes;
-    const json& skins;
+    Json accessors, materials, meshes, nodes, skins;
 };
 
-void checkPrimitive(const Named& named, const json& primitive, const std::string& element) {
-    if (!primitive.is_object()) {
+void checkPrimitive(const Named& named, const Json& primitive, const std::string& element) {
+    if (!primitive.isObject()) {
         refuse(element, "not an object");
     }
-    const json& accessors = named.accessors;
-    const json* attributes = objectMember(primitive, "attributes", element);
+    const Json& accessors = named.accessors;
+    const Json* attributes = objectMember(primitive, "attributes", element);
     if (attributes == nullptr) {
         refuse(element, "no attributes");
     }
-    for (const auto& [name, value] : attributes->items()) {
-        checkIndex(value, within(element, name), "accessor", accessors.size());
+    for (const auto& [name, value] : attributes->members()) {
+        checkIndex(value, within(element, std::string(name)), "accessor", accessors.size());
     }
     checkIndexMember(primitive, "indices", element, "accessor", accessors.size());
-    const json* indices = member(primitive, "indices");
-    if (indices != nullptr && member(accessors[indices->get<size_t>()], "bufferView") == nullptr) {
+    const Json* indices = member(primitive, "indices");
+    if (indices != nullptr && member(accessors[indices->index()], "bufferView") == nullptr) {
         refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
                                          ? "compressed with KHR_draco_mesh_compression; export the mesh uncompressed"
-                                         : at("accessor", indices->get<size_t>()) + " has no bufferView");
+                                         : at("accessor", indices->index()) + " has no bufferView");
     }
     checkIndexMember(primitive, "material", element, "material", named.materials.size());
     if (unsignedMember(primitive, "mode", element, 4) > 6) {
@@ -244,10 +236,10 @@ void checkPrimitive(const Named& named, const json& primitive, const std::string
     checkTargets(primitive, element, accessors.size());
 }
 
-void checkMesh(const Named& named, const json& mesh, const std::string& element, Refusals& refusals) {
+void checkMesh(const Named& named, const Json& mesh, const std::string& element, Refusals& refusals) {
     checkString(mesh, "name", element);
     checkNumbers(mesh, "weights", element, std::nullopt);
-    const json* primitives = arrayMember(mesh, "primitives", element);
+    const Json* primitives = arrayMember(mesh, "primitives", element);
     if (primitives == nullptr || primitives->empty()) {
         refuse(element, "no primitives");
     }
@@ -256,7 +248,7 @@ void checkMesh(const Named& named, const json& mesh, const std::string& element,
     }
 }
 
-void checkNode(const Named& named, const json& node, const std::string& element) {
+void checkNode(const Named& named, const Json& node, const std::string& element) {
     checkString(node, "name", element);
     checkIndexMember(node, "mesh", element, "mesh", named.meshes.size());
     checkIndexMember(node, "skin", element, "skin", named.skins.size());
@@ -268,9 +260,9 @@ void checkNode(const Named& named, const json& node, const std::string& element)
     checkNumbers(node, "weights", element, std::nullopt);
 }
 
-void checkSkin(const Named& named, const json& skin, const std::string& element) {
+void checkSkin(const Named& named, const Json& skin, const std::string& element) {
     const size_t nodeCount = named.nodes.size();
-    const json* joints = arrayMember(skin, "joints", element);
+    const Json* joints = arrayMember(skin, "joints", element);
     if (joints == nullptr || joints->empty()) {
         refuse(element, "no joints");
     }
@@ -279,8 +271,8 @@ void checkSkin(const Named& named, const json& skin, const std::string& element)
     checkIndexMember(skin, "inverseBindMatrices", element, "accessor", named.accessors.size());
 }
 
-void checkSampler(const json& sampler, const std::string& element, size_t accessorCount) {
-    if (!sampler.is_object()) {
+void checkSampler(const Json& sampler, const std::string& element, size_t accessorCount) {
+    if (!sampler.isObject()) {
         refuse(element, "not an object");
     }
     checkIndexMember(sampler, "input", element, "accessor", accessorCount, true);
@@ -292,16 +284,14 @@ void checkSampler(const json& sampler, const std::string& element, size_t access
     }
 }
 
-/// A channel without a target node (an extension may define its target) would be dropped by tinygltf and shift the
-/// numbers of those after it; it is given a path of its own, which the reader reports and ignores.
-void checkChannel(json& channel, const std::string& element, size_t samplerCount, size_t nodeCount) {
-    if (!channel.is_object()) {
+/// A channel may lack a target node: an extension may define what moves.
+void checkChannel(const Json& channel, const std::string& element, size_t samplerCount, size_t nodeCount) {
+    if (!channel.isObject()) {
         refuse(element, "not an object");
     }
     checkIndexMember(channel, "sampler", element, "sampler", samplerCount, true);
-    const json* target = objectMember(channel, "target", element);
+    const Json* target = objectMember(channel, "target", element);
     if (target == nullptr || member(*target, "node") == nullptr) {
-        channel["target"] = {{"node", 0}, {"path", "pointer"}};
         return;
     }
     checkIndexMember(*target, "node", element + " target", "node", nodeCount, true);
@@ -310,25 +300,24 @@ void checkChannel(json& channel, const std::string& element, size_t samplerCount
     }
 }
 
-void checkAnimation(const Named& named, json& animation, const std::string& element, Refusals& refusals) {
+void checkAnimation(const Named& named, const Json& animation, const std::string& element, Refusals& refusals) {
     checkString(animation, "name", element);
-    const json* samplers = arrayMember(animation, "samplers", element);
+    const Json* samplers = arrayMember(animation, "samplers", element);
     const size_t samplerCount = samplers == nullptr ? 0 : samplers->size();
     for (size_t k = 0; k < samplerCount; ++k) {
         refusals.gather(
             [&] { checkSampler((*samplers)[k], element + " " + at("sampler", k), named.accessors.size()); });
     }
-    const json* channels = arrayMember(animation, "channels", element);
+    const Json* channels = arrayMember(animation, "channels", element);
     for (size_t k = 0; channels != nullptr && k < channels->size(); ++k) {
-        refusals.gather([&] {
-            checkChannel(animation["channels"][k], element + " " + at("channel", k), samplerCount, named.nodes.size());
-        });
+        refusals.gather(
+            [&] { checkChannel((*channels)[k], element + " " + at("channel", k), samplerCount, named.nodes.size()); });
     }
 }
 
 /// Calls check(element, name) for each of a table.
-template <class Table, class Check>
-void checkEach(Table& elements, const char* what, Refusals& refusals, Check&& check) {
+template <class Check>
+void checkEach(const Json& elements, const char* what, Refusals& refusals, Check&& check) {
     for (size_t i = 0; i < elements.size(); ++i) {
         refusals.gather([&] { check(elements[i], at(what, i)); });
     }
@@ -336,33 +325,33 @@ void checkEach(Table& elements, const char* what, Refusals& refusals, Check&& ch
 
 } // namespace
 
-void checkHeader(const json& root) {
+void checkHeader(const Json& root) {
     checkAsset(root);
     checkExtensions(root);
 }
 
-void checkStructure(json& root, std::span<const std::span<const std::byte>> buffers) {
+void checkStructure(const Json& root, std::span<const std::span<const std::byte>> buffers,
+                    const std::vector<int>& decodedInto) {
     const Named named{table(root, "accessors"), table(root, "materials"), table(root, "meshes"), table(root, "nodes"),
                       table(root, "skins")};
-    const json& views = table(root, "bufferViews");
-    const json& scenes = table(root, "scenes");
+    const Json views = table(root, "bufferViews");
+    const Json scenes = table(root, "scenes");
     using Name = const std::string&;
     Refusals refusals;
-    checkEach(views, "bufferView", refusals,
-              [&](const json& view, Name name) { checkBufferView(view, name, buffers); });
-    checkEach(named.accessors, "accessor", refusals,
-              [&](const json& accessor, Name name) { checkAccessor(accessor, name, views.size()); });
-    checkEach(named.nodes, "node", refusals, [&](const json& node, Name name) { checkNode(named, node, name); });
-    checkEach(scenes, "scene", refusals,
-              [&](const json& scene, Name name) { checkIndexArray(scene, "nodes", name, "node", named.nodes.size()); });
-    refusals.gather([&] { checkIndexMember(root, "scene", "JSON", "scene", scenes.size()); });
-    checkEach(named.skins, "skin", refusals, [&](const json& skin, Name name) { checkSkin(named, skin, name); });
-    checkEach(named.meshes, "mesh", refusals,
-              [&](const json& mesh, Name name) { checkMesh(named, mesh, name, refusals); });
-    if (!table(root, "animations").empty()) {
-        checkEach(root["animations"], "animation", refusals,
-                  [&](json& animation, Name name) { checkAnimation(named, animation, name, refusals); });
+    for (size_t i = 0; i < views.size(); ++i) {
+        refusals.gather([&] { checkBufferView(views[i], at("bufferView", i), buffers, decodedInto[i]); });
     }
+    checkEach(named.accessors, "accessor", refusals,
+              [&](const Json& accessor, Name name) { checkAccessor(accessor, name, views.size()); });
+    checkEach(named.nodes, "node", refusals, [&](const Json& node, Name name) { checkNode(named, node, name); });
+    checkEach(scenes, "scene", refusals,
+              [&](const Json& scene, Name name) { checkIndexArray(scene, "nodes", name, "node", named.nodes.size()); });
+    refusals.gather([&] { checkIndexMember(root, "scene", "JSON", "scene", scenes.size()); });
+    checkEach(named.skins, "skin", refusals, [&](const Json& skin, Name name) { checkSkin(named, skin, name); });
+    checkEach(named.meshes, "mesh", refusals,
+              [&](const Json& mesh, Name name) { checkMesh(named, mesh, name, refusals); });
+    checkEach(table(root, "animations"), "animation", refusals,
+              [&](const Json& animation, Name name) { checkAnimation(named, animation, name, refusals); });
     refusals.raise();
     checkNodeTree(named.nodes);
 }

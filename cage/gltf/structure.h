@@ -5,14 +5,16 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace supple::cage::gltf {
 
 /// Version and extensions: whether this reader is meant to understand the file. Throws Refusal.
-void checkHeader(const json& root);
+void checkHeader(const Json& root);
 
-/// Everything else but buffers and images. Throws Refusal. Animation channels without a target node are given one, and
-/// the path "pointer", so that they keep their place.
-void checkStructure(json& root, std::span<const std::span<const std::byte>> buffers);
+/// Everything else but buffers and images. Where decodedInto[view] is not -1, that buffer takes the place of what the
+/// bufferView names. Throws Refusal.
+void checkStructure(const Json& root, std::span<const std::span<const std::byte>> buffers,
+                    const std::vector<int>& decodedInto);
 
 } // namespace supple::cage::gltf

@@ -8,7 +8,7 @@
 namespace supple::cage::gltf {
 namespace {
 
-Wrap readWrap(const json& sampler, const char* key, const std::string& element, Warnings& warnings) {
+Wrap readWrap(const Json& sampler, const char* key, const std::string& element, Warnings& warnings) {
     switch (const uint64_t value = unsignedMember(sampler, key, element, 10497)) {
     case 33071:
         return Wrap::clampToEdge;
@@ -23,7 +23,7 @@ Wrap readWrap(const json& sampler, const char* key, const std::string& element, 
 }
 
 /// glTF has no default: where a file says nothing, the host chooses.
-Filter readFilter(const json& sampler, const char* key, const std::string& element, bool mipmaps, Warnings& warnings) {
+Filter readFilter(const Json& sampler, const char* key, const std::string& element, bool mipmaps, Warnings& warnings) {
     if (member(sampler, key) == nullptr) {
         return Filter::any;
     }
@@ -43,7 +43,7 @@ Filter readFilter(const json& sampler, const char* key, const std::string& eleme
     return Filter::any;
 }
 
-Texture readSampler(const json& sampler, const std::string& element, Warnings& warnings) {
+Texture readSampler(const Json& sampler, const std::string& element, Warnings& warnings) {
     Texture read;
     checkString(sampler, "name", element);
     read.wrapU = readWrap(sampler, "wrapS", element, warnings);
@@ -54,44 +54,44 @@ Texture readSampler(const json& sampler, const std::string& element, Warnings& w
 }
 
 /// The members of an object's extension; null where it has none of that name.
-const json* extensionOf(const json& object, const char* name, const std::string& element) {
+const Json* extensionOf(const Json& object, const char* name, const std::string& element) {
     return hasExtension(object, name) ? objectMember(object.at("extensions"), name, element) : nullptr;
 }
 
-uint32_t readSource(const json& object, const std::string& element, size_t imageCount) {
+uint32_t readSource(const Json& object, const std::string& element, size_t imageCount) {
     checkIndexMember(object, "source", element, "image", imageCount);
-    const json* source = member(object, "source");
-    return source == nullptr ? kNone : source->get<uint32_t>();
+    const Json* source = member(object, "source");
+    return source == nullptr ? kNone : static_cast<uint32_t>(source->index());
 }
 
-void readTransform(const json& transform, const std::string& element, Texture& texture) {
+void readTransform(const Json& transform, const std::string& element, Texture& texture) {
     const auto readPair = [&](const char* key, glm::vec2& pair) {
         checkNumbers(transform, key, element, 2);
-        if (const json* values = member(transform, key)) {
-            pair = {(*values)[0].get<float>(), (*values)[1].get<float>()};
+        if (const Json* values = member(transform, key)) {
+            pair = {(*values)[0].real(), (*values)[1].real()};
         }
     };
     readPair("offset", texture.offset);
     readPair("scale", texture.scale);
-    if (const json* rotation = member(transform, "rotation")) {
-        if (!rotation->is_number() || !isFiniteFloat(*rotation)) {
+    if (const Json* rotation = member(transform, "rotation")) {
+        if (!rotation->isNumber() || !isFiniteFloat(*rotation)) {
             refuse(within(element, "rotation"), "not a finite number");
         }
-        texture.rotation = rotation->get<float>();
+        texture.rotation = rotation->real();
     }
 }
 
-uint32_t readTexCoord(const json& object, const std::string& element, uint32_t fallback) {
+uint32_t readTexCoord(const Json& object, const std::string& element, uint32_t fallback) {
     const uint64_t value = unsignedMember(object, "texCoord", element, fallback);
     return static_cast<uint32_t>(std::min<uint64_t>(value, std::numeric_limits<uint32_t>::max()));
 }
 
 } // namespace
 
-std::vector<Texture> readTextures(const json& root, Warnings& warnings) {
-    const json& images = table(root, "images");
-    const json& samplers = table(root, "samplers");
-    const json& textures = table(root, "textures");
+std::vector<Texture> readTextures(const Json& root, Warnings& warnings) {
+    const Json images = table(root, "images");
+    const Json samplers = table(root, "samplers");
+    const Json textures = table(root, "textures");
     std::vector<Texture> sampled;
     for (size_t i = 0; i < samplers.size(); ++i) {
         sampled.push_back(readSampler(samplers[i], at("sampler", i), warnings));
@@ -100,11 +100,11 @@ std::vector<Texture> readTextures(const json& root, Warnings& warnings) {
     for (size_t i = 0; i < textures.size(); ++i) {
         const std::string element = at("texture", i);
         checkIndexMember(textures[i], "sampler", element, "sampler", samplers.size());
-        const json* sampler = member(textures[i], "sampler");
-        Texture& texture = read.emplace_back(sampler == nullptr ? Texture{} : sampled[sampler->get<size_t>()]);
+        const Json* sampler = member(textures[i], "sampler");
+        Texture& texture = read.emplace_back(sampler == nullptr ? Texture{} : sampled[sampler->index()]);
         texture.image = readSource(textures[i], element, images.size());
         for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
-            const json* extension = extensionOf(textures[i], name, element);
+            const Json* extension = extensionOf(textures[i], name, element);
             if (extension != nullptr && texture.alternateImage == kNone) {
                 texture.alternateImage = readSource(*extension, within(element, name), images.size());
             }
@@ -113,11 +113,11 @@ std::vector<Texture> readTextures(const json& root, Warnings& warnings) {
     return read;
 }
 
-Texture readTextureInfo(const Document& document, const json& info, const std::string& element) {
+Texture readTextureInfo(const Document& document, const Json& info, const std::string& element) {
     checkIndexMember(info, "index", element, "texture", document.textures.size(), true);
-    Texture texture = document.textures[info.at("index").get<size_t>()];
+    Texture texture = document.textures[info.at("index").index()];
     texture.uvSet = readTexCoord(info, element, 0);
-    if (const json* transform = extensionOf(info, "KHR_texture_transform", element)) {
+    if (const Json* transform = extensionOf(info, "KHR_texture_transform", element)) {
         const std::string place = within(element, "KHR_texture_transform");
         readTransform(*transform, place, texture);
         texture.uvSet = readTexCoord(*transform, place, texture.uvSet);

@@ -12,10 +12,10 @@ namespace supple::cage::gltf {
 
 /// The file's textures, in its order: how each is sampled, `image` of a core format and `alternateImage` of an
 /// extension, also where these are missing. Throws Refusal.
-[[nodiscard]] std::vector<Texture> readTextures(const json& root, Warnings& warnings);
+[[nodiscard]] std::vector<Texture> readTextures(const Json& root, Warnings& warnings);
 
 /// The UV set and the transform that a textureInfo names, and the sampler of its texture. The images are as
 /// readTextures() has them. A UV set beyond the second is kept as it is. Throws Refusal.
-[[nodiscard]] Texture readTextureInfo(const Document& document, const json& info, const std::string& element);
+[[nodiscard]] Texture readTextureInfo(const Document& document, const Json& info, const std::string& element);
 
 } // namespace supple::cage::gltf

@@ -31,14 +31,13 @@ void addRun(int mode, std::span<const uint32_t> run, const std::string& name, st
         refuse(name, std::string("a ") + modeName(mode) + " of " + counted(run.size(), "vertex", "vertices") +
                          ", at least 3 are needed");
     }
-    mode == TINYGLTF_MODE_TRIANGLE_STRIP ? addStrip(run, triangles) : addFan(run, triangles);
+    mode == file::kTriangleStrip ? addStrip(run, triangles) : addFan(run, triangles);
 }
 
 } // namespace
 
 bool hasTriangles(int mode) {
-    return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-           mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    return mode == file::kTriangles || mode == file::kTriangleStrip || mode == file::kTriangleFan;
 }
 
 const char* modeName(int mode) {
@@ -47,25 +46,25 @@ const char* modeName(int mode) {
     return kModes[mode];
 }
 
-std::vector<uint32_t> readTriangles(const Document& document, const supple_tinygltf::Primitive& primitive,
-                                    uint32_t vertexCount, const std::string& element) {
+std::vector<uint32_t> readTriangles(const Document& document, const file::Primitive& primitive, uint32_t vertexCount,
+                                    const std::string& element) {
     const int mode = primitive.mode;
     const bool indexed = primitive.indices >= 0;
     const std::string name = indexed ? element + " indices" : element;
     std::vector<uint32_t> indices;
     if (indexed) {
-        indices = readIntegers(document, primitive.indices, TINYGLTF_TYPE_SCALAR, kU8 | kU16 | kU32, name);
+        indices = readIntegers(document, primitive.indices, file::kScalar, kU8 | kU16 | kU32, name);
     } else {
         indices.resize(vertexCount);
         std::iota(indices.begin(), indices.end(), 0u);
     }
-    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0) {
+    if (mode == file::kTriangles && indices.size() % 3 != 0) {
         refuse(name, indexed ? std::to_string(indices.size()) + ", not a multiple of 3"
                              : counted(vertexCount, "vertex", "vertices") + " without indices, not a multiple of 3");
     }
     const uint32_t restart = indexed ? restartIndex(document, primitive.indices) : kNone;
-    const bool mayRestart = mode != TINYGLTF_MODE_TRIANGLES && (isUsed(document, "KHR_mesh_primitive_restart") ||
-                                                                isUsed(document, "EXT_mesh_primitive_restart"));
+    const bool mayRestart = mode != file::kTriangles && (isUsed(document, "KHR_mesh_primitive_restart") ||
+                                                         isUsed(document, "EXT_mesh_primitive_restart"));
     std::vector<uint32_t> triangles;
     size_t first = 0; // of the strip or fan at work
     for (size_t i = 0; i < indices.size() && indexed; ++i) {
@@ -79,7 +78,7 @@ std::vector<uint32_t> readTriangles(const Document& document, const supple_tinyg
                                       counted(vertexCount, "vertex", "vertices"));
         }
     }
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (mode == file::kTriangles) {
         return indices;
     }
     addRun(mode, std::span(indices).subspan(first), name, triangles);

@@ -17,7 +17,7 @@ namespace supple::cage::gltf {
 /// Three vertices of the primitive for each triangle, wound as glTF 2.0 says. A strip's triangles that repeat an index
 /// draw nothing, and only lead from one place to another: they are left out. The extensions of restart values end a
 /// strip or fan. Throws Refusal.
-[[nodiscard]] std::vector<uint32_t> readTriangles(const Document& document, const supple_tinygltf::Primitive& primitive,
+[[nodiscard]] std::vector<uint32_t> readTriangles(const Document& document, const file::Primitive& primitive,
                                                   uint32_t vertexCount, const std::string& element);
 
 } // namespace supple::cage::gltf

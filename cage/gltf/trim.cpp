@@ -14,15 +14,15 @@ namespace supple::cage::gltf {
 namespace {
 
 /// The trim's texture, with an image that a host can decode.
-Texture textureOf(const Document& document, const json& info, TrimDomain domain, const std::string& element) {
+Texture textureOf(const Document& document, const Json& info, TrimDomain domain, const std::string& element) {
     Texture texture = readTextureInfo(document, info, element);
     if (texture.uvSet > 1) {
         refuse(element, "texCoord " + std::to_string(texture.uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read");
     }
     if (texture.image == kNone) {
-        refuse(element, at("texture", info.at("index").get<size_t>()) + " has no image in a core format");
+        refuse(element, at("texture", info.at("index").index()) + " has no image in a core format");
     }
-    const std::vector<std::byte>& bytes = document.images[texture.image].bytes;
+    const SharedBytes& bytes = document.images[texture.image].bytes;
     if (bytes.empty()) {
         refuse(element, at("image", texture.image) + " is missing");
     }
@@ -39,18 +39,18 @@ Texture textureOf(const Document& document, const json& info, TrimDomain domain,
     return texture;
 }
 
-float cutoffOf(const json& trim, const std::string& element) {
-    const json* cutoff = member(trim, "cutoff");
+float cutoffOf(const Json& trim, const std::string& element) {
+    const Json* cutoff = member(trim, "cutoff");
     if (cutoff == nullptr) {
         return Trim{}.cutoff;
     }
-    if (!cutoff->is_number() || !(cutoff->get<double>() >= 0.0 && cutoff->get<double>() <= 1.0)) {
+    if (!cutoff->isNumber() || !(cutoff->number() >= 0.0 && cutoff->number() <= 1.0)) {
         refuse(element + " cutoff", "not a number from 0 to 1");
     }
-    return cutoff->get<float>();
+    return cutoff->real();
 }
 
-uint32_t channelOf(const json& trim, const std::string& element) {
+uint32_t channelOf(const Json& trim, const std::string& element) {
     const std::string name = stringMember(trim, "channel", element);
     constexpr std::array kNames{"r", "g", "b", "a"};
     for (uint32_t channel = 0; channel < kNames.size(); ++channel) {
@@ -64,7 +64,7 @@ uint32_t channelOf(const json& trim, const std::string& element) {
     return Trim{}.channel;
 }
 
-TrimDomain domainOf(const json& trim, const std::string& element) {
+TrimDomain domainOf(const Json& trim, const std::string& element) {
     const std::string name = stringMember(trim, "domain", element);
     if (!name.empty() && name != "uv" && name != "face") {
         refuse(element + " domain", quoted(name) + " is neither uv nor face");
@@ -73,7 +73,7 @@ TrimDomain domainOf(const json& trim, const std::string& element) {
 }
 
 /// As the trim says, else as many square tiles as the image is wide.
-uint32_t tilesOf(const Document& document, const json& trim, uint32_t image, const std::string& element) {
+uint32_t tilesOf(const Document& document, const Json& trim, uint32_t image, const std::string& element) {
     if (const uint64_t given = unsignedMember(trim, "tiles", element, 0); given > 0) {
         if (given > kMaxTrimTiles) {
             refuse(element + " tiles", std::to_string(given) + ", more than " + std::to_string(kMaxTrimTiles));
@@ -95,17 +95,17 @@ uint32_t tilesOf(const Document& document, const json& trim, uint32_t image, con
 } // namespace
 
 std::optional<Trim> readTrim(const Document& document, size_t material, Warnings& warnings) {
-    const json* extras = member(document.materials[material], "extras");
-    const json* trim = extras != nullptr && extras->is_object() ? member(*extras, "trim") : nullptr;
+    const Json* extras = member(document.materials[material], "extras");
+    const Json* trim = extras != nullptr && extras->isObject() ? member(*extras, "trim") : nullptr;
     if (trim == nullptr) {
         return std::nullopt;
     }
     const std::string element = at("material", material) + " extras.trim";
-    if (!trim->is_object()) {
+    if (!trim->isObject()) {
         warn(warnings, element, "not an object; left out");
         return std::nullopt;
     }
-    const json* texture = objectMember(*trim, "texture", element);
+    const Json* texture = objectMember(*trim, "texture", element);
     if (texture == nullptr) {
         refuse(element, "no texture");
     }
@@ -121,8 +121,8 @@ std::optional<Trim> readTrim(const Document& document, size_t material, Warnings
     return read;
 }
 
-void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& from,
-                   std::span<const Material> materials, MeshPrimitive& primitive) {
+void readTrimTiles(const Document& document, const file::Primitive& from, std::span<const Material> materials,
+                   MeshPrimitive& primitive) {
     if (primitive.material < 0 || !materials[static_cast<size_t>(primitive.material)].trim) {
         return;
     }
@@ -143,7 +143,7 @@ void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& f
     const std::string name = primitive.element + " _TRIM_TILE";
     checkVertexCount(document, attribute->second, primitive.vertexCount, name);
     const std::vector<float> values =
-        readFloats(document, attribute->second, TINYGLTF_TYPE_SCALAR, kFloat | kU8 | kU16 | kU32 | kS8 | kS16, name);
+        readFloats(document, attribute->second, file::kScalar, kFloat | kU8 | kU16 | kU32 | kS8 | kS16, name);
     for (size_t v = 0; v < values.size(); ++v) {
         // Written so that a NaN is refused too.
         if (!(values[v] >= -1.0f) || std::floor(values[v]) != values[v]) {

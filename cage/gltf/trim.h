@@ -16,7 +16,7 @@ namespace supple::cage::gltf {
 [[nodiscard]] std::optional<Trim> readTrim(const Document& document, size_t material, Warnings& warnings);
 
 /// Fills trimTiles of the primitive, and refuses one that lacks what its material's trim needs.
-void readTrimTiles(const Document& document, const supple_tinygltf::Primitive& from,
-                   std::span<const Material> materials, MeshPrimitive& primitive);
+void readTrimTiles(const Document& document, const file::Primitive& from, std::span<const Material> materials,
+                   MeshPrimitive& primitive);
 
 } // namespace supple::cage::gltf

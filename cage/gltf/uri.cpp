@@ -186,17 +186,27 @@ Result<std::string> relativePath(std::string_view uri) {
     if (path.front() == '/' || path.find('\\') != std::string::npos) {
         return malformed("only relative paths with forward slashes are allowed");
     }
-    if (path.find('\0') != std::string::npos) {
-        return malformed("path contains a NUL character");
+    const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+    if (const auto found = std::find_if(path.begin(), path.end(), isControl); found != path.end()) {
+        return malformed(*found == '\0' ? "path contains a NUL character" : "path contains a control character");
     }
+    // A host that looks a path up as it stands must find the same file by every way of writing it.
+    std::string plain;
     for (size_t begin = 0; begin <= path.size();) {
         const size_t end = std::min(path.find('/', begin), path.size());
-        if (path.compare(begin, end - begin, "..") == 0) {
+        const std::string_view name = std::string_view(path).substr(begin, end - begin);
+        if (name == "..") {
             return malformed("path leaves the asset's folder");
+        }
+        if (!name.empty() && name != ".") {
+            plain.append(plain.empty() ? "" : "/").append(name);
         }
         begin = end + 1;
     }
-    return path;
+    if (plain.empty()) {
+        return malformed("empty path");
+    }
+    return plain;
 }
 
 Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const std::string& path) {

@@ -20,7 +20,8 @@ struct DataUri {
 /// "data:[media type][;base64],..." with any media type; white space inside base64 is skipped.
 [[nodiscard]] Result<DataUri> decodeDataUri(std::string_view uri);
 
-/// The path a URI means, percent-decoded; refuses schemes, absolute paths, "..", backslashes and NUL.
+/// The path a URI means, percent-decoded, without "." and empty names; refuses schemes, absolute paths, "..",
+/// backslashes and control characters.
 [[nodiscard]] Result<std::string> relativePath(std::string_view uri);
 
 /// Reads a path from relativePath() below `baseDirectory`; refuses symbolic links that lead outside, and anything but

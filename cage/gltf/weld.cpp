@@ -128,8 +128,8 @@ VertexPairs pairsOfNumbers(const std::vector<uint32_t>& cageNumbers) {
 /// The JSON of a mesh's EXT_mesh_manifold, checked.
 struct Manifold {
     std::string element;
-    const json* object = nullptr;
-    const json* primitive = nullptr; ///< manifoldPrimitive
+    const Json* object = nullptr;
+    const Json* primitive = nullptr; ///< manifoldPrimitive
     bool merges = false;             ///< has mergeIndices and mergeValues
 };
 
@@ -138,10 +138,10 @@ Manifold checkManifold(const Document& document, const Mesh& mesh) {
     manifold.element = mesh.element + " EXT_mesh_manifold";
     const std::string& element = manifold.element;
     manifold.object = objectMember(document.meshes[mesh.index].at("extensions"), "EXT_mesh_manifold", mesh.element);
-    const json* object = manifold.object;
+    const Json* object = manifold.object;
     manifold.primitive = object == nullptr ? nullptr : objectMember(*object, "manifoldPrimitive", element);
-    const json* primitive = manifold.primitive;
-    const json* attributes = primitive == nullptr ? nullptr : objectMember(*primitive, "attributes", element);
+    const Json* primitive = manifold.primitive;
+    const Json* attributes = primitive == nullptr ? nullptr : objectMember(*primitive, "attributes", element);
     if (attributes == nullptr) {
         refuse(element, "no manifoldPrimitive with attributes");
     }
@@ -156,7 +156,7 @@ Manifold checkManifold(const Document& document, const Mesh& mesh) {
         refuse(element, manifold.merges ? "mergeIndices without mergeValues" : "mergeValues without mergeIndices");
     }
     for (const MeshPrimitive& own : mesh.primitives) {
-        if (own.positionAccessor != attributes->at("POSITION").get<int>()) {
+        if (own.positionAccessor != static_cast<int>(attributes->at("POSITION").index())) {
             refuse(place, "its POSITION is not that of " + own.element);
         }
     }
@@ -167,8 +167,9 @@ Manifold checkManifold(const Document& document, const Mesh& mesh) {
 /// instead; so the vertices found there are one with these. Vertices count within one primitive.
 VertexPairs readMerges(const Document& document, const Manifold& manifold, size_t vertexCount) {
     const std::string& element = manifold.element;
-    const auto read = [&](const json& number, const char* name, Sparse sparse) {
-        return readIntegers(document, number.get<int>(), TINYGLTF_TYPE_SCALAR, kIntegers, element + " " + name, sparse);
+    const auto read = [&](const Json& number, const char* name, Sparse sparse) {
+        return readIntegers(document, static_cast<int>(number.index()), file::kScalar, kIntegers, element + " " + name,
+                            sparse);
     };
     const auto before = read(manifold.primitive->at("indices"), "manifoldPrimitive indices", Sparse::ignored);
     const auto positions = read(manifold.object->at("mergeIndices"), "mergeIndices", Sparse::applied);
@@ -206,8 +207,8 @@ std::optional<VertexPairs> pairsOfManifold(const Document& document, const Mesh&
     const uint32_t vertexCount = mesh.primitives[0].vertexCount;
     VertexPairs pairs;
     if (manifold.merges) {
-        const auto indices = manifold.primitive->at("indices").get<size_t>();
-        if (!document.model.accessors[indices].sparse.isSparse) {
+        const auto indices = manifold.primitive->at("indices").index();
+        if (document.model.accessors[indices].sparseCount == 0) {
             warn(warnings, manifold.element,
                  "its indices are not sparse, so what they were before merging is lost; not used");
             return std::nullopt;

@@ -222,6 +222,9 @@ private:
         glm::vec3 position;
         for (int k = 0; k < 3; ++k) {
             position[k] = toFloat(words.next(), element + ": position");
+            if (const char* fault = faultOfCoordinate(position[k])) {
+                refuse(element + ": position", fault);
+            }
         }
         positions_.push_back(position);
         // A fourth number is a rational weight; six or more end in a color.
@@ -615,9 +618,7 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         }
         bindToOneJoint(character, std::filesystem::path(name).stem().string());
         character.parts[0].polygonSource = PolygonSource::obj;
-        for (std::string& warning : character.warnings) {
-            warning = oneLine(std::move(warning));
-        }
+        character.warnings = readableLines(character.warnings);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

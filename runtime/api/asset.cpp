@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 using namespace supple;      // NOLINT
@@ -31,12 +32,15 @@ Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::
     if (files.read(path.c_str(), &found, files.user) == 0) {
         return Error{ErrorCode::io, "the host has no such file"};
     }
+    // Given back even if there is no memory to copy it to.
+    const auto release = [&files](SuppleFileBytes* bytes) {
+        if (files.release != nullptr) {
+            files.release(bytes, files.user);
+        }
+    };
+    const std::unique_ptr<SuppleFileBytes, decltype(release)> held(&found, release);
     const auto* first = static_cast<const std::byte*>(found.bytes);
-    std::vector<std::byte> bytes(first, first + (first != nullptr ? found.byteCount : 0));
-    if (files.release != nullptr) {
-        files.release(&found, files.user);
-    }
-    return bytes;
+    return std::vector<std::byte>(first, first + (first != nullptr ? found.byteCount : 0));
 }
 
 cage::FileReader reader(const SuppleFiles* files) {
@@ -81,6 +85,7 @@ Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }
+    options.memoryLimit = desc.memoryLimit;
     options.readFile = reader(desc.files);
     for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
         const SuppleClipFile& file = desc.clipFiles[i];

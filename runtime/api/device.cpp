@@ -50,14 +50,14 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
         std::snprintf(out->reason, sizeof(out->reason), "%s", reason.c_str());
         return SUPPLE_ERROR_ARGUMENT;
     };
-    if (out->structSize < runtime::kFirstSize<SuppleRequirements>) {
-        return out->structSize != 0 ? SUPPLE_ERROR_ARGUMENT
-                                    : refused(faultOfSize<SuppleRequirements>("out", out->structSize));
-    }
-    if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
-        return refused("instance, physicalDevice or getInstanceProcAddr is null");
-    }
     try {
+        if (!runtime::isPossibleSize<SuppleRequirements>(out->structSize)) {
+            return out->structSize != 0 ? SUPPLE_ERROR_ARGUMENT
+                                        : refused(faultOfSize<SuppleRequirements>("out", out->structSize));
+        }
+        if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
+            return refused("instance, physicalDevice or getInstanceProcAddr is null");
+        }
         const gpu::Requirements requirements = gpu::requirements();
         SuppleRequirements filled{};
         filled.apiVersion = requirements.apiVersion;
@@ -87,7 +87,8 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
     }
     // A struct that says another size than any version's has no callback to tell. Without a size it is one of ours.
     SuppleContextDesc desc{};
-    if (given == nullptr || (given->structSize != 0 && given->structSize < runtime::kFirstSize<SuppleContextDesc>)) {
+    if (given == nullptr ||
+        (given->structSize != 0 && !runtime::isPossibleSize<SuppleContextDesc>(given->structSize))) {
         return SUPPLE_ERROR_ARGUMENT;
     }
     try {

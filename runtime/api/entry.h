@@ -140,7 +140,7 @@ std::optional<SuppleResult> checkOut(Context& context, const char* function, con
     if (out == nullptr) {
         return refuse(context, ErrorCode::nullPointer, function, "out is null");
     }
-    if (out->structSize < runtime::kFirstSize<T>) {
+    if (!runtime::isPossibleSize<T>(out->structSize)) {
         return refuse(context, ErrorCode::structSize, function, faultOfSize<T>("out", out->structSize));
     }
     return std::nullopt;

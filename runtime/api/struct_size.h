@@ -58,6 +58,9 @@ std::string faultOfSize(const std::string& name, uint32_t size) {
     if (size < runtime::kFirstSize<T>) {
         return is + (size == 0 ? "" : "less than in any version; ") + "set it to sizeof(" + type + ")";
     }
+    if (!runtime::isPossibleSize<T>(size)) {
+        return is + "more than in any version; set it to sizeof(" + type + ")";
+    }
     return is + "a newer version's " + type + ", with fields in use that this library lacks";
 }
 

@@ -605,7 +605,7 @@ TEST(Contract, CagesAreRefusedByName) {
     // All kinds of faults at once, one line each.
     range.positions[3].y = range.positions[5].x = std::nanf("");
     range.holes = {77};
-    EXPECT_NE(refusal(range).find("shape.cage: 2 positions are not finite, the first is vertex 3\n"
+    EXPECT_NE(refusal(range).find("shape.cage: 2 positions are not finite or beyond 1e+09, the first is vertex 3\n"
                                   "shape.cage: 1 corner names no vertex: vertex 99 of 8 in face 1\n"
                                   "shape.cage: 1 hole is no face: hole 0, face 77 of 6"),
               std::string::npos)

@@ -90,9 +90,8 @@ const std::vector<std::byte>& tubeFile() {
         cage::Image image;
         image.name = "pixel";
         image.mimeType = "image/png";
-        for (const uint8_t b : kPng) {
-            image.bytes.push_back(std::byte{b});
-        }
+        const auto png = std::as_bytes(std::span(kPng));
+        image.bytes = std::vector<std::byte>(png.begin(), png.end());
         tube.images.push_back(image);
         cage::Material material = cage::namedMaterial("skin");
         material.baseColorTexture.image = 0;

@@ -108,7 +108,8 @@ void BakeFiles::writePaintedCube(const std::string& name) {
         ASSERT_TRUE(host::writePng(picture, file("image.png").string()).ok());
         const std::string png = readText(file("image.png"));
         const auto bytes = std::as_bytes(std::span(png));
-        cube->images.push_back({"shade " + std::to_string(shade), "image/png", {bytes.begin(), bytes.end()}});
+        cube->images.push_back(
+            {"shade " + std::to_string(shade), "image/png", std::vector<std::byte>(bytes.begin(), bytes.end())});
     }
     fs::remove(file("image.png"));
     const Result<cage::GlbFile> glb = cage::writeGlb(*cube);

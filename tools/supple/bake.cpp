@@ -1,5 +1,6 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
 #include "cage/gltf/writer.h"
+#include "host/whole_file.h"
 #include "surface/choice.h"
 #include "surface/scheme.h"
 #include "tools/common/character_file.h"
@@ -8,8 +9,8 @@
 #include "tools/supple/baked_ply.h"
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
+#include "tools/supple/output_files.h"
 #include "tools/supple/text_file.h"
-#include "tools/supple/whole_file.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -18,7 +19,6 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
-#include <system_error>
 
 namespace supple::tools {
 namespace {
@@ -160,7 +160,7 @@ Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, con
     }
     if (!glb) {
         const Result<std::vector<std::byte>> ply = plyOf(*meshes, character);
-        return ply ? writeWhole(options.output, *ply) : Status(ply.error());
+        return ply ? host::writeWhole(options.output, *ply) : Status(ply.error());
     }
     const Result<cage::GlbFile> file = cage::writeGlb(character, stillMeshes(std::move(*meshes), character));
     if (!file) {
@@ -169,7 +169,7 @@ Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, con
     for (const std::string& warning : file->warnings) {
         warn(character.name + ": " + warning);
     }
-    return writeWhole(options.output, file->bytes);
+    return host::writeWhole(options.output, file->bytes);
 }
 
 Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cage::Character& character) {
@@ -245,10 +245,8 @@ void bindBake(CLI::App& app, int& exitCode) {
     bindMorphs(*command, options->morphs);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
-        std::error_code ignored;
-        if (std::filesystem::equivalent(options->file, options->output, ignored)) {
-            throw CLI::ValidationError("--output", options->output + " is the input itself");
-        }
+        checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles),
+                     {{"--output", options->output}, {"--patches", options->patches}});
         exitCode = runBake(*options);
     });
 }

@@ -1,15 +1,14 @@
 #include "tools/supple/command.h"
 
+#include "cage/message.h"
+
 #include <algorithm>
 #include <cstdio>
 
 namespace supple::tools {
 
 std::string printable(std::string_view text) {
-    std::string line(text);
-    std::replace_if(
-        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
-    return line;
+    return cage::oneLine(text, ' ');
 }
 
 int fail(ExitCode code, std::string_view reason) {

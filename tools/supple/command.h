@@ -30,7 +30,7 @@ int fail(const Error& error);
 /// Prints "supple: warning: text" as one line on stderr.
 void warn(std::string_view text);
 
-/// `text` with control characters replaced, so that names from files cannot break a line or drive a terminal.
+/// `text` as cage::oneLine() has it, so that names from files cannot break a line, turn it round or drive a terminal.
 std::string printable(std::string_view text);
 
 // One function a subcommand: adds it to the command line. When it is chosen it runs during parsing and leaves its exit

@@ -1,9 +1,10 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
 #include "cage/gltf/writer.h"
+#include "host/whole_file.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
-#include "tools/supple/whole_file.h"
+#include "tools/supple/output_files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -94,7 +95,7 @@ int runConvert(const ConvertOptions& options) {
     if (!glb) {
         return fail(glb.error());
     }
-    const Status written = writeWhole(options.output, glb->bytes);
+    const Status written = host::writeWhole(options.output, glb->bytes);
     if (!written) {
         return fail(written.error());
     }
@@ -119,10 +120,7 @@ void bindConvert(CLI::App& app, int& exitCode) {
         ->type_name("OUT.glb");
     bindReading(*command, options->reading);
     command->callback([options, &exitCode] {
-        std::error_code ignored;
-        if (fs::equivalent(options->file, options->output, ignored)) {
-            throw CLI::ValidationError("--output", options->output + " is the input itself");
-        }
+        checkOutputs(inputsOf(options->file, options->reading.clipFiles), {{"--output", options->output}});
         exitCode = runConvert(*options);
     });
 }

@@ -1,5 +1,8 @@
 #include "tools/supple/evaluation.h"
 
+#include "cage/limits.h"
+
+#include <string>
 #include <utility>
 
 namespace supple::tools {
@@ -67,6 +70,19 @@ Result<Evaluation> readGroup(Session& session, SuppleGroup group) {
     return result;
 }
 
+/// A clip may move a vertex anywhere: a chain of large scales ends beyond what floats hold.
+Status checkCage(const Evaluation& evaluation, const cage::Character& character) {
+    const SuppleBufferRange& range = evaluation.surfaces.front().output.info.deformedCage;
+    for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
+        const auto position = element<glm::vec3>(evaluation.deformedCage, range, v);
+        if (const char* fault = cage::faultOfCoordinates(&position[0], 3)) {
+            return Error{ErrorCode::asset,
+                         character.name + ": the pose moves cage vertex " + std::to_string(v) + ": " + fault};
+        }
+    }
+    return success();
+}
+
 } // namespace
 
 Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
@@ -106,7 +122,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     if (!status) {
         return status.error();
     }
-    return readGroup(session, group);
+    Result<Evaluation> evaluation = readGroup(session, group);
+    if (evaluation) {
+        status = checkCage(*evaluation, character);
+    }
+    return status ? std::move(evaluation) : status.error();
 }
 
 } // namespace supple::tools

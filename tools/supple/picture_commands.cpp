@@ -2,6 +2,7 @@
 #include "tools/supple/command.h"
 #include "tools/supple/contact_sheet.h"
 #include "tools/supple/options.h"
+#include "tools/supple/output_files.h"
 #include "tools/supple/render.h"
 #include "tools/supple/view.h"
 #include "tools/supple/view_keys.h"
@@ -76,7 +77,10 @@ void bindRender(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
-    command->callback([options, &exitCode] { exitCode = runRender(*options); });
+    command->callback([options, &exitCode] {
+        checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
+        exitCode = runRender(*options);
+    });
 }
 
 void bindSheet(CLI::App& app, int& exitCode) {
@@ -95,7 +99,10 @@ void bindSheet(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     command->add_flag("--labels,!--no-labels", options->labels, "Write clip and time (on unless --no-labels)");
     bindDraw(*command, options->draw, {});
-    command->callback([options, &exitCode] { exitCode = runContactSheet(*options); });
+    command->callback([options, &exitCode] {
+        checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
+        exitCode = runContactSheet(*options);
+    });
 }
 
 void bindView(CLI::App& app, int& exitCode) {

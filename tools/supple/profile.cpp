@@ -3,6 +3,7 @@
 #include "tools/common/character_file.h"
 #include "tools/common/machine.h"
 #include "tools/supple/command.h"
+#include "tools/supple/output_files.h"
 #include "tools/supple/profile_compare.h"
 #include "tools/supple/profile_frames.h"
 #include "tools/supple/profile_page.h"
@@ -345,7 +346,18 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
     bindGates(*command, *options);
     bindSurface(*command, options->surface, {"all", "cage"});
     bindDevice(*command, options->device);
-    command->callback([options, &exitCode] { exitCode = runProfile(*options); });
+    command->callback([options, &exitCode] {
+        std::vector<std::string> inputs = options->files;
+        const std::vector<std::string>& clips = options->surface.reading.clipFiles;
+        inputs.insert(inputs.end(), clips.begin(), clips.end());
+        inputs.push_back(options->compare);
+        checkOutputs(inputs, {{"--json", options->json},
+                              {"--csv", options->csv},
+                              {"--trace", options->trace},
+                              {"--html", options->html},
+                              {"--hashes", options->hashes}});
+        exitCode = runProfile(*options);
+    });
 }
 
 } // namespace supple::tools

@@ -1,6 +1,7 @@
 #include "tools/supple/text_file.h"
 
 #include <charconv>
+#include <span>
 
 namespace supple::tools {
 namespace {
@@ -9,7 +10,7 @@ constexpr size_t kBlock = 1 << 20;
 
 } // namespace
 
-TextFile::TextFile(std::string path) : path_(std::move(path)), stream_(path_, std::ios::binary | std::ios::trunc) {
+TextFile::TextFile(std::string path) : file_(std::move(path)) {
     pending_.reserve(kBlock + 256);
 }
 
@@ -36,15 +37,11 @@ TextFile& TextFile::number(uint64_t value) {
 
 Status TextFile::close() {
     flush();
-    stream_.close();
-    if (!stream_) {
-        return Error{ErrorCode::io, path_ + ": cannot be written"};
-    }
-    return success();
+    return file_.close();
 }
 
 void TextFile::flush() {
-    stream_.write(pending_.data(), static_cast<std::streamsize>(pending_.size()));
+    file_.write(std::as_bytes(std::span(pending_)));
     pending_.clear();
 }
 

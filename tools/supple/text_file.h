@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/result.h"
+#include "host/whole_file.h"
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -25,8 +25,7 @@ public:
 private:
     void flush();
 
-    std::string path_;
-    std::ofstream stream_;
+    host::WholeFile file_;
     std::string pending_;
 };
 

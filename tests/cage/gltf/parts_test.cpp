@@ -121,7 +121,7 @@ TEST(GltfParts, ManyNodesWithOneMeshAreBounded) {
     }
     b.nodes += "]";
     b.more = "";
-    EXPECT_EQ(messageOf(b.glb(), ErrorCode::limit),
+    EXPECT_EQ(messageOf(b.glb(), ErrorCode::limit, kMuchMemory),
               "t.glb: node 16384: with its mesh, there are more than 16384 meshes");
 }
 

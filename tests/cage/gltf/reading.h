@@ -28,6 +28,14 @@ inline cage::Character readWell(const GltfBuilder& b, const cage::GltfOptions& o
 }
 
 /// Why a wrong file is refused; "accepted" where it is not.
+/// For limits that are there however much memory a file may take.
+inline const cage::GltfOptions kMuchMemory = [] {
+    cage::GltfOptions options;
+    options.pairing = cage::Pairing::never;
+    options.memoryLimit = uint64_t{1} << 40;
+    return options;
+}();
+
 inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset,
                              const cage::GltfOptions& options = kKeepTriangles) {
     const Result<cage::Character> result = cage::readGltf(bytes, "t.glb", "", options);

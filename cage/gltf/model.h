@@ -1,0 +1,135 @@
+// The tables of a glTF file as structs. Private to cage/gltf/.
+#pragma once
+
+#include "cage/gltf/json.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// As a file has things: indices are into its own tables, -1 where it names none.
+namespace supple::cage::gltf::file {
+
+/// Elements of accessors.
+enum ElementType : int { kScalar, kVec2, kVec3, kVec4, kMat2, kMat3, kMat4 };
+/// Components of elements; the values are glTF's, as are those of modes.
+enum Component : int {
+    kByte = 5120,
+    kUnsignedByte = 5121,
+    kShort = 5122,
+    kUnsignedShort = 5123,
+    kUnsignedInt = 5125,
+    kFloat = 5126
+};
+enum Mode : int { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, kTriangleFan };
+
+/// The names of element types, by type.
+inline constexpr const char* kTypeNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+
+struct BufferView {
+    size_t buffer = 0;
+    uint64_t byteOffset = 0;
+    uint64_t byteLength = 0;
+    uint64_t byteStride = 0; ///< 0: packed
+};
+
+/// Where numbers of a sparse accessor lie.
+struct SparsePart {
+    int bufferView = -1;
+    uint64_t byteOffset = 0;
+    int componentType = 0; ///< of indices
+};
+
+struct Accessor {
+    int bufferView = -1; ///< -1: zeros
+    uint64_t byteOffset = 0;
+    int componentType = 0;
+    bool normalized = false;
+    uint64_t count = 0;
+    int type = kScalar;
+    uint64_t sparseCount = 0; ///< 0: not sparse
+    SparsePart sparseIndices, sparseValues;
+};
+
+/// By attribute: the accessor.
+using Attributes = std::map<std::string, int, std::less<>>;
+
+struct Primitive {
+    Attributes attributes;
+    std::vector<Attributes> targets;
+    int indices = -1;
+    int material = -1;
+    int mode = kTriangles;
+    Json json; ///< with the extensions
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives; ///< one or more
+    std::vector<double> weights;
+};
+
+struct Node {
+    std::string name;
+    int mesh = -1;
+    int skin = -1;
+    std::vector<int> children;
+    // Empty where the file says nothing.
+    std::vector<double> translation, rotation, scale, matrix, weights;
+};
+
+struct Skin {
+    std::vector<int> joints;
+    int inverseBindMatrices = -1;
+};
+
+struct AnimationSampler {
+    int input = -1;
+    int output = -1;
+    std::string interpolation; ///< empty: LINEAR
+};
+
+struct AnimationChannel {
+    int sampler = -1;
+    int node = 0;
+    std::string path; ///< "pointer" where an extension says what moves
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationSampler> samplers;
+    std::vector<AnimationChannel> channels;
+    Json extras;
+};
+
+struct Scene {
+    std::vector<int> nodes;
+};
+
+/// Every index is in range, and every array of numbers has its right length and finite members.
+struct Model {
+    std::string copyright;
+    std::set<std::string, std::less<>> extensionsUsed, extensionsRequired;
+    std::vector<BufferView> bufferViews;
+    std::vector<Accessor> accessors;
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes;
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
+    std::vector<Scene> scenes;
+    int defaultScene = -1;
+};
+
+/// Of a document that checkStructure() has passed. Where decodedInto[view] is not -1, that buffer takes the place of
+/// what the bufferView names.
+[[nodiscard]] Model toModel(const Json& root, const std::vector<int>& decodedInto);
+
+[[nodiscard]] size_t componentSize(int componentType);
+[[nodiscard]] size_t componentsOf(int type);
+
+} // namespace supple::cage::gltf::file

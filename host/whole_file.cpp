@@ -1,0 +1,70 @@
+#include "host/whole_file.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace supple::host {
+
+namespace fs = std::filesystem;
+
+WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
+    std::error_code error;
+    const fs::file_status target = fs::status(path_, error);
+    const bool special = fs::exists(target) && !fs::is_regular_file(target) && !fs::is_directory(target);
+    if (!special && fs::is_symlink(fs::symlink_status(path_, error))) {
+        refusal_ = "is a symbolic link";
+        return;
+    }
+    if (!special) {
+        temporary_ = path_ + "." + std::to_string(getpid()) + ".tmp";
+    }
+    errno = 0;
+    stream_.open(special ? path_ : temporary_, std::ios::binary | std::ios::trunc);
+    if (!stream_) {
+        refusal_ = "cannot be written" + (errno != 0 ? ": " + std::generic_category().message(errno) : "");
+        temporary_.clear();
+    }
+}
+
+WholeFile::~WholeFile() {
+    if (!temporary_.empty()) {
+        std::error_code ignored;
+        fs::remove(temporary_, ignored);
+    }
+}
+
+void WholeFile::write(std::span<const std::byte> bytes) {
+    if (refusal_.empty()) {
+        stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+}
+
+Status WholeFile::close() {
+    if (!refusal_.empty()) {
+        return Error{ErrorCode::io, path_ + ": " + refusal_};
+    }
+    errno = 0;
+    stream_.close();
+    std::error_code error;
+    if (!stream_) {
+        error = {errno, std::generic_category()};
+    } else if (!temporary_.empty()) {
+        fs::rename(temporary_, path_, error);
+    }
+    if (!stream_ || error) {
+        return Error{ErrorCode::io, path_ + ": cannot be written" + (error ? ": " + error.message() : "")};
+    }
+    temporary_.clear();
+    return success();
+}
+
+Status writeWhole(const std::string& path, std::span<const std::byte> bytes) {
+    WholeFile file(path);
+    file.write(bytes);
+    return file.close();
+}
+
+} // namespace supple::host

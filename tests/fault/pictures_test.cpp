@@ -1,0 +1,70 @@
+// Pictures that nobody vetted.
+#include "host/picture.h"
+
+#include <algorithm>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+namespace {
+
+std::vector<std::byte> bytesOf(const std::string& text) {
+    std::vector<std::byte> bytes(text.size());
+    std::memcpy(bytes.data(), text.data(), text.size());
+    return bytes;
+}
+
+std::string refusalOf(const std::string& bytes) {
+    const Result<host::Picture> picture = host::decodePicture(bytesOf(bytes), "p");
+    return picture ? "decoded" : picture.error().message;
+}
+
+std::string big(uint32_t value) {
+    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
+            static_cast<char>(value)};
+}
+
+uint32_t crcOf(const std::string& text) {
+    uint32_t crc = 0xFFFFFFFFu;
+    for (const char c : text) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int bit = 0; bit < 8; ++bit) {
+            crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xEDB88320u : 0u);
+        }
+    }
+    return ~crc;
+}
+
+std::string pngOf(uint32_t width, uint32_t height) {
+    const std::string header = "IHDR" + big(width) + big(height) + std::string("\x08\x06\x00\x00\x00", 5);
+    return "\x89PNG\r\n\x1A\n" + big(13) + header + big(crcOf(header)) + big(0) + "IDAT" + big(crcOf("IDAT"));
+}
+
+TEST(Pictures, AHuffmanTableOfTooManyCodesIsRefused) {
+    // 16 lengths of 255 codes each: stb_image 2.27 writes them all into a table of 256.
+    const std::string table = std::string("\x00", 1) + std::string(16, '\xFF') + std::string(4080, '\x01');
+    const std::string length = {static_cast<char>((table.size() + 2) >> 8), static_cast<char>(table.size() + 2)};
+    const std::string refusal = refusalOf("\xFF\xD8\xFF\xC4" + length + table + std::string(64, '\0'));
+    EXPECT_EQ(refusal, "p: Bogus Huffman table definition");
+}
+
+TEST(Pictures, AreasBeyondTheLimitAreRefusedByTheirHeader) {
+    EXPECT_EQ(refusalOf(pngOf(16384, 16384)), "p: more than 67108864 pixels");
+    EXPECT_EQ(refusalOf(pngOf(1u << 26, 2)), "p: more than 67108864 pixels");
+    EXPECT_EQ(refusalOf(pngOf(0, 0)).substr(0, 3), "p: ");
+    const std::string frame("\xFF\xD8\xFF\xC0\x00\x11\x08\xFF\xFF\xFF\xFF\x03\x01\x11\x00\x02\x11\x01\x03\x11\x01", 21);
+    const std::string scan("\xFF\xDA\x00\x0C\x03\x01\x00\x02\x11\x03\x11\x00\x3F\x00", 14);
+    EXPECT_EQ(refusalOf(frame + scan + std::string(64, '\0')).substr(0, 3), "p: ");
+}
+
+TEST(Pictures, WhatIsCutOffOrNoPictureIsRefused) {
+    EXPECT_EQ(refusalOf(pngOf(4, 4)), "p: truncated");
+    EXPECT_EQ(refusalOf("GIF89a"), "p: not a PNG or JPEG");
+    EXPECT_EQ(refusalOf(""), "p: not a PNG or JPEG");
+    EXPECT_NE(refusalOf("\xFF\xD8\xFF"), "decoded");
+}
+
+} // namespace
+} // namespace supple::test

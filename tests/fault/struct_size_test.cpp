@@ -1,0 +1,47 @@
+// structSize as it is in memory that nobody has filled.
+#include "tests/support/gpu_surface.h"
+#include "tests/support/logged_context.h"
+
+#include <gtest/gtest.h>
+
+namespace supple::test {
+namespace {
+
+TEST(StructSize, GarbageIsNotBelieved) {
+    const std::unique_ptr<host::Device> device = deviceThrough(nullptr);
+    ASSERT_NE(device, nullptr);
+    LoggedContext context(*device);
+    ASSERT_EQ(context.result(), SUPPLE_OK);
+    const auto expectLine = [&](const std::string& text) {
+        const std::vector<LogLine> lines = context.takeLines();
+        ASSERT_EQ(lines.size(), 1u) << text;
+        EXPECT_EQ(lines[0].text, text);
+        EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_STRUCT_SIZE);
+    };
+    for (const uint32_t size : {0xFFFFFFFFu, 0xCDCDCDCDu, 0x80000000u}) {
+        const std::string is =
+            ".structSize is " + std::to_string(size) + ": more than in any version; set it to sizeof(";
+        SuppleAssetDesc asset{};
+        asset.structSize = size;
+        SuppleAsset made{};
+        EXPECT_EQ(suppleCreateAsset(context.handle(), &asset, &made), SUPPLE_ERROR_ARGUMENT);
+        expectLine("suppleCreateAsset: desc" + is + "SuppleAssetDesc)");
+        SuppleMemoryUse use{};
+        use.structSize = size;
+        EXPECT_EQ(suppleGetContextMemory(context.handle(), &use), SUPPLE_ERROR_ARGUMENT);
+        expectLine("suppleGetContextMemory: out" + is + "SuppleMemoryUse)");
+        SuppleRequirements requirements{};
+        requirements.structSize = size;
+        EXPECT_EQ(
+            suppleQueryRequirements(device->instance(), device->physicalDevice(), vkGetInstanceProcAddr, &requirements),
+            SUPPLE_ERROR_ARGUMENT);
+        SuppleContextDesc desc = host::contextDesc(*device);
+        desc.structSize = size;
+        SuppleContext none = nullptr;
+        EXPECT_EQ(suppleCreateContext(&desc, &none), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(none, nullptr);
+    }
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,251 @@
+// Calls of the public API in any order, most of them right: the input chooses which, of what and when. Every call comes
+// back with a result that it may have, and what is destroyed leaves no memory on the device.
+#include "host/context.h"
+#include "host/device.h"
+#include "tests/fuzz/target.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace supple::fuzz {
+namespace {
+
+constexpr const char* kCube = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n";
+
+host::Device& device() {
+    static const std::unique_ptr<host::Device> made = [] {
+        Result<std::unique_ptr<host::Device>> result = host::Device::create({});
+        demand(result.ok(), "no device");
+        return std::move(*result);
+    }();
+    return *made;
+}
+
+/// The input as a row of choices; when it has ended, zeros.
+class Choices {
+public:
+    Choices(const uint8_t* data, size_t size) : data_(data), left_(size) {}
+    [[nodiscard]] bool any() const { return left_ > 0; }
+    uint32_t below(uint32_t count) {
+        if (left_ == 0) {
+            return 0;
+        }
+        --left_;
+        return *data_++ % count;
+    }
+    template <class T>
+    T& of(std::vector<T>& values) {
+        return values[below(static_cast<uint32_t>(values.size()))];
+    }
+
+private:
+    const uint8_t* data_;
+    size_t left_;
+};
+
+class Driver {
+public:
+    Driver(const uint8_t* data, size_t size) : choose_(data, size) {
+        SuppleContextDesc desc = host::contextDesc(device());
+        desc.framesInFlight = 1 + choose_.below(SUPPLE_MAX_FRAMES_IN_FLIGHT);
+        if (choose_.below(2) == 1) {
+            desc.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+            desc.drawQueueFamily = desc.queueFamily;
+        }
+        desc.mapping = static_cast<SuppleMapping>(choose_.below(3));
+        framesInFlight_ = desc.framesInFlight;
+        demand(suppleCreateContext(&desc, &context_) == SUPPLE_OK, "no context");
+    }
+    Driver(const Driver&) = delete;
+    Driver& operator=(const Driver&) = delete;
+    ~Driver() { suppleDestroyContext(context_); }
+
+    void run() {
+        createAsset();
+        for (uint32_t step = 0; step < 96 && choose_.any(); ++step) {
+            act();
+        }
+        for (const SuppleGroup group : groups_) {
+            check(suppleDestroyGroup(context_, group));
+        }
+        for (const SuppleAsset asset : assets_) {
+            check(suppleDestroyAsset(context_, asset));
+        }
+    }
+
+private:
+    struct Instance {
+        SuppleInstance handle;
+        SupplePoseSource source;
+    };
+
+    void check(SuppleResult result) const {
+        demand(result != SUPPLE_ERROR_VULKAN && result != SUPPLE_ERROR_DEVICE_LOST &&
+                   result != SUPPLE_ERROR_HOST_MEMORY && result != SUPPLE_ERROR_DEVICE_MEMORY,
+               suppleResultString(result));
+    }
+
+    void createAsset() {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.name = "cube.obj";
+        desc.bytes = kCube;
+        desc.byteCount = std::char_traits<char>::length(kCube);
+        SuppleAsset asset{};
+        check(suppleCreateAsset(context_, &desc, &asset));
+        if (asset.id != 0) {
+            assets_.push_back(asset);
+        }
+        if (choose_.below(4) == 1) {
+            check(suppleReloadAsset(context_, choose_.of(assets_), &desc));
+        }
+    }
+
+    void createGroup() {
+        static constexpr SuppleScheme kSchemes[] = {
+            SUPPLE_SCHEME_AUTO,  SUPPLE_SCHEME_PREP,     SUPPLE_SCHEME_PM,        SUPPLE_SCHEME_CATMULL_CLARK,
+            SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_CAGE};
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = choose_.of(assets_);
+        desc.capacity = 1 + choose_.below(3);
+        desc.scheme = kSchemes[choose_.below(8)];
+        desc.rate = choose_.below(5);
+        desc.flags = choose_.below(64);
+        desc.poseSource = static_cast<SupplePoseSource>(choose_.below(4));
+        desc.skinning = static_cast<SuppleSkinning>(choose_.below(2));
+        if (!groups_.empty() && choose_.below(8) == 1) {
+            desc.instancesOf = choose_.of(groups_);
+            desc.capacity = 0;
+        }
+        SuppleGroup group{};
+        check(suppleCreateGroup(context_, &desc, &group));
+        if (group.id != 0) {
+            groups_.push_back(group);
+        }
+    }
+
+    void frame() {
+        ++frame_;
+        const uint64_t behind = 1 + choose_.below(framesInFlight_);
+        check(suppleBeginFrame(context_, frame_, std::max(completed_, frame_ - std::min(frame_, behind))));
+        completed_ = std::max(completed_, frame_ - std::min(frame_, behind));
+        if (choose_.below(8) == 1) {
+            check(suppleCancelFrame(context_));
+            return;
+        }
+        SuppleRecordDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.groups = groups_.data();
+        desc.groupCount = static_cast<uint32_t>(groups_.size());
+        desc.flags = choose_.below(2) == 1 ? SUPPLE_RECORD_TIMINGS : 0;
+        desc.before = desc.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+        const Status submitted = device().submitAndWait([&](VkCommandBuffer commands) {
+            if (choose_.below(3) == 1) {
+                check(suppleRecordUploads(context_, commands));
+            }
+            check(suppleRecord(context_, commands, &desc));
+        });
+        demand(submitted.ok(), "a frame cannot be submitted");
+    }
+
+    void actOnInstance() {
+        const SuppleInstance instance = choose_.of(instances_);
+        const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        switch (choose_.below(8)) {
+        case 0:
+            check(suppleSetClipPose(context_, instance, SUPPLE_BIND_POSE, 0.5));
+            break;
+        case 1:
+            check(suppleSetTransform(context_, instance, matrix));
+            break;
+        case 2:
+            check(suppleSetVisible(context_, instance, choose_.below(2)));
+            break;
+        case 3:
+            check(suppleSetPartVisible(context_, instance, 0, choose_.below(2)));
+            break;
+        case 4:
+            check(suppleTeleport(context_, instance));
+            break;
+        case 5:
+            check(suppleSetMatrixPose(context_, instance, matrix, 1));
+            break;
+        case 6:
+            check(suppleSetUserData(context_, instance, matrix));
+            break;
+        default:
+            check(suppleDestroyInstance(context_, instance)); // its handle stays: others meet a stale one
+            break;
+        }
+    }
+
+    void act() {
+        switch (choose_.below(10)) {
+        case 0:
+            createAsset();
+            break;
+        case 1:
+            createGroup();
+            break;
+        case 2:
+            if (!groups_.empty()) {
+                SuppleInstance instance{};
+                check(suppleCreateInstance(context_, choose_.of(groups_), &instance));
+                instances_.push_back(instance);
+            }
+            break;
+        case 3:
+            if (!groups_.empty()) {
+                check(suppleSetCapacity(context_, choose_.of(groups_), 1 + choose_.below(4)));
+            }
+            break;
+        case 4:
+            if (!groups_.empty()) {
+                check(suppleSetRate(context_, choose_.of(groups_), 1 + choose_.below(4)));
+            }
+            break;
+        case 5:
+            if (!groups_.empty() && choose_.below(3) == 1) {
+                SuppleGroup& group = choose_.of(groups_);
+                check(suppleDestroyGroup(context_, group));
+                std::swap(group, groups_.back());
+                groups_.pop_back();
+            }
+            break;
+        case 6:
+        case 7:
+            frame();
+            break;
+        default:
+            if (!instances_.empty()) {
+                actOnInstance();
+            }
+            break;
+        }
+    }
+
+    Choices choose_;
+    SuppleContext context_ = nullptr;
+    uint32_t framesInFlight_ = 1;
+    uint64_t frame_ = 0, completed_ = 0;
+    std::vector<SuppleAsset> assets_;
+    std::vector<SuppleGroup> groups_;
+    std::vector<SuppleInstance> instances_;
+};
+
+} // namespace
+} // namespace supple::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    supple::fuzz::Driver(data, size).run();
+    return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
+    return supple::fuzz::mutateWith(supple::fuzz::mutateBytes, data, size, most, seed);
+}

@@ -1,0 +1,42 @@
+// What is read is written and read again: the same cage, skeleton and clips.
+#include "cage/gltf/reader.h"
+#include "cage/gltf/writer.h"
+#include "tests/fuzz/target.h"
+
+#include <algorithm>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace supple;
+    cage::GltfOptions options;
+    options.pairing = size % 2 == 0 ? cage::Pairing::always : cage::Pairing::whereClean;
+    const Result<cage::Character> first = cage::readGltf(fuzz::bytesOf(data, size), "fuzz.glb", "", options);
+    if (!first) {
+        return 0;
+    }
+    const Result<cage::GlbFile> written = cage::writeGlb(*first);
+    if (!written) {
+        fuzz::demand(written.error().message.starts_with("fuzz.glb: "), "a refusal without the name");
+        return 0;
+    }
+    options.pairing = cage::Pairing::never;
+    options.sewParts = false;
+    options.memoryLimit = uint64_t{1} << 32;
+    const Result<cage::Character> second = cage::readGltf(written->bytes, "written.glb", "", options);
+    if (!second) {
+        std::fprintf(stderr, "%s\n", second.error().message.c_str());
+    }
+    fuzz::demand(second.ok(), "what was written cannot be read");
+    fuzz::demand(first->cage.positions == second->cage.positions, "other positions");
+    fuzz::demand(first->cage.faceStarts == second->cage.faceStarts, "other faces");
+    fuzz::demand(first->cage.faceVertices == second->cage.faceVertices, "other corners");
+    fuzz::demand(first->cage.holes == second->cage.holes, "other holes");
+    // glTF has no clips without channels.
+    const auto moving = std::count_if(first->clips.begin(), first->clips.end(),
+                                      [](const cage::Clip& clip) { return !clip.channels.empty(); });
+    fuzz::demand(static_cast<size_t>(moving) == second->clips.size(), "other clips");
+    return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
+    return supple::fuzz::mutateWith(supple::fuzz::mutateGltf, data, size, most, seed);
+}

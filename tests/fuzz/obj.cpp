@@ -1,0 +1,31 @@
+// Any OBJ: read, or refused with a message; then the tables of all schemes.
+#include "cage/formats/reader.h"
+#include "surface/schemes.h"
+#include "tests/fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace supple;
+    cage::GltfOptions options;
+    options.creasesFromNormals = size % 2 == 0;
+    const Result<cage::Character> character = cage::readCharacter(fuzz::bytesOf(data, size), "fuzz.obj", "", options);
+    if (!character) {
+        fuzz::demand(character.error().message.starts_with("fuzz.obj: "), "a refusal without the name");
+        return 0;
+    }
+    if (character->cage.cornerCount() > 2000) {
+        return 0;
+    }
+    for (const surface::Scheme& scheme : surface::schemes()) {
+        surface::Recipe recipe;
+        recipe.scheme = scheme.id;
+        recipe.rate = scheme.tableRate(size % 4 + 1, false);
+        recipe.wide = size % 3 == 0;
+        const Result<surface::Tables> tables = surface::buildTables(recipe, character->cage);
+        fuzz::demand(tables.ok() || !tables.error().message.empty(), "a refusal without a reason");
+    }
+    return 0;
+}
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
+    return supple::fuzz::mutateWith(supple::fuzz::mutateLines, data, size, most, seed);
+}
