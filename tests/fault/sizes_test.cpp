@@ -1,7 +1,8 @@
-// structSize as it is in memory that nobody has filled.
+// What descriptions say of sizes: structSize as it is in memory that nobody has filled, and memoryLimit.
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 
+#include <cstddef>
 #include <gtest/gtest.h>
 
 namespace supple::test {
@@ -41,6 +42,28 @@ TEST(StructSize, GarbageIsNotBelieved) {
         EXPECT_EQ(suppleCreateContext(&desc, &none), SUPPLE_ERROR_ARGUMENT);
         EXPECT_EQ(none, nullptr);
     }
+}
+
+TEST(MemoryLimit, AnAssetIsRefusedBeforeItTakesMore) {
+    const std::unique_ptr<host::Device> device = deviceThrough(nullptr);
+    ASSERT_NE(device, nullptr);
+    LoggedContext context(*device);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "tube";
+    desc.bytes = tubeFile().data();
+    desc.byteCount = tubeFile().size();
+    desc.memoryLimit = 1000;
+    SuppleAsset asset{};
+    EXPECT_EQ(suppleCreateAsset(context.handle(), &desc, &asset), SUPPLE_ERROR_LIMIT);
+    const std::vector<LogLine> lines = context.takeLines();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0].text, "tube: JSON: the file needs more memory than the 1000 bytes of memoryLimit");
+    desc.memoryLimit = 1u << 24;
+    EXPECT_EQ(suppleCreateAsset(context.handle(), &desc, &asset), SUPPLE_OK);
+    desc.structSize = offsetof(SuppleAssetDesc, memoryLimit); // of a host that knows no limit
+    desc.memoryLimit = 1000;
+    EXPECT_EQ(suppleCreateAsset(context.handle(), &desc, &asset), SUPPLE_OK);
 }
 
 } // namespace
