@@ -111,7 +111,7 @@ NodeMatch matchNodes(const Skeleton& from, const Skeleton& to) {
         }
         match.repeated.emplace_back(name);
         const bool taken = std::any_of(nodes.from.begin(), nodes.from.end(),
-                                       [&](uint32_t n) { return match.partners[n] == nodes.to[0]; });
+                                       [&, first = nodes.to[0]](uint32_t n) { return match.partners[n] == first; });
         if (isAlone(nodes.from[0]) && !taken) {
             match.partners[nodes.from[0]] = nodes.to[0];
         }

@@ -46,7 +46,7 @@ class ExtensionReader {
 public:
     ExtensionReader(const Document& document, const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage,
                     Warnings& warnings)
-        : document_(document), mesh_(mesh), cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
+        : document_(document), cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
         for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
             // Of several vertices of one number any will do, but one without a face only where none has.
             uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
@@ -105,7 +105,6 @@ private:
     }
 
     const Document& document_;
-    const Mesh& mesh_;
     std::span<const uint32_t> cageVertices_;
     Cage& cage_;
     Warnings& warnings_;

@@ -136,7 +136,7 @@ const Json* Json::find(std::string_view name) const {
 }
 
 const Json& Json::at(std::string_view name) const {
-    static constexpr Json kNull;
+    static constexpr Json kNull{};
     const Json* found = find(name);
     return found != nullptr ? *found : kNull;
 }
