@@ -156,6 +156,8 @@ std::vector<Vec3> paint(const Cage& cage) {
         case Part::Spike:
             c = mixed(kFin, kFinTip, point.along);
             break;
+        default: // Wren's
+            break;
         }
     }
     return colours;

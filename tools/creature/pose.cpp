@@ -1,7 +1,5 @@
 #include "pose.h"
 
-#include "pip_model.h"
-
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
