@@ -31,8 +31,6 @@ constexpr Vec3 kEyeOut{0.10, 0.0, 1.0}; // where the eye's opening faces; not un
 constexpr double kMouthLine = 1.3865;
 constexpr Vec3 kTail[] = {{0, 1.630, -0.175}, {0, 1.560, -0.265}, {0, 1.450, -0.300}, {0, 1.330, -0.290}};
 constexpr int kTailJoints = 3;
-// Where the hand holds: the left hand's; the sword is in the right one.
-constexpr Vec3 kGrip{0.4785, 0.8215, 0.0};
 constexpr Vec3 kScabbard{0.152, 0.925, -0.02};
 constexpr Vec3 kScarfTail[] = {{-0.062, 1.262, -0.096}, {-0.080, 1.120, -0.158}, {-0.092, 0.985, -0.170}, {-0.098, 0.860, -0.162}};
 constexpr int kScarfJoints = 3;
@@ -59,6 +57,10 @@ struct Finger {
     double radius;
 };
 std::array<Finger, 5> fingers();
+// Hands, too, are modelled at one size and worn at another.
+Vec3 handGrown(const Vec3& p);
+// Where the left hand holds; the sword is in the right one.
+Vec3 grip();
 
 Cage modelHead(const FaceShape& shape);
 Cage modelEyes(double blink);

@@ -63,6 +63,43 @@ void addTargets(cage::Morphs& morphs, const Piece& piece, uint32_t base) {
     }
 }
 
+// Channels that say the same at every key need but two.
+void thin(cage::Clip& clip) {
+    for (cage::Channel& channel : clip.channels) {
+        const size_t width = channel.values.size() / channel.times.size();
+        const auto first = channel.values.begin();
+        bool same = true;
+        for (size_t i = width; i < channel.values.size(); ++i) {
+            same = same && channel.values[i] == channel.values[i % width];
+        }
+        if (same && channel.times.size() > 2) {
+            channel.values.assign(first, first + static_cast<std::ptrdiff_t>(width));
+            channel.values.insert(channel.values.end(), channel.values.begin(), channel.values.begin() + static_cast<std::ptrdiff_t>(width));
+            channel.times = {channel.times.front(), channel.times.back()};
+        }
+    }
+}
+
+// The weights of a piece's targets, as far as the clip knows them; the others rest.
+void addShapes(cage::Clip& made, const Clip& clip, const Piece& piece, const cage::Part& part) {
+    bool any = false;
+    for (const auto& [name, shaped] : piece.targets) {
+        any = any || clip.morphs.count(name);
+    }
+    if (!any) {
+        return;
+    }
+    cage::Channel channel{part.node, cage::ChannelPath::weights, cage::Interpolation::linear, {}, {}, part.firstTarget};
+    for (size_t frame = 0; frame < clip.frames.size(); ++frame) {
+        channel.times.push_back(rounded(static_cast<double>(frame) / clip.framesPerSecond));
+        for (const auto& [name, shaped] : piece.targets) {
+            const auto found = clip.morphs.find(name);
+            channel.values.push_back(found == clip.morphs.end() ? 0.0f : rounded(found->second[frame]));
+        }
+    }
+    made.channels.push_back(channel);
+}
+
 } // namespace
 
 cage::Character assemble(const std::vector<Piece>& pieces, const Skeleton& skeleton, const std::vector<Clip>& clips) {
@@ -94,7 +131,12 @@ cage::Character assemble(const std::vector<Piece>& pieces, const Skeleton& skele
     character.skeleton.parentsFirst.resize(character.skeleton.nodes.size());
     std::iota(character.skeleton.parentsFirst.begin(), character.skeleton.parentsFirst.end(), 0u);
     for (const Clip& clip : clips) {
-        character.clips.push_back(assembleClip(clip, skeleton));
+        cage::Clip made = assembleClip(clip, skeleton);
+        for (size_t i = 0; i < pieces.size(); ++i) {
+            addShapes(made, clip, pieces[i], character.parts[i]);
+        }
+        thin(made);
+        character.clips.push_back(made);
     }
     character.materials = materials();
     character.images = images();

@@ -39,8 +39,9 @@ std::vector<StrapPoint> roundWaist(const Body& jacket, int count, const std::fun
     for (int i = 0; i < count; ++i) {
         const double a = 2 * kPi * i / count;
         const Vec3 out{std::sin(a), 0, std::cos(a)};
-        path.push_back(jacket.cast(Vec3{0, height(a), -0.005} + out * 0.5, -out));
-        path.back().out.y *= 0.5;
+        // From inside, or the rays would end on the sleeves.
+        path.push_back(jacket.cast(Vec3{0, height(a), -0.005}, out));
+        path.back().out *= Vec3{-1, -0.5, -1};
     }
     return path;
 }
@@ -97,7 +98,6 @@ void addBelts(Cage& cage, const Body& jacket) {
           0.024, 0.005, false);
     addPouch(cage, {belt[24].at + belt[24].out * 0.010 + Vec3{0, -0.034, 0}, belt[24].out}, {0.074, 0.070, 0.036});
     addPouch(cage, {belt[17].at + belt[17].out * 0.010 + Vec3{0, -0.030, 0}, belt[17].out}, {0.060, 0.058, 0.032});
-    addPouch(cage, {belt[5].at + belt[5].out * 0.010 + Vec3{0, -0.026, 0}, belt[5].out}, {0.046, 0.050, 0.028});
 }
 
 // From the right shoulder over the chest to the left hip, and up the back again.
@@ -114,7 +114,8 @@ void addBaldric(Cage& cage, const Body& jacket) {
         const Vec3 p = mix(high, low, i / 9.0);
         path.push_back(jacket.cast({p.x, p.y, -0.5}, {0, 0, 1}));
     }
-    path.push_back(jacket.cast({0.5, 0.972, -0.005}, {-1, 0, 0}));
+    path.push_back(jacket.cast({0, 0.972, -0.005}, {1, 0, 0}));
+    path.back().out *= -1.0;
     cage.part = Part::Strap;
     const std::vector<StrapPoint> laid = evened(path, true, 0.002);
     strap(cage, laid, 0.030, 0.006, true);

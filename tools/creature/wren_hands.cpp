@@ -78,6 +78,9 @@ Cage hand() {
     addFinger(cage, side, all[4], Part::Thumb, back);
     cage.endShell();
     cage.compact();
+    for (Point& point : cage.points) {
+        point.position = handGrown(point.position);
+    }
     return cage;
 }
 

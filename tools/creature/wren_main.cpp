@@ -1,6 +1,7 @@
 // supple_wren OUT.glb: makes the second sample character, always to the same bytes.
 
 #include "wren_assemble.h"
+#include "wren_clips.h"
 
 #include "cage/gltf/writer.h"
 
@@ -61,7 +62,7 @@ int main(int argc, char** argv) {
         }
     }
     const Skeleton skeleton = wren::makeSkeleton();
-    const supple::cage::Character character = wren::assemble(made, skeleton, {});
+    const supple::cage::Character character = wren::assemble(made, skeleton, wren::makeClips(skeleton));
     const auto file = supple::cage::writeGlb(character);
     if (!file) {
         return fail(file.error().message);

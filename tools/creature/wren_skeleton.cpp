@@ -27,6 +27,15 @@ std::array<Finger, 5> fingers() {
                  palm * 0.80 + across * 0.78 - back * 0.28, 0.072, 0.0118)};
 }
 
+Vec3 handGrown(const Vec3& p) {
+    const Vec3 axis = glm::normalize(kKnuckles - kWrist);
+    return kWrist + (p - kWrist) * mix(1.0, 1.17, ramp(-0.02, 0.03, glm::dot(p - kWrist, axis)));
+}
+
+Vec3 grip() {
+    return handGrown({0.4835, 0.8175, -0.003});
+}
+
 Skeleton makeSkeleton() {
     Skeleton skeleton;
     const auto add = [&](const std::string& name, const std::string& parent, const Vec3& rest) {
@@ -56,9 +65,9 @@ Skeleton makeSkeleton() {
         addPaired("hand", "foreArm" + side, kWrist);
         for (const Finger& finger : fingers()) {
             const std::string name = finger.name;
-            addPaired(name + "A", "hand" + side, finger.from);
-            addPaired(name + "B", name + "A" + side, mix(finger.from, finger.to, 0.42));
-            addPaired(name + "C", name + "B" + side, mix(finger.from, finger.to, 0.72));
+            addPaired(name + "A", "hand" + side, handGrown(finger.from));
+            addPaired(name + "B", name + "A" + side, handGrown(mix(finger.from, finger.to, 0.42)));
+            addPaired(name + "C", name + "B" + side, handGrown(mix(finger.from, finger.to, 0.72)));
         }
         addPaired("thigh", "hips", kThigh);
         addPaired("shin", "thigh" + side, kKnee);
@@ -67,7 +76,7 @@ Skeleton makeSkeleton() {
         addPaired("skirtFront", "hips", {0.075, 0.915, 0.065});
         addPaired("skirtBack", "hips", {0.075, 0.915, -0.075});
     }
-    add("sword", "hand.R", onRight(kGrip));
+    add("sword", "hand.R", onRight(grip()));
     add("scabbard", "hips", kScabbard);
     return skeleton;
 }

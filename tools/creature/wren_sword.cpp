@@ -54,7 +54,7 @@ void addGrip(Cage& cage, const Frame& frame) {
     Tube grip = Tube::begin(cage, 2, 2, at(-0.068), 0.012, 0.0105);
     for (int i = 0; i <= 12; ++i) {
         const double bulge = 1 + 0.10 * std::sin(kPi * i / 12.0) + (i % 2 == 0 ? 0.07 : -0.03);
-        grip.ring(at(mix(-0.064, 0.054, i / 12.0)), 0.0128 * bulge, 0.0110 * bulge);
+        grip.ring(at(mix(-0.064, 0.054, i / 12.0)), 0.0145 * bulge, 0.0125 * bulge);
     }
     grip.lay();
     cage.endShell();
@@ -106,7 +106,7 @@ void addScabbard(Cage& cage) {
 Cage modelSword() {
     Cage sword;
     const Vec3 palm = glm::normalize(kKnuckles - kWrist);
-    const Frame frame = frameFrom(kGrip, {0, 0, 1}, palm);
+    const Frame frame = frameFrom(grip(), {0, 0, 1}, palm);
     addGrip(sword, frame);
     sword.part = Part::Blade;
     Frame root = frame;

@@ -130,7 +130,7 @@ void leg(Shares& shares, const Vec3& p) {
 void finger(Shares& shares, const Vec3& p, size_t which) {
     const std::array<Finger, 5> all = fingers();
     const Finger& it = all[which];
-    const Vec3 chain[] = {it.from, mix(it.from, it.to, 0.42), mix(it.from, it.to, 0.72), it.to};
+    const Vec3 chain[] = {handGrown(it.from), handGrown(mix(it.from, it.to, 0.42)), handGrown(mix(it.from, it.to, 0.72)), handGrown(it.to)};
     const std::string side = sideOf(p);
     const std::string name = it.name;
     shareChain(shares, "hand" + side, {name + "A" + side, name + "B" + side, name + "C" + side},
