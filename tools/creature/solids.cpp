@@ -167,14 +167,15 @@ void strap(Cage& cage, const std::vector<StrapPoint>& path, double wide, double 
         rings.push_back(ring);
         lengths.push_back(lengths.back() + glm::length(path[(i + 1) % count].at - path[i].at));
     }
-    const double v[] = {0, wide, wide + thick, wide + thick + wide, 2 * (wide + thick)};
+    // The face lies on the whole height of a tile of 5 cm, for stitches along both edges.
+    const double v[][2] = {{0.020, 0.024}, {0.0, 0.002}, {0.0, 0.050}, {0.048, 0.050}};
     for (size_t i = 0; i + (closed ? 0 : 1) < count; ++i) {
         const std::array<int, 4>& a = rings[i];
         const std::array<int, 4>& b = rings[(i + 1) % count];
         for (size_t k = 0; k < 4; ++k) {
             const size_t next = (k + 1) % 4;
             cage.addQuad(a[k], b[k], b[next], a[next]);
-            cage.faces.back().uvs = {{lengths[i], v[k]}, {lengths[i + 1], v[k]}, {lengths[i + 1], v[k + 1]}, {lengths[i], v[k + 1]}};
+            cage.faces.back().uvs = {{lengths[i], v[k][0]}, {lengths[i + 1], v[k][0]}, {lengths[i + 1], v[k][1]}, {lengths[i], v[k][1]}};
             cage.crease(a[k], b[k], sharpness);
         }
     }

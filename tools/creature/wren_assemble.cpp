@@ -2,6 +2,7 @@
 
 #include "assemble.h"
 #include "wren_palette.h"
+#include "wren_textures.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,8 +35,8 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
         for (size_t i = 0; i < face.points.size(); ++i) {
             cage.faceVertices.push_back(base + static_cast<uint32_t>(face.points[i]));
             const Vec2 uv = face.uvs.empty() ? boxed(piece.position(face.points[i]), normal) : face.uvs[i];
-            const double scale = eye ? 1 : look.density;
-            cage.cornerUvs.push_back({rounded(uv.x * scale), rounded(uv.y * scale)});
+            const Vec2 at = look.material == 0 ? facePlace(piece.position(face.points[i])) : uv * (eye ? 1 : look.density);
+            cage.cornerUvs.push_back({rounded(at.x), rounded(at.y)});
             cage.cornerColors.push_back({shade(look.colour.x), shade(look.colour.y), shade(look.colour.z), 1.0f});
         }
         cage.faceStarts.push_back(cage.cornerCount());
@@ -139,7 +140,7 @@ cage::Character assemble(const std::vector<Piece>& pieces, const Skeleton& skele
         character.clips.push_back(made);
     }
     character.materials = materials();
-    character.images = images();
+    character.images = pictures();
     return character;
 }
 

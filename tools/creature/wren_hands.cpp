@@ -9,6 +9,19 @@ namespace supple::creature::wren {
 
 namespace {
 
+// The last faces on the back of a finger; rims run round from the palm's side.
+void addNail(Cage& cage, const std::vector<std::vector<int>>& rims) {
+    const std::map<std::pair<int, int>, size_t> edges = cage.directedEdges();
+    const size_t last = rims.size() - 1;
+    for (size_t i = last - 2; i < last; ++i) {
+        cage.faces[edges.at({rims[i][3], rims[i][4]})].part = Part::Nail;
+    }
+    cage.creaseChain({rims[last - 2][3], rims[last - 2][4]}, 2);
+    for (const size_t side : {3u, 4u}) {
+        cage.creaseChain({rims[last - 2][side], rims[last - 1][side], rims[last][side]}, 1.2f);
+    }
+}
+
 void addFinger(Cage& cage, const Patch& base, const Finger& finger, Part part, const Vec3& back) {
     cage.part = part;
     Tube tube(cage, base);
@@ -31,6 +44,7 @@ void addFinger(Cage& cage, const Patch& base, const Finger& finger, Part part, c
                   finger.radius * ring.deep * swell, ring.t == 1 ? finger.radius * 0.35 : 0);
     }
     tube.lay();
+    addNail(cage, tube.rims);
 }
 
 Cage hand() {

@@ -25,6 +25,7 @@ constexpr JacketSlice kSlices[] = {
     {1.256, -0.020, 0.0780, 0.058, 0.062}, {1.280, -0.018, 0.0690, 0.057, 0.060}, {1.300, -0.017, 0.0690, 0.059, 0.062},
     {1.303, -0.017, 0.0640, 0.055, 0.058}, {1.270, -0.018, 0.0560, 0.046, 0.050},
 };
+constexpr double kBandDensity = 14; // as swatch() has it
 constexpr int kFront = 3, kSide = 6, kHalf = 2 * kFront + kSide;
 constexpr size_t kHem = 2, kBelt = 9, kArmLow = 13, kArmHigh = 16;
 
@@ -131,6 +132,14 @@ void Jacket::sleeve() {
     cage.part = Part::Jacket;
 }
 
+// The band's picture lies across its faces once.
+void layBand(Face& face, const std::function<Vec2(int)>& at) {
+    face.uvs.clear();
+    for (const int point : face.points) {
+        face.uvs.push_back(at(point));
+    }
+}
+
 // Bands of another cloth: hem, front, collar.
 void Jacket::dress() {
     std::map<int, std::pair<size_t, int>> place;
@@ -158,11 +167,18 @@ void Jacket::dress() {
         }
         const bool hem = low >= kHem && high <= kHem + 2;
         const bool front = right <= 1 && low >= kHem && high < 18;
-        if (hem || front) {
-            face.part = Part::JacketTrim;
-        }
-        if (low >= 18) {
-            face.part = Part::Collar;
+        const bool collar = low >= 18;
+        if (hem || front || collar) {
+            face.part = collar ? Part::Collar : Part::JacketTrim;
+            layBand(face, [&](int point) {
+                const auto& [ring, k] = place.at(point);
+                const double height = static_cast<double>(ring) - static_cast<double>(kHem);
+                if (front && !collar && !(hem && k == 1 && right > 1)) {
+                    return Vec2{cage.position(point).y, (0.5 + 0.5 * k) / kBandDensity};
+                }
+                const double up = collar ? (static_cast<double>(ring) - 18) / 2 : height / 2;
+                return Vec2{0.030 * k, std::clamp(up, 0.0, 1.0) / kBandDensity};
+            });
         }
     }
     for (size_t i = 18; i < rims.size(); ++i) {

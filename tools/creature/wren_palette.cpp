@@ -1,12 +1,13 @@
 #include "wren_palette.h"
 
+#include "wren.h"
+#include "wren_textures.h"
+
 #include "cage/materials.h"
 
 #include <cmath>
 
 namespace supple::creature::wren {
-
-namespace {
 
 Vec3 srgb(unsigned hex) {
     Vec3 colour;
@@ -17,18 +18,20 @@ Vec3 srgb(unsigned hex) {
     return colour;
 }
 
-enum Kind : uint32_t { Skin, Eyes, Hair, Cloth, Leather, Steel, Brass, Wet };
+namespace {
+
+enum Kind : uint32_t { Face, Skin, Eyes, Hair, Cloth, Band, Leather, StrapLeather, Steel, Brass, Wet };
 
 } // namespace
 
 Swatch swatch(Part part) {
     switch (part) {
     case Part::Lip:
-        return {Skin, srgb(0xd07a6a)};
+        return {Face, {0.86, 0.62, 0.60}};
     case Part::Mouth:
         return {Wet, srgb(0x5a1a20)};
     case Part::Nostril:
-        return {Skin, srgb(0x6a2a22)};
+        return {Face, {0.40, 0.24, 0.22}};
     case Part::Tooth:
         return {Wet, srgb(0xf4efe4)};
     case Part::Lash:
@@ -45,7 +48,7 @@ Swatch swatch(Part part) {
         return {Cloth, srgb(0x2b4a78), 10};
     case Part::JacketTrim:
     case Part::Collar:
-        return {Cloth, srgb(0xe8d3a0), 10};
+        return {Band, srgb(0xe8d3a0), 14};
     case Part::Scarf:
         return {Cloth, srgb(0xd9962a), 8};
     case Part::ScarfFringe:
@@ -61,7 +64,7 @@ Swatch swatch(Part part) {
     case Part::Sole:
         return {Leather, srgb(0x2a1d18), 9};
     case Part::Strap:
-        return {Leather, srgb(0x4e2c1a), 12};
+        return {StrapLeather, srgb(0x55301c), 20};
     case Part::Pouch:
         return {Leather, srgb(0x7a4a28), 12};
     case Part::Bracer:
@@ -76,31 +79,72 @@ Swatch swatch(Part part) {
         return {Steel, srgb(0xc9ced6), 6};
     case Part::Grip:
         return {Leather, srgb(0x3c2016), 16};
+    case Part::Nail:
+        return {Skin, srgb(0xf7c4ae)};
+    case Part::Hand:
+    case Part::Thumb:
+    case Part::Finger1:
+    case Part::Finger2:
+    case Part::Finger3:
+    case Part::Finger4:
+        return {Skin, srgb(0xf0b796)};
     default:
-        return {Skin, srgb(0xf0b594), 1};
+        return {Face, {1, 1, 1}};
     }
 }
 
 std::vector<cage::Material> materials() {
     std::vector<cage::Material> list;
-    const auto add = [&](const char* name, float metallic, float roughness) {
+    const auto texture = [](Picture picture) { return cage::Texture{.image = static_cast<uint32_t>(picture)}; };
+    const auto add = [&](const char* name, float metallic, float roughness) -> cage::Material& {
         list.push_back(cage::namedMaterial(name));
         list.back().metallicFactor = metallic;
         list.back().roughnessFactor = roughness;
+        return list.back();
     };
-    add("skin", 0, 0.52f);
-    add("eyes", 0, 0.06f);
-    add("hair", 0, 0.42f);
-    add("cloth", 0, 0.85f);
-    add("leather", 0, 0.55f);
-    add("steel", 1, 0.28f);
-    add("brass", 1, 0.32f);
+    const auto wear = [&](cage::Material& material, Picture normal, float scale) {
+        material.normalTexture = texture(normal);
+        material.normalScale = scale;
+    };
+    add("face", 0, 0.50f).baseColorTexture = texture(Picture::Face);
+    add("skin", 0, 0.50f);
+    add("eyes", 0, 0.05f).baseColorTexture = texture(Picture::Eye);
+    cage::Material& hair = add("hair", 0, 0.40f);
+    hair.baseColorTexture = texture(Picture::Strands);
+    wear(hair, Picture::StrandsNormal, 0.9f);
+    cage::Material& cloth = add("cloth", 0, 0.86f);
+    cloth.baseColorTexture = texture(Picture::Weave);
+    wear(cloth, Picture::WeaveNormal, 1.0f);
+    cage::Material& band = add("band", 0, 0.70f);
+    band.baseColorTexture = texture(Picture::Band);
+    wear(band, Picture::BandNormal, 1.0f);
+    cage::Material& leather = add("leather", 1, 1.0f);
+    leather.metallicRoughnessTexture = texture(Picture::Grain);
+    wear(leather, Picture::GrainNormal, 0.8f);
+    cage::Material& strap = add("strap", 0, 0.55f);
+    strap.baseColorTexture = texture(Picture::Strap);
+    wear(strap, Picture::StrapNormal, 1.0f);
+    for (const char* name : {"steel", "brass"}) {
+        cage::Material& metal = add(name, 1, 1.0f);
+        metal.metallicRoughnessTexture = texture(Picture::Worn);
+        wear(metal, Picture::WornNormal, 0.6f);
+    }
     add("wet", 0, 0.25f);
     return list;
 }
 
-std::vector<cage::Image> images() {
-    return {};
+Vec2 facePlace(const Vec3& point) {
+    return {0.5 + point.x / 0.36, (1.72 - point.y) / 0.46};
+}
+
+Vec3 facePoint(const Vec2& place) {
+    const Vec3 worn{(place.x - 0.5) * 0.36, 1.72 - place.y * 0.46, 0.08};
+    // Back to the size at which it was modelled.
+    Vec3 p = worn;
+    for (int round = 0; round < 12; ++round) {
+        p += (worn - grown(p)) * Vec3{0.85, 0.85, 0};
+    }
+    return p;
 }
 
 } // namespace supple::creature::wren

@@ -13,8 +13,11 @@ struct Swatch {
     double density = 1; // of its textures: repeats a metre
 };
 
+Vec3 srgb(unsigned hex);
 Swatch swatch(Part part);
+// Where the face's picture shows a point, and back: the picture is the head from the front.
+Vec2 facePlace(const Vec3& point);
+Vec3 facePoint(const Vec2& place);
 std::vector<cage::Material> materials();
-std::vector<cage::Image> images();
 
 } // namespace supple::creature::wren
