@@ -47,9 +47,9 @@ uint32_t hash(int x, int y, unsigned seed) {
     return h ^ h >> 15;
 }
 
-double chance(int x, int y, int period, unsigned seed) {
-    const auto wrapped = [&](int i) { return (i % period + period) % period; };
-    return hash(wrapped(x), wrapped(y), seed) / 4294967295.0;
+double chance(int x, int y, int across, int down, unsigned seed) {
+    const auto wrapped = [](int i, int period) { return (i % period + period) % period; };
+    return hash(wrapped(x, across), wrapped(y, down), seed) / 4294967295.0;
 }
 
 } // namespace
@@ -90,12 +90,13 @@ std::vector<std::byte> normalPng(int width, int height, double steep, const Fiel
     return png(width, height, pixels);
 }
 
-double tiledNoise(double x, double y, int period, unsigned seed) {
+double tiledNoise(double x, double y, int across, int down, unsigned seed) {
     const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));
     const double fx = x - cx, fy = y - cy;
     const double sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
-    const double low = chance(cx, cy, period, seed) * (1 - sx) + chance(cx + 1, cy, period, seed) * sx;
-    const double high = chance(cx, cy + 1, period, seed) * (1 - sx) + chance(cx + 1, cy + 1, period, seed) * sx;
+    const auto corner = [&](int i, int j) { return chance(cx + i, cy + j, across, down, seed); };
+    const double low = corner(0, 0) * (1 - sx) + corner(1, 0) * sx;
+    const double high = corner(0, 1) * (1 - sx) + corner(1, 1) * sx;
     return (low * (1 - sy) + high * sy) * 2 - 1;
 }
 
@@ -104,7 +105,7 @@ Vec2 tiledCells(double x, double y, int period, unsigned seed) {
     Vec2 nearest{9, 9};
     for (int j = cy - 1; j <= cy + 1; ++j) {
         for (int i = cx - 1; i <= cx + 1; ++i) {
-            const double d = std::hypot(i + chance(i, j, period, seed) - x, j + chance(i, j, period, seed + 1) - y);
+            const double d = std::hypot(i + chance(i, j, period, period, seed) - x, j + chance(i, j, period, period, seed + 1) - y);
             if (d < nearest.x) {
                 nearest = {d, nearest.x};
             } else if (d < nearest.y) {

@@ -19,8 +19,11 @@ std::vector<std::byte> paintPng(int width, int height, bool srgb, const Painting
 // The normal map of heights that tile: `steep` is height in pixels.
 std::vector<std::byte> normalPng(int width, int height, double steep, const Field& heights);
 
-// Smooth noise that repeats after `period` cells in both directions, in [-1, 1].
-double tiledNoise(double x, double y, int period, unsigned seed);
+// Smooth noise in [-1, 1] that repeats after so many cells across and down.
+double tiledNoise(double x, double y, int across, int down, unsigned seed);
+inline double tiledNoise(double x, double y, int period, unsigned seed) {
+    return tiledNoise(x, y, period, period, seed);
+}
 // The nearest of points scattered one a cell, and the next: distances in cells, likewise repeating.
 Vec2 tiledCells(double x, double y, int period, unsigned seed);
 

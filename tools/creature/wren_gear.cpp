@@ -84,10 +84,10 @@ void addPouch(Cage& cage, const StrapPoint& place, const Vec3& size) {
 
 void addBelts(Cage& cage, const Body& jacket) {
     cage.part = Part::Strap;
-    const std::vector<StrapPoint> belt = evened(roundWaist(jacket, 28, [](double) { return 0.957; }), true, -0.001);
-    strap(cage, belt, 0.036, 0.008, true);
+    const std::vector<StrapPoint> belt = evened(roundWaist(jacket, 28, [](double) { return 0.957; }), true, 0.0030);
+    strap(cage, belt, 0.036, 0.0085, true);
     const auto slope = [](double a) { return 0.925 + 0.024 * std::cos(a + 0.75 + kPi * 0.5) - 0.004; };
-    const std::vector<StrapPoint> low = evened(roundWaist(jacket, 28, slope), true, 0.0005);
+    const std::vector<StrapPoint> low = evened(roundWaist(jacket, 28, slope), true, 0.0050);
     strap(cage, low, 0.022, 0.006, true);
     const StrapPoint front = belt[0];
     addBuckle(cage, frameFrom(front.at + front.out * 0.007, front.out, {1, 0, 0}), 0.023, 0.021);
@@ -117,7 +117,7 @@ void addBaldric(Cage& cage, const Body& jacket) {
     path.push_back(jacket.cast({0, 0.972, -0.005}, {1, 0, 0}));
     path.back().out *= -1.0;
     cage.part = Part::Strap;
-    const std::vector<StrapPoint> laid = evened(path, true, 0.002);
+    const std::vector<StrapPoint> laid = evened(path, true, 0.0055);
     strap(cage, laid, 0.030, 0.006, true);
     const Vec3 along = laid[6].at - laid[4].at;
     addBuckle(cage, frameFrom(laid[5].at + laid[5].out * 0.006, laid[5].out, along), 0.018, 0.018);

@@ -26,7 +26,7 @@ Vec3 outward(const Vec3& p) {
 }
 
 double hairline(double side) {
-    const Curve line{{0, 43}, {25, 40}, {45, 30}, {62, 12}, {74, -10}, {92, -16}, {104, -34}, {130, -44}, {180, -46}};
+    const Curve line{{0, 43}, {25, 40}, {45, 30}, {62, 12}, {74, -10}, {92, -16}, {104, -36}, {130, -48}, {180, -52}};
     return line(std::abs(side));
 }
 
@@ -56,7 +56,8 @@ struct Place {
     double side, up, off;
 };
 
-void addLock(Cage& cage, const std::vector<Place>& places, double wide, double thick, double tip) {
+void addLock(Cage& cage, const std::vector<Place>& places, double wide, double thick, double tip,
+             double root = 0.45) {
     std::vector<Vec3> through;
     for (const Place& place : places) {
         through.push_back(scalp(place.side, place.up, place.off));
@@ -66,8 +67,8 @@ void addLock(Cage& cage, const std::vector<Place>& places, double wide, double t
     std::vector<LockRing> rings;
     for (int i = 0; i < kRings; ++i) {
         const double s = static_cast<double>(i) / (kRings - 1);
-        const double swell = mix(0.45, 1, ramp(0, 0.35, s)) * mix(1, tip, ramp(0.45, 1, s) * ramp(0.2, 1, s));
-        rings.push_back({path[static_cast<size_t>(i)], outward(path[static_cast<size_t>(i)]), wide * swell, thick * mix(0.6, 1, swell)});
+        const double swell = mix(root, 1, ramp(0, 0.35, s)) * mix(1, tip, ramp(0.45, 1, s) * ramp(0.2, 1, s));
+        rings.push_back({path[static_cast<size_t>(i)], outward(path[static_cast<size_t>(i)]), wide * swell, thick * mix(root, 1, swell)});
     }
     lock(cage, rings);
     cage.endShell();
@@ -88,9 +89,9 @@ void addSwept(Cage& cage, double side, double wide, double lift) {
         const double s = i / 5.0;
         const Vec3 d = (a * std::sin((1 - s) * angle) + b * std::sin(s * angle)) / std::sin(angle);
         places.push_back({std::atan2(d.x, d.z) * 180 / kPi, std::asin(d.y) * 180 / kPi,
-                          0.004 + lift * std::sin(kPi * std::min(1.0, s * 1.15 + 0.05))});
+                          0.001 + lift * std::sin(kPi * std::min(1.0, s * 1.10 + 0.03))});
     }
-    addLock(cage, places, wide, 0.0115, 0.55);
+    addLock(cage, places, wide, 0.0115, 0.55, 0.16);
 }
 
 void addFringe(Cage& cage) {

@@ -19,11 +19,11 @@ struct Level {
 
 constexpr Level kLevels[] = {
     {1.235, 1.240, -0.016, 0.058, 0.048, 0.052}, {1.270, 1.275, -0.014, 0.047, 0.042, 0.046},
-    {1.306, 1.322, -0.012, 0.043, 0.042, 0.048}, {1.326, 1.365, -0.006, 0.047, 0.058, 0.060},
-    {1.3310, 1.390, 0.000, 0.061, 0.086, 0.078}, {1.340, 1.402, 0.000, 0.0735, 0.0975, 0.092},
-    {1.3575, 1.414, 0.000, 0.0850, 0.1010, 0.102}, {1.3720, 1.425, 0.000, 0.0930, 0.1015, 0.110},
+    {1.306, 1.322, -0.012, 0.043, 0.042, 0.048}, {1.329, 1.365, -0.006, 0.047, 0.058, 0.060},
+    {1.3365, 1.390, 0.000, 0.061, 0.084, 0.078}, {1.345, 1.402, 0.000, 0.0740, 0.0965, 0.092},
+    {1.3600, 1.414, 0.000, 0.0855, 0.1005, 0.102}, {1.3730, 1.425, 0.000, 0.0935, 0.1015, 0.110},
     {1.3865, 1.436, 0.000, 0.0995, 0.1015, 0.117}, {1.4005, 1.447, 0.000, 0.1050, 0.1020, 0.124},
-    {1.4130, 1.459, 0.000, 0.1100, 0.1030, 0.130}, {1.4265, 1.472, 0.000, 0.1140, 0.1035, 0.135},
+    {1.4105, 1.459, 0.000, 0.1100, 0.1030, 0.130}, {1.4215, 1.472, 0.000, 0.1140, 0.1035, 0.135},
     {1.4380, 1.484, 0.000, 0.1170, 0.1035, 0.138}, {1.4670, 1.504, 0.000, 0.1195, 0.1035, 0.142},
     {1.4990, 1.526, 0.000, 0.1220, 0.1045, 0.145}, {1.5210, 1.545, 0.000, 0.1230, 0.1055, 0.145},
     {1.5500, 1.569, -0.002, 0.1220, 0.1040, 0.143}, {1.5880, 1.599, -0.006, 0.1150, 0.0960, 0.135},
@@ -46,11 +46,11 @@ double power(double value, double exponent) {
 double features(double x, double y) {
     double z = 0.0050 * bump(x, y, 0.062, 1.424, 0.034, 0.026);  // cheek
     z += 0.0050 * bump(x, y, 0, 1.3885, 0.030, 0.022);            // mouth
-    z += 0.0075 * bump(x, y, 0, 1.345, 0.026, 0.016);             // chin
-    z -= 0.0045 * bump(x, y, 0, 1.3650, 0.026, 0.0075);           // furrow under the lip
+    z += 0.0075 * bump(x, y, 0, 1.350, 0.026, 0.014);             // chin
+    z -= 0.0045 * bump(x, y, 0, 1.3670, 0.026, 0.0065);           // furrow under the lip
     z -= 0.0085 * bump(x, y, 0.050, 1.466, 0.030, 0.024);         // eye socket
     z += 0.0025 * bump(x, y, 0.050, 1.517, 0.040, 0.014);         // brow
-    z += 0.0110 * bump(x, y, 0, 1.452, 0.0135, 0.036);            // bridge of the nose
+    z += 0.0125 * bump(x, y, 0, 1.452, 0.0112, 0.036);            // bridge of the nose
     return z;
 }
 
@@ -143,17 +143,18 @@ void Head::rings() {
 
 void Head::nose() {
     const auto shift = [&](int level, int round, const Vec3& by) { cage.position(at(level, round)) += by; };
-    shift(kNoseBase, 0, {0, 0.0025, 0.0085});
-    shift(kNoseTip, 0, {0, 0.0020, 0.0235});
-    shift(kEyeLow, 0, {0, 0.0045, 0.0125});
-    shift(kEyeLow + 1, 0, {0, 0, 0.0005});
-    cage.position(at(kNoseBase, 1)).x = 0.0095;
-    shift(kNoseBase, 1, {0, 0.0025, 0.0055});
-    cage.position(at(kNoseTip, 1)).x = 0.0150;
-    shift(kNoseTip, 1, {0, 0.0005, 0.0120});
-    cage.position(at(kNoseTip, 2)).x = 0.0235;
-    shift(kNoseTip, 2, {0, 0, -0.0010});
-    shift(kEyeLow, 1, {-0.0035, 0.0020, 0.0045});
+    shift(kNoseBase, 0, {0, 0.0015, 0.0100});
+    shift(kNoseTip, 0, {0, 0.0030, 0.0285});
+    shift(kEyeLow, 0, {0, 0.0010, 0.0125});
+    shift(kEyeLow + 1, 0, {0, 0, 0.0020});
+    cage.position(at(kNoseBase, 1)).x = 0.0105;
+    shift(kNoseBase, 1, {0, 0.0010, 0.0070});
+    cage.position(at(kNoseTip, 1)).x = 0.0178;
+    shift(kNoseTip, 1, {0, 0.0005, 0.0180});
+    cage.position(at(kNoseTip, 2)).x = 0.0245;
+    shift(kNoseTip, 2, {0, 0, -0.0015});
+    cage.position(at(kNoseBase, 2)).x = 0.0235;
+    shift(kEyeLow, 1, {-0.0020, 0.0000, 0.0035});
     // A nostril is drawn into the underside.
     const Patch under = cage.patch(1, 1, false, grid(kNoseBase, kNoseTip, 0, 1));
     const Patch rim = cage.extrude(under);
@@ -163,8 +164,8 @@ void Head::nose() {
     }
     for (size_t i = 0; i < 4; ++i) {
         Vec3& p = cage.position(rim.points[i]);
-        p = mix(middle, cage.position(under.points[i]), 0.42);
-        p.x = std::max(p.x, 0.0036);
+        p = mix(middle, cage.position(under.points[i]), 0.28);
+        p.x = std::max(p.x, 0.0042);
     }
     const Patch hole = cage.extrude(rim);
     for (const int point : hole.points) {
@@ -185,8 +186,8 @@ Vec3 onEye(double side, double up, double far) {
 Vec2 lidEdge(double s, bool upper, double blink) {
     const double side = 4 + 52 * s;
     const double tilt = 3.0 * s;
-    const double open = upper ? 33 * std::pow(1 - std::pow(std::abs(s), 2.3), 0.72) * (1 + 0.10 * s)
-                              : -26 * std::pow(1 - std::pow(std::abs(s), 2.2), 0.80) * (1 + 0.12 * s);
+    const double open = upper ? 28 * std::pow(1 - std::pow(std::abs(s), 2.3), 0.72) * (1 + 0.10 * s)
+                              : -24 * std::pow(1 - std::pow(std::abs(s), 2.2), 0.80) * (1 + 0.12 * s);
     const double closed = -19 * (1 - s * s) + (upper ? 0.6 : -0.6);
     return {side, tilt + mix(open, closed, blink)};
 }
@@ -200,7 +201,7 @@ void Head::eye() {
         double far;
         double lid; // how far it follows the lid
     };
-    const Ring rings[] = {{15, 1.075, 0.30}, {7.5, 1.105, 0.80}, {1.5, 1.100, 1}, {-1.0, 1.045, 1}, {9, 1.010, 0.6}};
+    const Ring rings[] = {{15, 1.040, 0.30}, {8.0, 1.092, 0.80}, {1.5, 1.090, 1}, {-1.0, 1.045, 1}, {9, 1.010, 0.6}};
     // The cage's own loop is drawn round the eye first.
     for (size_t i = 0; i < rimOrder.size(); ++i) {
         const bool upper = i > 5;
@@ -223,7 +224,8 @@ void Head::eye() {
             const Vec2 edge = lidEdge(s, upper, shape.blink * ring.lid);
             const double lower = shape.smile * (upper || corner ? 0 : 5.0 * (1 - s * s) * ring.lid);
             const double up = corner ? 0 : (upper ? 1 : -0.8) * ring.spread * (1 - 0.45 * s * s);
-            cage.position(rim[i]) = onEye(edge.x + ring.spread * s * 0.85, edge.y + up + lower, ring.far);
+            cage.position(rim[i]) = onEye(edge.x + ring.spread * s * 0.85, edge.y + up + lower,
+                                            ring.far - (upper || corner || ring.spread < 5 ? 0 : 0.022));
             cage.points[static_cast<size_t>(rim[i])].upper = upper ? ring.lid : 0;
         }
         for (int column = 1; column < 4; ++column) {
@@ -241,15 +243,15 @@ void Head::eye() {
 // On the lips at s from the middle (0) to the corner (1): `rise` is the share of the lip's height, `out` is forward.
 Vec3 Head::mouthPoint(double s, bool upper, double rise, double out) const {
     const double wide = 0.0268 * (1 + 0.20 * shape.smile - 0.34 * shape.round - 0.06 * shape.open);
-    const Curve high{{0, 0.0074}, {0.33, 0.0086}, {0.70, 0.0054}, {1, 0}};
-    const Curve low{{0, -0.0100}, {0.4, -0.0094}, {0.75, -0.0060}, {1, 0}};
+    const Curve high{{0, 0.0066}, {0.33, 0.0078}, {0.70, 0.0050}, {1, 0}};
+    const Curve low{{0, -0.0092}, {0.4, -0.0086}, {0.75, -0.0054}, {1, 0}};
     const double x = wide * s;
     double y = kMouthLine + 0.0022 * s * s - 0.0008 * (1 - s) + (upper ? high(s) : low(s)) * rise;
     y += shape.smile * (0.0105 * std::pow(s, 1.8) - 0.0015) - shape.frown * 0.0075 * std::pow(s, 2.0);
     const double gap = std::sqrt(std::max(0.0, 1 - s * s));
     y += (upper ? 0.004 : -0.0210) * shape.open * gap + (upper ? 0.0045 : -0.0085) * shape.round * gap;
     y -= shape.open * 0.0065 * s;
-    const double base = 0.1015 - 0.0175 * std::pow(x / 0.0285, 2) * 0.62;
+    const double base = 0.1015 - 0.0062 * std::pow(x / 0.0285, 2);
     return {s == 0 ? 0 : x, y,
             base + features(x, y) + out * (1 - 0.55 * s * s) + 0.0045 * shape.round - 0.003 * shape.smile * s -
                 (upper ? 0.0 : 0.0016) - (upper ? 0 : 0.006 * shape.open * gap)};
@@ -263,7 +265,7 @@ void Head::mouth() {
         double out;
         Part part;
     };
-    const Ring rings[] = {{1.62, 1.18, -0.0005, Part::Head}, {1.0, 1.0, 0.0022, Part::Lip}, {0.55, 0.985, 0.0052, Part::Lip},
+    const Ring rings[] = {{1.62, 1.08, 0.0016, Part::Head}, {1.0, 1.0, 0.0022, Part::Lip}, {0.55, 0.985, 0.0052, Part::Lip},
                           {-0.10, 0.965, 0.0020, Part::Lip}, {0.20, 0.93, -0.0085, Part::Mouth}};
     const double places[] = {0, 0.36, 0.70, 0.93, 1, 0.93, 0.70, 0.36, 0};
     for (size_t r = 0; r < std::size(rings); ++r) {
@@ -277,6 +279,9 @@ void Head::mouth() {
             const double corner = i == 4 ? 0 : 1;
             Vec3 p = mouthPoint(places[i], upper, rings[r].rise * corner, rings[r].out);
             p.x *= rings[r].wide;
+            if (r == 0 && (i == 3 || i == 5)) {
+                p.y += upper ? 0.0036 : -0.0036; // or the corner is pinched far into the cheek
+            }
             cage.position(rim[i]) = p;
         }
         for (int column = 0; column < 3; ++column) {
@@ -334,7 +339,7 @@ void Head::soften() {
             }
         }
     }
-    relax(cage, shares, 5);
+    relax(cage, shares, 8);
 }
 
 Cage Head::build() {
@@ -359,7 +364,7 @@ void addBrow(Cage& cage, const Body& face, const FaceShape& shape) {
         double y = 1.5190 + 0.0095 * std::sin(kPi * std::pow(s, 1.25)) - 0.010 * std::pow(s, 3);
         y += 0.010 * shape.brows + shape.frown * (-0.009 * (1 - s) + 0.002 * s) + 0.002 * shape.smile * s;
         StrapPoint hit = face.cast({x, y, 0.3}, {0, 0, -1});
-        const double wide = 0.0066 * std::pow(1 - std::pow(std::abs(s - 0.32) / 0.70, 2.2), 1.0) + 0.0010;
+        const double wide = 0.0054 * std::pow(1 - std::pow(std::abs(s - 0.32) / 0.70, 2.2), 1.0) + 0.0010;
         rings.push_back({hit.at + hit.out * 0.0012, hit.out, wide, 0.0026});
     }
     lock(cage, rings);

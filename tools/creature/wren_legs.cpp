@@ -90,7 +90,7 @@ void addFoot(Cage& cage, const std::array<Patch, 4>& rings) {
         double z, top, wide, shift;
     };
     // Each step's front: how far, how high its upper side, how wide, and how far the middle swings in.
-    const Step steps[] = {{0.052, 0.092, 0.049, 0.001}, {0.092, 0.074, 0.0545, 0.002}, {0.130, 0.062, 0.0530, -0.001}, {0.158, 0.050, 0.0400, -0.006}};
+    const Step steps[] = {{0.052, 0.092, 0.049, 0.001}, {0.092, 0.074, 0.0545, 0.002}, {0.128, 0.064, 0.0530, -0.001}, {0.152, 0.054, 0.0385, -0.005}};
     for (size_t i = 0; i < std::size(steps); ++i) {
         const Step& step = steps[i];
         patch = cage.extrude(patch);
@@ -99,7 +99,7 @@ void addFoot(Cage& cage, const std::array<Patch, 4>& rings) {
         for (int row = 0; row <= 3; ++row) {
             for (int column = 0; column <= 2; ++column) {
                 const double s = 1 - column; // outside to inside
-                const double bow = (i == 3 ? 0.014 : 0.006) * (1 - s * s);
+                const double bow = (i == 3 ? 0.021 : 0.007) * (1 - s * s);
                 const double round = row == 0 ? (i == 3 ? -0.020 : -0.004) : 0;
                 const double lift = i == 3 ? 0.006 : (i == 2 ? 0.001 : 0);
                 cage.position(patch.at(column, row)) = {kBall.x + step.shift + step.wide * widths[row] * s,

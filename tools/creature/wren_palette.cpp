@@ -27,7 +27,7 @@ enum Kind : uint32_t { Face, Skin, Eyes, Hair, Cloth, Band, Leather, StrapLeathe
 Swatch swatch(Part part) {
     switch (part) {
     case Part::Lip:
-        return {Face, {0.86, 0.62, 0.60}};
+        return {Face, {0.80, 0.50, 0.50}};
     case Part::Mouth:
         return {Wet, srgb(0x5a1a20)};
     case Part::Nostril:
@@ -37,39 +37,39 @@ Swatch swatch(Part part) {
     case Part::Lash:
         return {Hair, srgb(0x24120c)};
     case Part::Brow:
-        return {Hair, srgb(0x6e2c14)};
+        return {Hair, srgb(0x7c3a1e)};
     case Part::Hair:
-        return {Hair, srgb(0xa8431c), 12};
+        return {Hair, srgb(0xae4a22), 12};
     case Part::Ribbon:
         return {Cloth, srgb(0x1f5a66), 10};
     case Part::Eye:
         return {Eyes, {1, 1, 1}};
     case Part::Jacket:
-        return {Cloth, srgb(0x2b4a78), 10};
+        return {Cloth, srgb(0x27426b), 22};
     case Part::JacketTrim:
     case Part::Collar:
         return {Band, srgb(0xe8d3a0), 14};
     case Part::Scarf:
-        return {Cloth, srgb(0xd9962a), 8};
+        return {Cloth, srgb(0xd9952f), 15};
     case Part::ScarfFringe:
-        return {Cloth, srgb(0xa8481f), 8};
+        return {Cloth, srgb(0xa0451f), 15};
     case Part::Trousers:
-        return {Cloth, srgb(0x55493f), 12};
+        return {Cloth, srgb(0x4d443d), 26};
     case Part::KneePatch:
-        return {Leather, srgb(0x6b4428), 10};
+        return {Leather, srgb(0x4a3022), 10};
     case Part::Boot:
-        return {Leather, srgb(0x5c3520), 9};
+        return {Leather, srgb(0x523322), 9};
     case Part::BootCuff:
-        return {Leather, srgb(0x8a5a34), 9};
+        return {Leather, srgb(0x7a5238), 9};
     case Part::Sole:
         return {Leather, srgb(0x2a1d18), 9};
     case Part::Strap:
         return {StrapLeather, srgb(0x55301c), 20};
     case Part::Pouch:
-        return {Leather, srgb(0x7a4a28), 12};
+        return {Leather, srgb(0x6e4630), 12};
     case Part::Bracer:
     case Part::Pauldron:
-        return {Leather, srgb(0x6e3f22), 10};
+        return {Leather, srgb(0x5f3a26), 10};
     case Part::Scabbard:
         return {Leather, srgb(0x3a2a2c), 10};
     case Part::Buckle:
@@ -109,12 +109,12 @@ std::vector<cage::Material> materials() {
     add("face", 0, 0.50f).baseColorTexture = texture(Picture::Face);
     add("skin", 0, 0.50f);
     add("eyes", 0, 0.05f).baseColorTexture = texture(Picture::Eye);
-    cage::Material& hair = add("hair", 0, 0.40f);
+    cage::Material& hair = add("hair", 0, 0.48f);
     hair.baseColorTexture = texture(Picture::Strands);
-    wear(hair, Picture::StrandsNormal, 0.9f);
+    wear(hair, Picture::StrandsNormal, 0.45f);
     cage::Material& cloth = add("cloth", 0, 0.86f);
     cloth.baseColorTexture = texture(Picture::Weave);
-    wear(cloth, Picture::WeaveNormal, 1.0f);
+    wear(cloth, Picture::WeaveNormal, 0.7f);
     cage::Material& band = add("band", 0, 0.70f);
     band.baseColorTexture = texture(Picture::Band);
     wear(band, Picture::BandNormal, 1.0f);

@@ -48,7 +48,7 @@ Vec3 face(double u, double v) {
 Vec3 eye(double u, double v) {
     const double x = (u - 0.5) * 2.1, y = (0.5 - v) * 2.1;
     const double r = std::hypot(x, y), a = std::atan2(y, x);
-    const double iris = 0.515, pupil = 0.235;
+    const double iris = 0.560, pupil = 0.270;
     Vec3 white = mix(srgb(0xf7f1ec), srgb(0xd9a79c), 0.55 * ramp(0.62, 0.92, std::abs(x)));
     white = mix(white, srgb(0x7c6a70), 0.55 * ramp(0.18, 0.62, y));
     const double rays = 0.5 + 0.5 * std::sin(a * 23 + 2.2 * std::sin(a * 7) + 3 * std::sin(a * 3 + 1));
@@ -95,7 +95,7 @@ double band(double u, double v) {
 double leather(double u, double v) {
     const Vec2 cells = tiledCells(u * 22, v * 22, 22, 31);
     const Vec2 fine = tiledCells(u * 44, v * 44, 44, 41);
-    const double crease = tiledNoise(u * 5 + 0.6 * tiledNoise(v * 4, u * 4, 4, 3), v * 5, 5, 51);
+    const double crease = tiledNoise(u * 5 + 0.6 * tiledNoise(u * 4, v * 4, 4, 3), v * 5, 5, 51);
     return 0.7 * ramp(0.0, 0.35, cells.y - cells.x) + 0.3 * ramp(0.0, 0.3, fine.y - fine.x) - 0.6 * ramp(0.10, 0.0, std::abs(crease));
 }
 
@@ -117,7 +117,7 @@ double strands(double u, double v) {
     const double bend = 0.012 * std::sin(2 * kPi * v) + 0.006 * std::sin(4 * kPi * v + 1);
     double sum = 0;
     for (const int count : {9, 17, 31, 53}) {
-        sum += tiledNoise((u + bend) * count, v * 2, count, static_cast<unsigned>(60 + count)) * (count < 20 ? 0.55 : 0.42);
+        sum += tiledNoise((u + bend) * count, v * 2, count, 2, static_cast<unsigned>(60 + count)) * (count < 20 ? 0.55 : 0.42);
     }
     return sum;
 }
@@ -127,7 +127,7 @@ double worn(double u, double v) {
     double scratches = 0;
     for (int k = 0; k < 3; ++k) {
         const double tilt = 0.15 * (k - 1);
-        const double n = tiledNoise((u + std::sin(2 * kPi * v) * tilt * 0.1) * 64, v * 3, 64, static_cast<unsigned>(80 + k));
+        const double n = tiledNoise((u + std::sin(2 * kPi * v) * tilt * 0.1) * 64, v * 3, 64, 3, static_cast<unsigned>(80 + k));
         scratches += ramp(0.72, 0.95, n);
     }
     return 0.35 * tiledNoise(u * 7, v * 7, 7, 90) - 0.5 * scratches;

@@ -91,7 +91,7 @@ void torsoAndArm(Shares& shares, const Vec3& p) {
     const Vec3 axis = glm::normalize(kElbow - kShoulder);
     const double u = glm::dot(q - kShoulder, axis);
     const double off = glm::length(q - kShoulder - axis * u);
-    const double near = u > 0.10 ? 1.0 : ramp(0.165, 0.085, off - 0.35 * std::max(0.0, u));
+    const double near = ramp(0.118, 0.078, off);
     const double arm = ramp(-0.052, 0.088, u) * near;
     const double clavicle = ramp(0.035, 0.125, q.x) * ramp(1.120, 1.205, q.y) * ramp(1.30, 1.25, q.y) * (1 - arm) * 0.85;
     const std::string side = sideOf(p);
