@@ -24,13 +24,15 @@ protected:
     }
 
     size_t part(const std::string& name) const {
-        const auto found = std::find_if(wren.parts.begin(), wren.parts.end(), [&](const Part& p) { return p.name == name; });
+        const auto found =
+            std::find_if(wren.parts.begin(), wren.parts.end(), [&](const Part& p) { return p.name == name; });
         EXPECT_NE(found, wren.parts.end()) << name;
         return static_cast<size_t>(found - wren.parts.begin());
     }
 
     const Clip& clip(const std::string& name) const {
-        const auto found = std::find_if(wren.clips.begin(), wren.clips.end(), [&](const Clip& c) { return c.name == name; });
+        const auto found =
+            std::find_if(wren.clips.begin(), wren.clips.end(), [&](const Clip& c) { return c.name == name; });
         EXPECT_NE(found, wren.clips.end()) << name;
         return *found;
     }
@@ -104,7 +106,8 @@ TEST_F(Wren, IsClosedInQuadsWithSaneValences) {
 }
 
 TEST_F(Wren, HasPartsShapesClipsAndMaps) {
-    for (const char* name : {"head", "eyes", "hair", "hands", "jacket", "trousers", "boots", "gear", "scarf", "sword"}) {
+    for (const char* name :
+         {"head", "eyes", "hair", "hands", "jacket", "trousers", "boots", "gear", "scarf", "sword"}) {
         part(name);
     }
     std::set<std::string> shapes;
@@ -169,7 +172,8 @@ TEST_F(Wren, FeetDoNotSlide) {
                     }
                 }
             }
-            std::printf("%s %s: %zu held, worst slip %.4f a frame\n", of.name.c_str(), side > 0 ? "left" : "right", held, worst);
+            std::printf("%s %s: %zu held, worst slip %.4f a frame\n", of.name.c_str(), side > 0 ? "left" : "right",
+                        held, worst);
             EXPECT_GT(held, 0u) << of.name;
             EXPECT_LT(worst, 0.003f) << of.name << (side > 0 ? " left" : " right");
         }

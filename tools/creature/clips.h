@@ -12,7 +12,7 @@ namespace supple::creature {
 struct Clip {
     std::string name;
     double framesPerSecond = 30;
-    std::vector<Pose> frames; // one more than the clip has intervals
+    std::vector<Pose> frames;                               // one more than the clip has intervals
     std::map<std::string, std::vector<double>> morphs = {}; // weights of morph targets, one a frame
 };
 

@@ -30,8 +30,8 @@ struct Pose {
     // them, and bends the toes by `toes` degrees. `side` is ".L" or ".R".
     void plant(const std::string& side, const Vec3& ball, const Quat& foot, double toes);
 
-    // Bends shoulder and elbow so that the wrist is at `wrist` and the hand turned by `hand`, both in the model. The elbow
-    // points to `pole`. The joint foreTwist takes half of the hand's roll.
+    // Bends shoulder and elbow so that the wrist is at `wrist` and the hand turned by `hand`, both in the model. The
+    // elbow points to `pole`. The joint foreTwist takes half of the hand's roll.
     void reach(const std::string& side, const Vec3& wrist, const Vec3& pole, const Quat& hand);
 
     const Skeleton& skeleton;

@@ -175,7 +175,8 @@ void strap(Cage& cage, const std::vector<StrapPoint>& path, double wide, double 
         for (size_t k = 0; k < 4; ++k) {
             const size_t next = (k + 1) % 4;
             cage.addQuad(a[k], b[k], b[next], a[next]);
-            cage.faces.back().uvs = {{lengths[i], v[k][0]}, {lengths[i + 1], v[k][0]}, {lengths[i + 1], v[k][1]}, {lengths[i], v[k][1]}};
+            cage.faces.back().uvs = {
+                {lengths[i], v[k][0]}, {lengths[i + 1], v[k][0]}, {lengths[i + 1], v[k][1]}, {lengths[i], v[k][1]}};
             cage.crease(a[k], b[k], sharpness);
         }
     }
@@ -216,7 +217,8 @@ void torus(Cage& cage, const std::vector<StrapPoint>& path, int sides,
         for (int k = 0; k < sides; ++k) {
             const double wide = glm::length(section(0, (k + 1) % sides) - section(0, k));
             cage.addQuad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1));
-            cage.faces.back().uvs = {{lengths[i], v}, {lengths[i + 1], v}, {lengths[i + 1], v + wide}, {lengths[i], v + wide}};
+            cage.faces.back().uvs = {
+                {lengths[i], v}, {lengths[i + 1], v}, {lengths[i + 1], v + wide}, {lengths[i], v + wide}};
             v += wide;
         }
     }

@@ -63,11 +63,11 @@ struct StrapPoint {
     Vec3 at;
     Vec3 out;
 };
-void strap(Cage& cage, const std::vector<StrapPoint>& path, double wide, double thick, bool closed, float sharpness = 3);
+void strap(Cage& cage, const std::vector<StrapPoint>& path, double wide, double thick, bool closed,
+           float sharpness = 3);
 
 // A ring of tube with a round section of `sides` points round each place of a closed path.
-void torus(Cage& cage, const std::vector<StrapPoint>& path, int sides,
-           const std::function<Vec2(size_t, int)>& section);
+void torus(Cage& cage, const std::vector<StrapPoint>& path, int sides, const std::function<Vec2(size_t, int)>& section);
 
 // A box with rounded edges; the frame is its middle.
 void box(Cage& cage, const Frame& frame, const Vec3& size, float sharpness = 2);

@@ -105,7 +105,8 @@ Vec2 tiledCells(double x, double y, int period, unsigned seed) {
     Vec2 nearest{9, 9};
     for (int j = cy - 1; j <= cy + 1; ++j) {
         for (int i = cx - 1; i <= cx + 1; ++i) {
-            const double d = std::hypot(i + chance(i, j, period, period, seed) - x, j + chance(i, j, period, period, seed + 1) - y);
+            const double d =
+                std::hypot(i + chance(i, j, period, period, seed) - x, j + chance(i, j, period, period, seed + 1) - y);
             if (d < nearest.x) {
                 nearest = {d, nearest.x};
             } else if (d < nearest.y) {

@@ -29,10 +29,11 @@ constexpr Vec3 kEye{0.0525, 1.4660, 0.0550};
 constexpr double kEyeRadius = 0.0415;
 constexpr Vec3 kEyeOut{0.10, 0.0, 1.0}; // where the eye's opening faces; not unit length
 constexpr double kMouthLine = 1.3865;
-constexpr Vec3 kTail[] = {{0, 1.630, -0.175}, {0, 1.560, -0.265}, {0, 1.450, -0.300}, {0, 1.330, -0.290}};
+constexpr Vec3 kTail[] = {{0, 1.628, -0.155}, {0, 1.560, -0.240}, {0, 1.450, -0.278}, {0, 1.330, -0.272}};
 constexpr int kTailJoints = 3;
 constexpr Vec3 kScabbard{0.152, 0.925, -0.02};
-constexpr Vec3 kScarfTail[] = {{-0.062, 1.262, -0.096}, {-0.080, 1.120, -0.158}, {-0.092, 0.985, -0.170}, {-0.098, 0.860, -0.162}};
+constexpr Vec3 kScarfTail[] = {
+    {-0.062, 1.262, -0.096}, {-0.080, 1.120, -0.158}, {-0.092, 0.985, -0.170}, {-0.098, 0.860, -0.162}};
 constexpr int kScarfJoints = 3;
 
 // The head is modelled at one size and worn at another.

@@ -35,7 +35,8 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
         for (size_t i = 0; i < face.points.size(); ++i) {
             cage.faceVertices.push_back(base + static_cast<uint32_t>(face.points[i]));
             const Vec2 uv = face.uvs.empty() ? boxed(piece.position(face.points[i]), normal) : face.uvs[i];
-            const Vec2 at = look.material == 0 ? facePlace(piece.position(face.points[i])) : uv * (eye ? 1 : look.density);
+            const Vec2 at =
+                look.material == 0 ? facePlace(piece.position(face.points[i])) : uv * (eye ? 1 : look.density);
             cage.cornerUvs.push_back({rounded(at.x), rounded(at.y)});
             cage.cornerColors.push_back({shade(look.colour.x), shade(look.colour.y), shade(look.colour.z), 1.0f});
         }
@@ -44,7 +45,8 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
         cage.faceParts.push_back(part);
     }
     for (const auto& [edge, sharpness] : piece.creases) {
-        cage.creases.push_back({base + static_cast<uint32_t>(edge.first), base + static_cast<uint32_t>(edge.second), sharpness});
+        cage.creases.push_back(
+            {base + static_cast<uint32_t>(edge.first), base + static_cast<uint32_t>(edge.second), sharpness});
     }
 }
 
@@ -75,7 +77,8 @@ void thin(cage::Clip& clip) {
         }
         if (same && channel.times.size() > 2) {
             channel.values.assign(first, first + static_cast<std::ptrdiff_t>(width));
-            channel.values.insert(channel.values.end(), channel.values.begin(), channel.values.begin() + static_cast<std::ptrdiff_t>(width));
+            channel.values.insert(channel.values.end(), channel.values.begin(),
+                                  channel.values.begin() + static_cast<std::ptrdiff_t>(width));
             channel.times = {channel.times.front(), channel.times.back()};
         }
     }

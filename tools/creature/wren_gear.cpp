@@ -55,12 +55,16 @@ void addBuckle(Cage& cage, const Frame& at, double wide, double high) {
         path.push_back({at.origin + at.across * (x * wide) + at.along * (y * high), at.out});
     }
     strap(cage, path, 0.0075, 0.0055, true, 1.5f);
-    strap(cage, {{at.origin - at.across * wide + at.out * 0.002, at.out}, {at.origin + at.out * 0.005, at.out}, {at.origin + at.across * (wide + 0.003) + at.out * 0.003, at.out}},
+    strap(cage,
+          {{at.origin - at.across * wide + at.out * 0.002, at.out},
+           {at.origin + at.out * 0.005, at.out},
+           {at.origin + at.across * (wide + 0.003) + at.out * 0.003, at.out}},
           0.005, 0.004, false, 1.5f);
 }
 
 void addPouch(Cage& cage, const StrapPoint& place, const Vec3& size) {
-    const Frame at = frameFrom(place.at + place.out * (size.z * 0.5), Vec3{place.out.x, 0, place.out.z}, glm::cross(Vec3{0, 1, 0}, place.out));
+    const Frame at = frameFrom(place.at + place.out * (size.z * 0.5), Vec3{place.out.x, 0, place.out.z},
+                               glm::cross(Vec3{0, 1, 0}, place.out));
     cage.part = Part::Pouch;
     box(cage, at, size, 1.1f);
     // A flap from the back edge over the front.
@@ -94,7 +98,11 @@ void addBelts(Cage& cage, const Body& jacket) {
     // The belt's end hangs down beside the buckle.
     cage.part = Part::Strap;
     const Vec3 at = belt[2].at + belt[2].out * 0.008;
-    strap(cage, {{at + Vec3{0, 0.012, 0.001}, belt[2].out}, {at + Vec3{0.003, -0.012, 0.005}, belt[2].out}, {at + Vec3{0.008, -0.045, 0.010}, belt[2].out}, {at + Vec3{0.013, -0.088, 0.016}, belt[2].out}},
+    strap(cage,
+          {{at + Vec3{0, 0.012, 0.001}, belt[2].out},
+           {at + Vec3{0.003, -0.012, 0.005}, belt[2].out},
+           {at + Vec3{0.008, -0.045, 0.010}, belt[2].out},
+           {at + Vec3{0.013, -0.088, 0.016}, belt[2].out}},
           0.024, 0.005, false);
     addPouch(cage, {belt[24].at + belt[24].out * 0.010 + Vec3{0, -0.034, 0}, belt[24].out}, {0.074, 0.070, 0.036});
     addPouch(cage, {belt[17].at + belt[17].out * 0.010 + Vec3{0, -0.030, 0}, belt[17].out}, {0.060, 0.058, 0.032});
@@ -129,7 +137,8 @@ void addBracers(Cage& cage) {
     left.part = Part::Bracer;
     const auto frame = [&](double t) { return frameFrom(mix(kElbow, kWrist, t), axis, {0, 0, -1}); };
     Tube tube = Tube::begin(left, 3, 3, frame(0.34), 0.040, 0.040);
-    const double rings[][2] = {{0.31, 0.0490}, {0.320, 0.0545}, {0.37, 0.0540}, {0.55, 0.0520}, {0.74, 0.0490}, {0.86, 0.0485}, {0.895, 0.0500}, {0.905, 0.0455}, {0.87, 0.036}};
+    const double rings[][2] = {{0.31, 0.0490}, {0.320, 0.0545}, {0.37, 0.0540},  {0.55, 0.0520}, {0.74, 0.0490},
+                               {0.86, 0.0485}, {0.895, 0.0500}, {0.905, 0.0455}, {0.87, 0.036}};
     for (const auto& [t, radius] : rings) {
         tube.ring(frame(t), radius, radius * 0.97);
     }
@@ -154,7 +163,8 @@ void addBracers(Cage& cage) {
             point.part = Part::Bracer;
         }
         const Vec3 out = glm::normalize(at.along * 0.75 - at.across * 0.66);
-        addBuckle(left, frameFrom(at.origin + out * (t < 0.5 ? 0.0575 : 0.0535), out, glm::cross(axis, out)), 0.0095, 0.0095);
+        addBuckle(left, frameFrom(at.origin + out * (t < 0.5 ? 0.0575 : 0.0535), out, glm::cross(axis, out)), 0.0095,
+                  0.0095);
         for (Point& point : left.points) {
             point.part = Part::Bracer;
         }
@@ -177,7 +187,8 @@ void addPauldron(Cage& cage) {
         const auto surface = [&](double u, double v) {
             const double s = 2 * u - 1;
             const double a = s * plate.spread * kPi / 180;
-            const double l = plate.from + plate.length * v + 0.010 * s * s * (i == 2 ? -1.0 : 0.6) + 0.012 * (1 - s * s) * v;
+            const double l =
+                plate.from + plate.length * v + 0.010 * s * s * (i == 2 ? -1.0 : 0.6) + 0.012 * (1 - s * s) * v;
             const double cap = i == 2 ? 0.42 * std::pow(std::max(0.0, 1 - v), 2.2) : 0.05 * (1 - v);
             const double lip = 0.004 * ramp(0.8, 1.0, v);
             return kShoulder + Vec3{-0.002, 0.002, 0} + axis * l +
@@ -189,7 +200,8 @@ void addPauldron(Cage& cage) {
         cage.part = Part::Buckle;
         for (const double u : {0.16, 0.84}) {
             const double v = 0.62;
-            const Vec3 normal = glm::normalize(glm::cross(surface(u + 0.01, v) - surface(u, v), surface(u, v + 0.01) - surface(u, v)));
+            const Vec3 normal =
+                glm::normalize(glm::cross(surface(u + 0.01, v) - surface(u, v), surface(u, v + 0.01) - surface(u, v)));
             const size_t first = cage.points.size();
             stud(cage, frameFrom(surface(u, v) + normal * 0.0005, normal, axis), 0.0062, 0.0045);
             for (size_t k = first; k < cage.points.size(); ++k) {
@@ -213,7 +225,8 @@ void addBootStraps(Cage& cage) {
         strap(left, path, 0.018, 0.006, true, 2);
         const StrapPoint side = path[3];
         left.part = Part::Buckle;
-        addBuckle(left, frameFrom(side.at + side.out * 0.006, side.out, glm::cross(Vec3{0, 1, 0}, side.out)), 0.011, 0.0115);
+        addBuckle(left, frameFrom(side.at + side.out * 0.006, side.out, glm::cross(Vec3{0, 1, 0}, side.out)), 0.011,
+                  0.0115);
     }
     for (Point& point : left.points) {
         point.part = Part::Boot;

@@ -12,13 +12,15 @@ namespace supple::creature::wren {
 namespace {
 
 constexpr Vec3 kScalp{0, 1.535, -0.015};
-constexpr Vec3 kKnot{0, 1.632, -0.152};
+constexpr Vec3 kKnot{0, 1.624, -0.130};
 
 // On the scalp: degrees to the left of the front, degrees up, and how far off the skull.
 Vec3 scalp(double side, double up, double off) {
     const double a = side * kPi / 180, b = up * kPi / 180;
     const Vec3 d{std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)};
-    return kScalp + d * (Vec3{0.1225, 0.135, d.z > 0 ? 0.117 : 0.131} + Vec3(off));
+    // The skull is fuller than a ball towards the nape.
+    const double nape = 0.021 * ramp(-4, -46, up) * ramp(0.1, -0.6, d.z);
+    return kScalp + d * (Vec3{0.1225, 0.135, d.z > 0 ? 0.117 : 0.131} + Vec3(off + nape));
 }
 
 Vec3 outward(const Vec3& p) {
@@ -26,7 +28,7 @@ Vec3 outward(const Vec3& p) {
 }
 
 double hairline(double side) {
-    const Curve line{{0, 43}, {25, 40}, {45, 30}, {62, 12}, {74, -10}, {92, -16}, {104, -36}, {130, -48}, {180, -52}};
+    const Curve line{{0, 43}, {25, 40}, {45, 30}, {62, 12}, {74, -10}, {92, -16}, {104, -38}, {130, -54}, {180, -58}};
     return line(std::abs(side));
 }
 
@@ -36,7 +38,7 @@ void addCap(Cage& cage) {
     struct Ring {
         double share, off;
     };
-    const Ring rings[] = {{-0.02, -0.004}, {0.03, 0.005}, {0.18, 0.010}, {0.45, 0.011}, {0.75, 0.011}, {1, 0.011}};
+    const Ring rings[] = {{-0.02, -0.004}, {0.03, 0.006}, {0.18, 0.013}, {0.45, 0.016}, {0.75, 0.017}, {1, 0.017}};
     for (const Ring& ring : rings) {
         tube.ring(up, 0.05, 0.05);
         for (const int point : tube.end.points) {
@@ -56,8 +58,7 @@ struct Place {
     double side, up, off;
 };
 
-void addLock(Cage& cage, const std::vector<Place>& places, double wide, double thick, double tip,
-             double root = 0.45) {
+void addLock(Cage& cage, const std::vector<Place>& places, double wide, double thick, double tip, double root = 0.45) {
     std::vector<Vec3> through;
     for (const Place& place : places) {
         through.push_back(scalp(place.side, place.up, place.off));
@@ -68,7 +69,8 @@ void addLock(Cage& cage, const std::vector<Place>& places, double wide, double t
     for (int i = 0; i < kRings; ++i) {
         const double s = static_cast<double>(i) / (kRings - 1);
         const double swell = mix(root, 1, ramp(0, 0.35, s)) * mix(1, tip, ramp(0.45, 1, s) * ramp(0.2, 1, s));
-        rings.push_back({path[static_cast<size_t>(i)], outward(path[static_cast<size_t>(i)]), wide * swell, thick * mix(root, 1, swell)});
+        rings.push_back({path[static_cast<size_t>(i)], outward(path[static_cast<size_t>(i)]), wide * swell,
+                         thick * mix(root, 1, swell)});
     }
     lock(cage, rings);
     cage.endShell();
@@ -89,18 +91,26 @@ void addSwept(Cage& cage, double side, double wide, double lift) {
         const double s = i / 5.0;
         const Vec3 d = (a * std::sin((1 - s) * angle) + b * std::sin(s * angle)) / std::sin(angle);
         places.push_back({std::atan2(d.x, d.z) * 180 / kPi, std::asin(d.y) * 180 / kPi,
-                          0.001 + lift * std::sin(kPi * std::min(1.0, s * 1.10 + 0.03))});
+                          0.004 + lift * std::sin(kPi * std::min(1.0, s * 1.10 + 0.03))});
     }
     addLock(cage, places, wide, 0.0115, 0.55, 0.16);
 }
 
 void addFringe(Cage& cage) {
     // Parted on the left; the long side sweeps over the forehead to the right.
-    addLock(cage, {{24, 62, 0.012}, {4, 52, 0.026}, {-22, 38, 0.033}, {-44, 20, 0.030}, {-60, 0, 0.020}, {-66, -16, 0.012}}, 0.0250, 0.0125, 0.08);
-    addLock(cage, {{26, 66, 0.012}, {2, 60, 0.025}, {-30, 48, 0.032}, {-56, 28, 0.030}, {-72, 4, 0.022}, {-76, -24, 0.016}}, 0.0260, 0.0125, 0.08);
-    addLock(cage, {{22, 58, 0.010}, {12, 44, 0.026}, {-6, 30, 0.034}, {-24, 18, 0.034}, {-38, 8, 0.028}}, 0.0200, 0.0110, 0.06);
-    addLock(cage, {{26, 58, 0.010}, {32, 48, 0.022}, {46, 32, 0.028}, {58, 14, 0.024}, {66, -4, 0.016}, {68, -20, 0.012}}, 0.0230, 0.0115, 0.08);
-    addLock(cage, {{25, 62, 0.012}, {42, 56, 0.022}, {62, 36, 0.025}, {74, 10, 0.020}, {78, -20, 0.016}}, 0.0230, 0.0115, 0.10);
+    addLock(cage,
+            {{24, 62, 0.012}, {4, 52, 0.026}, {-22, 38, 0.033}, {-44, 20, 0.030}, {-60, 0, 0.020}, {-66, -16, 0.012}},
+            0.0250, 0.0125, 0.08);
+    addLock(cage,
+            {{26, 66, 0.012}, {2, 60, 0.025}, {-30, 48, 0.032}, {-56, 28, 0.030}, {-72, 4, 0.022}, {-76, -24, 0.016}},
+            0.0260, 0.0125, 0.08);
+    addLock(cage, {{22, 58, 0.010}, {12, 44, 0.026}, {-6, 30, 0.034}, {-24, 18, 0.034}, {-38, 8, 0.028}}, 0.0200,
+            0.0110, 0.06);
+    addLock(cage,
+            {{26, 58, 0.010}, {32, 48, 0.022}, {46, 32, 0.028}, {58, 14, 0.024}, {66, -4, 0.016}, {68, -20, 0.012}},
+            0.0230, 0.0115, 0.08);
+    addLock(cage, {{25, 62, 0.012}, {42, 56, 0.022}, {62, 36, 0.025}, {74, 10, 0.020}, {78, -20, 0.016}}, 0.0230,
+            0.0115, 0.10);
     addLock(cage, {{20, 56, 0.014}, {22, 42, 0.028}, {30, 28, 0.034}, {44, 14, 0.032}}, 0.0120, 0.0080, 0.05);
 }
 
@@ -119,8 +129,19 @@ void addSideLocks(Cage& cage) {
             lock(cage, rings);
             cage.endShell();
         };
-        hang({{0.112, 1.560, 0.040}, {0.128, 1.500, 0.040}, {0.132, 1.440, 0.040}, {0.122, 1.385, 0.046}, {0.108, 1.345, 0.052}, {0.112, 1.318, 0.052}}, 0.0170);
-        hang({{0.116, 1.550, 0.022}, {0.131, 1.495, 0.018}, {0.137, 1.440, 0.018}, {0.134, 1.395, 0.022}, {0.126, 1.366, 0.026}}, 0.0140);
+        hang({{0.112, 1.560, 0.040},
+              {0.128, 1.500, 0.040},
+              {0.132, 1.440, 0.040},
+              {0.122, 1.385, 0.046},
+              {0.108, 1.345, 0.052},
+              {0.112, 1.318, 0.052}},
+             0.0170);
+        hang({{0.116, 1.550, 0.022},
+              {0.131, 1.495, 0.018},
+              {0.137, 1.440, 0.018},
+              {0.134, 1.395, 0.022},
+              {0.126, 1.366, 0.026}},
+             0.0140);
     }
 }
 
@@ -129,7 +150,8 @@ void addPonytail(Cage& cage) {
     struct Strand {
         double x, back, length, wide;
     };
-    const Strand strands[] = {{0, 0.012, 1.0, 0.036}, {0.024, 0, 0.94, 0.030}, {-0.024, 0, 0.97, 0.030}, {0.014, -0.022, 0.88, 0.028}, {-0.015, -0.022, 0.84, 0.028}, {0.0, -0.010, 1.06, 0.026}};
+    const Strand strands[] = {{0, 0.012, 1.0, 0.036},       {0.024, 0, 0.94, 0.030},       {-0.024, 0, 0.97, 0.030},
+                              {0.014, -0.022, 0.88, 0.028}, {-0.015, -0.022, 0.84, 0.028}, {0.0, -0.010, 1.06, 0.026}};
     for (const Strand& strand : strands) {
         const double sway = strand.x * 0.4;
         std::vector<Vec3> through{kKnot + Vec3{strand.x * 0.25, 0.004, 0.004}};
@@ -146,21 +168,25 @@ void addPonytail(Cage& cage) {
         for (int i = 0; i < 13; ++i) {
             const double s = i / 12.0;
             const double girth = mix(0.42, 1, ramp(0.02, 0.35, s)) * mix(1, 0.05, std::pow(ramp(0.35, 1.02, s), 1.2));
-                const Vec3& at = path[static_cast<size_t>(i)];
-            rings.push_back({Vec3{at.x, at.y + (1 - strand.length) * 0.25 * s, at.z}, glm::normalize(Vec3{strand.x * 14, 0.35, -0.9}), strand.wide * girth, strand.wide * 0.62 * girth});
+            const Vec3& at = path[static_cast<size_t>(i)];
+            rings.push_back({Vec3{at.x, at.y + (1 - strand.length) * 0.25 * s, at.z},
+                             glm::normalize(Vec3{strand.x * 14, 0.35, -0.9}), strand.wide * girth,
+                             strand.wide * 0.62 * girth});
         }
         lock(cage, rings);
         cage.endShell();
     }
     cage.part = Part::Ribbon;
     std::vector<StrapPoint> path;
-    const Frame knot = frameFrom(kKnot + Vec3{0, 0.010, -0.018}, {0, 0.35, -1}, {1, 0, 0});
+    const Frame knot = frameFrom(kKnot + Vec3{0, 0.008, -0.020}, {0, 0.35, -1}, {1, 0, 0});
     for (int i = 0; i < 12; ++i) {
         const double a = 2 * kPi * i / 12;
         const Vec3 out = knot.across * std::cos(a) + knot.along * std::sin(a);
         path.push_back({knot.origin + out * 0.0225, out});
     }
-    torus(cage, path, 6, [](size_t, int k) { return Vec2{0.0055, 0.0115} * Vec2{std::cos(2 * kPi * k / 6), std::sin(2 * kPi * k / 6)}; });
+    torus(cage, path, 6, [](size_t, int k) {
+        return Vec2{0.0055, 0.0115} * Vec2{std::cos(2 * kPi * k / 6), std::sin(2 * kPi * k / 6)};
+    });
     for (size_t i = first; i < cage.points.size(); ++i) {
         cage.points[i].rib = 1;
     }

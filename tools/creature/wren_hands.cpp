@@ -32,8 +32,9 @@ void addFinger(Cage& cage, const Patch& base, const Finger& finger, Part part, c
         double t, wide, deep;
     };
     // Loops on both sides of each joint; the tip is flatter.
-    const Ring fingerRings[] = {{0.16, 1.02, 1.06}, {0.34, 0.98, 1.0}, {0.42, 1.02, 1.04}, {0.50, 0.97, 0.98}, {0.65, 0.93, 0.93},
-                                {0.72, 0.97, 0.97}, {0.80, 0.92, 0.90}, {0.93, 0.84, 0.78}, {1.0, 0.55, 0.50}};
+    const Ring fingerRings[] = {{0.16, 1.02, 1.06}, {0.34, 0.98, 1.0},  {0.42, 1.02, 1.04},
+                                {0.50, 0.97, 0.98}, {0.65, 0.93, 0.93}, {0.72, 0.97, 0.97},
+                                {0.80, 0.92, 0.90}, {0.93, 0.84, 0.78}, {1.0, 0.55, 0.50}};
     for (const Ring& ring : fingerRings) {
         if (thumb && ring.t < 0.2) {
             continue;
@@ -78,7 +79,8 @@ Cage hand() {
         cage.position(web.at(column, 0)) += back * 0.0035;
     }
     tube.lay();
-    const Patch side = cage.patch(1, 2, false, {heel.at(0, 0), web.at(0, 0), heel.at(0, 1), web.at(0, 1), heel.at(0, 2), web.at(0, 2)});
+    const Patch side = cage.patch(
+        1, 2, false, {heel.at(0, 0), web.at(0, 0), heel.at(0, 1), web.at(0, 1), heel.at(0, 2), web.at(0, 2)});
     const std::array<Finger, 5> all = fingers();
     const Part parts[] = {Part::Finger1, Part::Finger2, Part::Finger3, Part::Finger4};
     for (int i = 0; i < 4; ++i) {

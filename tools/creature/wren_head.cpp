@@ -18,14 +18,14 @@ struct Level {
 };
 
 constexpr Level kLevels[] = {
-    {1.235, 1.240, -0.016, 0.058, 0.048, 0.052}, {1.270, 1.275, -0.014, 0.047, 0.042, 0.046},
-    {1.306, 1.322, -0.012, 0.043, 0.042, 0.048}, {1.329, 1.365, -0.006, 0.047, 0.058, 0.060},
-    {1.3365, 1.390, 0.000, 0.061, 0.084, 0.078}, {1.345, 1.402, 0.000, 0.0740, 0.0965, 0.092},
-    {1.3600, 1.414, 0.000, 0.0855, 0.1005, 0.102}, {1.3730, 1.425, 0.000, 0.0935, 0.1015, 0.110},
-    {1.3865, 1.436, 0.000, 0.0995, 0.1015, 0.117}, {1.4005, 1.447, 0.000, 0.1050, 0.1020, 0.124},
-    {1.4105, 1.459, 0.000, 0.1100, 0.1030, 0.130}, {1.4215, 1.472, 0.000, 0.1140, 0.1035, 0.135},
-    {1.4380, 1.484, 0.000, 0.1170, 0.1035, 0.138}, {1.4670, 1.504, 0.000, 0.1195, 0.1035, 0.142},
-    {1.4990, 1.526, 0.000, 0.1220, 0.1045, 0.145}, {1.5210, 1.545, 0.000, 0.1230, 0.1055, 0.145},
+    {1.235, 1.240, -0.016, 0.058, 0.048, 0.052},    {1.270, 1.275, -0.014, 0.047, 0.042, 0.046},
+    {1.306, 1.322, -0.012, 0.043, 0.042, 0.048},    {1.329, 1.365, -0.006, 0.047, 0.058, 0.060},
+    {1.3365, 1.390, 0.000, 0.061, 0.084, 0.078},    {1.345, 1.402, 0.000, 0.0740, 0.0965, 0.092},
+    {1.3600, 1.414, 0.000, 0.0855, 0.1005, 0.102},  {1.3730, 1.425, 0.000, 0.0935, 0.1015, 0.110},
+    {1.3865, 1.436, 0.000, 0.0995, 0.1015, 0.117},  {1.4005, 1.447, 0.000, 0.1050, 0.1020, 0.124},
+    {1.4105, 1.459, 0.000, 0.1100, 0.1030, 0.130},  {1.4215, 1.472, 0.000, 0.1140, 0.1035, 0.135},
+    {1.4380, 1.484, 0.000, 0.1170, 0.1035, 0.138},  {1.4670, 1.504, 0.000, 0.1195, 0.1035, 0.142},
+    {1.4990, 1.526, 0.000, 0.1220, 0.1045, 0.145},  {1.5210, 1.545, 0.000, 0.1230, 0.1055, 0.145},
     {1.5500, 1.569, -0.002, 0.1220, 0.1040, 0.143}, {1.5880, 1.599, -0.006, 0.1150, 0.0960, 0.135},
     {1.6220, 1.628, -0.010, 0.0980, 0.0780, 0.113}, {1.6480, 1.650, -0.014, 0.0660, 0.0520, 0.074},
 };
@@ -44,13 +44,13 @@ double power(double value, double exponent) {
 
 // What the face has in front of the bare skull.
 double features(double x, double y) {
-    double z = 0.0050 * bump(x, y, 0.062, 1.424, 0.034, 0.026);  // cheek
-    z += 0.0050 * bump(x, y, 0, 1.3885, 0.030, 0.022);            // mouth
-    z += 0.0075 * bump(x, y, 0, 1.350, 0.026, 0.014);             // chin
-    z -= 0.0045 * bump(x, y, 0, 1.3670, 0.026, 0.0065);           // furrow under the lip
-    z -= 0.0085 * bump(x, y, 0.050, 1.466, 0.030, 0.024);         // eye socket
-    z += 0.0025 * bump(x, y, 0.050, 1.517, 0.040, 0.014);         // brow
-    z += 0.0125 * bump(x, y, 0, 1.452, 0.0112, 0.036);            // bridge of the nose
+    double z = 0.0050 * bump(x, y, 0.062, 1.424, 0.034, 0.026); // cheek
+    z += 0.0050 * bump(x, y, 0, 1.3885, 0.030, 0.022);          // mouth
+    z += 0.0075 * bump(x, y, 0, 1.350, 0.026, 0.014);           // chin
+    z -= 0.0045 * bump(x, y, 0, 1.3670, 0.026, 0.0065);         // furrow under the lip
+    z -= 0.0085 * bump(x, y, 0.050, 1.466, 0.030, 0.024);       // eye socket
+    z += 0.0025 * bump(x, y, 0.050, 1.517, 0.040, 0.014);       // brow
+    z += 0.0125 * bump(x, y, 0, 1.452, 0.0112, 0.036);          // bridge of the nose
     return z;
 }
 
@@ -110,6 +110,9 @@ void Head::rings() {
             }
             // A chin narrower than the cheeks.
             p.x *= 1 - 0.24 * ramp(1.405, 1.335, p.y) * ramp(0.0, 0.09, p.z);
+            const double jaw = (0.0180 * shape.open + 0.0050 * shape.round) * ramp(1.378, 1.362, p.y) *
+                               ramp(1.300, 1.335, p.y) * ramp(-0.010, 0.075, p.z);
+            p += Vec3{0, -jaw, -0.3 * jaw};
             if (k == 0 || k == kRound) {
                 p.x = 0;
             }
@@ -206,7 +209,8 @@ void Head::eye() {
     for (size_t i = 0; i < rimOrder.size(); ++i) {
         const bool upper = i > 5;
         const Vec2 edge = lidEdge(places[i], upper, 0);
-        const Vec3 wanted = onEye(edge.x + 24 * places[i], edge.y + (upper ? 27 : -19) * (1 - 0.6 * std::pow(places[i], 4)), 1.05);
+        const Vec3 wanted =
+            onEye(edge.x + 24 * places[i], edge.y + (upper ? 27 : -19) * (1 - 0.6 * std::pow(places[i], 4)), 1.05);
         Vec3& p = cage.position(rimOrder[i]);
         const double inner = places[i] < -0.9 ? 0.55 : 1.0;
         p.x = mix(p.x, wanted.x, 0.75 * inner);
@@ -225,7 +229,7 @@ void Head::eye() {
             const double lower = shape.smile * (upper || corner ? 0 : 5.0 * (1 - s * s) * ring.lid);
             const double up = corner ? 0 : (upper ? 1 : -0.8) * ring.spread * (1 - 0.45 * s * s);
             cage.position(rim[i]) = onEye(edge.x + ring.spread * s * 0.85, edge.y + up + lower,
-                                            ring.far - (upper || corner || ring.spread < 5 ? 0 : 0.022));
+                                          ring.far - (upper || corner || ring.spread < 5 ? 0 : 0.022));
             cage.points[static_cast<size_t>(rim[i])].upper = upper ? ring.lid : 0;
         }
         for (int column = 1; column < 4; ++column) {
@@ -242,12 +246,12 @@ void Head::eye() {
 
 // On the lips at s from the middle (0) to the corner (1): `rise` is the share of the lip's height, `out` is forward.
 Vec3 Head::mouthPoint(double s, bool upper, double rise, double out) const {
-    const double wide = 0.0268 * (1 + 0.20 * shape.smile - 0.34 * shape.round - 0.06 * shape.open);
+    const double wide = 0.0268 * (1 + 0.17 * shape.smile - 0.34 * shape.round - 0.06 * shape.open);
     const Curve high{{0, 0.0066}, {0.33, 0.0078}, {0.70, 0.0050}, {1, 0}};
     const Curve low{{0, -0.0092}, {0.4, -0.0086}, {0.75, -0.0054}, {1, 0}};
     const double x = wide * s;
     double y = kMouthLine + 0.0022 * s * s - 0.0008 * (1 - s) + (upper ? high(s) : low(s)) * rise;
-    y += shape.smile * (0.0105 * std::pow(s, 1.8) - 0.0015) - shape.frown * 0.0075 * std::pow(s, 2.0);
+    y += shape.smile * (0.0090 * std::pow(s, 1.7) - 0.0013) - shape.frown * 0.0075 * std::pow(s, 2.0);
     const double gap = std::sqrt(std::max(0.0, 1 - s * s));
     y += (upper ? 0.004 : -0.0210) * shape.open * gap + (upper ? 0.0045 : -0.0085) * shape.round * gap;
     y -= shape.open * 0.0065 * s;
@@ -265,8 +269,11 @@ void Head::mouth() {
         double out;
         Part part;
     };
-    const Ring rings[] = {{1.62, 1.08, 0.0016, Part::Head}, {1.0, 1.0, 0.0022, Part::Lip}, {0.55, 0.985, 0.0052, Part::Lip},
-                          {-0.10, 0.965, 0.0020, Part::Lip}, {0.20, 0.93, -0.0085, Part::Mouth}};
+    const Ring rings[] = {{1.62, 1.08, 0.0016, Part::Head},
+                          {1.0, 1.0, 0.0022, Part::Lip},
+                          {0.55, 0.985, 0.0052, Part::Lip},
+                          {-0.10, 0.965, 0.0020, Part::Lip},
+                          {0.20, 0.93, -0.0085, Part::Mouth}};
     const double places[] = {0, 0.36, 0.70, 0.93, 1, 0.93, 0.70, 0.36, 0};
     for (size_t r = 0; r < std::size(rings); ++r) {
         if (r > 0) {
@@ -285,7 +292,8 @@ void Head::mouth() {
             cage.position(rim[i]) = p;
         }
         for (int column = 0; column < 3; ++column) {
-            cage.position(patch.at(column, 1)) = mix(cage.position(patch.at(column, 0)), cage.position(patch.at(column, 2)), 0.5);
+            cage.position(patch.at(column, 1)) =
+                mix(cage.position(patch.at(column, 0)), cage.position(patch.at(column, 2)), 0.5);
         }
     }
     cage.part = Part::Mouth;
@@ -294,7 +302,8 @@ void Head::mouth() {
         for (int column = 0; column <= 3; ++column) {
             for (int row = 0; row <= 2; ++row) {
                 Vec3& p = cage.position(patch.at(column, row));
-                p = {0.0075 * column * (1.15 - 6 * depth), kMouthLine + 0.011 * (row - 1) - (row == 0 ? 0.012 * shape.open : 0) - 0.002,
+                p = {0.0075 * column * (1.15 - 6 * depth),
+                     kMouthLine + 0.011 * (row - 1) - (row == 0 ? 0.012 * shape.open : 0) - 0.002,
                      0.098 - depth - 0.0022 * column * column};
             }
         }
@@ -308,8 +317,11 @@ void Head::ear() {
     struct Ring {
         double out, across, along, forward;
     };
-    const Ring rings[] = {{-0.001, 0.0125, 0.0265, 0.000}, {0.0080, 0.0185, 0.0335, -0.003}, {0.0125, 0.0190, 0.0340, -0.004},
-                          {0.0125, 0.0135, 0.0275, -0.004}, {0.0035, 0.0080, 0.0190, -0.001}};
+    const Ring rings[] = {{-0.001, 0.0125, 0.0265, 0.000},
+                          {0.0080, 0.0185, 0.0335, -0.003},
+                          {0.0125, 0.0190, 0.0340, -0.004},
+                          {0.0125, 0.0135, 0.0275, -0.004},
+                          {0.0035, 0.0080, 0.0190, -0.001}};
     for (const Ring& ring : rings) {
         patch = cage.extrude(patch);
         Frame at = frame;
@@ -321,7 +333,8 @@ void Head::ear() {
             const Vec3 d = p - at.origin;
             const double low = ramp(0.010, -0.034, glm::dot(d, frame.along));
             const double ahead = ramp(0.0, -0.018, glm::dot(d, frame.across));
-            p -= frame.across * (glm::dot(d, frame.across) * 0.35 * low) + frame.out * (ahead * 0.7 * std::max(0.0, ring.out));
+            p -= frame.across * (glm::dot(d, frame.across) * 0.35 * low) +
+                 frame.out * (ahead * 0.7 * std::max(0.0, ring.out));
         }
     }
 }
@@ -416,7 +429,8 @@ void grow(Cage& cage) {
 
 Cage modelHead(const FaceShape& shape) {
     Cage cage = Head(shape).build();
-    fitLimits(cage, [&](size_t i) { return cage.points[i].part == Part::Head; }, 4);
+    fitLimits(
+        cage, [&](size_t i) { return cage.points[i].part == Part::Head; }, 4);
     const Body face(cage);
     Cage more;
     addBrow(more, face, shape);
@@ -432,7 +446,7 @@ Cage modelHead(const FaceShape& shape) {
 Cage modelEyes(double blink) {
     Cage half;
     half.part = Part::Eye;
-    const Frame frame = frameFrom(kEye - glm::normalize(kEyeOut) * (0.10 * kEyeRadius * blink), kEyeOut, {1, 0, 0});
+    const Frame frame = frameFrom(kEye - glm::normalize(kEyeOut) * (0.24 * kEyeRadius * blink), kEyeOut, {1, 0, 0});
     const auto at = [&](double degrees) {
         Frame ring = frame;
         ring.origin += frame.out * (kEyeRadius * std::cos(degrees * kPi / 180));
@@ -444,7 +458,8 @@ Cage modelEyes(double blink) {
         tube.ring(at(degrees), radius(degrees), radius(degrees), degrees < 20 ? kEyeRadius * 0.045 : 0);
     }
     half.endShell();
-    fitLimits(half, [](size_t) { return true; }, 8);
+    fitLimits(
+        half, [](size_t) { return true; }, 8);
     // The cornea stands out a little; the picture is laid from the front.
     for (Point& point : half.points) {
         const Vec3 d = point.position - frame.origin;

@@ -16,9 +16,9 @@ struct JacketSlice {
 
 // From the inside of the skirt down to its hem, up to the collar and into it.
 constexpr JacketSlice kSlices[] = {
-    {0.900, 0.000, 0.105, 0.080, 0.085}, {0.722, 0.000, 0.168, 0.128, 0.142}, {0.714, 0.000, 0.174, 0.134, 0.148},
-    {0.719, 0.000, 0.179, 0.139, 0.153}, {0.745, 0.000, 0.178, 0.137, 0.151}, {0.790, 0.000, 0.169, 0.127, 0.140},
-    {0.840, -0.002, 0.155, 0.114, 0.126}, {0.885, -0.004, 0.139, 0.101, 0.110}, {0.925, -0.004, 0.123, 0.090, 0.094},
+    {0.900, 0.000, 0.105, 0.080, 0.085},   {0.722, 0.000, 0.168, 0.128, 0.142},   {0.714, 0.000, 0.174, 0.134, 0.148},
+    {0.719, 0.000, 0.179, 0.139, 0.153},   {0.745, 0.000, 0.178, 0.137, 0.151},   {0.790, 0.000, 0.169, 0.127, 0.140},
+    {0.840, -0.002, 0.155, 0.114, 0.126},  {0.885, -0.004, 0.139, 0.101, 0.110},  {0.925, -0.004, 0.123, 0.090, 0.094},
     {0.955, -0.005, 0.1110, 0.082, 0.084}, {0.985, -0.006, 0.1085, 0.082, 0.082}, {1.022, -0.008, 0.1150, 0.089, 0.087},
     {1.062, -0.010, 0.1250, 0.098, 0.094}, {1.102, -0.012, 0.1340, 0.106, 0.100}, {1.140, -0.014, 0.1400, 0.106, 0.101},
     {1.178, -0.016, 0.1410, 0.098, 0.096}, {1.210, -0.018, 0.1360, 0.084, 0.086}, {1.238, -0.019, 0.1180, 0.069, 0.073},
@@ -38,6 +38,7 @@ private:
     void shape();
     void sleeve();
     void dress();
+    void dressCuff();
 
     Cage cage;
     std::vector<std::vector<int>> rims;
@@ -46,7 +47,9 @@ private:
 
 void Jacket::body() {
     cage.part = Part::Jacket;
-    const auto up = [](const JacketSlice& slice) { return Frame{{0, slice.y, slice.z}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}}; };
+    const auto up = [](const JacketSlice& slice) {
+        return Frame{{0, slice.y, slice.z}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+    };
     const auto shaped = [&](const Patch& patch, const JacketSlice& slice) {
         for (const int point : patch.points) {
             Vec3& p = cage.position(point);
@@ -82,12 +85,15 @@ void Jacket::shape() {
             // Two tails behind, an opening in front.
             const double front = ramp(0.75, 0.0, angle);
             p.y += hang * (0.085 * front * front + 0.012 * std::cos(2 * angle));
-            const double chest = std::exp(-std::pow((std::abs(p.x) - 0.058) / 0.042, 2) - std::pow((p.y - 1.118) / 0.040, 2));
+            const double chest =
+                std::exp(-std::pow((std::abs(p.x) - 0.058) / 0.042, 2) - std::pow((p.y - 1.118) / 0.040, 2));
             p.z += (p.z > 0 ? 0.0125 : 0.0) * chest;
-            const double blade = std::exp(-std::pow((std::abs(p.x) - 0.062) / 0.036, 2) - std::pow((p.y - 1.15) / 0.055, 2));
+            const double blade =
+                std::exp(-std::pow((std::abs(p.x) - 0.062) / 0.036, 2) - std::pow((p.y - 1.15) / 0.055, 2));
             p.z -= (p.z < 0 ? 0.006 : 0.0) * blade;
             // Cloth gathers above and below the belt.
-            const double gather = std::exp(-std::pow((p.y - 0.998) / 0.016, 2)) + 0.8 * std::exp(-std::pow((p.y - 0.918) / 0.018, 2));
+            const double gather =
+                std::exp(-std::pow((p.y - 0.998) / 0.016, 2)) + 0.8 * std::exp(-std::pow((p.y - 0.918) / 0.018, 2));
             p += out * (0.0035 * gather * (1 + 0.9 * std::sin(angle * 9 + 1.0)));
             if (k == 0 || k == kHalf) {
                 p.x = 0;
@@ -113,9 +119,10 @@ void Jacket::sleeve() {
         double tilt; // of its plane, for creases that run round the arm
     };
     // Full at the shoulder, creased round the elbow, gathered in a cuff.
-    const Ring rings[] = {{0.08, 0.0590, 0}, {0.28, 0.0600, 0.1}, {0.48, 0.0585, -0.1}, {0.66, 0.0545, 0.12}, {0.80, 0.0555, -0.14},
-                          {0.90, 0.0500, 0.1}, {1.0, 0.0505, 0}, {1.10, 0.0490, -0.1}, {1.20, 0.0515, 0.14}, {1.36, 0.0470, -0.1},
-                          {1.55, 0.0445, 0.1}, {1.74, 0.0430, 0}, {1.86, 0.0450, 0}, {1.93, 0.0375, 0}};
+    const Ring rings[] = {{0.08, 0.0590, 0},     {0.28, 0.0600, 0.1},  {0.48, 0.0585, -0.1}, {0.66, 0.0545, 0.12},
+                          {0.80, 0.0555, -0.14}, {0.90, 0.0500, 0.1},  {1.0, 0.0505, 0},     {1.10, 0.0490, -0.1},
+                          {1.20, 0.0515, 0.14},  {1.36, 0.0470, -0.1}, {1.55, 0.0445, 0.1},  {1.74, 0.0430, 0},
+                          {1.86, 0.0450, 0},     {1.93, 0.0375, 0}};
     for (const Ring& ring : rings) {
         const bool low = ring.t > 1;
         const Vec3 at = low ? mix(kElbow, kWrist, ring.t - 1) : mix(kShoulder, kElbow, ring.t);
@@ -123,7 +130,8 @@ void Jacket::sleeve() {
         tube.ring(frameFrom(at, out, {0, 0, -1}), ring.radius * 0.97, ring.radius);
     }
     cage.part = Part::JacketTrim;
-    const double cuff[][2] = {{1.945, 0.0385}, {1.975, 0.0390}, {2.005, 0.0385}, {2.012, 0.0355}, {1.99, 0.0310}, {1.93, 0.0290}};
+    const double cuff[][2] = {{1.945, 0.0385}, {1.975, 0.0390}, {2.005, 0.0385},
+                              {2.012, 0.0355}, {1.99, 0.0310},  {1.93, 0.0290}};
     for (const auto& [t, radius] : cuff) {
         tube.ring(frameFrom(mix(kElbow, kWrist, t - 1), lower, {0, 0, -1}), radius, radius * 0.92);
         cuffs.push_back(tube.rims.back());
@@ -181,6 +189,7 @@ void Jacket::dress() {
             });
         }
     }
+    dressCuff();
     for (size_t i = 18; i < rims.size(); ++i) {
         for (const int point : rims[i]) {
             cage.points[static_cast<size_t>(point)].part = Part::Collar;
@@ -190,6 +199,23 @@ void Jacket::dress() {
         cage.creaseChain(rims[ring], 1.2f);
     }
     cage.creaseChain(cuffs[1], 1.0f);
+}
+
+// The cuff's outside, from its first ring to its third.
+void Jacket::dressCuff() {
+    const std::map<std::pair<int, int>, size_t> edges = cage.directedEdges();
+    for (size_t i = 0; i < 2; ++i) {
+        const size_t count = cuffs[i].size();
+        for (size_t k = 0; k < count; ++k) {
+            const int corner = cuffs[i][k];
+            layBand(cage.faces[edges.at({corner, cuffs[i][(k + 1) % count]})], [&](int point) {
+                const bool second = point != corner && point != cuffs[i + 1][k];
+                const bool upper = point == cuffs[i + 1][k] || point == cuffs[i + 1][(k + 1) % count];
+                return Vec2{0.018 * static_cast<double>(k + second),
+                            (static_cast<double>(i) + upper) / 2 / kBandDensity};
+            });
+        }
+    }
 }
 
 Cage Jacket::build() {

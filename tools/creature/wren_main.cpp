@@ -20,9 +20,9 @@ int fail(const std::string& message) {
 std::vector<wren::Piece> pieces() {
     std::vector<wren::Piece> list;
     list.push_back({"head", wren::modelHead({})});
-    list.back().targets = {{"blink", wren::modelHead({.blink = 1})},   {"smile", wren::modelHead({.smile = 1})},
-                           {"open", wren::modelHead({.open = 1})},     {"round", wren::modelHead({.round = 1})},
-                           {"brows", wren::modelHead({.brows = 1})},   {"frown", wren::modelHead({.frown = 1})}};
+    list.back().targets = {{"blink", wren::modelHead({.blink = 1})}, {"smile", wren::modelHead({.smile = 1})},
+                           {"open", wren::modelHead({.open = 1})},   {"round", wren::modelHead({.round = 1})},
+                           {"brows", wren::modelHead({.brows = 1})}, {"frown", wren::modelHead({.frown = 1})}};
     list.push_back({"eyes", wren::modelEyes(0), {{"blink", wren::modelEyes(1)}}});
     list.push_back({"hands", wren::modelHands()});
     list.push_back({"hair", wren::modelHair()});

@@ -9,7 +9,7 @@ namespace supple::creature::wren {
 
 struct Swatch {
     uint32_t material = 0;
-    Vec3 colour{1}; // linear; multiplies the material's
+    Vec3 colour{1};     // linear; multiplies the material's
     double density = 1; // of its textures: repeats a metre
 };
 

@@ -16,7 +16,8 @@ void addTurn(Cage& cage, const Vec3& middle, const Vec2& radii, double dip, doub
         const double a = 2 * kPi * i / kCount;
         const Vec3 out{std::sin(a), 0, std::cos(a)};
         const double front = 0.5 + 0.5 * std::cos(a);
-        path.push_back({middle + Vec3{out.x * radii.x, -dip * front * front + 0.004 * std::sin(2 * a + phase), out.z * radii.y + 0.010 * front},
+        path.push_back({middle + Vec3{out.x * radii.x, -dip * front * front + 0.004 * std::sin(2 * a + phase),
+                                      out.z * radii.y + 0.010 * front},
                         glm::normalize(out + Vec3{0, 0.25 + 0.15 * front, 0})});
     }
     torus(cage, path, 8, [&](size_t i, int k) {
@@ -44,7 +45,8 @@ void addTail(Cage& cage, double shift, double length, double wide, double phase)
         const double wave = 0.010 * std::sin(3.2 * s + phase + 3 * v) * ramp(0, 0.4, v);
         return p + Vec3{shift + s * half, -0.010 * s * shift * 20 * v, wave - 0.008 * std::abs(shift * 20)};
     };
-    const Sheet made = sheet(cage, 5, 11, [&](double u, double v) { return surface(1 - u, v * -1 + 1); }, 0.007);
+    const Sheet made = sheet(
+        cage, 5, 11, [&](double u, double v) { return surface(1 - u, v * -1 + 1); }, 0.007);
     creaseSheet(cage, made, 1.5f);
     cage.endShell();
     // The end is of another colour.

@@ -19,12 +19,13 @@ std::array<Finger, 5> fingers() {
     const auto line = [&](const char* name, const Vec3& from, const Vec3& direction, double length, double radius) {
         return Finger{name, from, from + glm::normalize(direction) * length, radius};
     };
-    return {line("index", kKnuckles + across * 0.0285 - palm * 0.001, palm + across * 0.13 - back * 0.10, 0.073, 0.0102),
-            line("middle", kKnuckles + across * 0.0095 + palm * 0.003, palm + across * 0.03 - back * 0.10, 0.080, 0.0104),
-            line("ring", kKnuckles - across * 0.0095 + palm * 0.001, palm - across * 0.06 - back * 0.12, 0.074, 0.0100),
-            line("pinky", kKnuckles - across * 0.0280 - palm * 0.005, palm - across * 0.17 - back * 0.14, 0.060, 0.0090),
-            line("thumb", kWrist + palm * 0.036 + across * 0.030 - back * 0.006,
-                 palm * 0.80 + across * 0.78 - back * 0.28, 0.072, 0.0118)};
+    return {
+        line("index", kKnuckles + across * 0.0285 - palm * 0.001, palm + across * 0.13 - back * 0.10, 0.073, 0.0102),
+        line("middle", kKnuckles + across * 0.0095 + palm * 0.003, palm + across * 0.03 - back * 0.10, 0.080, 0.0104),
+        line("ring", kKnuckles - across * 0.0095 + palm * 0.001, palm - across * 0.06 - back * 0.12, 0.074, 0.0100),
+        line("pinky", kKnuckles - across * 0.0280 - palm * 0.005, palm - across * 0.17 - back * 0.14, 0.060, 0.0090),
+        line("thumb", kWrist + palm * 0.036 + across * 0.030 - back * 0.006, palm * 0.80 + across * 0.78 - back * 0.28,
+             0.072, 0.0118)};
 }
 
 Vec3 handGrown(const Vec3& p) {

@@ -13,7 +13,8 @@ const Hand kOnShoulder{{-0.222, 1.105, 0.150}, {-0.62, -1, -0.30}, {0.05, 0.72, 
 const Hand kOnScabbard{{0.240, 1.008, -0.022}, {0.85, -0.10, -0.70}, {-0.22, -0.74, 0.62}, {-0.45, 0.60, 0.60}};
 
 Hand mixed(const Hand& a, const Hand& b, double share) {
-    return {mix(a.wrist, b.wrist, share), mix(a.pole, b.pole, share), mix(a.fingers, b.fingers, share), mix(a.thumb, b.thumb, share)};
+    return {mix(a.wrist, b.wrist, share), mix(a.pole, b.pole, share), mix(a.fingers, b.fingers, share),
+            mix(a.thumb, b.thumb, share)};
 }
 
 Hand between(const std::vector<HandKey>& keys, double time) {
@@ -43,7 +44,8 @@ void curl(Pose& pose, const std::string& side, double fingers, double thumb) {
     const double way = side == ".L" ? -1 : 1;
     for (const char* name : {"index", "middle", "ring", "pinky"}) {
         const double spread = name[0] == 'i' ? -7 : (name[0] == 'p' ? 9 : (name[0] == 'r' ? 4 : -2));
-        pose.turn(std::string(name) + "A" + side, 0, spread * fingers * (side == ".L" ? -1 : 1) * 0.6, way * 66 * fingers);
+        pose.turn(std::string(name) + "A" + side, 0, spread * fingers * (side == ".L" ? -1 : 1) * 0.6,
+                  way * 66 * fingers);
         pose.turn(std::string(name) + "B" + side, 0, 0, way * 88 * fingers);
         pose.turn(std::string(name) + "C" + side, 0, 0, way * 52 * fingers);
     }
@@ -77,8 +79,10 @@ void drape(Pose& pose) {
 
 void hang(Clip& clip, const Skeleton& skeleton, bool loops, double wind) {
     const Vec3 tailEnd = grown(kTail[kTailJoints]);
-    dangle(clip, skeleton, {{"ponytail1", "ponytail2", "ponytail3"}, tailEnd, 0.22, 0.22, {0, -0.0010, -wind * 0.5}}, loops);
-    dangle(clip, skeleton, {{"scarf1", "scarf2", "scarf3"}, kScarfTail[kScarfJoints], 0.10, 0.20, {0, -0.0012, -0.0003 - wind}}, loops);
+    dangle(clip, skeleton, {{"ponytail1", "ponytail2", "ponytail3"}, tailEnd, 0.22, 0.22, {0, -0.0010, -wind * 0.5}},
+           loops);
+    dangle(clip, skeleton,
+           {{"scarf1", "scarf2", "scarf3"}, kScarfTail[kScarfJoints], 0.10, 0.20, {0, -0.0012, -0.0003 - wind}}, loops);
 }
 
 } // namespace supple::creature::wren

@@ -30,7 +30,8 @@ void addBar(Cage& cage, const Frame& frame, const std::vector<Section>& sections
         for (const int point : tube.rims[i]) {
             const Vec3 d = i == 0 || i == 1 ? cage.position(point) - frame.origin : cage.position(point) - origin;
             const double u = glm::dot(d, frame.across), w = glm::dot(d, frame.along);
-            cage.position(point) = origin + frame.across * (u * sections[i].wide) + frame.along * (w * sections[i].thick);
+            cage.position(point) =
+                origin + frame.across * (u * sections[i].wide) + frame.along * (w * sections[i].thick);
         }
     }
     for (size_t k = 0; k < 4; ++k) {
@@ -60,7 +61,8 @@ void addGrip(Cage& cage, const Frame& frame) {
     cage.endShell();
     cage.part = Part::Guard;
     Tube pommel = Tube::begin(cage, 2, 2, at(-0.098), 0.010, 0.010);
-    const double rings[][2] = {{-0.096, 0.0175}, {-0.088, 0.0205}, {-0.078, 0.0195}, {-0.070, 0.0150}, {-0.064, 0.0130}};
+    const double rings[][2] = {
+        {-0.096, 0.0175}, {-0.088, 0.0205}, {-0.078, 0.0195}, {-0.070, 0.0150}, {-0.064, 0.0130}};
     for (const auto& [along, radius] : rings) {
         pommel.ring(at(along), radius, radius * 0.82);
     }
@@ -71,7 +73,8 @@ void addGrip(Cage& cage, const Frame& frame) {
         const double s = i / 5.0 - 1;
         const double end = ramp(0.72, 0.95, std::abs(s));
         bar.push_back({frame.origin + frame.out * (0.062 + 0.020 * s * s) + frame.across * (0.084 * s), frame.along,
-                       mix(0.0105, 0.0140, end) * (std::abs(s) > 0.98 ? 0.7 : 1), mix(0.0090, 0.0115, end) * (std::abs(s) > 0.98 ? 0.7 : 1)});
+                       mix(0.0105, 0.0140, end) * (std::abs(s) > 0.98 ? 0.7 : 1),
+                       mix(0.0090, 0.0115, end) * (std::abs(s) > 0.98 ? 0.7 : 1)});
     }
     lock(cage, bar);
     cage.endShell();
@@ -85,13 +88,27 @@ void addScabbard(Cage& cage) {
     const Vec3 down = glm::normalize(Vec3{0.16, -0.80, -0.58});
     const Frame frame = frameFrom(kScabbard + Vec3{0.028, 0.0, 0.012}, down, {0, -0.58, 0.80});
     cage.part = Part::Scabbard;
-    addBar(cage, frame, {{-0.020, 0.026, 0.013}, {-0.018, 0.029, 0.0155}, {0.0, 0.029, 0.0155}, {0.20, 0.027, 0.0145}, {0.40, 0.025, 0.0135}, {0.53, 0.022, 0.012}, {0.56, 0.018, 0.010}}, 0.6f, 0.0f);
+    addBar(cage, frame,
+           {{-0.020, 0.026, 0.013},
+            {-0.018, 0.029, 0.0155},
+            {0.0, 0.029, 0.0155},
+            {0.20, 0.027, 0.0145},
+            {0.40, 0.025, 0.0135},
+            {0.53, 0.022, 0.012},
+            {0.56, 0.018, 0.010}},
+           0.6f, 0.0f);
     cage.part = Part::Guard;
     const size_t first = cage.points.size();
     const auto band = [&](double at, double wide, double thick, double length) {
         Frame ring = frame;
         ring.origin += frame.out * at;
-        addBar(cage, ring, {{0, wide * 0.9, thick * 0.9}, {0.002, wide, thick}, {length * 0.5, wide, thick}, {length, wide, thick}, {length + 0.002, wide * 0.85, thick * 0.85}}, 0.6f, 0.0f);
+        addBar(cage, ring,
+               {{0, wide * 0.9, thick * 0.9},
+                {0.002, wide, thick},
+                {length * 0.5, wide, thick},
+                {length, wide, thick},
+                {length + 0.002, wide * 0.85, thick * 0.85}},
+               0.6f, 0.0f);
     };
     band(-0.026, 0.034, 0.0195, 0.040);
     band(0.135, 0.0315, 0.0180, 0.016);
@@ -111,7 +128,15 @@ Cage modelSword() {
     sword.part = Part::Blade;
     Frame root = frame;
     root.origin += frame.out * 0.066;
-    addBar(sword, root, {{0, 0.024, 0.0050}, {0.004, 0.0245, 0.0052}, {0.10, 0.0240, 0.0050}, {0.30, 0.0225, 0.0046}, {0.48, 0.0200, 0.0040}, {0.555, 0.0165, 0.0034}, {0.600, 0.0085, 0.0020}, {0.618, 0.0012, 0.0006}},
+    addBar(sword, root,
+           {{0, 0.024, 0.0050},
+            {0.004, 0.0245, 0.0052},
+            {0.10, 0.0240, 0.0050},
+            {0.30, 0.0225, 0.0046},
+            {0.48, 0.0200, 0.0040},
+            {0.555, 0.0165, 0.0034},
+            {0.600, 0.0085, 0.0020},
+            {0.618, 0.0012, 0.0006}},
            kKeen, kKeen);
     Cage cage = reflected(sword);
     addScabbard(cage);

@@ -93,7 +93,8 @@ void torsoAndArm(Shares& shares, const Vec3& p) {
     const double off = glm::length(q - kShoulder - axis * u);
     const double near = ramp(0.118, 0.078, off);
     const double arm = ramp(-0.052, 0.088, u) * near;
-    const double clavicle = ramp(0.035, 0.125, q.x) * ramp(1.120, 1.205, q.y) * ramp(1.30, 1.25, q.y) * (1 - arm) * 0.85;
+    const double clavicle =
+        ramp(0.035, 0.125, q.x) * ramp(1.120, 1.205, q.y) * ramp(1.30, 1.25, q.y) * (1 - arm) * 0.85;
     const std::string side = sideOf(p);
     shares.add("clavicle" + side, clavicle);
     const double bend = elbowShare(p);
@@ -130,7 +131,8 @@ void leg(Shares& shares, const Vec3& p) {
 void finger(Shares& shares, const Vec3& p, size_t which) {
     const std::array<Finger, 5> all = fingers();
     const Finger& it = all[which];
-    const Vec3 chain[] = {handGrown(it.from), handGrown(mix(it.from, it.to, 0.42)), handGrown(mix(it.from, it.to, 0.72)), handGrown(it.to)};
+    const Vec3 chain[] = {handGrown(it.from), handGrown(mix(it.from, it.to, 0.42)),
+                          handGrown(mix(it.from, it.to, 0.72)), handGrown(it.to)};
     const std::string side = sideOf(p);
     const std::string name = it.name;
     shareChain(shares, "hand" + side, {name + "A" + side, name + "B" + side, name + "C" + side},
@@ -153,7 +155,9 @@ void weigh(Shares& shares, const Point& point, const Vec3& middle) {
     case Part::Hair:
     case Part::Ribbon:
         if (point.rib > 0) {
-            return shareChain(shares, "head", {"ponytail1", "ponytail2", "ponytail3"}, along(std::array{grown(kTail[0]), grown(kTail[1]), grown(kTail[2]), grown(kTail[3])}, p), 0.42, 1);
+            return shareChain(shares, "head", {"ponytail1", "ponytail2", "ponytail3"},
+                              along(std::array{grown(kTail[0]), grown(kTail[1]), grown(kTail[2]), grown(kTail[3])}, p),
+                              0.42, 1);
         }
         return shares.add("head", 1);
     case Part::Jacket:
