@@ -90,9 +90,6 @@ void addBelts(Cage& cage, const Body& jacket) {
     cage.part = Part::Strap;
     const std::vector<StrapPoint> belt = evened(roundWaist(jacket, 28, [](double) { return 0.957; }), true, 0.0030);
     strap(cage, belt, 0.036, 0.0085, true);
-    const auto slope = [](double a) { return 0.925 + 0.024 * std::cos(a + 0.75 + kPi * 0.5) - 0.004; };
-    const std::vector<StrapPoint> low = evened(roundWaist(jacket, 28, slope), true, 0.0050);
-    strap(cage, low, 0.022, 0.006, true);
     const StrapPoint front = belt[0];
     addBuckle(cage, frameFrom(front.at + front.out * 0.007, front.out, {1, 0, 0}), 0.023, 0.021);
     // The belt's end hangs down beside the buckle.

@@ -38,7 +38,7 @@ void addCap(Cage& cage) {
     struct Ring {
         double share, off;
     };
-    const Ring rings[] = {{-0.02, -0.004}, {0.03, 0.006}, {0.18, 0.013}, {0.45, 0.016}, {0.75, 0.017}, {1, 0.017}};
+    const Ring rings[] = {{-0.02, -0.004}, {0.03, 0.006}, {0.18, 0.013}, {0.45, 0.017}, {0.75, 0.020}, {1, 0.022}};
     for (const Ring& ring : rings) {
         tube.ring(up, 0.05, 0.05);
         for (const int point : tube.end.points) {

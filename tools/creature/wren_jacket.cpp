@@ -79,9 +79,13 @@ void Jacket::shape() {
             Vec3& p = cage.position(rims[i][static_cast<size_t>(k)]);
             const double angle = kPi * k / kHalf;
             const double hang = ramp(0.93, 0.74, p.y) * (i > 0 ? 1 : 0);
-            const double fold = std::sin(angle * 7 + 0.6) * 0.0085 + std::sin(angle * 3) * 0.004;
+            const double fold = std::sin(angle * 7 + 0.6) * 0.0150 + std::sin(angle * 3) * 0.004;
             const Vec3 out = glm::normalize(Vec3{p.x, 0, p.z + 0.005});
             p += out * (fold * hang);
+            // The seams lie a little deeper.
+            if ((k == 3 || k == 9) && i > kHem + 2 && i <= 13) {
+                p -= out * 0.0028;
+            }
             // Two tails behind, an opening in front.
             const double front = ramp(0.75, 0.0, angle);
             p.y += hang * (0.085 * front * front + 0.012 * std::cos(2 * angle));
@@ -94,7 +98,7 @@ void Jacket::shape() {
             // Cloth gathers above and below the belt.
             const double gather =
                 std::exp(-std::pow((p.y - 0.998) / 0.016, 2)) + 0.8 * std::exp(-std::pow((p.y - 0.918) / 0.018, 2));
-            p += out * (0.0035 * gather * (1 + 0.9 * std::sin(angle * 9 + 1.0)));
+            p += out * (0.0042 * gather * (0.8 + 1.2 * std::sin(angle * 9 + 22 * p.y)));
             if (k == 0 || k == kHalf) {
                 p.x = 0;
             }
@@ -110,7 +114,11 @@ void Jacket::sleeve() {
             grid.push_back(rims[level][k]);
         }
     }
-    Tube tube(cage, cage.patch(4, 3, false, grid));
+    const Patch hole = cage.patch(4, 3, false, grid);
+    std::vector<int> seam = Cage::rimOf(hole);
+    seam.push_back(seam.front());
+    cage.creaseChain(seam, 2);
+    Tube tube(cage, hole);
     const Vec3 upper = kElbow - kShoulder, lower = kWrist - kElbow;
     const Vec3 bend = glm::normalize(upper) + glm::normalize(lower);
     struct Ring {
@@ -119,10 +127,11 @@ void Jacket::sleeve() {
         double tilt; // of its plane, for creases that run round the arm
     };
     // Full at the shoulder, creased round the elbow, gathered in a cuff.
-    const Ring rings[] = {{0.08, 0.0590, 0},     {0.28, 0.0600, 0.1},  {0.48, 0.0585, -0.1}, {0.66, 0.0545, 0.12},
-                          {0.80, 0.0555, -0.14}, {0.90, 0.0500, 0.1},  {1.0, 0.0505, 0},     {1.10, 0.0490, -0.1},
-                          {1.20, 0.0515, 0.14},  {1.36, 0.0470, -0.1}, {1.55, 0.0445, 0.1},  {1.74, 0.0430, 0},
-                          {1.86, 0.0450, 0},     {1.93, 0.0375, 0}};
+    const Ring rings[] = {{0.08, 0.0590, 0},     {0.24, 0.0605, 0.15}, {0.40, 0.0570, -0.2}, {0.54, 0.0580, 0.2},
+                          {0.66, 0.0530, -0.15}, {0.76, 0.0565, 0.3},  {0.85, 0.0500, -0.3}, {0.93, 0.0535, 0.15},
+                          {1.0, 0.0485, 0},      {1.07, 0.0525, -0.2}, {1.15, 0.0475, 0.3},  {1.24, 0.0515, -0.3},
+                          {1.36, 0.0465, 0.2},   {1.55, 0.0450, 0.1},  {1.74, 0.0430, 0},    {1.86, 0.0450, 0},
+                          {1.93, 0.0375, 0}};
     for (const Ring& ring : rings) {
         const bool low = ring.t > 1;
         const Vec3 at = low ? mix(kElbow, kWrist, ring.t - 1) : mix(kShoulder, kElbow, ring.t);
@@ -194,6 +203,14 @@ void Jacket::dress() {
         for (const int point : rims[i]) {
             cage.points[static_cast<size_t>(point)].part = Part::Collar;
         }
+    }
+    // Seams from the hem to chest and shoulder blades, and along the front's bands.
+    for (const size_t k : {1u, 3u, 9u}) {
+        std::vector<int> seam;
+        for (size_t ring = kHem + 2; ring <= (k == 1 ? size_t{18} : size_t{13}); ++ring) {
+            seam.push_back(rims[ring][k]);
+        }
+        cage.creaseChain(seam, k == 1 ? 1.5f : 2.5f);
     }
     for (const size_t ring : {kHem + 2, size_t{18}}) {
         cage.creaseChain(rims[ring], 1.2f);

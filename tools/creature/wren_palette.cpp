@@ -45,7 +45,7 @@ Swatch swatch(Part part) {
     case Part::Eye:
         return {Eyes, {1, 1, 1}};
     case Part::Jacket:
-        return {Cloth, srgb(0x27426b), 22};
+        return {Cloth, srgb(0x375576), 22};
     case Part::JacketTrim:
     case Part::Collar:
         return {Band, srgb(0xe8d3a0), 14};
@@ -54,7 +54,7 @@ Swatch swatch(Part part) {
     case Part::ScarfFringe:
         return {Cloth, srgb(0xa0451f), 15};
     case Part::Trousers:
-        return {Cloth, srgb(0x4d443d), 26};
+        return {Cloth, srgb(0x5a5047), 26};
     case Part::KneePatch:
         return {Leather, srgb(0x4a3022), 10};
     case Part::Boot:

@@ -36,6 +36,7 @@ Vec3 face(double u, double v) {
     c = mix(c, dark, 0.22 * ramp(1.545, 1.590, y + 0.25 * x));            // under the hair
     c = mix(c, warm, 0.30 * ramp(0.112, 0.125, x) * ramp(1.42, 1.44, y)); // ears
     c = mix(c, lip, 0.14 * blob(x, y, 0, 1.386, 0.034, 0.018));           // round the mouth
+    c = mix(c, srgb(0x7a2f18), ramp(1.632, 1.640, y));                    // what shows between the locks
     // Freckles over nose and cheeks.
     const Vec2 cell = tiledCells(p.x * 150 + 40, y * 150, 512, 5);
     const double size = 0.16 + 0.10 * tiledNoise(p.x * 150 + 40.5, y * 150 + 0.5, 512, 9);
