@@ -7,19 +7,6 @@
 
 namespace supple::creature {
 
-double ramp(double from, double to, double value) {
-    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
-double mix(double a, double b, double t) {
-    return a + (b - a) * t;
-}
-
-Vec3 mix(const Vec3& a, const Vec3& b, double t) {
-    return a + (b - a) * t;
-}
-
 Tube Tube::begin(Cage& cage, int columns, int rows, const Frame& frame, double across, double along, bool half) {
     cage.shell = ++cage.shells;
     Patch underside;

@@ -2,17 +2,13 @@
 // texture coordinates, in metres.
 #pragma once
 
+#include "mixing.h"
 #include "modeller.h"
 
 #include <functional>
 #include <vector>
 
 namespace supple::creature {
-
-// A smooth step from 0 at `from` to 1 at `to`.
-double ramp(double from, double to, double value);
-double mix(double a, double b, double t);
-Vec3 mix(const Vec3& a, const Vec3& b, double t);
 
 // A tube that grows by rings. On a half model its rings run from the middle of the front to the middle of the back.
 class Tube {

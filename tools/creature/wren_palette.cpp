@@ -1,5 +1,6 @@
 #include "wren_palette.h"
 
+#include "mixing.h"
 #include "wren.h"
 #include "wren_textures.h"
 
@@ -8,15 +9,6 @@
 #include <cmath>
 
 namespace supple::creature::wren {
-
-Vec3 srgb(unsigned hex) {
-    Vec3 colour;
-    for (int i = 0; i < 3; ++i) {
-        const double c = static_cast<double>((hex >> (16 - 8 * i)) & 0xff) / 255.0;
-        colour[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
-    return colour;
-}
 
 namespace {
 

@@ -13,7 +13,6 @@ struct Swatch {
     double density = 1; // of its textures: repeats a metre
 };
 
-Vec3 srgb(unsigned hex);
 Swatch swatch(Part part);
 // Where the face's picture shows a point, and back: the picture is the head from the front.
 Vec2 facePlace(const Vec3& point);

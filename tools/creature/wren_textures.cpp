@@ -1,5 +1,6 @@
 #include "wren_textures.h"
 
+#include "mixing.h"
 #include "pose.h"
 #include "texture.h"
 #include "wren.h"
