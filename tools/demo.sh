@@ -38,5 +38,5 @@ echo "Wrote $PWD/out/demo.png after ${SECONDS}s"
 
 if [ "$view" = yes ] && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     echo "Opening the viewer; close its window to end."
-    exec "$supple" view "$pip" samples/assets/pip_quads.glb samples/assets/helmet.glb --clip walk
+    exec "$supple" view "$pip" samples/assets/wren.glb samples/assets/pip_quads.glb samples/assets/helmet.glb --clip walk
 fi

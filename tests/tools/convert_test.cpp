@@ -20,6 +20,7 @@ using supple::test::readText;
 using supple::test::writeText;
 
 const std::string kPip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+const std::string kWren = std::string(SUPPLE_SAMPLE_ASSETS) + "/wren.glb";
 
 /// A box without its lid, a pentagon beside it: two materials, a seam, a crease, a corner, a hole.
 const char* const kBox =
@@ -143,7 +144,7 @@ TEST_F(Convert, KhronosValidatorFindsNoError) {
         GTEST_SKIP() << "SUPPLE_GLTF_VALIDATOR does not name the npm package gltf-validator, or there is no node";
     }
     writeText(file("box.obj"), kBox);
-    std::vector<fs::path> inputs{kPip, file("box.obj")};
+    std::vector<fs::path> inputs{kPip, kWren, file("box.obj")};
     const fs::path shared = fs::path(SUPPLE_SHARED_DIR) / "assets";
     if (fs::exists(shared)) {
         for (const auto& entry : fs::recursive_directory_iterator(shared)) {

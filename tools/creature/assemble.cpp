@@ -10,8 +10,6 @@
 
 namespace supple::creature {
 
-namespace {
-
 // Adding zero drops minus zero.
 float rounded(double value) {
     return static_cast<float>(std::round(value * 1e5) / 1e5 + 0.0);
@@ -20,6 +18,8 @@ float rounded(double value) {
 glm::vec3 rounded(const Vec3& v) {
     return {rounded(v.x), rounded(v.y), rounded(v.z)};
 }
+
+namespace {
 
 float color16(double value) {
     return static_cast<float>(std::lround(std::clamp(value, 0.0, 1.0) * 65535)) / 65535.0f;
@@ -48,6 +48,8 @@ cage::Cage assembleCage(const Cage& model, const std::vector<Vec3>& colors, cons
     }
     return cage;
 }
+
+} // namespace
 
 // Keys of what moves at all.
 cage::Clip assembleClip(const Clip& clip, const Skeleton& skeleton) {
@@ -92,14 +94,7 @@ cage::Clip assembleClip(const Clip& clip, const Skeleton& skeleton) {
     return made;
 }
 
-} // namespace
-
-cage::Character assemble(const Cage& model, const Skeleton& skeleton, const std::vector<Influences>& influences,
-                         const std::vector<Vec3>& colors, const Atlas& atlas, const std::vector<Clip>& clips) {
-    cage::Character character;
-    character.name = "pip";
-    character.copyright = "The Supple authors, MIT";
-    character.cage = assembleCage(model, colors, atlas);
+void addSkeleton(cage::Character& character, const Skeleton& skeleton) {
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
         const Joint& joint = skeleton.joints[j];
         cage::Node node;
@@ -112,19 +107,34 @@ cage::Character assemble(const Cage& model, const Skeleton& skeleton, const std:
         inverse[3] = glm::vec4(rounded(-joint.rest), 1.0f);
         character.skin.inverseBinds.push_back(inverse);
     }
-    character.parts[0].node = static_cast<uint32_t>(character.skeleton.nodes.size());
-    cage::Node mesh;
-    mesh.name = character.parts[0].name = "pip";
-    character.skeleton.nodes.push_back(mesh);
-    character.skeleton.parentsFirst.resize(character.skeleton.nodes.size());
-    std::iota(character.skeleton.parentsFirst.begin(), character.skeleton.parentsFirst.end(), 0u);
-    character.weights.starts.push_back(0);
+}
+
+void addWeights(cage::Character& character, const std::vector<Influences>& influences) {
+    if (character.weights.starts.empty()) {
+        character.weights.starts.push_back(0);
+    }
     for (const Influences& point : influences) {
         for (size_t i = 0; i < point.joints.size() && point.weights[i] > 0; ++i) {
             character.weights.influences.push_back({static_cast<uint32_t>(point.joints[i]), point.weights[i]});
         }
         character.weights.starts.push_back(static_cast<uint32_t>(character.weights.influences.size()));
     }
+}
+
+cage::Character assemble(const Cage& model, const Skeleton& skeleton, const std::vector<Influences>& influences,
+                         const std::vector<Vec3>& colors, const Atlas& atlas, const std::vector<Clip>& clips) {
+    cage::Character character;
+    character.name = "pip";
+    character.copyright = "The Supple authors, MIT";
+    character.cage = assembleCage(model, colors, atlas);
+    addSkeleton(character, skeleton);
+    character.parts[0].node = static_cast<uint32_t>(character.skeleton.nodes.size());
+    cage::Node mesh;
+    mesh.name = character.parts[0].name = "pip";
+    character.skeleton.nodes.push_back(mesh);
+    character.skeleton.parentsFirst.resize(character.skeleton.nodes.size());
+    std::iota(character.skeleton.parentsFirst.begin(), character.skeleton.parentsFirst.end(), 0u);
+    addWeights(character, influences);
     for (const Clip& clip : clips) {
         character.clips.push_back(assembleClip(clip, skeleton));
     }

@@ -3,6 +3,7 @@
 
 #include "pose.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace supple::creature {
 struct Clip {
     std::string name;
     double framesPerSecond = 30;
-    std::vector<Pose> frames; // one more than the clip has intervals
+    std::vector<Pose> frames;                               // one more than the clip has intervals
+    std::map<std::string, std::vector<double>> morphs = {}; // weights of morph targets, one a frame
 };
 
 std::vector<Clip> makeClips(const Skeleton& skeleton);

@@ -352,6 +352,7 @@ void Cage::mirror() {
     for (size_t q = 0; q < faceCount; ++q) {
         Face reflected = faces[q];
         std::reverse(reflected.points.begin(), reflected.points.end());
+        std::reverse(reflected.uvs.begin(), reflected.uvs.end());
         for (int& point : reflected.points) {
             point = image[static_cast<size_t>(point)];
         }

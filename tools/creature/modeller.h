@@ -32,6 +32,7 @@ enum class Part {
     Finger1,
     Finger2,
     Finger3,
+    Finger4,
     Web, // faces only: their points are the hand's and the foot's
     Leg,
     Foot,
@@ -46,6 +47,33 @@ enum class Part {
     Horn,
     Claw,
     Spike,
+    // Wren's alone.
+    Lip,
+    Lash,
+    Brow,
+    Hand,
+    Nail,
+    Hair,
+    Ribbon,
+    Jacket,
+    JacketTrim,
+    Collar,
+    Trousers,
+    KneePatch,
+    Boot,
+    BootCuff,
+    Sole,
+    Strap,
+    Buckle,
+    Pouch,
+    Bracer,
+    Pauldron,
+    Scarf,
+    ScarfFringe,
+    Blade,
+    Guard,
+    Grip,
+    Scabbard,
 };
 
 struct Point {
@@ -62,6 +90,7 @@ struct Point {
 struct Face {
     std::vector<int> points;
     Part part = Part::Torso;
+    std::vector<Vec2> uvs = {}; // one a point, in metres, or none: charts are made later
 };
 
 // A grid of columns x rows quads inside a cage, known by its points. On a half model, a patch that touches the mirror

@@ -1,5 +1,6 @@
 #include "paint.h"
 
+#include "mixing.h"
 #include "pip_model.h"
 
 #include <glm/common.hpp>
@@ -11,24 +12,6 @@
 namespace supple::creature {
 
 namespace {
-
-Vec3 srgb(unsigned hex) {
-    Vec3 colour;
-    for (int i = 0; i < 3; ++i) {
-        const double c = static_cast<double>((hex >> (16 - 8 * i)) & 0xff) / 255.0;
-        colour[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
-    return colour;
-}
-
-double ramp(double from, double to, double value) {
-    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
-Vec3 mixed(const Vec3& a, const Vec3& b, double t) {
-    return a + (b - a) * t;
-}
 
 const Vec3 kBack = srgb(0x0b4f7a);
 const Vec3 kSkin = srgb(0x2bb5a4);
@@ -45,8 +28,8 @@ const Vec3 kBellyBand = srgb(0xeab963);
 
 // Skin to fin by way of violet: straight across, teal and coral would meet in mud.
 Vec3 intoFin(const Vec3& skin, double t, double tip) {
-    const Vec3 fin = mixed(kFin, kFinTip, tip);
-    return t < 0.5 ? mixed(skin, kDusk, t * 2) : mixed(kDusk, fin, t * 2 - 1);
+    const Vec3 fin = mix(kFin, kFinTip, tip);
+    return t < 0.5 ? mix(skin, kDusk, t * 2) : mix(kDusk, fin, t * 2 - 1);
 }
 
 bool odd(double ring) {
@@ -69,13 +52,13 @@ std::vector<Vec3> paint(const Cage& cage) {
         const Vec3 p = point.position;
         const Vec3 n = glm::normalize(normals[i]);
         // Skin is darker where it faces up and back.
-        Vec3 skin = mixed(kSkin, kBack, ramp(-0.2, 1.0, 0.55 * n.y - 0.75 * n.z));
+        Vec3 skin = mix(kSkin, kBack, ramp(-0.2, 1.0, 0.55 * n.y - 0.75 * n.z));
         Vec3& c = colours[i];
         switch (point.part) {
         case Part::Torso:
             // Dark stripes over the back, bands across the belly.
-            c = odd(point.along) ? mixed(skin, kBack, 0.75 * ramp(0.45, 0.0, n.z)) : mixed(skin, kSkin, 0.6);
-            c = mixed(c, odd(point.along) ? kBellyBand : kBelly, ramp(0.50, 0.80, n.z) * ramp(0.95, 0.85, p.y));
+            c = odd(point.along) ? mix(skin, kBack, 0.75 * ramp(0.45, 0.0, n.z)) : mix(skin, kSkin, 0.6);
+            c = mix(c, odd(point.along) ? kBellyBand : kBelly, ramp(0.50, 0.80, n.z) * ramp(0.95, 0.85, p.y));
             break;
         case Part::Belly:
             c = odd(point.along) ? kBellyBand : kBelly;
@@ -83,12 +66,12 @@ std::vector<Vec3> paint(const Cage& cage) {
         case Part::Head:
         case Part::Lid: {
             // The stripes of the back go on over the back of the head.
-            c = mixed(skin, odd(point.along) ? kBack : kSkin, 0.6 * ramp(0.1, -0.5, n.z));
+            c = mix(skin, odd(point.along) ? kBack : kSkin, 0.6 * ramp(0.1, -0.5, n.z));
             // A pale jaw and muzzle.
             const double line = 1.052 + 0.075 * (p.x * p.x) / 0.16;
-            c = mixed(c, kBelly, ramp(line + 0.03, line - 0.01, p.y) * ramp(-0.05, 0.12, p.z));
+            c = mix(c, kBelly, ramp(line + 0.03, line - 0.01, p.y) * ramp(-0.05, 0.12, p.z));
             const Vec3 cheek = Vec3{std::abs(p.x), p.y, p.z} - Vec3{0.36, 1.075, 0.24};
-            c = mixed(c, kCheek, 0.8 * (1 - ramp(0.04, 0.11, glm::length(cheek))));
+            c = mix(c, kCheek, 0.8 * (1 - ramp(0.04, 0.11, glm::length(cheek))));
             break;
         }
         case Part::Mouth:
@@ -99,30 +82,30 @@ std::vector<Vec3> paint(const Cage& cage) {
             break;
         case Part::Wing:
             c = intoFin(skin, ramp(0.0, 0.45, point.along), ramp(0.5, 1.0, point.along));
-            c = mixed(c, kDusk, 0.85 * point.rib * ramp(1.02, 0.80, point.along));
+            c = mix(c, kDusk, 0.85 * point.rib * ramp(1.02, 0.80, point.along));
             break;
         case Part::TailFin:
             c = intoFin(kSkin, ramp(0.0, 0.5, point.along), ramp(0.45, 1.0, point.along));
             break;
         case Part::Arm:
-            c = mixed(skin, kBack, 0.5 * ramp(0.30, 0.48, p.x));
+            c = mix(skin, kBack, 0.5 * ramp(0.30, 0.48, p.x));
             break;
         case Part::Thumb:
         case Part::Finger1:
         case Part::Finger2:
         case Part::Finger3:
-            c = mixed(skin, kBack, 0.5 + 0.3 * point.along);
+            c = mix(skin, kBack, 0.5 + 0.3 * point.along);
             break;
         case Part::Leg:
-            c = mixed(skin, kBack, 0.4 * ramp(0.25, 0.10, p.y));
+            c = mix(skin, kBack, 0.4 * ramp(0.25, 0.10, p.y));
             break;
         case Part::Foot:
         case Part::Web: // no point's
-            c = mixed(skin, kBack, 0.5);
+            c = mix(skin, kBack, 0.5);
             break;
         case Part::Tail:
-            c = odd(point.along) ? mixed(skin, kBack, 1.0) : mixed(skin, kSkin, 0.95);
-            c = mixed(c, kBelly, ramp(0.35, 0.85, -n.y) * ramp(-0.25, -0.45, p.z));
+            c = odd(point.along) ? mix(skin, kBack, 1.0) : mix(skin, kSkin, 0.95);
+            c = mix(c, kBelly, ramp(0.35, 0.85, -n.y) * ramp(-0.25, -0.45, p.z));
             break;
         case Part::Eye:
             if (point.along < 32) {
@@ -151,10 +134,12 @@ std::vector<Vec3> paint(const Cage& cage) {
             break;
         case Part::Horn:
         case Part::Claw:
-            c = mixed(kHorn, kHornTip, point.part == Part::Horn ? ramp(0.4, 1.0, point.along) : 0.0);
+            c = mix(kHorn, kHornTip, point.part == Part::Horn ? ramp(0.4, 1.0, point.along) : 0.0);
             break;
         case Part::Spike:
-            c = mixed(kFin, kFinTip, point.along);
+            c = mix(kFin, kFinTip, point.along);
+            break;
+        default: // Wren's
             break;
         }
     }

@@ -1,5 +1,7 @@
 #include "pip_model.h"
 
+#include "mixing.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -534,10 +536,6 @@ void Builder::wing() {
 
 // What lies under the line of the mouth goes with the jaw, fading out towards the throat and the hinge.
 void Builder::rigJaw() {
-    const auto ramp = [](double from, double to, double value) {
-        const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-        return t * t * (3 - 2 * t);
-    };
     for (Point& point : cage.points) {
         if (point.part == Part::Head && point.shell == 0 && point.jaw == 0) {
             const Vec3& p = point.position;

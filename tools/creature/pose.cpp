@@ -1,7 +1,5 @@
 #include "pose.h"
 
-#include "pip_model.h"
-
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -10,16 +8,11 @@
 
 namespace supple::creature {
 
-namespace {
-
-// The rotation that takes the axes (a, n, a x n) to (b, m, b x m).
 Quat turnBetween(const Vec3& a, const Vec3& n, const Vec3& b, const Vec3& m) {
     const glm::dmat3 from(a, n, glm::cross(a, n));
     const glm::dmat3 to(b, m, glm::cross(b, m));
     return glm::normalize(glm::quat_cast(to * glm::transpose(from)));
 }
-
-} // namespace
 
 Quat eulerDegrees(double x, double y, double z) {
     const double r = kPi / 180;
@@ -103,7 +96,43 @@ void Pose::plant(const std::string& side, const Vec3& ballInRoot, const Quat& fo
     rotations[static_cast<size_t>(toe)] = eulerDegrees(toes, 0, 0);
 }
 
-Curve::Curve(std::initializer_list<std::pair<double, double>> list) : keys(list), slopes(list.size(), 0.0) {
+void Pose::reach(const std::string& side, const Vec3& wrist, const Vec3& pole, const Quat& hand) {
+    const int arm = skeleton.index("upperArm" + side);
+    const int fore = skeleton.index("foreArm" + side);
+    const int end = skeleton.index("hand" + side);
+    const Vec3 upperRest = skeleton.offset(fore);
+    const Vec3 lowerRest = skeleton.offset(end);
+    const double upper = glm::length(upperRest);
+    const double lower = glm::length(lowerRest);
+    const Vec3 restNormal = glm::normalize(glm::cross(upperRest, lowerRest));
+
+    const Placed clavicle = placed(skeleton.joints[static_cast<size_t>(arm)].parent);
+    const Vec3 shoulder = clavicle.position + clavicle.rotation * skeleton.offset(arm);
+    Vec3 line = wrist - shoulder;
+    const double length = std::clamp(glm::length(line), std::abs(upper - lower) * 1.01, (upper + lower) * 0.9990);
+    line = glm::normalize(line);
+    const Vec3 outward = glm::normalize(pole - line * glm::dot(pole, line));
+    const double along = (upper * upper - lower * lower + length * length) / (2 * length);
+    const double off = std::sqrt(std::max(0.0, upper * upper - along * along));
+    const Vec3 elbow = shoulder + line * along + outward * off;
+    // The forearm folds about the hinge as it does at rest.
+    const Vec3 hinge = glm::normalize(glm::cross(outward, line));
+    const Vec3 first = glm::normalize(elbow - shoulder);
+    const Vec3 second = glm::normalize(shoulder + line * length - elbow);
+    const Quat armTurn = turnBetween(glm::normalize(upperRest), restNormal, first, hinge);
+    const Quat foreTurn = turnBetween(glm::normalize(lowerRest), restNormal, second, hinge);
+    rotations[static_cast<size_t>(arm)] = glm::inverse(clavicle.rotation) * armTurn;
+    rotations[static_cast<size_t>(fore)] = glm::inverse(armTurn) * foreTurn;
+    const Quat local = glm::inverse(foreTurn) * hand;
+    rotations[static_cast<size_t>(end)] = local;
+    const Vec3 axis = glm::normalize(lowerRest);
+    const double roll = glm::dot(Vec3{local.x, local.y, local.z}, axis);
+    const double angle = 2 * std::atan2(roll, local.w);
+    const double near = angle > kPi ? angle - 2 * kPi : (angle < -kPi ? angle + 2 * kPi : angle);
+    rotations[static_cast<size_t>(skeleton.index("foreTwist" + side))] = glm::angleAxis(near * 0.5, axis);
+}
+
+Curve::Curve(std::vector<std::pair<double, double>> list) : keys(std::move(list)), slopes(keys.size(), 0.0) {
     // Fritsch-Carlson: level at peaks, harmonic mean of the neighbouring slopes elsewhere.
     for (size_t i = 1; i + 1 < keys.size(); ++i) {
         const double before = (keys[i].second - keys[i - 1].second) / (keys[i].first - keys[i - 1].first);

@@ -30,6 +30,10 @@ struct Pose {
     // them, and bends the toes by `toes` degrees. `side` is ".L" or ".R".
     void plant(const std::string& side, const Vec3& ball, const Quat& foot, double toes);
 
+    // Bends shoulder and elbow so that the wrist is at `wrist` and the hand turned by `hand`, both in the model. The
+    // elbow points to `pole`. The joint foreTwist takes half of the hand's roll.
+    void reach(const std::string& side, const Vec3& wrist, const Vec3& pole, const Quat& hand);
+
     const Skeleton& skeleton;
     std::vector<Quat> rotations;
     std::vector<Vec3> moves; // added to the joint's rest offset
@@ -38,12 +42,16 @@ struct Pose {
 // Part of the way from one pose to another.
 Pose between(const Pose& from, const Pose& to, double share);
 
+// The rotation that takes the axes (a, n, a x n) to (b, m, b x m).
+Quat turnBetween(const Vec3& a, const Vec3& n, const Vec3& b, const Vec3& m);
+
 Quat eulerDegrees(double x, double y, double z);
 
 // A smooth curve through keys that never overshoots them.
 class Curve {
 public:
-    Curve(std::initializer_list<std::pair<double, double>> keys);
+    Curve(std::initializer_list<std::pair<double, double>> keys) : Curve(std::vector(keys)) {}
+    explicit Curve(std::vector<std::pair<double, double>> keys);
     double operator()(double time) const;
 
 private:

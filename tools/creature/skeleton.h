@@ -22,6 +22,6 @@ struct Skeleton {
     Vec3 offset(int joint) const; // from the parent's rest position
 };
 
-Skeleton makeSkeleton();
+Skeleton makeSkeleton(); // Pip's
 
 } // namespace supple::creature

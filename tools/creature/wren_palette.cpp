@@ -1,0 +1,142 @@
+#include "wren_palette.h"
+
+#include "mixing.h"
+#include "wren.h"
+#include "wren_textures.h"
+
+#include "cage/materials.h"
+
+#include <cmath>
+
+namespace supple::creature::wren {
+
+namespace {
+
+enum Kind : uint32_t { Face, Skin, Eyes, Hair, Cloth, Band, Leather, StrapLeather, Steel, Brass, Wet };
+
+} // namespace
+
+Swatch swatch(Part part) {
+    switch (part) {
+    case Part::Lip:
+        return {Face, {0.80, 0.50, 0.50}};
+    case Part::Mouth:
+        return {Wet, srgb(0x5a1a20)};
+    case Part::Nostril:
+        return {Face, {0.40, 0.24, 0.22}};
+    case Part::Tooth:
+        return {Wet, srgb(0xf4efe4)};
+    case Part::Lash:
+        return {Hair, srgb(0x24120c)};
+    case Part::Brow:
+        return {Hair, srgb(0x7c3a1e)};
+    case Part::Hair:
+        return {Hair, srgb(0xae4a22), 12};
+    case Part::Ribbon:
+        return {Cloth, srgb(0x1f5a66), 10};
+    case Part::Eye:
+        return {Eyes, {1, 1, 1}};
+    case Part::Jacket:
+        return {Cloth, srgb(0x375576), 22};
+    case Part::JacketTrim:
+    case Part::Collar:
+        return {Band, srgb(0xe8d3a0), 14};
+    case Part::Scarf:
+        return {Cloth, srgb(0xd9952f), 15};
+    case Part::ScarfFringe:
+        return {Cloth, srgb(0xa0451f), 15};
+    case Part::Trousers:
+        return {Cloth, srgb(0x5a5047), 26};
+    case Part::KneePatch:
+        return {Leather, srgb(0x4a3022), 10};
+    case Part::Boot:
+        return {Leather, srgb(0x523322), 9};
+    case Part::BootCuff:
+        return {Leather, srgb(0x7a5238), 9};
+    case Part::Sole:
+        return {Leather, srgb(0x2a1d18), 9};
+    case Part::Strap:
+        return {StrapLeather, srgb(0x55301c), 20};
+    case Part::Pouch:
+        return {Leather, srgb(0x6e4630), 12};
+    case Part::Bracer:
+    case Part::Pauldron:
+        return {Leather, srgb(0x5f3a26), 10};
+    case Part::Scabbard:
+        return {Leather, srgb(0x3a2a2c), 10};
+    case Part::Buckle:
+    case Part::Guard:
+        return {Brass, srgb(0xd8a24a), 8};
+    case Part::Blade:
+        return {Steel, srgb(0xc9ced6), 6};
+    case Part::Grip:
+        return {Leather, srgb(0x3c2016), 16};
+    case Part::Nail:
+        return {Skin, srgb(0xf7c4ae)};
+    case Part::Hand:
+    case Part::Thumb:
+    case Part::Finger1:
+    case Part::Finger2:
+    case Part::Finger3:
+    case Part::Finger4:
+        return {Skin, srgb(0xf0b796)};
+    default:
+        return {Face, {1, 1, 1}};
+    }
+}
+
+std::vector<cage::Material> materials() {
+    std::vector<cage::Material> list;
+    const auto texture = [](Picture picture) { return cage::Texture{.image = static_cast<uint32_t>(picture)}; };
+    const auto add = [&](const char* name, float metallic, float roughness) -> cage::Material& {
+        list.push_back(cage::namedMaterial(name));
+        list.back().metallicFactor = metallic;
+        list.back().roughnessFactor = roughness;
+        return list.back();
+    };
+    const auto wear = [&](cage::Material& material, Picture normal, float scale) {
+        material.normalTexture = texture(normal);
+        material.normalScale = scale;
+    };
+    add("face", 0, 0.50f).baseColorTexture = texture(Picture::Face);
+    add("skin", 0, 0.50f);
+    add("eyes", 0, 0.05f).baseColorTexture = texture(Picture::Eye);
+    cage::Material& hair = add("hair", 0, 0.48f);
+    hair.baseColorTexture = texture(Picture::Strands);
+    wear(hair, Picture::StrandsNormal, 0.45f);
+    cage::Material& cloth = add("cloth", 0, 0.86f);
+    cloth.baseColorTexture = texture(Picture::Weave);
+    wear(cloth, Picture::WeaveNormal, 0.7f);
+    cage::Material& band = add("band", 0, 0.70f);
+    band.baseColorTexture = texture(Picture::Band);
+    wear(band, Picture::BandNormal, 1.0f);
+    cage::Material& leather = add("leather", 1, 1.0f);
+    leather.metallicRoughnessTexture = texture(Picture::Grain);
+    wear(leather, Picture::GrainNormal, 0.8f);
+    cage::Material& strap = add("strap", 0, 0.55f);
+    strap.baseColorTexture = texture(Picture::Strap);
+    wear(strap, Picture::StrapNormal, 1.0f);
+    for (const char* name : {"steel", "brass"}) {
+        cage::Material& metal = add(name, 1, 1.0f);
+        metal.metallicRoughnessTexture = texture(Picture::Worn);
+        wear(metal, Picture::WornNormal, 0.6f);
+    }
+    add("wet", 0, 0.25f);
+    return list;
+}
+
+Vec2 facePlace(const Vec3& point) {
+    return {0.5 + point.x / 0.36, (1.72 - point.y) / 0.46};
+}
+
+Vec3 facePoint(const Vec2& place) {
+    const Vec3 worn{(place.x - 0.5) * 0.36, 1.72 - place.y * 0.46, 0.08};
+    // Back to the size at which it was modelled.
+    Vec3 p = worn;
+    for (int round = 0; round < 12; ++round) {
+        p += (worn - grown(p)) * Vec3{0.85, 0.85, 0};
+    }
+    return p;
+}
+
+} // namespace supple::creature::wren

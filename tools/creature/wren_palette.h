@@ -1,0 +1,22 @@
+// What Wren is made of: a material and a colour for each part.
+#pragma once
+
+#include "modeller.h"
+
+#include "cage/character.h"
+
+namespace supple::creature::wren {
+
+struct Swatch {
+    uint32_t material = 0;
+    Vec3 colour{1};     // linear; multiplies the material's
+    double density = 1; // of its textures: repeats a metre
+};
+
+Swatch swatch(Part part);
+// Where the face's picture shows a point, and back: the picture is the head from the front.
+Vec2 facePlace(const Vec3& point);
+Vec3 facePoint(const Vec2& place);
+std::vector<cage::Material> materials();
+
+} // namespace supple::creature::wren
