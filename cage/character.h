@@ -264,6 +264,10 @@ enum class WeldSource {
 enum class UvMode : uint8_t { none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
 [[nodiscard]] const char* uvModeName(UvMode mode);
 
+/// The subdivision surface that a cage was made for: `scheme` of SUPPLE_mesh_cage. `none`: it is drawn as it is.
+enum class MadeFor : uint8_t { catmullClark, loop, bilinear, none };
+[[nodiscard]] const char* madeForName(MadeFor scheme);
+
 /// A mesh node of the scene. Its faces are those of the cage from firstFace to the next part's.
 struct Part {
     std::string name;             ///< the node's, else the mesh's, else empty
@@ -275,7 +279,8 @@ struct Part {
     uint32_t targetCount = 0;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;
-    std::optional<UvMode> uvMode; ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<UvMode> uvMode;   ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<MadeFor> madeFor; ///< what the file says (SUPPLE_mesh_cage: scheme)
 };
 
 /// One kind of damage of a cage that its reader has repaired.

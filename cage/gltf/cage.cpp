@@ -404,6 +404,9 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
         if (!out.part.uvMode && primitive.extension) {
             out.part.uvMode = primitive.extension->uvMode;
         }
+        if (!out.part.madeFor && primitive.extension) {
+            out.part.madeFor = primitive.extension->madeFor;
+        }
     }
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);

@@ -95,6 +95,12 @@ std::optional<CageExtension> findCageExtension(const Document& document, const j
             extension.uvMode = static_cast<UvMode>(mode);
         }
     }
+    const std::string scheme = stringMember(*object, "scheme", extension.element);
+    for (uint32_t kind = 0; kind <= static_cast<uint32_t>(MadeFor::none); ++kind) {
+        if (scheme == madeForName(static_cast<MadeFor>(kind))) {
+            extension.madeFor = static_cast<MadeFor>(kind);
+        }
+    }
     checkRule(*object, "triangleSubdivisionRule", {"catmullClark"}, {"smooth"}, extension.element, warnings);
     return extension;
 }

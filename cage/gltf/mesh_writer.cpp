@@ -326,6 +326,9 @@ private:
         extension["faceVertexCounts"] = addList(counts);
         extension["faceVertexIndices"] = addList(part.polygons.vertices);
         extension["cageVertices"] = addList(part.cageVertices);
+        if (const auto& scheme = character_.parts[0].madeFor) {
+            extension["scheme"] = madeForName(*scheme);
+        }
         if (const auto& mode = character_.parts[0].uvMode) {
             extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
         }

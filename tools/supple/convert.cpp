@@ -1,5 +1,6 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
 #include "cage/gltf/writer.h"
+#include "cage/normal_creases.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -23,6 +25,7 @@ namespace fs = std::filesystem;
 struct ConvertOptions {
     std::string file;
     std::string output;
+    std::optional<double> creaseAngle; ///< degrees
     host::ReadOptions reading;
 };
 
@@ -86,9 +89,12 @@ void report(const ConvertOptions& options, const cage::Character& character, con
 }
 
 int runConvert(const ConvertOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.reading);
+    Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.reading);
     if (!file) {
         return fail(file.error());
+    }
+    if (options.creaseAngle) {
+        cage::creaseAngles(file->character.cage, *options.creaseAngle);
     }
     const Result<cage::GlbFile> glb = cage::writeGlb(file->character);
     if (!glb) {
@@ -118,6 +124,11 @@ void bindConvert(CLI::App& app, int& exitCode) {
         ->check(CLI::Validator(glbName, ""))
         ->type_name("OUT.glb");
     bindReading(*command, options->reading);
+    command
+        ->add_option("--creases-from-angle", options->creaseAngle,
+                     "Make edges hard creases where their two faces meet at more than so many degrees")
+        ->check(CLI::Range(0.0, 180.0))
+        ->type_name("DEGREES");
     command->callback([options, &exitCode] {
         std::error_code ignored;
         if (fs::equivalent(options->file, options->output, ignored)) {
