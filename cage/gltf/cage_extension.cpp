@@ -95,6 +95,7 @@ std::optional<CageExtension> findCageExtension(const Document& document, const j
             extension.uvMode = static_cast<UvMode>(mode);
         }
     }
+    extension.roundCorners = stringMember(*object, "interpolateBoundary", extension.element) == "edgeOnly";
     const std::string scheme = stringMember(*object, "scheme", extension.element);
     for (uint32_t kind = 0; kind <= static_cast<uint32_t>(MadeFor::none); ++kind) {
         if (scheme == madeForName(static_cast<MadeFor>(kind))) {

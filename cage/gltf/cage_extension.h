@@ -27,6 +27,7 @@ struct CageExtension {
     int cornerSharpnesses = -1;
     int holeIndices = -1;
     std::optional<UvMode> uvMode;   ///< faceVaryingLinearInterpolation, if the file says it
+    bool roundCorners = false;      ///< interpolateBoundary: edgeOnly
     std::optional<MadeFor> madeFor; ///< scheme, if the file says it
 };
 

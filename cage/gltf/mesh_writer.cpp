@@ -329,6 +329,9 @@ private:
         if (const auto& scheme = character_.parts[0].madeFor) {
             extension["scheme"] = madeForName(*scheme);
         }
+        if (!cage_.roundCorners.empty()) {
+            extension["interpolateBoundary"] = "edgeOnly";
+        }
         if (const auto& mode = character_.parts[0].uvMode) {
             extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
         }

@@ -14,6 +14,11 @@ import round_trip
 import support
 
 
+# Of the extent, where Blender's exporter itself is further off: it writes the rotation of eagle's Bone.004, which is near
+# half a turn, 3e-5 beside Blender's pose.
+LARGEST_DISTANCES = {"eagle": 4e-6}
+
+
 def frames_of(first, last):
     first, last = math.ceil(first), math.floor(last)
     return sorted({first + round((last - first) * share) for share in (0.25, 0.5, 0.9)})
@@ -50,7 +55,10 @@ def take(folder, path):
         points = os.path.join(folder, name + ".points")
         evaluated.write_points(objects, points)
         poses = [{"points": points}]
-    return {"name": name, "file": exported, "rate": 1 << evaluated.LEVELS, "poses": poses}, faults
+    case = {"name": name, "file": exported, "rate": 1 << evaluated.LEVELS, "poses": poses}
+    if name in LARGEST_DISTANCES:
+        case["limit"] = LARGEST_DISTANCES[name]
+    return case, faults
 
 
 def main():

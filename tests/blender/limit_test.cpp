@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of the extent of what Blender shows.
+/// Of the extent of what Blender shows and the origin, from which floats are counted. A case may have its own.
 constexpr double kLargestDistance = 2e-6;
 constexpr double kLargestUvDistance = 1e-6;
 /// Samples so near to a point of Blender's, as a part of the extent, are samples of the same place.
@@ -49,7 +49,7 @@ struct Distances {
 };
 
 double extentOf(const Points& points) {
-    glm::dvec3 low = points.positions.at(0), high = low;
+    glm::dvec3 low(0.0), high(0.0);
     for (const glm::dvec3& p : points.positions) {
         low = glm::min(low, p);
         high = glm::max(high, p);
@@ -164,7 +164,8 @@ Result<bool> compareCase(Session& session, const Json& item) {
         worst.positions = std::max(worst.positions, distances->positions);
         worst.uvs = std::max(worst.uvs, distances->uvs);
     }
-    const bool good = !item["poses"].empty() && worst.positions <= kLargestDistance && worst.uvs <= kLargestUvDistance;
+    const bool good = !item["poses"].empty() && worst.positions <= item.value("limit", kLargestDistance) &&
+                      worst.uvs <= kLargestUvDistance;
     std::printf("%-34s %2zu poses, largest distance %.1e of the extent, texture coordinates %.1e%s\n",
                 item["name"].get<std::string>().c_str(), item["poses"].size(), worst.positions, worst.uvs,
                 good ? "" : "  TOO FAR");
