@@ -317,15 +317,7 @@ private:
         return packer_.addIntegers("SCALAR", values, Packer::indexComponent(largest), Target::none);
     }
 
-    json writeExtension(const WrittenPrimitive& part) {
-        std::vector<uint32_t> counts;
-        for (const uint32_t face : part.faces) {
-            counts.push_back(cage_.sides(face));
-        }
-        json extension;
-        extension["faceVertexCounts"] = addList(counts);
-        extension["faceVertexIndices"] = addList(part.polygons.vertices);
-        extension["cageVertices"] = addList(part.cageVertices);
+    void writeRules(json& extension) const {
         if (const auto& scheme = character_.parts[0].madeFor) {
             extension["scheme"] = madeForName(*scheme);
         }
@@ -335,6 +327,18 @@ private:
         if (const auto& mode = character_.parts[0].uvMode) {
             extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
         }
+    }
+
+    json writeExtension(const WrittenPrimitive& part) {
+        std::vector<uint32_t> counts;
+        for (const uint32_t face : part.faces) {
+            counts.push_back(cage_.sides(face));
+        }
+        json extension;
+        extension["faceVertexCounts"] = addList(counts);
+        extension["faceVertexIndices"] = addList(part.polygons.vertices);
+        extension["cageVertices"] = addList(part.cageVertices);
+        writeRules(extension);
 
         const auto has = [&](uint32_t vertex) {
             return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);

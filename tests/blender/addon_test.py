@@ -2,7 +2,9 @@
 
 import os
 import sys
+import tomllib
 import unittest
+import zipfile
 
 import bmesh
 import bpy
@@ -77,6 +79,24 @@ def select(*blender_objects):
 class Case(unittest.TestCase):
     def setUp(self):
         support.start()
+
+
+class Package(unittest.TestCase):
+    def test_one_zip_is_an_addon_and_an_extension(self):
+        with zipfile.ZipFile(os.environ["SUPPLE_ADDON_ZIP"]) as archive:
+            names = archive.namelist()
+            manifest = tomllib.loads(archive.read("supple/blender_manifest.toml").decode())
+            sources = {name: archive.read(name).decode() for name in names if name.endswith(".py")}
+        self.assertIn("supple/__init__.py", names)
+        self.assertTrue(all(name.startswith("supple/") for name in names))
+        self.assertEqual(manifest["version"], ".".join(str(n) for n in sys.modules["supple"].bl_info["version"]))
+        # The rules of Blender's extensions: short lines without a full stop, and modules that find each other wherever
+        # the package lies.
+        for text in [manifest["tagline"]] + list(manifest["permissions"].values()):
+            self.assertLessEqual(len(text), 64)
+            self.assertTrue(text[-1].isalnum())
+        for name, source in sources.items():
+            self.assertNotRegex(source, r"(?m)^\s*(import|from) supple\b", name)
 
 
 class Export(Case):

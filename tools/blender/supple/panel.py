@@ -4,14 +4,17 @@ import bpy
 
 from . import command, difference, preview, report
 
-# Longer lines are broken: the sidebar cuts off what does not fit.
-LINE_LENGTH = 44
+# The sidebar cuts off what does not fit, so longer lines are broken. Pixels: of a letter, and beside the text.
+LETTER_WIDTH = 6.6
+MARGIN = 80
 
 
-def _lines(text):
+def _lines(context, text):
+    scale = context.preferences.system.ui_scale
+    length = max(16, int((context.region.width / scale - MARGIN) / LETTER_WIDTH))
     line = ""
     for word in text.split():
-        if line and len(line) + 1 + len(word) > LINE_LENGTH:
+        if line and len(line) + 1 + len(word) > length:
             yield line
             line = ""
         line = line + " " + word if line else word
@@ -112,29 +115,29 @@ class VIEW3D_PT_supple(bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
-        row = layout.row(align=True)
-        row.operator("supple.inspect", icon="VIEWZOOM")
-        row.operator("supple.preview", icon="RENDER_STILL")
-        row.operator("supple.difference", icon="MOD_SUBSURF")
+        column = layout.column(align=True)
+        column.operator("supple.inspect", icon="VIEWZOOM")
+        column.operator("supple.preview", icon="RENDER_STILL")
+        column.operator("supple.difference", icon="MOD_SUBSURF")
         blender_object = context.active_object
         if blender_object is None or blender_object.type != "MESH":
             return
         if "supple_difference" in blender_object:
-            for line in _lines("Difference: " + blender_object["supple_difference"]):
+            for line in _lines(context, "Difference: " + blender_object["supple_difference"]):
                 layout.label(text=line)
         found = report.reports.get(blender_object.name)
         if found is None:
             return
         layout.label(text="%s: %s" % (blender_object.name, found.scheme), icon="MESH_DATA")
-        for line in _lines(found.reason):
+        for line in _lines(context, found.reason):
             layout.label(text=line)
         for number, finding in enumerate(found.findings):
-            self._draw_finding(layout.box(), number, finding)
+            self._draw_finding(context, layout.box(), number, finding)
 
     @staticmethod
-    def _draw_finding(box, number, finding):
+    def _draw_finding(context, box, number, finding):
         column = box.column(align=True)
-        for i, line in enumerate(_lines(finding.text)):
+        for i, line in enumerate(_lines(context, finding.text)):
             column.label(text=line, icon=finding.icon if i == 0 else "BLANK1")
         if finding.faces:
             count = len(finding.faces)
