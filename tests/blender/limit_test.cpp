@@ -166,9 +166,14 @@ Result<bool> compareCase(Session& session, const Json& item) {
     }
     const bool good = !item["poses"].empty() && worst.positions <= item.value("limit", kLargestDistance) &&
                       worst.uvs <= kLargestUvDistance;
-    std::printf("%-34s %2zu poses, largest distance %.1e of the extent, texture coordinates %.1e%s\n",
-                item["name"].get<std::string>().c_str(), item["poses"].size(), worst.positions, worst.uvs,
-                good ? "" : "  TOO FAR");
+    const bool uvs = std::any_of(item["poses"].begin(), item["poses"].end(),
+                                 [](const Json& pose) { return pose.contains("corners"); });
+    char uvText[64] = "";
+    if (uvs) {
+        std::snprintf(uvText, sizeof uvText, ", texture coordinates %.1e", worst.uvs);
+    }
+    std::printf("%-34s %2zu poses, largest distance %.1e of the extent%s%s\n", item["name"].get<std::string>().c_str(),
+                item["poses"].size(), worst.positions, uvText, good ? "" : "  TOO FAR");
     return good;
 }
 
