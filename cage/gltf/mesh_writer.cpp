@@ -10,7 +10,6 @@
 #include <glm/ext/vector_float1.hpp>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -161,7 +160,6 @@ public:
     }
 
     json write(GlbFile& file) {
-        chooseRules(file);
         json mesh;
         json primitives = json::array();
         for (WrittenPrimitive& part : primitivesOf(cage_)) {
@@ -319,35 +317,11 @@ private:
         return packer_.addIntegers("SCALAR", values, Packer::indexComponent(largest), Target::none);
     }
 
-    /// All parts become one mesh, which has one scheme and one kind of corners.
-    void chooseRules(GlbFile& file) {
-        madeFor_ = character_.parts[0].madeFor;
-        for (const Part& part : character_.parts) {
-            if (part.madeFor != character_.parts[0].madeFor) {
-                madeFor_.reset();
-            }
-        }
-        if (!madeFor_ && std::any_of(character_.parts.begin(), character_.parts.end(),
-                                     [](const Part& part) { return part.madeFor.has_value(); })) {
-            warn(file.warnings, "parts", "made for different schemes; left out");
-        }
-        std::vector<uint32_t> faces(cage_.vertexCount(), 0);
-        for (const uint32_t v : cage_.faceVertices) {
-            ++faces[v];
-        }
-        const auto round = std::count_if(cage_.roundCorners.begin(), cage_.roundCorners.end(),
-                                         [&](uint32_t v) { return faces[v] == 1; });
-        roundCorners_ = round > 0 && round == std::count(faces.begin(), faces.end(), 1u);
-        if (round > 0 && !roundCorners_) {
-            warn(file.warnings, "parts", "round corners of some parts, not of others; left out");
-        }
-    }
-
     void writeRules(json& extension) const {
-        if (madeFor_) {
-            extension["scheme"] = madeForName(*madeFor_);
+        if (const auto& scheme = character_.parts[0].madeFor) {
+            extension["scheme"] = madeForName(*scheme);
         }
-        if (roundCorners_) {
+        if (!cage_.roundCorners.empty()) {
             extension["interpolateBoundary"] = "edgeOnly";
         }
         if (const auto& mode = character_.parts[0].uvMode) {
@@ -418,8 +392,6 @@ private:
     std::vector<uint32_t> jointPlaces_; ///< per entry of the palette: its place in the part's skin
     std::vector<uint8_t> creaseWritten_;
     std::vector<uint8_t> sharpWritten_;
-    std::optional<MadeFor> madeFor_;
-    bool roundCorners_ = false;
 };
 
 } // namespace

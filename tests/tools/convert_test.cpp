@@ -125,22 +125,6 @@ TEST_F(Convert, KeepsWhatACageWasMadeFor) {
     expectSame(character, read(file("again.glb")));
 }
 
-TEST_F(Convert, PartsThatWereMadeDifferentlyAreNamed) {
-    writeText(file("two.obj"),
-              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\nf 1 2 3 4\nf 5 6 7 8\n");
-    Character character = read(file("two.obj"));
-    character.cage.faceParts = {0, 1};
-    character.cage.roundCorners = {0, 1, 2, 3};
-    character.parts.push_back(character.parts[0]);
-    character.parts[1].firstFace = 1;
-    character.parts[0].madeFor = supple::cage::MadeFor::none;
-    const auto glb = supple::cage::writeGlb(character);
-    ASSERT_TRUE(glb.ok()) << glb.error().message;
-    const std::vector<std::string> warnings = {"parts: made for different schemes; left out",
-                                               "parts: round corners of some parts, not of others; left out"};
-    EXPECT_EQ(glb->warnings, warnings);
-}
-
 TEST_F(Convert, OtherSubcommandsOpenObjToo) {
     writeText(file("box.obj"), kBox);
     ASSERT_EQ(run("convert box.obj -o box.glb").exitCode, 0);
