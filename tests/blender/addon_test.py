@@ -240,6 +240,18 @@ class Import(Case):
         self.assertEqual(before.holes, [2])
         self.assertEqual(after.holes, before.holes)
 
+    def test_a_cage_that_does_not_fit_stays_in_triangles(self):
+        add_box()
+        support.export_glb(path_of("broken"))
+        file = glb.Glb(path_of("broken"))
+        members = file.json["meshes"][0]["primitives"][0]["extensions"]["SUPPLE_mesh_cage"]
+        members["cageVertices"] = members["faceVertexCounts"]
+        file.write(path_of("broken"))
+        support.start()
+        support.import_glb(path_of("broken"))
+        mesh = support.meshes()[0].data
+        self.assertEqual({len(p.vertices) for p in mesh.polygons}, {3})
+
     def test_no_subdivision_stays_none(self):
         add_box()
         self.assertEqual(len(self.there_and_back("plain").modifiers), 0)

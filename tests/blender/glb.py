@@ -47,6 +47,14 @@ class Glb:
         count = sparse["count"] * WIDTHS[kind]
         return np.frombuffer(self.bytes, dtype, count, start).reshape(sparse["count"], -1)
 
+    def write(self, path):
+        """What is in `json` now, over the same buffer."""
+        text = json.dumps(self.json).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.bytes), 0x004E4942) + self.bytes
+        with open(path, "wb") as stream:
+            stream.write(struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks)
+
     def mesh_nodes(self):
         return [node for node in self.json["nodes"] if "mesh" in node]
 

@@ -173,7 +173,7 @@ def apply_intent(blender_object, intent):
     modifier.render_levels = max(modifier.levels, 2)
     modifier.use_limit_surface = intent.get("limitSurface", True)
     modifier.use_creases = True
-    modifier.boundary_smooth = flipped(BOUNDARY_SMOOTH)[intent.get("interpolateBoundary", "edgeAndCorner")] if intent.get(
-        "interpolateBoundary", "edgeAndCorner") != "none" else "PRESERVE_CORNERS"
+    # Blender has nothing for "none".
+    modifier.boundary_smooth = flipped(BOUNDARY_SMOOTH).get(intent.get("interpolateBoundary"), "PRESERVE_CORNERS")
     modifier.uv_smooth = flipped(UV_SMOOTH)[intent.get("faceVaryingLinearInterpolation", "all")]
     return modifier

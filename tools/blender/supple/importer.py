@@ -91,7 +91,16 @@ def _rebuild(mesh, primitives, numbering):
     """Puts polygons over cage vertices in the place of the triangles. Weights, shape keys, texture coordinates and
     colors come along in the layers of an edit mesh."""
     edit = bmesh.new()
-    edit.from_mesh(mesh)
+    try:
+        edit.from_mesh(mesh)
+        kept, skipped = _replace_faces(edit, primitives, numbering)
+        edit.to_mesh(mesh)
+    finally:
+        edit.free()
+    return kept, skipped
+
+
+def _replace_faces(edit, primitives, numbering):
     edit.verts.ensure_lookup_table()
     edit.faces.ensure_lookup_table()
     old_vertices = list(edit.verts)
@@ -108,6 +117,8 @@ def _rebuild(mesh, primitives, numbering):
             corners = primitive.corners[end:end + count]
             end += count
             sources = [loops.get(int(primitive.mesh_vertices[c])) for c in corners]
+            if None in sources:
+                raise ValueError("a polygon has a vertex that no triangle has")
             try:
                 face = edit.faces.new([vertices[own[c]] for c in corners])
             except ValueError:  # a face that repeats a vertex, or stands there already
@@ -119,8 +130,6 @@ def _rebuild(mesh, primitives, numbering):
             for loop, source in zip(face.loops, sources):
                 loop.copy_from(source)
     bmesh.ops.delete(edit, geom=old_vertices, context="VERTS")
-    edit.to_mesh(mesh)
-    edit.free()
     return np.array(kept), skipped
 
 
