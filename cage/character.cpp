@@ -45,6 +45,11 @@ const char* uvModeName(UvMode mode) {
     return kNames[static_cast<size_t>(mode)];
 }
 
+const char* madeForName(MadeFor scheme) {
+    constexpr const char* kNames[] = {"catmullClark", "loop", "bilinear", "none"};
+    return kNames[static_cast<size_t>(scheme)];
+}
+
 uint32_t endFace(const Character& character, size_t part) {
     return part + 1 < character.parts.size() ? character.parts[part + 1].firstFace : character.cage.faceCount();
 }

@@ -68,6 +68,9 @@ struct Cage {
     std::vector<Crease> creases;          ///< at most one an edge
     std::vector<SharpVertex> sharpVertices;
     std::vector<CreaseScalar> creaseScalars;
+    /// Vertices that round the border off if they have one face. Elsewhere such a vertex is a corner.
+    /// (SUPPLE_mesh_cage: interpolateBoundary edgeOnly.) Catmull-Clark and Loop follow it.
+    std::vector<uint32_t> roundCorners;
     std::vector<uint32_t> holes; ///< rising: faces that shape their neighbours but are not drawn
 
     [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
@@ -266,6 +269,10 @@ enum class WeldSource {
 enum class UvMode : uint8_t { none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
 [[nodiscard]] const char* uvModeName(UvMode mode);
 
+/// The subdivision surface that a cage was made for: `scheme` of SUPPLE_mesh_cage. `none`: it is drawn as it is.
+enum class MadeFor : uint8_t { catmullClark, loop, bilinear, none };
+[[nodiscard]] const char* madeForName(MadeFor scheme);
+
 /// A mesh node of the scene. Its faces are those of the cage from firstFace to the next part's.
 struct Part {
     std::string name;             ///< the node's, else the mesh's, else empty
@@ -277,7 +284,8 @@ struct Part {
     uint32_t targetCount = 0;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;
-    std::optional<UvMode> uvMode; ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<UvMode> uvMode;   ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<MadeFor> madeFor; ///< what the file says (SUPPLE_mesh_cage: scheme)
 };
 
 /// One kind of damage of a cage that its reader has repaired.

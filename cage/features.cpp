@@ -104,4 +104,12 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     return features;
 }
 
+std::string sharpRoundCorners(const Cage& cage) {
+    const size_t count = cage.roundCorners.size();
+    return count == 0
+               ? ""
+               : std::to_string(count) + (count == 1 ? " corner of the border is" : " corners of the border are") +
+                     " to be round (interpolateBoundary edgeOnly); sharp here";
+}
+
 } // namespace supple::cage

@@ -24,4 +24,7 @@ struct Features {
 /// O(corners), and for each crease the smaller valence of its ends.
 [[nodiscard]] Features buildFeatures(const Cage& cage, const Topology& topology);
 
+/// For the notes of schemes that make corners of Cage::roundCorners; empty if there are none.
+[[nodiscard]] std::string sharpRoundCorners(const Cage& cage);
+
 } // namespace supple::cage

@@ -77,6 +77,9 @@ void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
     for (const SharpVertex& sharp : from.sharpVertices) {
         cage.sharpVertices.push_back({vertices + sharp.vertex, sharp.sharpness});
     }
+    for (const uint32_t v : from.roundCorners) {
+        cage.roundCorners.push_back(vertices + v);
+    }
     for (const CreaseScalar& scalar : from.creaseScalars) {
         cage.creaseScalars.push_back({vertices + scalar.vertex, vertices + scalar.toward, scalar.alpha});
     }

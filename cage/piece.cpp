@@ -61,6 +61,11 @@ void takeFeatures(const Cage& from, std::span<const uint32_t> places, Cage& cage
             cage.sharpVertices.push_back({places[sharp.vertex], sharp.sharpness});
         }
     }
+    for (const uint32_t v : from.roundCorners) {
+        if (places[v] != kNone) {
+            cage.roundCorners.push_back(places[v]);
+        }
+    }
     for (const CreaseScalar& scalar : from.creaseScalars) {
         if (isEdge(scalar.vertex, scalar.toward)) {
             cage.creaseScalars.push_back({places[scalar.vertex], places[scalar.toward], scalar.alpha});

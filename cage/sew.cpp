@@ -202,6 +202,9 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
     for (SharpVertex& sharp : cage.sharpVertices) {
         sharp.vertex = place(sharp.vertex);
     }
+    for (uint32_t& v : cage.roundCorners) {
+        v = place(v);
+    }
     for (CreaseScalar& scalar : cage.creaseScalars) {
         scalar.vertex = place(scalar.vertex);
         scalar.toward = place(scalar.toward);

@@ -9,9 +9,12 @@ namespace supple::host {
 namespace {
 
 /// Columns: right, up, towards the viewer.
-glm::mat3 axes(float yaw, float pitch) {
+glm::mat3 axes(float yaw, float pitch, float roll = 0.0f) {
     const glm::vec3 back(std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch));
-    const glm::vec3 right(std::cos(yaw), 0.0f, -std::sin(yaw));
+    const glm::vec3 level(std::cos(yaw), 0.0f, -std::sin(yaw));
+    if (roll == 0.0f)
+        return {level, glm::cross(back, level), back};
+    const glm::vec3 right = std::cos(roll) * level + std::sin(roll) * glm::cross(back, level);
     return {right, glm::cross(back, right), back};
 }
 
@@ -29,7 +32,7 @@ glm::vec3 Camera::eye() const {
 }
 
 glm::mat4 Camera::view() const {
-    const glm::mat3 world = axes(yaw, pitch);
+    const glm::mat3 world = axes(yaw, pitch, roll);
     return glm::translate(glm::mat4(glm::transpose(world)), -eye());
 }
 
@@ -37,6 +40,20 @@ glm::mat4 Camera::projection(float aspect, float sceneRadius) const {
     const float nearest = std::max(distance - sceneRadius * 2.0f, std::max(distance, sceneRadius) * 0.005f);
     const float farthest = distance + sceneRadius * 14.0f;
     return glm::perspectiveRH_ZO(fieldOfView, aspect, nearest, farthest);
+}
+
+Camera lookAt(glm::vec3 eye, glm::vec3 target, glm::vec3 up) {
+    const glm::vec3 back = glm::normalize(eye - target);
+    Camera camera;
+    camera.target = target;
+    camera.distance = glm::distance(eye, target);
+    camera.pitch = std::asin(std::clamp(back.y, -1.0f, 1.0f));
+    // Straight from above or below no direction is level; any yaw will do, and roll makes up for it.
+    camera.yaw = back.x == 0.0f && back.z == 0.0f ? 0.0f : std::atan2(back.x, back.z);
+    const glm::mat3 level = axes(camera.yaw, camera.pitch);
+    const glm::vec3 right = glm::cross(up, back);
+    camera.roll = std::atan2(glm::dot(right, level[1]), glm::dot(right, level[0]));
+    return camera;
 }
 
 Camera frameCamera(std::span<const glm::vec3> points, float yaw, float pitch, float aspect, float margin) {

@@ -23,11 +23,12 @@ struct Bounds {
 [[nodiscard]] Bounds boundsOf(std::span<const glm::vec3> points);
 
 /// Looks at `target` from `distance`. Yaw 0 stands in front (at +Z), positive yaw goes round towards +X, positive pitch
-/// looks down. Radians.
+/// looks down, positive roll turns the camera counter-clockwise, and so the picture clockwise. Radians.
 struct Camera {
     glm::vec3 target{0.0f};
     float yaw = 0.0f;
     float pitch = 0.0f;
+    float roll = 0.0f;
     float distance = 1.0f;
     float fieldOfView = 0.47f; ///< vertical
 
@@ -36,6 +37,9 @@ struct Camera {
     /// Right-handed, depth 0..1, y up (draw with a flipped viewport). Near and far enclose a sphere round the target.
     [[nodiscard]] glm::mat4 projection(float aspect, float sceneRadius) const;
 };
+
+/// The camera at `eye` that looks at `target`, with `up` towards the upper edge of the picture. `eye` is not `target`.
+[[nodiscard]] Camera lookAt(glm::vec3 eye, glm::vec3 target, glm::vec3 up);
 
 /// The camera of this direction from which the points just fit into the picture, with `margin` (a fraction of its size)
 /// left free on every side.

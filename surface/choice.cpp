@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace supple::surface {
 
@@ -85,6 +86,34 @@ std::vector<Counts> count(const cage::Character& character, const cage::Topology
     return counts;
 }
 
+/// What the files say of all parts of each group, at the place of its smallest part.
+std::vector<std::optional<cage::MadeFor>> intents(const cage::Character& character,
+                                                  const std::vector<uint32_t>& groups) {
+    std::vector<std::optional<cage::MadeFor>> intents(groups.size());
+    for (size_t part = 0; part < groups.size(); ++part) {
+        const bool first = groups[part] == part;
+        const std::optional<cage::MadeFor>& own = character.parts[part].madeFor;
+        std::optional<cage::MadeFor>& group = intents[groups[part]];
+        group = first || group == own ? own : std::nullopt;
+    }
+    return intents;
+}
+
+SchemeChoice choose(cage::MadeFor madeFor) {
+    const std::string reason = std::string("its file says that it was made for ") + cage::madeForName(madeFor);
+    switch (madeFor) {
+    case cage::MadeFor::catmullClark:
+        return {SchemeId::catmullClark, reason};
+    case cage::MadeFor::loop:
+        return {SchemeId::loop, reason};
+    case cage::MadeFor::bilinear:
+        return {SchemeId::polygons, reason};
+    case cage::MadeFor::none:
+        break;
+    }
+    return {SchemeId::polygons, "its file says that it is not subdivided"};
+}
+
 SchemeChoice choose(const Counts& counts) {
     if (counts.known && !counts.mostlyTriangles()) {
         return {SchemeId::catmullClark, "its polygons are known"};
@@ -110,10 +139,11 @@ std::vector<SchemeChoice> chooseSchemes(const cage::Character& character) {
     }
     const std::vector<uint32_t> groups = cage::sewnTo(character.cage, character.parts.size());
     const std::vector<Counts> counts = count(character, *topology, groups);
+    const std::vector<std::optional<cage::MadeFor>> madeFor = intents(character, groups);
     std::vector<SchemeChoice> choices;
     choices.reserve(groups.size());
     for (const uint32_t group : groups) {
-        choices.push_back(choose(counts[group]));
+        choices.push_back(madeFor[group] ? choose(*madeFor[group]) : choose(counts[group]));
     }
     return choices;
 }

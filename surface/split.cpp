@@ -29,6 +29,7 @@ public:
         out_.cage.creases = given_.creases;
         out_.cage.sharpVertices = given_.sharpVertices;
         out_.cage.creaseScalars = given_.creaseScalars;
+        out_.cage.roundCorners = given_.roundCorners;
         out_.cage.faceStarts.push_back(0);
         for (uint32_t face = 0; face < given_.faceCount(); ++face) {
             if (const Status added = addFace(face); !added) {

@@ -7,13 +7,19 @@ cd "$(dirname "$0")/.."
 
 jobs=$(nproc)
 install_missing "${supple_packages[@]}" "${supple_test_packages[@]}"
-# Khronos' validator judges what supple convert and bake write. Without npm or its registry that test says that it was left out.
-validator=$PWD/build/gltf-validator
-if command -v npm >/dev/null && [ ! -d "$validator/node_modules/gltf-validator" ]; then
-    mkdir -p "$validator"
-    npm install --silent --no-audit --no-fund --prefix "$validator" gltf-validator@2.0.0-dev.3.10 || true
-fi
-[ ! -d "$validator/node_modules/gltf-validator" ] || export SUPPLE_GLTF_VALIDATOR=$validator/node_modules/gltf-validator
+# npm_package VARIABLE NAME VERSION: exports the package's folder. Without npm or its registry the tests that need it say that
+# they were left out.
+npm_package() {
+    local folder=$PWD/build/$2
+    if command -v npm >/dev/null && [ ! -d "$folder/node_modules/$2" ]; then
+        mkdir -p "$folder"
+        npm install --silent --no-audit --no-fund --prefix "$folder" "$2@$3" || true
+    fi
+    [ ! -d "$folder/node_modules/$2" ] || export "$1=$folder/node_modules/$2"
+}
+# Khronos' validator judges what supple and the add-on for Blender write; three.js opens it as viewers do.
+npm_package SUPPLE_GLTF_VALIDATOR gltf-validator 2.0.0-dev.3.10
+npm_package SUPPLE_THREE three 0.187.0
 # demo.sh may have configured without the tests.
 cmake --preset release -DSUPPLE_BUILD_TESTS=ON
 cmake --build --preset release -j "$jobs"

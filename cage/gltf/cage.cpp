@@ -365,6 +365,19 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     return cageVertices;
 }
 
+/// The vertices of one face. They lie on the border.
+void addRoundCorners(Cage& cage) {
+    std::vector<uint32_t> faces(cage.vertexCount(), 0);
+    for (const uint32_t v : cage.faceVertices) {
+        ++faces[v];
+    }
+    for (uint32_t v = 0; v < cage.vertexCount(); ++v) {
+        if (faces[v] == 1) {
+            cage.roundCorners.push_back(v);
+        }
+    }
+}
+
 } // namespace
 
 void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, PartCage& out,
@@ -404,9 +417,17 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
         if (!out.part.uvMode && primitive.extension) {
             out.part.uvMode = primitive.extension->uvMode;
         }
+        if (!out.part.madeFor && primitive.extension) {
+            out.part.madeFor = primitive.extension->madeFor;
+        }
     }
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
     readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
+    if (std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const MeshPrimitive& primitive) {
+            return primitive.extension && primitive.extension->roundCorners;
+        })) {
+        addRoundCorners(out.cage);
+    }
 }
 
 } // namespace supple::cage::gltf

@@ -95,6 +95,13 @@ std::optional<CageExtension> findCageExtension(const Document& document, const J
             extension.uvMode = static_cast<UvMode>(mode);
         }
     }
+    extension.roundCorners = stringMember(*object, "interpolateBoundary", extension.element) == "edgeOnly";
+    const std::string scheme = stringMember(*object, "scheme", extension.element);
+    for (uint32_t kind = 0; kind <= static_cast<uint32_t>(MadeFor::none); ++kind) {
+        if (scheme == madeForName(static_cast<MadeFor>(kind))) {
+            extension.madeFor = static_cast<MadeFor>(kind);
+        }
+    }
     checkRule(*object, "triangleSubdivisionRule", {"catmullClark"}, {"smooth"}, extension.element, warnings);
     return extension;
 }

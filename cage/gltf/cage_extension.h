@@ -26,7 +26,9 @@ struct CageExtension {
     int cornerIndices = -1;
     int cornerSharpnesses = -1;
     int holeIndices = -1;
-    std::optional<UvMode> uvMode; ///< faceVaryingLinearInterpolation, if the file says it
+    std::optional<UvMode> uvMode;   ///< faceVaryingLinearInterpolation, if the file says it
+    bool roundCorners = false;      ///< interpolateBoundary: edgeOnly
+    std::optional<MadeFor> madeFor; ///< scheme, if the file says it
 };
 
 /// Warns of rules that surfaces here do not follow.

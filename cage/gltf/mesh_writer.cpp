@@ -317,6 +317,18 @@ private:
         return packer_.addIntegers("SCALAR", values, Packer::indexComponent(largest), Target::none);
     }
 
+    void writeRules(json& extension) const {
+        if (const auto& scheme = character_.parts[0].madeFor) {
+            extension["scheme"] = madeForName(*scheme);
+        }
+        if (!cage_.roundCorners.empty()) {
+            extension["interpolateBoundary"] = "edgeOnly";
+        }
+        if (const auto& mode = character_.parts[0].uvMode) {
+            extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
+        }
+    }
+
     json writeExtension(const WrittenPrimitive& part) {
         std::vector<uint32_t> counts;
         for (const uint32_t face : part.faces) {
@@ -326,9 +338,7 @@ private:
         extension["faceVertexCounts"] = addList(counts);
         extension["faceVertexIndices"] = addList(part.polygons.vertices);
         extension["cageVertices"] = addList(part.cageVertices);
-        if (const auto& mode = character_.parts[0].uvMode) {
-            extension["faceVaryingLinearInterpolation"] = uvModeName(*mode);
-        }
+        writeRules(extension);
 
         const auto has = [&](uint32_t vertex) {
             return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);

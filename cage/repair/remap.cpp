@@ -43,6 +43,7 @@ public:
         findCopiedEdges();
         mapCreases();
         mapSharpVertices();
+        mapRoundCorners();
         mapCreaseScalars();
         return success();
     }
@@ -310,6 +311,16 @@ private:
         for (const SharpVertex& sharp : given) {
             for (const uint32_t v : successors_.of(sharp.vertex)) {
                 cage_.sharpVertices.push_back({v, sharp.sharpness});
+            }
+        }
+    }
+
+    void mapRoundCorners() {
+        std::vector<uint32_t> given;
+        given.swap(cage_.roundCorners);
+        for (const uint32_t vertex : given) {
+            for (const uint32_t v : successors_.of(vertex)) {
+                cage_.roundCorners.push_back(v);
             }
         }
     }

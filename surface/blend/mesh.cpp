@@ -173,6 +173,9 @@ Result<Mesh> build(const Cage& cage, const Options& options) {
     if (!quads) {
         return quads.error();
     }
+    if (const std::string corners = cage::sharpRoundCorners(cage); !corners.empty()) {
+        mesh.notes.push_back(corners);
+    }
     Marks marks = marksOf(cage, quads->topology, options.sharpThreshold);
     if (const uint32_t others = countOtherThanQuads(cage); others > 0) {
         mesh.refined = true;

@@ -190,6 +190,9 @@ void classify(Mesh& mesh) {
 void fill(Mesh& mesh) {
     mesh.features = cage::buildFeatures(mesh.cage, mesh.topology);
     mesh.notes.insert(mesh.notes.end(), mesh.features.unused.begin(), mesh.features.unused.end());
+    if (const std::string corners = cage::sharpRoundCorners(mesh.cage); !corners.empty()) {
+        mesh.notes.push_back(corners);
+    }
     FanBuilder fans(mesh);
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
         fans.add(v);

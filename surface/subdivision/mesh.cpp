@@ -159,6 +159,24 @@ void isolate(RefinedMesh parent, Isolation& isolation) {
     isolation.parent = std::move(parent);
 }
 
+/// Round corners are as sharp as the cage says, and no sharper. The steps that follow know nothing else of them.
+void roundCorners(const Cage& cage, RefinedMesh& mesh) {
+    if (cage.roundCorners.empty()) {
+        return;
+    }
+    std::vector<float> sharpness(cage.vertexCount(), 0.0f);
+    for (const cage::SharpVertex& sharp : cage.sharpVertices) {
+        if (sharp.vertex < cage.vertexCount()) {
+            sharpness[sharp.vertex] = std::max(sharpness[sharp.vertex], sharp.sharpness);
+        }
+    }
+    for (const uint32_t v : cage.roundCorners) {
+        if (sharpness[v] < cage::kHardSharpness) {
+            mesh.vertexSharpness[v] = sharpness[v];
+        }
+    }
+}
+
 Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
     const bool loop = subdivision == Subdivision::loop;
     Isolation isolation;
@@ -185,7 +203,11 @@ Result<Isolation> build(const Cage& cage, Subdivision subdivision) {
 } // namespace
 
 Result<RefinedMesh> beginSteps(const Cage& cage, Subdivision subdivision, std::vector<std::string>& notes) {
-    return beginRefinement(cage, subdivision == Subdivision::loop ? &kTriangles : nullptr, notes);
+    Result<RefinedMesh> mesh = beginRefinement(cage, subdivision == Subdivision::loop ? &kTriangles : nullptr, notes);
+    if (mesh) {
+        roundCorners(cage, *mesh);
+    }
+    return mesh;
 }
 
 Isolation isolateLevel(RefinedMesh parent, Subdivision subdivision) {

@@ -46,6 +46,17 @@ TEST(NormalCreases, EdgesWithSplitNormalsAreSharp) {
     EXPECT_EQ(creaseSplitNormals(cage), 0u) << "corners without a normal do not say";
 }
 
+TEST(AngleCreases, EdgesWhoseFacesMeetAtMoreAreSharp) {
+    Cage cube = supple::test::cube();
+    EXPECT_EQ(creaseAngles(cube, 91.0), 0u);
+    EXPECT_TRUE(cube.creases.empty());
+    cube.creases = {{0, 1, 2.0f}};
+    EXPECT_EQ(creaseAngles(cube, 89.0), 12u);
+    EXPECT_EQ(hardCreases(cube).size(), 12u) << "the crease that was there is one of them";
+    Cage flat = supple::test::grid(3, 3);
+    EXPECT_EQ(creaseAngles(flat, 0.1), 0u) << "and no edge of the boundary";
+}
+
 TEST(NormalCreases, AHardEdgeMayEndInTheSurface) {
     // The normals agree at vertex 4.
     Cage cage = twoSquares({0, 0, 1}, {1, 0, 1});

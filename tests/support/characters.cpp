@@ -46,6 +46,7 @@ void expectSameParts(const Character& a, const Character& b) {
         EXPECT_EQ(a.parts[p].firstFace, b.parts[p].firstFace);
         EXPECT_EQ(a.parts[p].firstTarget, b.parts[p].firstTarget);
         EXPECT_EQ(a.parts[p].targetCount, b.parts[p].targetCount);
+        EXPECT_EQ(a.parts[p].madeFor, b.parts[p].madeFor);
     }
 }
 
@@ -85,6 +86,7 @@ void expectSameCage(const Character& of, const Character& ofOther) {
         }
     }
     EXPECT_EQ(holes, b.holes);
+    EXPECT_EQ(a.roundCorners, b.roundCorners);
 
     const auto edges = [](const Cage& cage) {
         std::vector<std::tuple<uint32_t, uint32_t, float>> list;

@@ -60,6 +60,21 @@ TEST(SchemeChoice, PolygonsAsDrawnAreSmoothedWhateverTheirNormals) {
     }
 }
 
+TEST(SchemeChoice, TheFileSaysWhatItWasMadeFor) {
+    using cage::MadeFor;
+    const std::string reason = "its file says that it was made for ";
+    Character drawn = characterOf(test::cube(), PolygonSource::cageExtension);
+    drawn.parts[0].madeFor = MadeFor::none;
+    expectChoice(drawn, SchemeId::polygons, "its file says that it is not subdivided");
+    drawn.parts[0].madeFor = MadeFor::bilinear;
+    expectChoice(drawn, SchemeId::polygons, reason + "bilinear");
+    drawn.parts[0].madeFor = MadeFor::loop;
+    expectChoice(drawn, SchemeId::loop, reason + "loop");
+    Character triangles = characterOf(triangulated(test::cube()), PolygonSource::triangles);
+    triangles.parts[0].madeFor = MadeFor::catmullClark;
+    expectChoice(triangles, SchemeId::catmullClark, reason + "catmullClark");
+}
+
 TEST(SchemeChoice, TrianglesAreTrianglesWhoeverSaysSo) {
     for (const PolygonSource source : {PolygonSource::triangles, PolygonSource::obj, PolygonSource::cageExtension}) {
         const cage::Cage cage = triangulated(test::torus(8, 6));

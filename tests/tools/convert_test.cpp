@@ -1,8 +1,10 @@
 // supple convert as a user runs it: what it writes reads back, poses alike and satisfies Khronos' validator.
 #include "cage/formats/reader.h"
+#include "cage/gltf/writer.h"
 #include "tests/support/characters.h"
 #include "tests/tools/command_runner.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <glm/glm.hpp>
 #include <set>
@@ -94,6 +96,34 @@ TEST_F(Convert, GlbToGlbPosesAlike) {
             ASSERT_LT(glm::distance(before[v], after[v]), 1e-6f) << clip << " vertex " << v;
         }
     }
+}
+
+TEST_F(Convert, CreasesByAngle) {
+    writeText(file("cube.obj"), supple::test::kCubeObj);
+    ASSERT_EQ(run("convert cube.obj -o soft.glb --creases-from-angle 91").exitCode, 0);
+    EXPECT_TRUE(read(file("soft.glb")).cage.creases.empty());
+    const Outcome outcome = run("convert cube.obj -o hard.glb --creases-from-angle 60");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("12 edges, 12 of them hard"), std::string::npos) << outcome.out;
+    EXPECT_EQ(read(file("hard.glb")).cage.creases.size(), 12u);
+    expectFailure(run("convert cube.obj -o hard.glb --creases-from-angle 181"), 2, "--creases-from-angle");
+}
+
+TEST_F(Convert, KeepsWhatACageWasMadeFor) {
+    fs::copy_file(kPip, file("before.glb"));
+    Character character = read(file("before.glb"));
+    character.parts[0].madeFor = supple::cage::MadeFor::loop;
+    character.cage.roundCorners.clear();
+    for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
+        if (std::count(character.cage.faceVertices.begin(), character.cage.faceVertices.end(), v) == 1) {
+            character.cage.roundCorners.push_back(v);
+        }
+    }
+    const auto glb = supple::cage::writeGlb(character);
+    ASSERT_TRUE(glb.ok()) << glb.error().message;
+    writeText(file("loop.glb"), {reinterpret_cast<const char*>(glb->bytes.data()), glb->bytes.size()});
+    ASSERT_EQ(run("convert loop.glb -o again.glb").exitCode, 0);
+    expectSame(character, read(file("again.glb")));
 }
 
 TEST_F(Convert, OtherSubcommandsOpenObjToo) {

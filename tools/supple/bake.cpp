@@ -33,6 +33,7 @@ struct BakeOptions {
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
+    bool restPose = false; ///< as the nodes of the file stand
     std::vector<host::MorphSetting> morphs;
     DeviceFlags device;
 };
@@ -204,7 +205,7 @@ int runBake(const BakeOptions& options) {
     if (!noPatches.empty()) {
         return fail(kExitUsage, noPatches);
     }
-    const Pose pose{*clip, options.time, std::move(*weights)};
+    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights)};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
@@ -242,6 +243,8 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->type_name("OUT.json");
     bindSurface(*command, options->surface, {kCageScheme});
     bindPose(*command, options->clip, options->time);
+    command->add_flag("--rest-pose", options->restPose, "The rest pose instead: as the nodes of the file stand")
+        ->excludes(command->get_option("--clip"));
     bindMorphs(*command, options->morphs);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {

@@ -1,5 +1,6 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
 #include "cage/gltf/writer.h"
+#include "cage/normal_creases.h"
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 struct ConvertOptions {
     std::string file;
     std::string output;
+    std::optional<double> creaseAngle; ///< degrees
     host::ReadOptions reading;
 };
 
@@ -87,9 +90,12 @@ void report(const ConvertOptions& options, const cage::Character& character, con
 }
 
 int runConvert(const ConvertOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.reading);
+    Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.reading);
     if (!file) {
         return fail(file.error());
+    }
+    if (options.creaseAngle) {
+        cage::creaseAngles(file->character.cage, *options.creaseAngle);
     }
     const Result<cage::GlbFile> glb = cage::writeGlb(file->character);
     if (!glb) {
@@ -119,6 +125,11 @@ void bindConvert(CLI::App& app, int& exitCode) {
         ->check(CLI::Validator(glbName, ""))
         ->type_name("OUT.glb");
     bindReading(*command, options->reading);
+    command
+        ->add_option("--creases-from-angle", options->creaseAngle,
+                     "Make edges hard creases where their two faces meet at more than so many degrees")
+        ->check(CLI::Range(0.0, 180.0))
+        ->type_name("DEGREES");
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->reading.clipFiles), {{"--output", options->output}});
         exitCode = runConvert(*options);

@@ -37,6 +37,7 @@ using Histogram = std::map<uint32_t, uint32_t>; ///< value -> how many
 struct SchemeVerdict {
     const char* scheme;
     std::string refusal;                     ///< empty: accepted
+    std::vector<uint32_t> refusedFaces;      ///< where the reason lies in single faces
     std::map<std::string, uint32_t> patches; ///< class -> how many
     std::vector<std::string> notes;
     Folds folds; ///< P_m
@@ -55,13 +56,18 @@ struct Findings {
 };
 
 SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
-    SchemeVerdict verdict{scheme.name, "", {}, {}, {}};
+    SchemeVerdict verdict{scheme.name, "", {}, {}, {}, {}};
     surface::Recipe recipe;
     recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
     recipe.rate = SurfaceFlags{}.rate;
     const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
     if (!tables) {
         verdict.refusal = tables.error().message;
+        for (uint32_t face = 0; scheme.scheme == SUPPLE_SCHEME_PREP && face < cage.faceCount(); ++face) {
+            if (cage.sides(face) != 4) {
+                verdict.refusedFaces.push_back(face);
+            }
+        }
         return verdict;
     }
     for (const surface::PatchInfo& patch : tables->patches) {
@@ -117,6 +123,10 @@ nlohmann::ordered_json toJson(const Folds& folds) {
     nlohmann::ordered_json json;
     json["faces"] = folds.faces.size();
     json["flippedShare"] = share(folds.flipped, folds.triangles);
+    json["all"] = nlohmann::ordered_json::array();
+    for (const Folds::Face& face : folds.faces) {
+        json["all"].push_back(face.face);
+    }
     json["worst"] = nlohmann::ordered_json::array();
     for (size_t i = 0; i < std::min(kWorstFaces, folds.faces.size()); ++i) {
         const Folds::Face& face = folds.faces[i];
@@ -267,6 +277,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         entry["accepted"] = verdict.refusal.empty();
         if (!verdict.refusal.empty()) {
             entry["reason"] = verdict.refusal;
+            entry["faces"] = verdict.refusedFaces;
             continue;
         }
         entry["patches"] = Json::object();

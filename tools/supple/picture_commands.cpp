@@ -29,6 +29,11 @@ std::string place(const std::string& text) {
     return parsePlace(text, x, y) ? "" : text + " is not X,Y, each 0 to 1";
 }
 
+std::string point(const std::string& text) {
+    glm::vec3 value;
+    return parsePoint(text, value) ? "" : text + " is not X,Y,Z, all finite";
+}
+
 CLI::Validator sizeValidator() {
     return {size, "WxH"};
 }
@@ -58,6 +63,27 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     bindDevice(command, draw.device, draw.mapping, draw.validate);
 }
 
+/// A camera that stands somewhere, instead of one that frames the figure. After the options that it excludes.
+void bindCamera(CLI::App& command, RenderOptions& options) {
+    const CLI::Validator isPoint(point, "X,Y,Z");
+    CLI::Option* const eye =
+        command.add_option("--eye", options.eye, "Where the camera stands, in units of the file")->check(isPoint);
+    CLI::Option* const lookAt =
+        command.add_option("--look-at", options.lookAt, "What it looks at")->check(isPoint)->needs(eye);
+    eye->needs(lookAt);
+    command.add_option("--up", options.up, "What is up in the picture")
+        ->check(isPoint)
+        ->capture_default_str()
+        ->needs(eye);
+    command.add_option("--fov", options.fieldOfView, "Degrees from the lower to the upper edge of the picture")
+        ->check(CLI::Range(0.01, 170.0))
+        ->capture_default_str()
+        ->needs(eye);
+    for (const char* framing : {"--yaw", "--pitch", "--zoom", "--at"}) {
+        eye->excludes(command.get_option(framing));
+    }
+}
+
 } // namespace
 
 void bindRender(CLI::App& app, int& exitCode) {
@@ -77,7 +103,13 @@ void bindRender(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
+    bindCamera(*command, *options);
     command->callback([options, &exitCode] {
+        glm::vec3 eye, lookAt, up;
+        if (parsePoint(options->eye, eye) && parsePoint(options->lookAt, lookAt) && parsePoint(options->up, up) &&
+            glm::length(glm::cross(lookAt - eye, up)) == 0.0f) {
+            throw CLI::ValidationError("--eye", "--look-at is the same point, or --up points along the line to it");
+        }
         checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
         exitCode = runRender(*options);
     });

@@ -72,6 +72,18 @@ void closeUp(host::Camera& camera, const RenderOptions& options, float aspect) {
     camera.fieldOfView = 2.0f * std::atan(tangent / static_cast<float>(options.zoom));
 }
 
+/// The camera of --eye. What is in focus is as far away as the figure's middle, so that near and far enclose it.
+host::Camera placedCamera(const RenderOptions& options, const host::Bounds& bounds) {
+    glm::vec3 eye, lookAt, up;
+    if (!parsePoint(options.eye, eye) || !parsePoint(options.lookAt, lookAt) || !parsePoint(options.up, up))
+        return {}; // the command line has checked them
+    const glm::vec3 ahead = glm::normalize(lookAt - eye);
+    const float distance = std::max(glm::dot(bounds.center() - eye, ahead), bounds.radius() * 0.1f);
+    host::Camera camera = host::lookAt(eye, eye + ahead * distance, up);
+    camera.fieldOfView = radians(options.fieldOfView);
+    return camera;
+}
+
 /// What all of them are drawn with: one camera, one floor, one light, so that only the surfaces differ.
 host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options, VkExtent2D size, uint32_t view) {
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
@@ -83,7 +95,9 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
             scene.ground = std::min(scene.ground.value_or(*shown.ground), *shown.ground);
     }
     scene.bounds = host::boundsOf(points);
-    scene.camera = host::frameCamera(points, radians(options.draw.yaw), radians(options.draw.pitch), aspect, kMargin);
+    scene.camera = options.eye.empty() ? host::frameCamera(points, radians(options.draw.yaw),
+                                                           radians(options.draw.pitch), aspect, kMargin)
+                                       : placedCamera(options, scene.bounds);
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)
         closeUp(scene.camera, options, aspect);
@@ -165,6 +179,13 @@ bool parsePlace(const std::string& text, double& x, double& y) {
     int read = 0;
     return std::sscanf(text.c_str(), "%lf,%lf%n", &x, &y, &read) == 2 && static_cast<size_t>(read) == text.size() &&
            x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0;
+}
+
+bool parsePoint(const std::string& text, glm::vec3& point) {
+    int read = 0;
+    return std::sscanf(text.c_str(), "%f,%f,%f%n", &point.x, &point.y, &point.z, &read) == 3 &&
+           static_cast<size_t>(read) == text.size() && std::isfinite(point.x) && std::isfinite(point.y) &&
+           std::isfinite(point.z);
 }
 
 Status renderPicture(Session& session, const RenderOptions& options) {

@@ -4,6 +4,7 @@
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
 
+#include <glm/glm.hpp>
 #include <string>
 
 namespace supple::tools {
@@ -16,7 +17,11 @@ struct RenderOptions {
     std::string size = "1280x960"; ///< WxH in pixels; of each picture where there are several
     double zoom = 1.0;             ///< how much larger than what fills the picture
     std::string at =
-        "0.5,0.5"; ///< X,Y: what zoom keeps in the middle, in fractions of the whole picture from its upper left
+        "0.5,0.5";      ///< X,Y: what zoom keeps in the middle, in fractions of the whole picture from its upper left
+    std::string eye;    ///< X,Y,Z: the camera stands here; empty: where the figure fills the picture
+    std::string lookAt; ///< X,Y,Z: with `eye`
+    std::string up = "0,1,0";  ///< X,Y,Z: with `eye`
+    double fieldOfView = 27.0; ///< degrees from lower to upper edge; with `eye`
     DrawOptions draw;
 };
 
@@ -25,6 +30,9 @@ inline constexpr const char* kAllSchemes = "all";
 
 /// "X,Y", both 0 to 1; false leaves x and y undefined.
 [[nodiscard]] bool parsePlace(const std::string& text, double& x, double& y);
+
+/// "X,Y,Z", all finite; false leaves the point undefined.
+[[nodiscard]] bool parsePoint(const std::string& text, glm::vec3& point);
 
 /// Draws the picture into its file.
 [[nodiscard]] Status renderPicture(Session& session, const RenderOptions& options);

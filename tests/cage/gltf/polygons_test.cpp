@@ -138,6 +138,31 @@ TEST(GltfPolygons, CageExtensionRefusals) {
               "t.glb: mesh 0 primitive 0 SUPPLE_mesh_cage: not an object");
 }
 
+TEST(GltfPolygons, CageExtensionSaysWhatACageWasMadeFor) {
+    for (uint32_t kind = 0; kind <= static_cast<uint32_t>(MadeFor::none); ++kind) {
+        Patch patch;
+        const std::string name = madeForName(static_cast<MadeFor>(kind));
+        const Character c = readWell(patch.with(cageExtension({R"("scheme":")" + name + "\""})));
+        EXPECT_EQ(c.parts[0].madeFor, static_cast<MadeFor>(kind));
+        EXPECT_EQ(c.warnings, Strings());
+    }
+    Patch patch;
+    EXPECT_FALSE(readWell(patch.with(cageExtension({}))).parts[0].madeFor.has_value());
+}
+
+TEST(GltfPolygons, CageExtensionRoundsCorners) {
+    for (const char* rule : {"edgeOnly", "edgeAndCorner"}) {
+        Patch patch;
+        const std::string counts = patch.list("faceVertexCounts", kCounts);
+        const std::string corners = patch.list("faceVertexIndices", kCorners);
+        const Character c = readWell(
+            patch.with(cageExtension({counts, corners, R"("interpolateBoundary":")" + std::string(rule) + "\""})));
+        EXPECT_EQ(c.warnings, Strings());
+        const std::vector<uint32_t> ofOneFace = {0, 2, 6, 7};
+        EXPECT_EQ(c.cage.roundCorners, rule == std::string("edgeOnly") ? ofOneFace : std::vector<uint32_t>());
+    }
+}
+
 TEST(GltfPolygons, CageExtensionRulesAreTheHosts) {
     Patch patch;
     const Character c = readWell(patch.with(cageExtension(

@@ -38,6 +38,25 @@ TEST(SubdivisionMesh, refusesWhatTopologyRefuses) {
     }
 }
 
+TEST(SubdivisionMesh, roundCornersAreAsSharpAsTheCageSays) {
+    cage::Cage sheet = test::grid(2, 2);
+    for (const Subdivision subdivision : kBoth) {
+        Strings notes;
+        Result<RefinedMesh> mesh = beginSteps(sheet, subdivision, notes);
+        ASSERT_TRUE(mesh.ok());
+        EXPECT_EQ(mesh->vertexSharpness[2], kInfiniteSharpness) << "a corner of one face or two";
+    }
+    sheet.roundCorners = {0, 2, 6, 8};
+    sheet.sharpVertices = {{6, 2.0f}, {8, cage::kHardSharpness}};
+    Strings notes;
+    Result<RefinedMesh> mesh = beginSteps(sheet, Subdivision::catmullClark, notes);
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_EQ(mesh->vertexSharpness[0], 0.0f);
+    EXPECT_EQ(mesh->vertexSharpness[6], 2.0f);
+    EXPECT_EQ(mesh->vertexSharpness[8], kInfiniteSharpness);
+    EXPECT_EQ(notes, Strings());
+}
+
 TEST(SubdivisionMesh, stepsToTheIsolatedLevel) {
     EXPECT_EQ(subdivisionMesh(test::cube(), Subdivision::catmullClark).isolationSteps, 1u);
     EXPECT_EQ(subdivisionMesh(test::dodecahedron(), Subdivision::catmullClark).isolationSteps, 2u);
