@@ -44,7 +44,7 @@ private:
 };
 
 struct Scene {
-    const FigureGroup* group = nullptr;
+    const FigureGroup* group = nullptr; ///< none: an empty studio
     const FigureBinding* binding = nullptr;
     Camera camera;
     Bounds bounds;               ///< of the figure over all the time it is shown
@@ -53,7 +53,10 @@ struct Scene {
     uint32_t view = 0;           ///< shared::kView...
     bool cageFaces = false;      ///< the cage instead of the surface
     bool cageEdges = false;
+    /// Instead of the renderer's: no more lights, no larger maps, the same samples.
+    std::optional<StudioQuality> quality;
     uint32_t pass = 0;       ///< of StudioQuality::passes
+    bool coarse = false;     ///< the surface on the grid of its shadows
     float pixelScale = 1.0f; ///< line widths are multiplied by it
 };
 
@@ -98,6 +101,7 @@ private:
     void bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const;
     void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
+    void drawShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                            uint32_t light) const;
     /// Faces of one part and material: a draw range of a surface, or a range of the cage.

@@ -56,6 +56,11 @@ Incident gatherLight(vec3 position, vec3 n) {
         if (part == kLightSky)
             sky += color.rgb * visible;
     }
+    if (frame.openSky.w != 0.0) { // nothing hides it; what a figure hides on the whole is taken off
+        const float kMostlyOpen = 0.75;
+        return Incident(frame.openSky.rgb * (kMostlyOpen * (0.5 + 0.5 * n.y)), seen[kLightKey] / all[kLightKey],
+                        seen[kLightRim] / all[kLightRim], kMostlyOpen);
+    }
     return Incident(sky, seen[kLightKey] / all[kLightKey], seen[kLightRim] / all[kLightRim],
                     seen[kLightSky] / all[kLightSky]);
 }

@@ -5,6 +5,7 @@
 #include "tools/supple/render.h"
 #include "tools/supple/view.h"
 #include "tools/supple/view_keys.h"
+#include "tools/supple/views.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -32,6 +33,13 @@ CLI::Validator sizeValidator() {
     return {size, "WxH"};
 }
 
+std::vector<std::string> viewNames() {
+    std::vector<std::string> names;
+    for (const NamedView& view : kViews)
+        names.emplace_back(view.name);
+    return names;
+}
+
 void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
     bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
@@ -44,7 +52,10 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
                      "One mesh whose patches share the samples on their borders (catmull-clark, pm, prep); without "
                      "lines of patches");
     command.add_option("--view", draw.view, "What is shown")
-        ->check(CLI::IsMember({"shaded", "wire", "patches", "normals", "zebra"}))
+        ->check(CLI::IsMember(viewNames()))
+        ->capture_default_str();
+    command.add_option("--joint", draw.joint, "With --view weights: how much this joint moves the surface")
+        ->type_name("NAME|INDEX")
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
@@ -101,13 +112,18 @@ void bindSheet(CLI::App& app, int& exitCode) {
 void bindView(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command = app.add_subcommand("view", "Characters in a window, playing");
-    command->add_option("FILE", options->files, "glTF, GLB or OBJ; one is shown at a time")->required();
+    command->add_option("FILE", options->files, "glTF, GLB or OBJ; one is shown at a time. Without one, choose it in the window");
     command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
     command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
     CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");
     command->add_option("--screenshot", options->screenshot, "Write the last frame, window and all")
         ->needs(frames)
         ->type_name("OUT.png");
+    command
+        ->add_option("--look", options->look,
+                     "auto: on a CPU device fast while something moves, then ever better; with --frames the studio's")
+        ->check(CLI::IsMember({"auto", "fast", "studio"}))
+        ->capture_default_str();
     bindDraw(*command, options->draw);
     std::string keys = "Keys:";
     for (const ViewKey& key : kViewKeys) {
