@@ -450,6 +450,8 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.rimDirection = glm::vec4(middle.rimDirection, 0.0f);
     frame.rimColor = glm::vec4(middle.rimColor, 0.0f);
     frame.environment = glm::vec4(std::sin(scene.lightYaw), std::cos(scene.lightYaw), keyRadiance_, rimRadiance_);
+    if (scene.backdrop)
+        frame.backdrop = glm::vec4(*scene.backdrop, 1.0f);
     if (quality.sky == 0)
         frame.openSky = glm::vec4(studioOpenSky(), 1.0f);
     const std::vector<shared::Light> lights = studioLights(quality, scene.pass, scene.lightYaw, center, radius);

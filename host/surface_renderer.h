@@ -49,6 +49,7 @@ struct Scene {
     Camera camera;
     Bounds bounds;               ///< of the figure over all the time it is shown
     std::optional<float> ground; ///< height of the floor
+    std::optional<glm::vec3> backdrop; ///< one color, linear, instead of the studio's walls
     float lightYaw = 0.0f;       ///< the studio is set up for a viewer who stands here (Camera::yaw)
     uint32_t view = 0;           ///< shared::kView...
     bool cageFaces = false;      ///< the cage instead of the surface

@@ -81,6 +81,10 @@ Status Window::open(const std::string& title, VkExtent2D size) {
     return success();
 }
 
+void Window::copyText(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+
 bool Window::shouldClose() const {
     return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }

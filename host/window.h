@@ -44,6 +44,8 @@ public:
     /// Handles events, for the first of which it waits `patience` seconds at most, and waits for the slot's last frame.
     /// No frame: the window is minimised or was just rebuilt; try again. The frame's commands are begun.
     [[nodiscard]] Result<std::optional<WindowFrame>> begin(double patience = 0.0);
+    /// To the clipboard.
+    void copyText(const std::string& text);
     /// Keys (GLFW's numbers) that went down since it was asked last, however shortly.
     [[nodiscard]] std::vector<KeyPress> takeKeys() { return std::exchange(keys_, {}); }
     /// Paths of files that were dropped on the window since it was asked last.

@@ -122,6 +122,7 @@ struct FrameUniforms {
     vec4 rimDirection;
     vec4 rimColor;
     vec4 environment; // sine and cosine of the yaw that it is turned by; radiance over irradiance of key and rim
+    vec4 backdrop;    // w: 1 if it has this color all over
     vec4 openSky;     // irradiance from straight above, where no lights sample the sky; w: 1 if so
     uint lightCount;
     float exposure;

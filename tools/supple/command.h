@@ -38,6 +38,7 @@ std::string printable(std::string_view text);
 void bindInspect(CLI::App& app, int& exitCode);
 void bindBake(CLI::App& app, int& exitCode);
 void bindRender(CLI::App& app, int& exitCode);
+void bindAnimate(CLI::App& app, int& exitCode);
 void bindSheet(CLI::App& app, int& exitCode);
 /// `arguments`: of the command line, which it hands on to another build.
 void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& arguments);

@@ -1,4 +1,5 @@
 // The command lines of supple render, sheet and view. What they do stands in render.h, contact_sheet.h and view.h.
+#include "tools/supple/animate.h"
 #include "tools/supple/command.h"
 #include "tools/supple/contact_sheet.h"
 #include "tools/supple/options.h"
@@ -68,7 +69,36 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     bindDevice(command, draw.device, draw.mapping, draw.validate);
 }
 
+void bindAlpha(CLI::App& command, DrawOptions& draw) {
+    command.add_flag("--alpha", draw.alpha, "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+}
+
 } // namespace
+
+void bindAnimate(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<AnimateOptions>();
+    CLI::App* command = app.add_subcommand("animate", "A clip as an animated picture, or one picture a frame");
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "An animated WebP; or PNGs, with #### where the numbers of the frames go")
+        ->required()
+        ->type_name("OUT.webp|OUT_####.png");
+    command->add_option("--clip", options->clip, "Clip by name or index; the first one without it")
+        ->type_name("NAME|INDEX");
+    command->add_option("--size", options->size, "Of the pictures")->check(sizeValidator())->capture_default_str();
+    command->add_option("--fps", options->fps, "Frames a second")->check(CLI::Range(1.0, 240.0))->capture_default_str();
+    command->add_option("--seconds", options->seconds, "Instead of the clip's length (4 without a clip)")
+        ->check(CLI::Range(0.001, 3600.0));
+    command->add_option("--turn", options->turn, "Degrees that the camera goes round the figure from end to end")
+        ->check(CLI::Range(-3600.0, 3600.0));
+    command->add_option("--quality", options->quality, "Of a WebP; 100 keeps every bit")
+        ->check(CLI::Range(0.0f, 100.0f))
+        ->capture_default_str();
+    bindAlpha(*command, options->draw);
+    bindDraw(*command, options->draw);
+    command->callback([options, &exitCode] { exitCode = runAnimate(*options); });
+}
 
 void bindRender(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RenderOptions>();
@@ -85,6 +115,15 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
         ->check(CLI::Validator(place, "X,Y"))
         ->capture_default_str();
+    const auto cameraFault = [](const std::string& text) {
+        host::Camera camera;
+        return parseCamera(text, camera) ? std::string() : text + " is not X,Y,Z,DISTANCE";
+    };
+    command
+        ->add_option("--camera", options->camera,
+                     "What the camera looks at, and from how far away, instead of what fills the picture")
+        ->check(CLI::Validator(cameraFault, "X,Y,Z,DISTANCE"));
+    bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     command->callback([options, &exitCode] { exitCode = runRender(*options); });

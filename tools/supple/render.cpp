@@ -84,6 +84,8 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     }
     scene.bounds = host::boundsOf(points);
     scene.camera = host::frameCamera(points, radians(options.draw.yaw), radians(options.draw.pitch), aspect, kMargin);
+    if (!options.camera.empty())
+        parseCamera(options.camera, scene.camera); // the command line has checked it
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)
         closeUp(scene.camera, options, aspect);
@@ -119,7 +121,7 @@ Status drawSheet(std::vector<Shown>& all, const host::Scene& scene, const Render
     const uint32_t stepY = kSheetLabelHeight + cell.height + kSheetGap;
     host::Picture sheet = blankSheet(kSheetGap + columns * stepX, kSheetGap + rows * stepY);
     for (uint32_t i = 0; i < count; ++i) {
-        const Result<host::Picture> picture = all[i].stage->draw(scene);
+        const Result<host::Picture> picture = all[i].stage->draw(scene, options.draw.alpha);
         if (!picture)
             return picture.error();
         const uint32_t x = kSheetGap + i % columns * stepX;
@@ -137,7 +139,7 @@ Status render(Session& session, const RenderOptions& options, VkExtent2D size, u
         if (!shown)
             return shown.error();
         all.push_back(std::move(*shown));
-        const Result<host::Picture> picture = all.front().stage->draw(sceneFor(all, options, size, view));
+        const Result<host::Picture> picture = all.front().stage->draw(sceneFor(all, options, size, view), options.draw.alpha);
         if (!picture)
             return picture.error();
         return host::writePng(*picture, options.output);
@@ -165,6 +167,17 @@ bool parsePlace(const std::string& text, double& x, double& y) {
     int read = 0;
     return std::sscanf(text.c_str(), "%lf,%lf%n", &x, &y, &read) == 2 && static_cast<size_t>(read) == text.size() &&
            x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0;
+}
+
+bool parseCamera(const std::string& text, host::Camera& camera) {
+    float x = 0.0f, y = 0.0f, z = 0.0f, distance = 0.0f;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%f,%f,%f,%f%n", &x, &y, &z, &distance, &read) != 4 ||
+        static_cast<size_t>(read) != text.size() || !std::isfinite(x + y + z + distance) || !(distance > 0.0f))
+        return false;
+    camera.target = {x, y, z};
+    camera.distance = distance;
+    return true;
 }
 
 Status renderPicture(Session& session, const RenderOptions& options) {

@@ -1,6 +1,7 @@
 // supple render: one picture of a character, or one of each scheme side by side.
 #pragma once
 
+#include "host/camera.h"
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
 
@@ -17,6 +18,8 @@ struct RenderOptions {
     double zoom = 1.0;             ///< how much larger than what fills the picture
     std::string at =
         "0.5,0.5"; ///< X,Y: what zoom keeps in the middle, in fractions of the whole picture from its upper left
+    /// TX,TY,TZ,DISTANCE: where the camera looks, and from how far away, instead of what fills the picture; empty: that.
+    std::string camera;
     DrawOptions draw;
 };
 
@@ -25,6 +28,9 @@ inline constexpr const char* kAllSchemes = "all";
 
 /// "X,Y", both 0 to 1; false leaves x and y undefined.
 [[nodiscard]] bool parsePlace(const std::string& text, double& x, double& y);
+
+/// RenderOptions::camera; false leaves `camera` as it is.
+bool parseCamera(const std::string& text, host::Camera& camera);
 
 /// Draws the picture into its file.
 [[nodiscard]] Status renderPicture(Session& session, const RenderOptions& options);

@@ -26,6 +26,7 @@ struct DrawOptions {
     std::string joint = "0";         ///< whose weights the view "weights" shows: name or index
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
     bool ground = true;              ///< a floor that takes shadows
+    bool alpha = false;              ///< nothing behind the figure: render, animate
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;

@@ -133,7 +133,21 @@ Status Stage::pose(const ClipTime& pose) {
     return session_.context->evaluate(groups);
 }
 
-Result<host::Picture> Stage::draw(host::Scene scene) {
+Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
+    if (!alpha)
+        return drawPasses(scene);
+    scene.backdrop = glm::vec3(0.0f);
+    const Result<host::Picture> overBlack = drawPasses(scene);
+    if (!overBlack)
+        return overBlack.error();
+    scene.backdrop = glm::vec3(1.0f);
+    const Result<host::Picture> overWhite = drawPasses(scene);
+    if (!overWhite)
+        return overWhite.error();
+    return host::pictureWithAlpha(*overBlack, *overWhite);
+}
+
+Result<host::Picture> Stage::drawPasses(host::Scene scene) {
     scene.group = group_.get();
     scene.binding = &binding_;
     host::PictureAverage average(target_.extent().width, target_.extent().height);

@@ -106,6 +106,7 @@ private:
     host::Buffer screenshot_;
     std::unique_ptr<ViewStage> stage_;
     std::optional<PanelState> panel_;
+    ViewExport export_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
@@ -227,6 +228,7 @@ Status Viewer::run() {
         coverByPanel(window_->swapchain().extent().width);
         stage_->advance(secondsSinceLast());
         panel_->keys = window_->takeKeys();
+        panel_->exported = export_.report();
         overlay_->beginPanels();
         const PanelWishes wishes = buildPanel(*panel_, *stage_, aspect());
         overlay_->endPanels();
@@ -314,6 +316,11 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
     }
     if (!stage_->hasFigure())
         return success();
+    if (wishes.save) {
+        export_.start(*stage_, options_.draw, *wishes.save);
+        if (wishes.save->kind == ExportKind::commandLine)
+            window_->copyText(export_.report());
+    }
     if (stage_->needsWeights()) {
         window_->waitIdle(context_->lastFrame());
         if (const Status status = stage_->measureWeights(); !status)

@@ -20,6 +20,8 @@ inline constexpr ViewKey kViewKeys[] = {
     {"Ctrl + click on an eye", "that part alone, or all again"},
     {"L", "the studio's look, or fast while something moves"},
     {"O", "open a file; files can be dropped on the window, too"},
+    {"E", "write a picture of what is shown"},
+    {"K", "copy the command line that makes it"},
     {"P", "the panel"},
     {"F1 or ?", "these keys"},
     {"Esc", "close"},

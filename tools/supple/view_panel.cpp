@@ -39,6 +39,11 @@ void moveCamera(ViewStage& stage) {
         stage.zoom(io.MouseWheel);
 }
 
+void wishExport(const PanelState& state, ExportKind kind, PanelWishes& wishes) {
+    const auto side = [](int pixels) { return static_cast<uint32_t>(std::clamp(pixels, 1, 16384)); };
+    wishes.save = {kind, {side(state.exportSize[0]), side(state.exportSize[1])}, state.exportAlpha};
+}
+
 void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& wishes) {
     if (ImGui::GetIO().WantTextInput)
         return;
@@ -75,6 +80,10 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
         stage.settings.look = stage.settings.look == Look::studio ? Look::automatic : Look::studio;
     if (pressed(GLFW_KEY_F) && stage.hasFigure())
         stage.frameFigure(aspect);
+    if (pressed(GLFW_KEY_E) && stage.hasFigure())
+        wishExport(state, ExportKind::picture, wishes);
+    if (pressed(GLFW_KEY_K) && stage.hasFigure())
+        wishExport(state, ExportKind::commandLine, wishes);
     wishes.close = pressed(GLFW_KEY_ESCAPE);
 }
 
@@ -461,6 +470,28 @@ void buildLook(const PanelState& state, ViewSettings& settings) {
     }
 }
 
+/// Pictures of what is shown.
+void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& wishes) {
+    if (ImGui::CollapsingHeader("export")) {
+        ImGui::InputInt2("pixels", state.exportSize);
+        ImGui::Checkbox("alpha", &state.exportAlpha);
+        if (ImGui::Button("picture"))
+            wishExport(state, ExportKind::picture, wishes);
+        ImGui::SameLine();
+        if (ImGui::Button("sequence"))
+            wishExport(state, ExportKind::sequence, wishes);
+        ImGui::SameLine();
+        if (ImGui::Button("animation"))
+            wishExport(state, ExportKind::animation, wishes);
+        if (ImGui::Button("copy the command line"))
+            wishExport(state, ExportKind::commandLine, wishes);
+        if (settings.fadeClip != SUPPLE_REST_POSE)
+            ImGui::TextWrapped("The crossfade is left out: the command line has none.");
+    }
+    if (!state.exported.empty())
+        ImGui::TextWrapped("%s", printable(state.exported).c_str());
+}
+
 /// What the panel has, from above.
 void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes) {
     buildFiles(state, stage, wishes);
@@ -472,6 +503,7 @@ void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes) {
         buildMorphs(stage);
         buildWarnings(stage);
         buildParts(stage);
+        buildExport(state, stage.settings, wishes);
         if (state.timings) {
             ImGui::Separator();
             buildTimings(state, stage);

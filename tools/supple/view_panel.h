@@ -3,6 +3,7 @@
 
 #include "host/window.h"
 #include "tools/supple/file_browser.h"
+#include "tools/supple/view_export.h"
 #include "tools/supple/view_stage.h"
 
 #include <optional>
@@ -26,6 +27,9 @@ struct PanelState {
     std::vector<host::KeyPress> keys; ///< that went down since the last frame
     LookStep step;       ///< of the last frame
     FileBrowser browser;
+    std::string exported; ///< what is being written, or was
+    int exportSize[2] = {1280, 960};
+    bool exportAlpha = false;
     std::vector<std::string> recent; ///< files that were opened last
 };
 
@@ -35,6 +39,7 @@ struct PanelWishes {
     std::optional<uint32_t> rate;
     std::optional<SuppleScheme> scheme;
     std::optional<SuppleSkinning> skinning;
+    std::optional<ExportWish> save;
     bool close = false;
 };
 

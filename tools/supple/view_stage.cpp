@@ -188,7 +188,13 @@ void ViewStage::advance(double seconds) {
 
 void ViewStage::frameFigure(float aspect) {
     camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect * (1.0f - covered_), kWindowMargin);
-    pan(-0.5f * covered_ * aspect, 0.0f);
+    aside_ = 0.5f * covered_ * aspect;
+    pan(-aside_, 0.0f);
+}
+
+glm::vec3 ViewStage::centeredTarget() const {
+    const glm::vec3 right = glm::transpose(glm::mat3(camera_.view()))[0];
+    return camera_.target + right * (aside_ * 2.0f * camera_.distance * std::tan(camera_.fieldOfView * 0.5f));
 }
 
 void ViewStage::orbit(float yaw, float pitch) {

@@ -84,6 +84,9 @@ public:
     /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
     void setCovered(float share) { covered_ = share; }
     void frameFigure(float aspect);
+    [[nodiscard]] const host::Camera& camera() const { return camera_; }
+    /// The camera's target if no panel covered the picture when the figure was framed.
+    [[nodiscard]] glm::vec3 centeredTarget() const;
     void orbit(float yaw, float pitch);
     /// In fractions of the picture's height.
     void pan(float right, float up);
@@ -144,6 +147,7 @@ private:
     std::vector<host::PartScheme> partSchemes_;
     bool sharedSamples_ = false;
     float covered_ = 0.0f;
+    float aside_ = 0.0f; ///< how far the figure was framed beside the middle, in heights of the picture
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
