@@ -40,8 +40,8 @@ private:
     std::vector<float> sum_; ///< linear RGB
 };
 
-/// What was drawn over black and over white, as one picture with alpha. It is exact over both, as programs blend that do
-/// so without leaving sRGB.
+/// What was drawn over black and over white, as one picture with alpha. It is exact over both, as programs blend that
+/// do so without leaving sRGB.
 [[nodiscard]] Picture pictureWithAlpha(const Picture& overBlack, const Picture& overWhite);
 
 [[nodiscard]] Status writePng(const Picture& picture, const std::string& path);

@@ -16,10 +16,10 @@ constexpr SuppleSyncScope kFetching{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACC
 constexpr SuppleSyncScope kFilling{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 constexpr ImageUse kFetched{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kFetching};
 constexpr ImageUse kLookedUp{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                            {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
+                             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
 constexpr ImageUse kBlended{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                          {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                           VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT}};
+                            {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                             VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT}};
 
 template <class T>
 Status take(Result<T> made, T& out) {
@@ -62,10 +62,10 @@ Result<std::unique_ptr<PictureMean>> PictureMean::create(Device& device) {
 
 Status PictureMean::fit(const Image& picture) {
     mean_.reset();
-    Result<Image> image = device_.createImage(
-        {.format = kMeanFormat,
-         .extent = picture.desc().extent,
-         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    Result<Image> image =
+        device_.createImage({.format = kMeanFormat,
+                             .extent = picture.desc().extent,
+                             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     if (!image)
         return image.error();
     mean_ = std::move(*image);
@@ -83,8 +83,9 @@ void PictureMean::add(VkCommandBuffer commands, const Image& picture, uint32_t b
 }
 
 void PictureMean::blend(VkCommandBuffer commands, uint32_t before) const {
-    const VkRenderingAttachmentInfo colors[] = {attachment(
-        mean_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {}, before == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD)};
+    const VkRenderingAttachmentInfo colors[] = {
+        attachment(mean_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, {},
+                   before == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD)};
     const VkRenderingAttachmentInfo noDepth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     beginRendering(commands, mean_.desc().extent, colors, noDepth);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);

@@ -15,8 +15,8 @@ public:
 
     /// What the pictures are drawn into, which must stay and be SAMPLED. No frame that uses the mean may be pending.
     [[nodiscard]] Status fit(const Image& picture);
-    /// Takes the picture as it is now, in TRANSFER_SRC_OPTIMAL and visible to copies, in which it stays; `before` are in
-    /// the mean already. `shown`, a TRANSFER_DST of the same size, becomes the mean and is left likewise.
+    /// Takes the picture as it is now, in TRANSFER_SRC_OPTIMAL and visible to copies, in which it stays; `before` are
+    /// in the mean already. `shown`, a TRANSFER_DST of the same size, becomes the mean and is left likewise.
     void add(VkCommandBuffer commands, const Image& picture, uint32_t before, const Image& shown) const;
 
 private:

@@ -39,8 +39,8 @@ struct StudioQuality {
     [[nodiscard]] static StudioQuality fast() {
         return {.key = 1, .rim = 0, .sky = 0, .shadowSize = 512, .passes = 1, .multisample = false};
     }
-    /// For a window of a CPU device where nothing moves: as many directions as still() has, in passes short enough to be
-    /// left at any time.
+    /// For a window of a CPU device where nothing moves: as many directions as still() has, in passes short enough to
+    /// be left at any time.
     [[nodiscard]] static StudioQuality refining() {
         return {.key = 1, .rim = 1, .sky = 1, .shadowSize = 768, .passes = 32, .multisample = false};
     }

@@ -336,8 +336,8 @@ void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& gro
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
         {shared::kSurfaceTangentBinding, orCage(output.streams.tangents)},
-        {shared::kSurfaceValueBinding, surface.values.handle() != VK_NULL_HANDLE ? wholeInfo(surface.values)
-                                                                                 : viewInfo(output.info.deformedCage)},
+        {shared::kSurfaceValueBinding,
+         surface.values.handle() != VK_NULL_HANDLE ? wholeInfo(surface.values) : viewInfo(output.info.deformedCage)},
     };
     for (const auto& [slot, info] : buffers) {
         VkWriteDescriptorSet write = descriptorWrite(set, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
@@ -438,8 +438,9 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.bounce = glm::vec4(0.20f, 0.19f, 0.18f, 0.0f);
     frame.lightCount = quality.lightCount();
     // The other views paint every figure in the same colors.
-    frame.exposure = scene.view == shared::kViewShaded && scene.group != nullptr ? studioExposure(scene.group->figure().averageAlbedo())
-                                                       : studioExposure(0.4f);
+    frame.exposure = scene.view == shared::kViewShaded && scene.group != nullptr
+                         ? studioExposure(scene.group->figure().averageAlbedo())
+                         : studioExposure(0.4f);
     frame.shadowTexel = 2.0f * radius / static_cast<float>(quality.shadowSize);
     frame.pixelScale = scene.pixelScale;
     if (quality.lightCount() * quality.passes < kFewLights)

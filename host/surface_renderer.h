@@ -47,12 +47,12 @@ struct Scene {
     const FigureGroup* group = nullptr; ///< none: an empty studio
     const FigureBinding* binding = nullptr;
     Camera camera;
-    Bounds bounds;               ///< of the figure over all the time it is shown
-    std::optional<float> ground; ///< height of the floor
+    Bounds bounds;                     ///< of the figure over all the time it is shown
+    std::optional<float> ground;       ///< height of the floor
     std::optional<glm::vec3> backdrop; ///< one color, linear, instead of the studio's walls
-    float lightYaw = 0.0f;       ///< the studio is set up for a viewer who stands here (Camera::yaw)
-    uint32_t view = 0;           ///< shared::kView...
-    bool cageFaces = false;      ///< the cage instead of the surface
+    float lightYaw = 0.0f;             ///< the studio is set up for a viewer who stands here (Camera::yaw)
+    uint32_t view = 0;                 ///< shared::kView...
+    bool cageFaces = false;            ///< the cage instead of the surface
     bool cageEdges = false;
     /// Instead of the renderer's: no more lights, no larger maps, the same samples.
     std::optional<StudioQuality> quality;

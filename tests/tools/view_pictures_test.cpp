@@ -61,11 +61,10 @@ protected:
         host::Scene scene = (*stage_)->scene(kWindowSize);
         scene.quality = host::StudioQuality::refining();
         scene.pass = pass;
-        EXPECT_TRUE((*device_)
-                        ->submitAndWait([&](VkCommandBuffer commands) {
-                            (*renderer_)->record(commands, 0, *target, scene);
-                        })
-                        .ok());
+        EXPECT_TRUE(
+            (*device_)
+                ->submitAndWait([&](VkCommandBuffer commands) { (*renderer_)->record(commands, 0, *target, scene); })
+                .ok());
         Result<host::Picture> picture = host::readPicture(**device_, target->color());
         EXPECT_TRUE(picture.ok());
         return *picture;

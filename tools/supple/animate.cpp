@@ -2,6 +2,7 @@
 
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/output_paths.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/webp_animation.h"
 
@@ -37,7 +38,9 @@ public:
 
 private:
     explicit FrameOutput(const AnimateOptions& options) : options_(options) {}
-    [[nodiscard]] int startOf(uint32_t frame) const { return static_cast<int>(std::lround(1e3 * frame / options_.fps)); }
+    [[nodiscard]] int startOf(uint32_t frame) const {
+        return static_cast<int>(std::lround(1e3 * frame / options_.fps));
+    }
 
     const AnimateOptions& options_;
     std::unique_ptr<WebpAnimation> webp_;
@@ -51,7 +54,8 @@ Result<uint32_t> clipOf(const host::Figure& figure, const std::string& name) {
 }
 
 /// One camera for all frames, which holds all poses.
-Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_t clip, VkExtent2D size, uint32_t view) {
+Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_t clip, VkExtent2D size,
+                            uint32_t view) {
     Result<Extent> extent =
         stage.measure(spreadTimes(stage.figure(), clip, kFramedPoses), options.draw.scheme == "cage");
     if (!extent)
@@ -94,7 +98,8 @@ std::string animateOutputFault(const std::string& output) {
         return writesWebp() ? "" : output + ": this supple was built without libwebp";
     if (!output.ends_with(".png"))
         return output + " is neither .webp nor .png";
-    return frameFile(output, 0).empty() ? output + " is one picture: for one a frame, put #### where their numbers go" : "";
+    return frameFile(output, 0).empty() ? output + " is one picture: for one a frame, put #### where their numbers go"
+                                        : "";
 }
 
 Status animate(Session& session, const AnimateOptions& options) {
@@ -137,6 +142,9 @@ Status animate(Session& session, const AnimateOptions& options) {
 int runAnimate(const AnimateOptions& options) {
     if (const std::string fault = animateOutputFault(options.output); !fault.empty())
         return fail(kExitUsage, "--output: " + fault);
+    const OutputPath output[] = {{"--output", options.output}};
+    if (const Status writable = canWrite(output); !writable)
+        return fail(writable.error());
     return withSession(deviceFlags(options.draw), [&](Session& session) { return animate(session, options); });
 }
 

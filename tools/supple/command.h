@@ -27,6 +27,9 @@ int fail(ExitCode code, std::string_view reason);
 /// The same for an Error; ErrorCode::unsupported becomes kExitNoDevice.
 int fail(const Error& error);
 
+/// Prints "supple: text" as one line on stdout.
+void note(std::string_view text);
+
 /// Prints "supple: warning: text" as one line on stderr.
 void warn(std::string_view text);
 

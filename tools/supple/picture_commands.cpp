@@ -52,9 +52,7 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     command.add_flag("--shared-samples", draw.sharedSamples,
                      "One mesh whose patches share the samples on their borders (catmull-clark, pm, prep); without "
                      "lines of patches");
-    command.add_option("--view", draw.view, "What is shown")
-        ->check(CLI::IsMember(viewNames()))
-        ->capture_default_str();
+    command.add_option("--view", draw.view, "What is shown")->check(CLI::IsMember(viewNames()))->capture_default_str();
     command.add_option("--joint", draw.joint, "With --view weights: how much this joint moves the surface")
         ->type_name("NAME|INDEX")
         ->capture_default_str();
@@ -70,7 +68,8 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
 }
 
 void bindAlpha(CLI::App& command, DrawOptions& draw) {
-    command.add_flag("--alpha", draw.alpha, "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+    command.add_flag("--alpha", draw.alpha,
+                     "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
 }
 
 } // namespace
@@ -151,7 +150,8 @@ void bindSheet(CLI::App& app, int& exitCode) {
 void bindView(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command = app.add_subcommand("view", "Characters in a window, playing");
-    command->add_option("FILE", options->files, "glTF, GLB or OBJ; one is shown at a time. Without one, choose it in the window");
+    command->add_option("FILE", options->files,
+                        "glTF, GLB or OBJ; one is shown at a time. Without one, choose it in the window");
     command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
     command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
     CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");

@@ -2,6 +2,7 @@
 
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/output_paths.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
 
@@ -139,7 +140,8 @@ Status render(Session& session, const RenderOptions& options, VkExtent2D size, u
         if (!shown)
             return shown.error();
         all.push_back(std::move(*shown));
-        const Result<host::Picture> picture = all.front().stage->draw(sceneFor(all, options, size, view), options.draw.alpha);
+        const Result<host::Picture> picture =
+            all.front().stage->draw(sceneFor(all, options, size, view), options.draw.alpha);
         if (!picture)
             return picture.error();
         return host::writePng(*picture, options.output);
@@ -195,6 +197,9 @@ int runRender(const RenderOptions& options) {
     const Result<uint32_t> view = parseView(options.draw.view);
     if (!view)
         return fail(kExitUsage, "--view: " + view.error().message);
+    const OutputPath output[] = {{"--output", options.output}};
+    if (const Status writable = canWrite(output); !writable)
+        return fail(writable.error());
     return withSession(deviceFlags(options.draw),
                        [&](Session& session) { return render(session, options, *size, *view); });
 }

@@ -18,7 +18,8 @@ struct RenderOptions {
     double zoom = 1.0;             ///< how much larger than what fills the picture
     std::string at =
         "0.5,0.5"; ///< X,Y: what zoom keeps in the middle, in fractions of the whole picture from its upper left
-    /// TX,TY,TZ,DISTANCE: where the camera looks, and from how far away, instead of what fills the picture; empty: that.
+    /// TX,TY,TZ,DISTANCE: where the camera looks, and from how far away, instead of what fills the picture; empty:
+    /// that.
     std::string camera;
     DrawOptions draw;
 };

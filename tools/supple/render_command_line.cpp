@@ -10,7 +10,10 @@ namespace supple::tools {
 namespace {
 
 std::string quoted(const std::string& text) {
-    const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string_view("_-./,=:+#").find(static_cast<char>(c)) != std::string_view::npos; };
+    const auto isPlain = [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_-./,=:+#").find(static_cast<char>(c)) != std::string_view::npos;
+    };
     if (!text.empty() && std::all_of(text.begin(), text.end(), isPlain))
         return text;
     std::string inQuotes = "'";
@@ -45,8 +48,8 @@ private:
 };
 
 const char* schemeWord(SuppleScheme scheme) {
-    const auto known = std::find_if(std::begin(kSchemes), std::end(kSchemes),
-                                    [&](const Scheme& row) { return row.scheme == scheme; });
+    const auto known =
+        std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.scheme == scheme; });
     return known != std::end(kSchemes) ? known->name : "auto";
 }
 

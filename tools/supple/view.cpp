@@ -62,8 +62,9 @@ public:
     /// Whether a file of the command line was refused, which has been said.
     [[nodiscard]] bool hasRefused() const {
         const size_t given = panel_ ? options_.files.size() : 0;
-        return given > 0 && std::any_of(panel_->files.begin(), panel_->files.begin() + static_cast<std::ptrdiff_t>(given),
-                                        [](const PanelFile& file) { return file.refused; });
+        return given > 0 &&
+               std::any_of(panel_->files.begin(), panel_->files.begin() + static_cast<std::ptrdiff_t>(given),
+                           [](const PanelFile& file) { return file.refused; });
     }
 
 private:
@@ -84,7 +85,7 @@ private:
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
     void copyToWindow(const host::WindowFrame& frame) const;
     void copyToHost(const host::WindowFrame& frame) const;
-    [[nodiscard]] Status writeScreenshot() const;
+    [[nodiscard]] Status writeScreenshot(const std::string& path) const;
     [[nodiscard]] double secondsSinceLast();
     [[nodiscard]] float aspect() const {
         return static_cast<float>(window_->swapchain().extent().width) /
@@ -162,6 +163,8 @@ void Viewer::startPanel() {
         panel_->files.push_back({file, false});
     panel_->device = device_->name();
     panel_->timings = options_.frames == 0;
+    panel_->exportSize[0] = static_cast<int>(window_->swapchain().extent().width);
+    panel_->exportSize[1] = static_cast<int>(window_->swapchain().extent().height);
     if (remembers())
         panel_->recent = readRecentFiles(recentFilesPath());
     std::error_code fault;
@@ -213,6 +216,7 @@ double Viewer::secondsSinceLast() {
 
 Status Viewer::run() {
     uint32_t drawn = 0;
+    bool windowPicture = false;
     while (!window_->shouldClose()) {
         // A picture that stays costs nothing until something happens; timings go on.
         constexpr double kPatience = 0.1;
@@ -234,15 +238,20 @@ Status Viewer::run() {
         overlay_->endPanels();
 
         const bool isLast = options_.frames > 0 && drawn + 1 == options_.frames;
-        const bool readBack = isLast && !options_.screenshot.empty();
+        const bool readBack = windowPicture || (isLast && !options_.screenshot.empty());
         if (const Status status = drawFrame(**begun, readBack); !status)
             return status.error();
         ++drawn;
         if (readBack) {
             window_->waitIdle(context_->lastFrame());
-            if (const Status status = writeScreenshot(); !status)
+            const std::string path = windowPicture ? freeName("window", ".png") : options_.screenshot;
+            if (const Status status = writeScreenshot(path); !status)
                 return status.error();
+            if (windowPicture)
+                note("wrote " + path);
+            windowPicture = false;
         }
+        windowPicture = wishes.windowPicture;
         if (isLast || wishes.close)
             break;
         // Between frames, so that nothing half recorded refers to what is exchanged.
@@ -259,8 +268,7 @@ Status Viewer::fitTarget() {
     if (targetGeneration_ == window_->swapchain().generation())
         return success();
     window_->waitIdle(context_->lastFrame());
-    if (const Status status =
-            pictures_->fit(window_->swapchain().extent(), srgbFormat(window_->swapchain().format()));
+    if (const Status status = pictures_->fit(window_->swapchain().extent(), srgbFormat(window_->swapchain().format()));
         !status)
         return status.error();
     lastShown_.reset();
@@ -323,8 +331,10 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
     }
     if (stage_->needsWeights()) {
         window_->waitIdle(context_->lastFrame());
-        if (const Status status = stage_->measureWeights(); !status)
-            return status.error();
+        const Status measured = stage_->measureWeights();
+        window_->waitIdle(context_->lastFrame()); // it evaluates frames of its own
+        if (!measured)
+            return measured.error();
     }
     Status remade = success();
     if (wishes.scheme && *wishes.scheme != stage_->scheme())
@@ -404,7 +414,7 @@ void Viewer::copyToHost(const host::WindowFrame& frame) const {
     host::memoryBarrier(frame.commands, kCopyWrite, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
 }
 
-Status Viewer::writeScreenshot() const {
+Status Viewer::writeScreenshot(const std::string& path) const {
     host::Picture picture =
         host::Picture::blank(window_->swapchain().extent().width, window_->swapchain().extent().height);
     std::memcpy(picture.rgba.data(), screenshot_.mapped(), picture.rgba.size());
@@ -413,7 +423,7 @@ Status Viewer::writeScreenshot() const {
             std::swap(picture.rgba[i], picture.rgba[i + 2]);
         picture.rgba[i + 3] = 255;
     }
-    return host::writePng(picture, options_.screenshot);
+    return host::writePng(picture, path);
 }
 
 } // namespace

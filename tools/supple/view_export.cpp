@@ -1,13 +1,16 @@
 #include "tools/supple/view_export.h"
 
 #include "tools/common/formatted.h"
+#include "tools/supple/command.h"
 #include "tools/supple/views.h"
 #include "tools/supple/webp_animation.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <glm/gtc/constants.hpp>
 
 namespace supple::tools {
 
@@ -15,8 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double degrees(float radians) {
-    return static_cast<double>(glm::degrees(radians));
+/// As few digits as lead back to the same angle.
+double degrees(float angle) {
+    const auto exact = static_cast<double>(angle) * 180.0 / glm::pi<double>();
+    const double rounded = std::round(exact * 1e3) / 1e3;
+    return radians(rounded) == angle ? rounded : exact;
 }
 
 std::string sizeText(VkExtent2D size) {
@@ -29,9 +35,8 @@ std::string clipText(const host::Figure& figure, uint32_t clip) {
     if (clip >= clips.size())
         return {};
     const auto sameName = [&](const host::Figure::Clip& other) { return other.name == clips[clip].name; };
-    return !clips[clip].name.empty() && std::count_if(clips.begin(), clips.end(), sameName) == 1
-               ? clips[clip].name
-               : std::to_string(clip);
+    return !clips[clip].name.empty() && std::count_if(clips.begin(), clips.end(), sameName) == 1 ? clips[clip].name
+                                                                                                 : std::to_string(clip);
 }
 
 DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
@@ -63,17 +68,6 @@ DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const Ex
     return draw;
 }
 
-/// A name that no file has yet: the figure's, and a number where that is taken.
-std::string freeName(const ViewStage& stage, const std::string& ending) {
-    const std::string stem = fs::path(stage.figure().path()).stem().string();
-    std::error_code unknown;
-    std::string name = stem + ending;
-    const auto isTaken = [&] { return fs::exists(frameFile(name, 0).empty() ? name : frameFile(name, 0), unknown); };
-    for (int number = 2; isTaken(); ++number)
-        name = stem + "_" + std::to_string(number) + ending;
-    return name;
-}
-
 Status makePicture(const RenderOptions& options) {
     return inSession(deviceFlags(options.draw), [&](Session& session) { return renderPicture(session, options); });
 }
@@ -83,6 +77,15 @@ Status makeFrames(const AnimateOptions& options) {
 }
 
 } // namespace
+
+std::string freeName(const std::string& stem, const std::string& ending) {
+    std::error_code unknown;
+    std::string name = stem + ending;
+    const auto isTaken = [&] { return fs::exists(frameFile(name, 0).empty() ? name : frameFile(name, 0), unknown); };
+    for (int number = 2; isTaken(); ++number)
+        name = stem + "_" + std::to_string(number) + ending;
+    return name;
+}
 
 RenderOptions shownPicture(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
     RenderOptions options;
@@ -113,7 +116,7 @@ void ViewExport::start(const ViewStage& stage, const DrawOptions& given, const E
     const char* const ending = wish.kind == ExportKind::animation  ? ".webp"
                                : wish.kind == ExportKind::sequence ? "_####.png"
                                                                    : ".png";
-    output_ = freeName(stage, ending);
+    output_ = freeName(fs::path(stage.figure().path()).stem().string(), ending);
     if (frames) {
         AnimateOptions options = shownClip(stage, given, wish);
         options.output = output_;
@@ -140,8 +143,10 @@ const std::string& ViewExport::report() {
     if (isBusy() && work_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         const Status status = work_.get();
         report_ = status ? "wrote " + output_ : status.error().message;
-        std::fprintf(status ? stdout : stderr, "supple: %s\n", report_.c_str());
-        std::fflush(stdout);
+        if (status)
+            note(report_);
+        else
+            fail(status.error());
     }
     return report_;
 }

@@ -17,11 +17,14 @@ struct ExportWish {
     bool alpha = false;
 };
 
-/// The picture that the stage shows, but for a crossfade, which supple render does not have. `given`: of the viewer's own
-/// command line. The figure stands in the middle also where a panel covers a part of the window.
+/// The picture that the stage shows, but for a crossfade, which supple render does not have. `given`: of the viewer's
+/// own command line. The figure stands in the middle also where a panel covers a part of the window.
 [[nodiscard]] RenderOptions shownPicture(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish);
 /// Its clip as it plays.
 [[nodiscard]] AnimateOptions shownClip(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish);
+
+/// A name that no file has yet: stem and ending, and a number between them where that is taken.
+[[nodiscard]] std::string freeName(const std::string& stem, const std::string& ending);
 
 /// Writes one thing at a time, on a thread and a device of its own.
 class ViewExport {

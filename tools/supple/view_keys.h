@@ -23,6 +23,7 @@ inline constexpr ViewKey kViewKeys[] = {
     {"E", "write a picture of what is shown"},
     {"K", "copy the command line that makes it"},
     {"P", "the panel"},
+    {"F12", "write a picture of the window"},
     {"F1 or ?", "these keys"},
     {"Esc", "close"},
 };

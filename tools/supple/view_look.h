@@ -1,5 +1,5 @@
-// Which look the next frame of the viewer has: on a CPU device a fast one while something moves, then the studio's, pass by
-// pass.
+// Which look the next frame of the viewer has: on a CPU device a fast one while something moves, then the studio's,
+// pass by pass.
 #pragma once
 
 #include <cstdint>

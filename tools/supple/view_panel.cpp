@@ -29,6 +29,10 @@ void moveCamera(ViewStage& stage) {
         return;
     const float height = std::max(io.DisplaySize.y, 1.0f);
     const bool panKey = io.KeyShift;
+    const auto justPressed = [](ImGuiMouseButton button) { return ImGui::IsMouseClicked(button); };
+    if (justPressed(ImGuiMouseButton_Left) || justPressed(ImGuiMouseButton_Right) ||
+        justPressed(ImGuiMouseButton_Middle))
+        return; // how the mouse got there is no dragging
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f) && !panKey)
         stage.orbit(-io.MouseDelta.x * kRadiansPerPixel, io.MouseDelta.y * kRadiansPerPixel);
     else if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f) ||
@@ -84,6 +88,7 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
         wishExport(state, ExportKind::picture, wishes);
     if (pressed(GLFW_KEY_K) && stage.hasFigure())
         wishExport(state, ExportKind::commandLine, wishes);
+    wishes.windowPicture = pressed(GLFW_KEY_F12);
     wishes.close = pressed(GLFW_KEY_ESCAPE);
 }
 
@@ -143,7 +148,9 @@ void drawJoints(const ViewStage& stage, float aspect) {
     const std::vector<ViewStage::ShownJoint> joints = stage.shownJoints(aspect);
     const std::vector<uint32_t>& parents = stage.figure().jointParents();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto place = [&](const ViewStage::ShownJoint& joint) { return ImVec2(joint.at.x * size.x, joint.at.y * size.y); };
+    const auto place = [&](const ViewStage::ShownJoint& joint) {
+        return ImVec2(joint.at.x * size.x, joint.at.y * size.y);
+    };
     const ImU32 ink = IM_COL32(255, 255, 255, 220), rim = IM_COL32(0, 0, 0, 160);
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     for (size_t i = 0; i < joints.size(); ++i) {
@@ -154,7 +161,8 @@ void drawJoints(const ViewStage& stage, float aspect) {
             draw.AddLine(place(joints[parents[i]]), place(joints[i]), ink, 1.5f);
         }
         draw.AddCircleFilled(place(joints[i]), 4.0f, rim);
-        draw.AddCircleFilled(place(joints[i]), 3.0f, i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
+        draw.AddCircleFilled(place(joints[i]), 3.0f,
+                             i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
     }
 }
 
@@ -221,7 +229,8 @@ void buildView(ViewStage& stage) {
     const std::vector<std::string>& joints = stage.figure().jointNames();
     if (joints.empty())
         return;
-    if (settings.view == host::shared::kViewHeat && ImGui::BeginCombo("joint", printable(joints[settings.joint]).c_str())) {
+    if (settings.view == host::shared::kViewHeat &&
+        ImGui::BeginCombo("joint", printable(joints[settings.joint]).c_str())) {
         for (uint32_t i = 0; i < joints.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
             if (ImGui::Selectable(printable(joints[i]).c_str(), settings.joint == i))
@@ -519,9 +528,8 @@ void buildMessage(PanelState& state) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     bool open = true;
     const float left = std::min(kPanelRight, 0.5f * size.x);
-    ImGui::SetNextWindowPos(ImVec2(left, 16.0f), ImGuiCond_Always);
+    ImGui::SetNextWindowPos(ImVec2(left, size.y - 16.0f), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
     ImGui::SetNextWindowSize(ImVec2(std::min(560.0f, size.x - left - 16.0f), 0.0f), ImGuiCond_Always);
-    ImGui::SetNextWindowFocus();
     if (ImGui::Begin("failed", &open, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
         ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
         ImGui::TextWrapped("%s", printable(state.message).c_str());

@@ -23,9 +23,9 @@ struct PanelState {
     std::string message; ///< the last failure
     std::string device;  ///< its name
     double frameMilliseconds = 0.0;
-    bool timings = true; ///< shown; they differ from run to run
+    bool timings = true;              ///< shown; they differ from run to run
     std::vector<host::KeyPress> keys; ///< that went down since the last frame
-    LookStep step;       ///< of the last frame
+    LookStep step;                    ///< of the last frame
     FileBrowser browser;
     std::string exported; ///< what is being written, or was
     int exportSize[2] = {1280, 960};
@@ -40,6 +40,7 @@ struct PanelWishes {
     std::optional<SuppleScheme> scheme;
     std::optional<SuppleSkinning> skinning;
     std::optional<ExportWish> save;
+    bool windowPicture = false; ///< of the next frame, panel and all
     bool close = false;
 };
 

@@ -28,7 +28,7 @@ private:
     host::SurfaceRenderer& renderer_;
     host::DrawTarget full_;
     host::DrawTarget smaller_[std::size(kFastScales)]; ///< all but the first
-    host::Image mixed_; ///< what is made of other pictures: stretched, averaged
+    host::Image mixed_;                                ///< what is made of other pictures: stretched, averaged
     const host::Image* shown_ = nullptr;
     std::unique_ptr<host::PictureMean> mean_;
 };

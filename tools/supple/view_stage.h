@@ -21,12 +21,12 @@ struct ViewSettings {
     bool playing = true;
     float speed = 1.0f;
     int rate = 8;
-    uint32_t view = 0;      ///< host::shared::kView...
-    uint32_t joint = 0;     ///< whose weights kViewHeat shows
-    bool joints = false;    ///< drawn over the picture
+    uint32_t view = 0;                    ///< host::shared::kView...
+    uint32_t joint = 0;                   ///< whose weights kViewHeat shows
+    bool joints = false;                  ///< drawn over the picture
     uint32_t fadeClip = SUPPLE_REST_POSE; ///< blended over `clip`; none: SUPPLE_REST_POSE
     float fade = 0.5f;                    ///< its weight
-    bool cageFaces = false; ///< the cage instead of the surface
+    bool cageFaces = false;               ///< the cage instead of the surface
     bool cageOverlay = false;
     bool ground = true;
     Look look = Look::studio;
@@ -155,9 +155,9 @@ private:
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
-    uint32_t version_ = 0; ///< counts groups
+    uint32_t version_ = 0;                        ///< counts groups
     std::pair<uint32_t, uint32_t> weights_{0, 0}; ///< of which version and joint the group has values; 0: none
-    std::vector<Retired> retired_; ///< before figure_ in time, so gone before it
+    std::vector<Retired> retired_;                ///< before figure_ in time, so gone before it
     Extent extent_;
     host::Camera camera_;
     std::map<std::string, PassTime> passTimes_;

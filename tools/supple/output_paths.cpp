@@ -1,0 +1,58 @@
+#include "tools/supple/output_paths.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+namespace supple::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string whyNotWritable(const std::string& text) {
+    std::error_code unknown;
+    const fs::path path(text);
+    if (fs::is_directory(path, unknown))
+        return "is a folder";
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::exists(folder, unknown))
+        return "there is no folder " + folder.string();
+    if (!fs::is_directory(folder, unknown))
+        return folder.string() + " is no folder";
+    // A file that is there is written over; one that is not is made.
+    if (access(fs::exists(path, unknown) ? path.c_str() : folder.c_str(), W_OK) != 0)
+        return std::strerror(errno);
+    return {};
+}
+
+} // namespace
+
+std::string sameOutputs(std::span<const OutputPath> outputs) {
+    for (size_t i = 0; i < outputs.size(); ++i) {
+        for (size_t k = i + 1; k < outputs.size(); ++k) {
+            if (outputs[i].path.empty() || outputs[k].path.empty())
+                continue;
+            std::error_code failed;
+            const fs::path first = fs::weakly_canonical(outputs[i].path, failed);
+            const fs::path second = fs::weakly_canonical(outputs[k].path, failed);
+            if (outputs[i].path == outputs[k].path || (!failed && first == second))
+                return std::string(outputs[i].option) + " and " + outputs[k].option +
+                       " are the same file: " + outputs[k].path;
+        }
+    }
+    return {};
+}
+
+Status canWrite(std::span<const OutputPath> outputs) {
+    std::string faults;
+    for (const OutputPath& output : outputs) {
+        const std::string why = output.path.empty() ? "" : whyNotWritable(output.path);
+        if (!why.empty())
+            faults += (faults.empty() ? "" : "\n") + (output.path + ": cannot be written: " + why);
+    }
+    return faults.empty() ? success() : Status(Error{ErrorCode::io, faults});
+}
+
+} // namespace supple::tools
