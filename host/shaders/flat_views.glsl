@@ -3,13 +3,13 @@
 
 bool isFlatView(uint view) { return view >= kViewTangents; }
 
-/// Eight by eight squares in each unit of texture coordinates, redder where u grows and bluer where v does; the units' borders
+/// Thirty-two by thirty-two squares in each unit of texture coordinates, redder where u grows and bluer where v does; the units' borders
 /// are dark.
 vec3 uvChecker(vec2 uv) {
     vec2 tile = fract(uv), width = max(fwidth(uv), vec2(1e-6));
-    vec2 square = abs(fract(uv * 4.0) - 0.5) - 0.25; // changes sign from square to square
-    vec2 side = clamp(square / (width * 4.0), -1.0, 1.0);
-    float fade = 1.0 - smoothstep(0.06, 0.2, max(width.x, width.y)); // squares as small as pixels run together
+    vec2 square = abs(fract(uv * 16.0) - 0.5) - 0.25; // changes sign from square to square
+    vec2 side = clamp(square / (width * 16.0), -1.0, 1.0);
+    float fade = 1.0 - smoothstep(0.015, 0.05, max(width.x, width.y)); // squares as small as pixels run together
     vec3 color = vec3(0.25 + 0.65 * tile.x, 0.35, 0.25 + 0.65 * tile.y) * (1.0 + 0.4 * side.x * side.y * fade);
     vec2 border = min(tile, 1.0 - tile) / width;
     return mix(vec3(0.02), color, clamp(min(border.x, border.y), 0.0, 1.0));

@@ -58,9 +58,9 @@ TEST_F(Animate, NamesThatHoldNoAnimationAreRefused) {
 
 /// Nothing behind the figure, the figure itself solid, its shadow in between.
 TEST_F(Animate, AlphaIsWhatIsSeenThrough) {
-    ASSERT_EQ(runOnDevice("render cube.obj -o a.png --alpha --size 80x80 --rate 4").exitCode, 0);
-    ASSERT_EQ(runOnDevice("render cube.obj -o b.png --alpha --no-ground --size 80x80 --rate 4").exitCode, 0);
-    ASSERT_EQ(runOnDevice("render cube.obj -o c.png --size 80x80 --rate 4").exitCode, 0);
+    ASSERT_EQ(runOnDevice("render cube.obj -o a.png --alpha --size 80x80 --rate 2").exitCode, 0);
+    ASSERT_EQ(runOnDevice("render cube.obj -o b.png --alpha --no-ground --size 80x80 --rate 2").exitCode, 0);
+    ASSERT_EQ(runOnDevice("render cube.obj -o c.png --size 80x80 --rate 2").exitCode, 0);
     const host::Picture shadowed = read("a.png"), bare = read("b.png"), whole = read("c.png");
     EXPECT_EQ(bare.pixel(0, 0)[3], 0);
     EXPECT_EQ(bare.pixel(40, 40)[3], 255);
@@ -78,7 +78,7 @@ TEST_F(Animate, AlphaIsWhatIsSeenThrough) {
 /// How much a joint moves a vertex is the same picture however the joint is named; another joint makes another one.
 TEST_F(Animate, WeightsOfAJoint) {
     const std::string pip = std::string("'") + SUPPLE_SAMPLE_ASSETS + "/pip.glb'";
-    const std::string rest = " --view weights --size 60x60 --rate 1 --no-ground ";
+    const std::string rest = " --view weights --size 60x60 --rate 2 --no-ground ";
     ASSERT_EQ(runOnDevice("render " + pip + rest + "-o first.png --joint 5").exitCode, 0);
     ASSERT_EQ(runOnDevice("render " + pip + rest + "-o other.png --joint 20").exitCode, 0);
     EXPECT_NE(read("first.png").rgba, read("other.png").rgba);

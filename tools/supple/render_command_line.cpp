@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 
 namespace supple::tools {
 
@@ -22,6 +23,12 @@ std::string quoted(const std::string& text) {
     return inQuotes + "'";
 }
 
+/// As few digits as lead back to the same number, so that the same picture comes out.
+std::string numberText(double value) {
+    const std::string brief = formatted("%.9g", value);
+    return std::strtod(brief.c_str(), nullptr) == value ? brief : formatted("%.17g", value);
+}
+
 class Words {
 public:
     explicit Words(const std::string& first) : text_(first) {}
@@ -35,7 +42,7 @@ public:
     }
     void option(const char* name, double value, double usual) {
         if (value != usual)
-            add(name).add(formatted("%.9g", value));
+            add(name).add(numberText(value));
     }
     void flag(const char* name, bool given) {
         if (given)

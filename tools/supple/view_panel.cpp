@@ -239,8 +239,6 @@ void buildView(ViewStage& stage) {
         }
         ImGui::EndCombo();
     }
-    ImGui::Checkbox("joints", &settings.joints);
-    ImGui::SameLine();
 }
 
 void buildSurface(ViewStage& stage, PanelWishes& wishes) {
@@ -265,6 +263,10 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ImGui::SameLine();
     ImGui::Checkbox("cage only", &settings.cageFaces);
     ImGui::Checkbox("ground", &settings.ground);
+    if (!stage.figure().jointNames().empty()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("joints", &settings.joints);
+    }
     uint32_t patches = 0, vertices = 0;
     for (const host::FigureSurface& surface : stage.group().surfaces()) {
         patches += surface.output.surface.patchCount;
