@@ -117,6 +117,7 @@ cmp pip.png pip_2.png || fail "the copied line makes another picture: $line"
 
 # The keys are shown, and Esc ends it. What failed was no file of the command line.
 key F1
+shown >/dev/null # a window of a size of its own is there a frame later
 shoot keys
 key Escape
 wait $viewer

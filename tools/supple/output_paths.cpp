@@ -11,6 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Also of a file that is not there yet.
+fs::path wholePath(const std::string& path, std::error_code& failed) {
+    const fs::path absolute = fs::absolute(path, failed);
+    return failed ? absolute : fs::weakly_canonical(absolute, failed);
+}
+
 std::string whyNotWritable(const std::string& text) {
     std::error_code unknown;
     const fs::path path(text);
@@ -35,8 +41,8 @@ std::string sameOutputs(std::span<const OutputPath> outputs) {
             if (outputs[i].path.empty() || outputs[k].path.empty())
                 continue;
             std::error_code failed;
-            const fs::path first = fs::weakly_canonical(outputs[i].path, failed);
-            const fs::path second = fs::weakly_canonical(outputs[k].path, failed);
+            const fs::path first = wholePath(outputs[i].path, failed);
+            const fs::path second = wholePath(outputs[k].path, failed);
             if (outputs[i].path == outputs[k].path || (!failed && first == second))
                 return std::string(outputs[i].option) + " and " + outputs[k].option +
                        " are the same file: " + outputs[k].path;

@@ -248,6 +248,14 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
     return context_.check(suppleRecord(context_.handle(), commands, &desc), "suppleRecord");
 }
 
+ViewStage::Shown ViewStage::shown() const {
+    Shown shown{settings, camera_, version_};
+    // What is drawn over the picture changes nothing of it.
+    shown.settings.panel = shown.settings.keys = shown.settings.joints = shown.settings.timingsPaused = false;
+    shown.settings.budgetMs = 0.0f;
+    return shown;
+}
+
 Status ViewStage::pose() const {
     if (settings.fadeClip == SUPPLE_REST_POSE || settings.fade <= 0.0f || settings.clip >= figure_->clips().size())
         return group_->pose(0, settings.clip, settings.time);

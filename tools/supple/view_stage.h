@@ -99,7 +99,7 @@ public:
         uint32_t version = 0; ///< of the group
         bool operator==(const Shown&) const = default;
     };
-    [[nodiscard]] Shown shown() const { return {settings, camera_, version_}; }
+    [[nodiscard]] Shown shown() const;
 
     /// Whose weights kViewHeat shows: measured anew where they are not those of the group. No frame may be pending.
     [[nodiscard]] bool needsWeights() const;
