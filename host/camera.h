@@ -32,6 +32,8 @@ struct Camera {
     float distance = 1.0f;
     float fieldOfView = 0.47f; ///< vertical
 
+    bool operator==(const Camera&) const = default;
+
     [[nodiscard]] glm::vec3 eye() const;
     [[nodiscard]] glm::mat4 view() const;
     /// Right-handed, depth 0..1, y up (draw with a flipped viewport). Near and far enclose a sphere round the target.

@@ -28,7 +28,8 @@ Result<DrawTarget> DrawTarget::create(Device& device, VkExtent2D extent, VkSampl
     };
     const ImageDesc color{.format = format,
                           .extent = extent,
-                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
+                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                   VK_IMAGE_USAGE_SAMPLED_BIT};
     if (const Status status = make(target.color_, color); !status)
         return status.error();
     const ImageDesc depth{.format = kDepthFormat,

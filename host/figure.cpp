@@ -101,6 +101,10 @@ Status Figure::readLists() {
         partNames_.emplace_back(part.name);
         parts_.push_back(part);
     });
+    readEach(asset.jointCount, suppleGetJointInfo, "suppleGetJointInfo", [&](const SuppleJointInfo& joint) {
+        jointNames_.emplace_back(joint.name);
+        jointParents_.push_back(joint.parent);
+    });
     return status;
 }
 

@@ -61,6 +61,10 @@ public:
     [[nodiscard]] const std::vector<std::string>& partNames() const { return partNames_; }
     [[nodiscard]] const std::vector<SupplePartInfo>& parts() const { return parts_; }
     [[nodiscard]] const FigureMaterials& materials() const { return materials_; }
+    /// In the order of the file's skin.
+    [[nodiscard]] const std::vector<std::string>& jointNames() const { return jointNames_; }
+    /// The joint above each, or SUPPLE_NO_JOINT.
+    [[nodiscard]] const std::vector<uint32_t>& jointParents() const { return jointParents_; }
 
     /// Luminance of the base color over the cage's faces: linear, 0..1.
     [[nodiscard]] float averageAlbedo() const { return averageAlbedo_; }
@@ -78,7 +82,7 @@ private:
     /// What shaders/cage_face.glsl reads; fills cageRanges_.
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
-    /// Clips, morph targets and parts.
+    /// Clips, morph targets, parts and joints.
     [[nodiscard]] Status readLists();
     /// Over the cage's faces by their rest area.
     [[nodiscard]] float averageLuminance() const;
@@ -89,6 +93,8 @@ private:
     SuppleAsset asset_{};
     std::vector<Clip> clips_;
     std::vector<MorphTarget> morphTargets_;
+    std::vector<std::string> jointNames_;
+    std::vector<uint32_t> jointParents_;
     std::vector<std::string> partNames_;
     std::vector<SupplePartInfo> parts_;
     FigureMaterials materials_;
@@ -122,6 +128,7 @@ struct FigureSurface {
     /// A coarser grid over the same samples: shadows need no more.
     Buffer shadowIndices;
     uint32_t shadowIndexCount = 0;
+    Buffer values; ///< a float per vertex of an instance, for the view kViewHeat; may be none
 
     /// SUPPLE_SCHEME_POLYGONS.
     [[nodiscard]] bool isMesh() const { return output.surface.scheme == SUPPLE_SCHEME_POLYGONS; }
@@ -164,6 +171,10 @@ public:
     /// instance after instance; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
     [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
+    /// How much a joint moves each vertex of the surfaces, 0 to 1, as FigureSurface::values: the device evaluates the
+    /// bind pose with the joint moved aside, and that is measured. Of a group of one instance whose poses are set;
+    /// poses and frames are to be set anew. No frame may be pending.
+    [[nodiscard]] Status showWeights(uint32_t joint);
 
 private:
     explicit FigureGroup(Figure& figure) : figure_(figure) {}

@@ -117,6 +117,21 @@ Picture PictureAverage::picture() const {
     return mean;
 }
 
+Picture pictureWithAlpha(const Picture& overBlack, const Picture& overWhite) {
+    Picture picture = overBlack;
+    for (size_t i = 0; i < picture.rgba.size(); i += 4) {
+        int seen = 0; // of the white, in the channel where the most is
+        for (size_t channel = 0; channel < 3; ++channel)
+            seen = std::max(seen, overWhite.rgba[i + channel] - overBlack.rgba[i + channel]);
+        const int alpha = 255 - seen;
+        for (size_t channel = 0; channel < 3 && alpha > 0; ++channel)
+            picture.rgba[i + channel] =
+                static_cast<uint8_t>(std::min(255, (overBlack.rgba[i + channel] * 255 + alpha / 2) / alpha));
+        picture.rgba[i + 3] = static_cast<uint8_t>(alpha);
+    }
+    return picture;
+}
+
 Status writePng(const Picture& picture, const std::string& path) {
     std::vector<uint8_t> encoded;
     const auto append = [](void* context, void* data, int size) {

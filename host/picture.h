@@ -40,6 +40,10 @@ private:
     std::vector<float> sum_; ///< linear RGB
 };
 
+/// What was drawn over black and over white, as one picture with alpha. It is exact over both, as programs blend that
+/// do so without leaving sRGB.
+[[nodiscard]] Picture pictureWithAlpha(const Picture& overBlack, const Picture& overWhite);
+
 [[nodiscard]] Status writePng(const Picture& picture, const std::string& path);
 [[nodiscard]] Result<Picture> readPng(const std::string& path);
 /// PNG or JPEG bytes as a glTF holds them, of no more than 2^26 pixels; `name` begins the message.

@@ -93,6 +93,11 @@ std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t p
     return lights;
 }
 
+glm::vec3 studioOpenSky() {
+    // Twice the mean of color times height over the half sphere: all heights are equally likely.
+    return (kSkyHorizon + 2.0f * kSkyZenith) / 3.0f;
+}
+
 glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass) {
     if (quality.passes <= 1)
         return glm::vec2(0.0f);

@@ -35,6 +35,15 @@ struct StudioQuality {
             return {.key = 1, .rim = 1, .sky = 4, .shadowSize = 768, .passes = 1, .multisample = false};
         return {.key = 8, .rim = 2, .sky = 14, .shadowSize = 1024, .passes = 1};
     }
+    /// For a window of a CPU device while something moves: only the key throws a shadow.
+    [[nodiscard]] static StudioQuality fast() {
+        return {.key = 1, .rim = 0, .sky = 0, .shadowSize = 512, .passes = 1, .multisample = false};
+    }
+    /// For a window of a CPU device where nothing moves: as many directions as still() has, in passes short enough to
+    /// be left at any time.
+    [[nodiscard]] static StudioQuality refining() {
+        return {.key = 1, .rim = 1, .sky = 1, .shadowSize = 768, .passes = 32, .multisample = false};
+    }
 };
 
 /// The rig for a figure inside the sphere, seen from `yaw` (see Camera): the key stands to the viewer's left, the rim
@@ -47,6 +56,8 @@ struct StudioMiddle {
     glm::vec3 keyDirection, keyColor, rimDirection, rimColor;
 };
 [[nodiscard]] StudioMiddle studioMiddle(float yaw);
+/// What the sky sends to a surface that faces straight up, if nothing hides it.
+[[nodiscard]] glm::vec3 studioOpenSky();
 /// Where in the pixel a pass samples: an offset in pixels, within half a pixel.
 [[nodiscard]] glm::vec2 studioJitter(const StudioQuality& quality, uint32_t pass);
 /// Brings figures as dark as coal and as light as chalk a little nearer to a middle brightness.

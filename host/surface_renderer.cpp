@@ -13,7 +13,7 @@ namespace supple::host {
 
 namespace {
 
-constexpr uint32_t kFigureBuffers = 10; ///< of set 1
+constexpr uint32_t kFigureBuffers = 11; ///< of set 1
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
 /// The cage's lines over shaded faces, and over the smooth surface.
@@ -34,10 +34,32 @@ void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
     push.firstVertex = range.firstVertex;
 }
 
+/// A part of the device's maps serves shadow maps of fewer texels: their lower left corner.
+glm::mat4 cornerOfMap(uint32_t texels, uint32_t mapTexels) {
+    const float share = static_cast<float>(texels) / static_cast<float>(mapTexels);
+    glm::mat4 corner(1.0f);
+    corner[0][0] = corner[1][1] = share;
+    corner[3][0] = corner[3][1] = share - 1.0f;
+    return corner;
+}
+
 void bindGridIndices(VkCommandBuffer commands, const GroupOutput& output) {
     const SuppleBufferRange& indices = output.indices();
     vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset,
                          indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
+}
+
+/// A range on the grid of the surface's shadows.
+void drawCoarse(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
+                const SuppleDrawRange& range) {
+    const uint32_t patches = range.patchCount * scene.group->visibleCount();
+    if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
+        vkCmdBindIndexBuffer(commands, surface.shadowIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
+        vkCmdDrawIndexed(commands, surface.shadowIndexCount, patches, 0, 0, 0);
+    } else {
+        bindGridIndices(commands, surface.output);
+        vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
+    }
 }
 
 /// Light falls through some of it.
@@ -314,6 +336,8 @@ void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& gro
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
         {shared::kSurfaceTangentBinding, orCage(output.streams.tangents)},
+        {shared::kSurfaceValueBinding,
+         surface.values.handle() != VK_NULL_HANDLE ? wholeInfo(surface.values) : viewInfo(output.info.deformedCage)},
     };
     for (const auto& [slot, info] : buffers) {
         VkWriteDescriptorSet write = descriptorWrite(set, slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
@@ -391,6 +415,7 @@ void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const Draw
 }
 
 void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const {
+    const StudioQuality quality = scene.quality.value_or(quality_);
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
     const glm::vec3 center = scene.bounds.center();
     const float radius = scene.bounds.radius() * 1.02f;
@@ -400,7 +425,7 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.view = scene.camera.view();
     const float reach = radius + glm::length(scene.camera.target - center);
     glm::mat4 projection = scene.camera.projection(aspect, reach);
-    const glm::vec2 jitter = studioJitter(quality_, scene.pass) * 2.0f / glm::vec2(width, height);
+    const glm::vec2 jitter = studioJitter(quality, scene.pass) * 2.0f / glm::vec2(width, height);
     projection[2][0] += jitter.x; // times -w: a shift of the whole picture
     projection[2][1] += jitter.y;
     frame.viewProjection = projection * frame.view;
@@ -411,13 +436,14 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.ground = glm::vec4(scene.ground.value_or(0.0f), groundSeen ? 1.0f : 0.0f, 0.0f, 0.0f);
     frame.viewport = glm::vec4(width, height, 1.0f / width, 1.0f / height);
     frame.bounce = glm::vec4(0.20f, 0.19f, 0.18f, 0.0f);
-    frame.lightCount = quality_.lightCount();
+    frame.lightCount = quality.lightCount();
     // The other views paint every figure in the same colors.
-    frame.exposure = scene.view == shared::kViewShaded ? studioExposure(scene.group->figure().averageAlbedo())
-                                                       : studioExposure(0.4f);
-    frame.shadowTexel = 2.0f * radius / static_cast<float>(quality_.shadowSize);
+    frame.exposure = scene.view == shared::kViewShaded && scene.group != nullptr
+                         ? studioExposure(scene.group->figure().averageAlbedo())
+                         : studioExposure(0.4f);
+    frame.shadowTexel = 2.0f * radius / static_cast<float>(quality.shadowSize);
     frame.pixelScale = scene.pixelScale;
-    if (quality_.lightCount() * quality_.passes < kFewLights)
+    if (quality.lightCount() * quality.passes < kFewLights)
         frame.softShadows = 0.8f / static_cast<float>(quality_.shadowSize);
     const StudioMiddle middle = studioMiddle(scene.lightYaw);
     frame.keyDirection = glm::vec4(middle.keyDirection, 0.0f);
@@ -425,8 +451,14 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     frame.rimDirection = glm::vec4(middle.rimDirection, 0.0f);
     frame.rimColor = glm::vec4(middle.rimColor, 0.0f);
     frame.environment = glm::vec4(std::sin(scene.lightYaw), std::cos(scene.lightYaw), keyRadiance_, rimRadiance_);
-    const std::vector<shared::Light> lights = studioLights(quality_, scene.pass, scene.lightYaw, center, radius);
+    if (scene.backdrop)
+        frame.backdrop = glm::vec4(*scene.backdrop, 1.0f);
+    if (quality.sky == 0)
+        frame.openSky = glm::vec4(studioOpenSky(), 1.0f);
+    const std::vector<shared::Light> lights = studioLights(quality, scene.pass, scene.lightYaw, center, radius);
     std::copy(lights.begin(), lights.end(), frame.lights);
+    for (uint32_t i = 0; i < quality.lightCount(); ++i)
+        frame.lights[i].shadow = cornerOfMap(quality.shadowSize, quality_.shadowSize) * frame.lights[i].shadow;
     std::memcpy(slot.uniforms.mapped(), &frame, sizeof frame);
 }
 
@@ -440,7 +472,8 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
                                VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     imageBarrier(commands, shadowMaps_, {VK_IMAGE_LAYOUT_UNDEFINED, read}, drawn);
     const VkExtent2D extent{quality_.shadowSize, quality_.shadowSize};
-    for (uint32_t light = 0; light < quality_.lightCount(); ++light) {
+    const uint32_t lights = scene.quality.value_or(quality_).lightCount();
+    for (uint32_t light = 0; light < lights; ++light) {
         VkRenderingAttachmentInfo depth = attachment(shadowLayers_[light], VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
         depth.clearValue.depthStencil = {1.0f, 0};
         auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
@@ -449,16 +482,21 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         info.pDepthAttachment = &depth;
         vkCmdBeginRendering(commands, &info);
         beginDrawing(commands, extent, false);
-        bindSurface(commands, scene, 0);
-        if (scene.cageFaces)
-            drawCageShadow(commands, scene, light);
-        for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
-            bindSurface(commands, scene, i);
-            drawSurfaceShadow(commands, scene, scene.group->surfaces()[i], light);
-        }
+        if (scene.group != nullptr)
+            drawShadow(commands, scene, light);
         vkCmdEndRendering(commands);
     }
     imageBarrier(commands, shadowMaps_, drawn, {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, read});
+}
+
+void SurfaceRenderer::drawShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
+    bindSurface(commands, scene, 0);
+    if (scene.cageFaces)
+        drawCageShadow(commands, scene, light);
+    for (size_t i = 0; !scene.cageFaces && i < scene.group->surfaces().size(); ++i) {
+        bindSurface(commands, scene, i);
+        drawSurfaceShadow(commands, scene, scene.group->surfaces()[i], light);
+    }
 }
 
 void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const {
@@ -467,7 +505,7 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     constexpr SuppleSyncScope kDepth{
         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
     const bool multisampled = target.samples() != VK_SAMPLE_COUNT_1_BIT;
     const ImageUse colorUse{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor};
     // The last picture may still be in the copy that fetches it, and its depth in use.
@@ -497,17 +535,22 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
     beginDrawing(commands, target.extent(), true);
-    std::vector<Run> runs = runsOf(scene);
-    drawFaces(commands, scene, runs, false);
+    std::vector<Run> runs;
+    if (scene.group != nullptr) {
+        runs = runsOf(scene);
+        drawFaces(commands, scene, runs, false);
+    }
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);
         vkCmdDraw(commands, 4, 1, 0, 0);
     }
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->backdrop);
     vkCmdDraw(commands, 3, 1, 0, 0);
-    keepBlended(runs, scene);
-    drawFaces(commands, scene, runs, true);
-    drawCageEdges(commands, scene);
+    if (scene.group != nullptr) {
+        keepBlended(runs, scene);
+        drawFaces(commands, scene, runs, true);
+        drawCageEdges(commands, scene);
+    }
     vkCmdEndRendering(commands);
     imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
 }
@@ -567,14 +610,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
             bindMaterial(commands, scene, range.material);
         applyRange(range, push);
         pushConstants(commands, push);
-        const uint32_t patches = range.patchCount * scene.group->visibleCount();
-        if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
-            vkCmdBindIndexBuffer(commands, surface.shadowIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
-            vkCmdDrawIndexed(commands, surface.shadowIndexCount, patches, 0, 0, 0);
-        } else {
-            bindGridIndices(commands, output);
-            vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
-        }
+        drawCoarse(commands, scene, surface, range);
     }
 }
 
@@ -613,8 +649,9 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
         if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < shared::kSolidAlpha)
             continue;
         const FigureSurface& own = scene.group->surfaces()[run.surface];
-        const bool maps = scene.view == shared::kViewShaded && materials.hasMaps(run.material);
-        const bool vertexLit = !scene.cageFaces && device_.isCpu() && own.edgeRate >= kVertexLitRate;
+        const bool isFlat = scene.view >= shared::kViewTangents;
+        const bool maps = isFlat || (scene.view == shared::kViewShaded && materials.hasMaps(run.material));
+        const bool vertexLit = !scene.cageFaces && !isFlat && device_.isCpu() && own.edgeRate >= kVertexLitRate;
         const DrawPipelines::Faces faces{vertexLit, maps, blend};
         const VkPipeline wanted = scene.cageFaces ? pipelines_->cageFace(faces) : pipelines_->surface(faces);
         if (bound != wanted)
@@ -652,8 +689,14 @@ void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, cons
         vkCmdDraw(commands, range.cornerCount, scene.group->visibleCount(), 0, 0);
         return;
     }
-    applyRange(surface.output.grid.drawRanges[run.range], push);
+    const SuppleDrawRange& range = surface.output.grid.drawRanges[run.range];
+    applyRange(range, push);
     pushConstants(commands, push);
+    if (scene.coarse) {
+        if (scene.group->isPartVisible(range.part))
+            drawCoarse(commands, scene, surface, range);
+        return;
+    }
     const SuppleBufferRange& indirect = surface.output.indirect();
     vkCmdDrawIndexedIndirect(commands, indirect.buffer, indirect.offset + VkDeviceSize{run.range} * indirect.stride, 1,
                              indirect.stride);

@@ -44,16 +44,20 @@ private:
 };
 
 struct Scene {
-    const FigureGroup* group = nullptr;
+    const FigureGroup* group = nullptr; ///< none: an empty studio
     const FigureBinding* binding = nullptr;
     Camera camera;
-    Bounds bounds;               ///< of the figure over all the time it is shown
-    std::optional<float> ground; ///< height of the floor
-    float lightYaw = 0.0f;       ///< the studio is set up for a viewer who stands here (Camera::yaw)
-    uint32_t view = 0;           ///< shared::kView...
-    bool cageFaces = false;      ///< the cage instead of the surface
+    Bounds bounds;                     ///< of the figure over all the time it is shown
+    std::optional<float> ground;       ///< height of the floor
+    std::optional<glm::vec3> backdrop; ///< one color, linear, instead of the studio's walls
+    float lightYaw = 0.0f;             ///< the studio is set up for a viewer who stands here (Camera::yaw)
+    uint32_t view = 0;                 ///< shared::kView...
+    bool cageFaces = false;            ///< the cage instead of the surface
     bool cageEdges = false;
+    /// Instead of the renderer's: no more lights, no larger maps, the same samples.
+    std::optional<StudioQuality> quality;
     uint32_t pass = 0;       ///< of StudioQuality::passes
+    bool coarse = false;     ///< the surface on the grid of its shadows
     float pixelScale = 1.0f; ///< line widths are multiplied by it
 };
 
@@ -98,6 +102,7 @@ private:
     void bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const;
     void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
+    void drawShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                            uint32_t light) const;
     /// Faces of one part and material: a draw range of a surface, or a range of the cage.

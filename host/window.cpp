@@ -69,7 +69,20 @@ Status Window::open(const std::string& title, VkExtent2D size) {
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) {
         static_cast<Window*>(glfwGetWindowUserPointer(window))->stale_ = true;
     });
+    // Dear ImGui looks at keys once a frame; it calls this function as well.
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action == GLFW_PRESS)
+            static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_.push_back({key, modifiers});
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+        std::vector<std::string>& dropped = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_;
+        dropped.insert(dropped.end(), paths, paths + count);
+    });
     return success();
+}
+
+void Window::copyText(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
 }
 
 bool Window::shouldClose() const {
@@ -105,8 +118,11 @@ Status Window::resize() {
     return success();
 }
 
-Result<std::optional<WindowFrame>> Window::begin() {
-    glfwPollEvents();
+Result<std::optional<WindowFrame>> Window::begin(double patience) {
+    if (patience > 0.0)
+        glfwWaitEventsTimeout(patience);
+    else
+        glfwPollEvents();
     if (stale_) {
         if (const Status status = resize(); !status)
             return status.error();

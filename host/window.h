@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -18,6 +19,11 @@ struct WindowFrame {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     uint32_t slot = 0;  ///< 0..kFramesInFlight - 1: what the frame owns by slot is free
     uint32_t image = 0; ///< of the swapchain
+};
+
+struct KeyPress {
+    int key = 0;
+    int modifiers = 0; ///< GLFW_MOD_...
 };
 
 class Window {
@@ -35,9 +41,15 @@ public:
     /// What there is to draw into; the window resizes it.
     [[nodiscard]] const Swapchain& swapchain() const { return *swapchain_; }
 
-    /// Handles events and waits for the slot's last frame. No frame: the window is minimised or was just rebuilt; try
-    /// again. The frame's commands are begun.
-    [[nodiscard]] Result<std::optional<WindowFrame>> begin();
+    /// Handles events, for the first of which it waits `patience` seconds at most, and waits for the slot's last frame.
+    /// No frame: the window is minimised or was just rebuilt; try again. The frame's commands are begun.
+    [[nodiscard]] Result<std::optional<WindowFrame>> begin(double patience = 0.0);
+    /// To the clipboard.
+    void copyText(const std::string& text);
+    /// Keys (GLFW's numbers) that went down since it was asked last, however shortly.
+    [[nodiscard]] std::vector<KeyPress> takeKeys() { return std::exchange(keys_, {}); }
+    /// Paths of files that were dropped on the window since it was asked last.
+    [[nodiscard]] std::vector<std::string> takeDropped() { return std::exchange(dropped_, {}); }
     /// Ends the commands, which must leave the image in PRESENT_SRC_KHR and touch it first in a transfer; submits and
     /// presents. `number` is this frame's, remembered for completedFrame().
     [[nodiscard]] Status end(const WindowFrame& frame, uint64_t number);
@@ -63,6 +75,8 @@ private:
     GLFWwindow* window_ = nullptr;
     bool glfwReady_ = false;
     std::unique_ptr<Swapchain> swapchain_;
+    std::vector<KeyPress> keys_;
+    std::vector<std::string> dropped_;
     bool stale_ = true; ///< the swapchain no longer fits the window
     std::array<Slot, kFramesInFlight> slots_;
     uint32_t slot_ = 0;

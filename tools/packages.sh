@@ -8,13 +8,13 @@ supple_packages=(
     glslang-tools spirv-tools
     libglm-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev libpng-dev libjpeg62-turbo-dev libcli11-dev
     libnanoflann-dev
-    libglfw3-dev libimgui-dev libsdl2-dev
+    libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev
 )
 # To test as well.
 supple_test_packages=(
     libgtest-dev vulkan-validationlayers
     libosd-dev libegl-dev libgl-dev
-    xvfb xauth
+    xvfb xauth xdotool
     qt6-declarative-dev qml6-module-qtquick qml6-module-qtquick-controls
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
     abigail-tools pkg-config

@@ -31,6 +31,7 @@ SUPPLE_HOST_CONST kSurfaceUv1Binding = 6u;
 SUPPLE_HOST_CONST kSurfaceFaceUvBinding = 7u;
 SUPPLE_HOST_CONST kInstancesBinding = 8u;
 SUPPLE_HOST_CONST kSurfaceTangentBinding = 9u;
+SUPPLE_HOST_CONST kSurfaceValueBinding = 10u;
 // Set 2, the material: its numbers, and behind them a texture for each of MaterialUniforms::places.
 SUPPLE_HOST_CONST kMaterialBinding = 0u;
 SUPPLE_HOST_CONST kFirstTextureBinding = 1u;
@@ -56,6 +57,18 @@ SUPPLE_HOST_CONST kViewWire = 1u;
 SUPPLE_HOST_CONST kViewPatches = 2u;
 SUPPLE_HOST_CONST kViewNormals = 3u;
 SUPPLE_HOST_CONST kViewZebra = 4u;
+// Without the studio's light, from here on: flat_views.glsl.
+SUPPLE_HOST_CONST kViewTangents = 5u;
+SUPPLE_HOST_CONST kViewUv = 6u;
+SUPPLE_HOST_CONST kViewUv1 = 7u; // the second texture coordinates
+SUPPLE_HOST_CONST kViewVertexColor = 8u;
+SUPPLE_HOST_CONST kViewBaseColor = 9u;
+SUPPLE_HOST_CONST kViewMetallic = 10u;
+SUPPLE_HOST_CONST kViewRoughness = 11u;
+SUPPLE_HOST_CONST kViewNormalMap = 12u;
+SUPPLE_HOST_CONST kViewOcclusion = 13u;
+SUPPLE_HOST_CONST kViewEmissive = 14u;
+SUPPLE_HOST_CONST kViewHeat = 15u; // values of the vertices (kSurfaceValueBinding), 0 to 1
 
 // DrawPush::domain: values of SuppleDomain.
 SUPPLE_HOST_CONST kDrawQuad = 0u;
@@ -109,6 +122,8 @@ struct FrameUniforms {
     vec4 rimDirection;
     vec4 rimColor;
     vec4 environment; // sine and cosine of the yaw that it is turned by; radiance over irradiance of key and rim
+    vec4 backdrop;    // w: 1 if it has this color all over
+    vec4 openSky;     // irradiance from straight above, where no lights sample the sky; w: 1 if so
     uint lightCount;
     float exposure;
     float shadowTexel; // its width in the world

@@ -3,11 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "studio.glsl"
+#include "ground.glsl"
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 0) out vec4 outColor;
-
-const float kFarthestShadow = 3.2; // in radii of the scene
 
 void main() {
     float away = length(inPosition.xz - frame.target.xz) / frame.target.w;
@@ -30,6 +29,10 @@ void main() {
             visible = mix(visible, 1.0, smoothstep(0.15, 0.9, away));
         all += light.rgb * weight;
         lit += light.rgb * weight * visible;
+    }
+    if (frame.openSky.w != 0.0) { // near the figure some of the sky is hidden
+        all += frame.openSky.rgb;
+        lit += frame.openSky.rgb * mix(0.8, 1.0, smoothstep(0.15, 0.9, away));
     }
     vec3 shade = mix(lit / max(all, vec3(1e-4)), vec3(1.0), smoothstep(1.5, kFarthestShadow, away));
     outColor = vec4(dither(color * mix(vec3(1.0), shade, 0.86), gl_FragCoord.xy), 1.0);

@@ -56,6 +56,11 @@ Incident gatherLight(vec3 position, vec3 n) {
         if (part == kLightSky)
             sky += color.rgb * visible;
     }
+    if (frame.openSky.w != 0.0) { // nothing hides it; what a figure hides on the whole is taken off
+        const float kMostlyOpen = 0.75;
+        return Incident(frame.openSky.rgb * (kMostlyOpen * (0.5 + 0.5 * n.y)), seen[kLightKey] / all[kLightKey],
+                        seen[kLightRim] / all[kLightRim], kMostlyOpen);
+    }
     return Incident(sky, seen[kLightKey] / all[kLightKey], seen[kLightRim] / all[kLightRim],
                     seen[kLightSky] / all[kLightSky]);
 }
@@ -118,6 +123,8 @@ vec3 fromSrgb(vec3 x) { return mix(pow((x + 0.055) / 1.055, vec3(2.4)), x / 12.9
 
 /// The backdrop as it is shown: brighter behind the figure, so that dark and light figures both stand out from it.
 vec3 backdrop(vec2 pixel) {
+    if (frame.backdrop.w != 0.0)
+        return frame.backdrop.rgb;
     vec2 at = pixel * frame.viewport.zw;
     vec2 off = (at - vec2(0.5, 0.46)) * vec2(1.0, 1.1);
     float glow = exp(-dot(off, off) * 3.4);
@@ -129,6 +136,8 @@ vec3 backdrop(vec2 pixel) {
 /// Breaks the steps of 8 bits in slow gradients: interleaved gradient noise (Jimenez, SIGGRAPH 2014) of one step, whose size
 /// in linear light goes about with the root.
 vec3 dither(vec3 color, vec2 pixel) {
+    if (frame.backdrop.w != 0.0)
+        return color; // it is measured, not looked at
     float noise = fract(52.9829189 * fract(dot(floor(pixel), vec2(0.06711056, 0.00583715)))) - 0.5;
     return max(color + sqrt(color) * (noise * (2.0 / 255.0)), 0.0);
 }

@@ -6,6 +6,7 @@
 #include "material.glsl"
 #include "material_textures.glsl"
 #include "surface_trim.glsl"
+#include "flat_views.glsl"
 
 layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
 
@@ -19,7 +20,7 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
-layout(location = 9) in vec4 inTangent;
+layout(location = 9) in vec4 inTangent; // kViewHeat: x is the value
 
 layout(location = 0) out vec4 outColor;
 
@@ -84,13 +85,20 @@ vec3 normalFromMap(vec3 front) {
     return mappedNormalHere(front, inPosition, uv, texel);
 }
 
+/// Where a normal map's +X points: as the vertices have it, else as the texture coordinates lie at this pixel.
+vec3 shownTangent(vec3 front) {
+    if ((push.flags & kDrawTangents) != 0u)
+        return normalize(inTangent.xyz);
+    return mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
+}
+
 /// The material, or what the view paints in its place.
 Material paintedMaterial(vec3 albedo) {
     if (push.view == kViewPatches && push.domain != kDrawMesh) {
         vec3 color = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0);
         return plainMaterial(color * (1.0 + 0.34 * (patchHash(inPatch) - 0.5)), 0.5);
     }
-    return push.view == kViewShaded ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
+    return push.view == kViewShaded || isFlatView(push.view) ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
 }
 
 void main() {
@@ -106,6 +114,13 @@ void main() {
     if (back)
         mapped = -mapped; // seen from behind, a bump is a dent
     vec3 segments = fwidth(inGrid);
+    vec3 flatly = vec3(0.0);
+    if (isFlatView(push.view)) {
+        vec3 tangent = push.view == kViewTangents ? shownTangent(front) : vec3(0.0);
+        flatly = flatColor(push.view, base, material, inUvs, tangent, inColor.rgb, inTangent.x);
+        if (isShadedFlat(push.view))
+            flatly *= formShade(n, v);
+    }
     // All that asks for neighbouring pixels is done: some may end here.
     if (isLeftOut(base.a))
         discard;
@@ -123,6 +138,8 @@ void main() {
         color = fromSrgb(front * 0.5 + 0.5);
     } else if (push.view == kViewZebra) {
         color = zebra(n, v);
+    } else if (isFlatView(push.view)) {
+        color = flatly;
     } else if (push.view == kViewShaded && materialHas(kMaterialUnlit)) {
         color = base.rgb;
     } else {

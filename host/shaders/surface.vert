@@ -15,7 +15,7 @@ layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
-layout(location = 9) out vec4 outTangent; // glTF's TANGENT
+layout(location = 9) out vec4 outTangent; // glTF's TANGENT; kViewHeat: x is the value
 
 // Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
 // that shades in blocks would do it many times over.
@@ -53,7 +53,10 @@ void main() {
         outUvs = surfaceUvs();
         outColor = surfaceColor();
     }
-    if (kMaps && (push.flags & kDrawTangents) != 0u) outTangent = surfaceTangent();
+    if (kMaps && push.view == kViewHeat)
+        outTangent.x = surfaceValue();
+    else if (kMaps && (push.flags & kDrawTangents) != 0u)
+        outTangent = surfaceTangent();
     outTrim = surfaceTrim();
     outSky = vec3(0.0);
     outKeyRimOpen = vec3(0.0);

@@ -6,6 +6,8 @@
 layout(set = 1, binding = kSurfaceVertexBinding, std430) readonly buffer SurfaceVertices { uint surfaceWords[]; };
 layout(set = 1, binding = kSurfaceTangentBinding, std430) readonly buffer SurfaceTangents { uint surfaceTangents[]; };
 
+layout(set = 1, binding = kSurfaceValueBinding, std430) readonly buffer SurfaceValues { float surfaceValues[]; };
+
 SuppleRange drawnRange() {
     return SuppleRange(push.patchCount, push.firstVertex, push.samplesPerPatch, push.verticesPerInstance, 0u, 0u);
 }
@@ -31,5 +33,8 @@ vec3 surfaceNormal(uint word) {
         return uintBitsToFloat(uvec3(surfaceWords[word + 3u], surfaceWords[word + 4u], surfaceWords[word + 5u]));
     return suppleOctahedralNormal(surfaceWords[word + 3u]);
 }
+
+// The host's own, for one instance.
+float surfaceValue() { return surfaceValues[surfaceVertex()]; }
 
 vec4 surfaceTangent() { return suppleDecodeTangent(surfaceTangents[posedVertex()]); }

@@ -41,6 +41,35 @@ TEST_F(ProfileGate, ResultsKeepTheTimesOfTheirFrames) {
     EXPECT_LE(run["coveredMs"]["median"], run["frame"]["gpuMs"]["median"]);
 }
 
+/// What cannot be written is known before anything is measured: the file that is read does not even exist.
+TEST_F(ProfileGate, OutputsAreCheckedBeforeTheWork) {
+    expectFailure(run("profile none.obj --json out.txt --html ./out.txt"), 2, "--json and --html are the same file");
+    const Outcome several = run("profile none.obj --json nowhere/p.json --csv . --html fine.html");
+    EXPECT_EQ(several.exitCode, 1);
+    EXPECT_NE(several.err.find("nowhere/p.json: cannot be written: there is no folder nowhere"), std::string::npos)
+        << several.err;
+    EXPECT_NE(several.err.find(".: cannot be written: is a folder"), std::string::npos) << several.err;
+    EXPECT_EQ(several.err.find("none.obj"), std::string::npos) << several.err;
+    expectFailure(run("render none.obj -o nowhere/p.png"), 1, "there is no folder nowhere");
+}
+
+TEST_F(ProfileGate, WhatASweepOverridesIsSaid) {
+    expectFailure(run("profile cube.obj --rate 4 --sweep rate=2,8"), 2, "--rate: every run has a rate of --sweep");
+    expectFailure(run("profile cube.obj --instances 4 --sweep instances=2,8"), 2, "--instances: every run");
+}
+
+TEST_F(ProfileGate, ABuildThatHangsIsEnded) {
+    const std::string hung = file("hung.sh").string();
+    writeText(hung, "#!/bin/sh\nexec sleep 600\n");
+    chmod(hung.c_str(), 0700);
+    expectFailure(run("profile cube.obj --frames 2 --timeout 1 --against '" + hung + "'"), 1, "not done after 1 s");
+}
+
+TEST_F(ProfileGate, TheOldNameOfASchemeLeadsToTheNewOne) {
+    expectFailure(run("profile cube.obj --scheme exact"), 2, "exact is called catmull-clark now");
+    expectFailure(run("profile cube.obj --part-scheme 0=exact"), 2, "it is called catmull-clark now");
+}
+
 TEST_F(ProfileGate, SweepsAndTheirPage) {
     const Outcome outcome = runOnDevice(
         "profile cube.obj --frames 5 --sweep rate=2,4 --sweep instances=1,3 --html p.html --json p.json --scheme pm");

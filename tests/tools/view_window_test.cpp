@@ -72,5 +72,30 @@ TEST(WindowTest, SurvivesResizing) {
     EXPECT_EQ(validation->messageCount(), 0u);
 }
 
+/// What a display tells GLFW reaches the host: dropped files, and keys however short the press.
+TEST(WindowTest, KeepsDropsAndKeysUntilTheyAreTaken) {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr)
+        GTEST_SKIP() << "no display";
+    Result<std::unique_ptr<Device>> device = createValidatedDevice({.window = true});
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    Result<std::unique_ptr<Window>> window = Window::create(**device, "supple test", {64, 64});
+    ASSERT_TRUE(window.ok()) << window.error().message;
+    GLFWwindow* const handle = (*window)->handle();
+    const GLFWdropfun drop = glfwSetDropCallback(handle, nullptr);
+    const GLFWkeyfun key = glfwSetKeyCallback(handle, nullptr);
+    ASSERT_NE(drop, nullptr);
+    ASSERT_NE(key, nullptr);
+    const char* paths[] = {"/a b.glb", "/folder"};
+    drop(handle, 2, paths);
+    EXPECT_EQ((*window)->takeDropped(), (std::vector<std::string>{"/a b.glb", "/folder"}));
+    EXPECT_TRUE((*window)->takeDropped().empty());
+    key(handle, GLFW_KEY_V, 0, GLFW_PRESS, GLFW_MOD_SHIFT);
+    key(handle, GLFW_KEY_V, 0, GLFW_RELEASE, 0);
+    const std::vector<KeyPress> keys = (*window)->takeKeys();
+    ASSERT_EQ(keys.size(), 1u);
+    EXPECT_EQ(keys[0].key, GLFW_KEY_V);
+    EXPECT_EQ(keys[0].modifiers, GLFW_MOD_SHIFT);
+}
+
 } // namespace
 } // namespace supple::host

@@ -38,7 +38,8 @@ Result<PartScheme> parsePartScheme(const std::string& text) {
     const std::string name = text.substr(cut + 1);
     const SuppleScheme scheme = tools::schemeOf(name);
     if (scheme == SUPPLE_SCHEME_CAGE || (scheme == SUPPLE_SCHEME_AUTO && name != "auto"))
-        return Error{ErrorCode::argument, name + " is no scheme of a part"};
+        return Error{ErrorCode::argument,
+                     name + " is no scheme of a part" + (name == "exact" ? "; it is called catmull-clark now" : "")};
     return PartScheme{text.substr(0, cut), scheme};
 }
 

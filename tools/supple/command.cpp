@@ -24,6 +24,11 @@ int fail(const Error& error) {
     return fail(error.code == ErrorCode::unsupported ? kExitNoDevice : kExitBadInput, error.message);
 }
 
+void note(std::string_view text) {
+    std::printf("supple: %s\n", printable(text).c_str());
+    std::fflush(stdout);
+}
+
 void warn(std::string_view text) {
     std::fprintf(stderr, "supple: warning: %s\n", printable(text).c_str());
 }

@@ -27,6 +27,9 @@ int fail(ExitCode code, std::string_view reason);
 /// The same for an Error; ErrorCode::unsupported becomes kExitNoDevice.
 int fail(const Error& error);
 
+/// Prints "supple: text" as one line on stdout.
+void note(std::string_view text);
+
 /// Prints "supple: warning: text" as one line on stderr.
 void warn(std::string_view text);
 
@@ -38,6 +41,7 @@ std::string printable(std::string_view text);
 void bindInspect(CLI::App& app, int& exitCode);
 void bindBake(CLI::App& app, int& exitCode);
 void bindRender(CLI::App& app, int& exitCode);
+void bindAnimate(CLI::App& app, int& exitCode);
 void bindSheet(CLI::App& app, int& exitCode);
 /// `arguments`: of the command line, which it hands on to another build.
 void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& arguments);

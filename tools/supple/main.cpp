@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     bindInspect(app, exitCode);
     bindBake(app, exitCode);
     bindRender(app, exitCode);
+    bindAnimate(app, exitCode);
     bindSheet(app, exitCode);
     bindProfile(app, exitCode, {argv + std::min(argc, 1), argv + argc});
     bindBench(app, exitCode);

@@ -48,15 +48,23 @@ std::string memoryText(const SuppleMemoryUse& use) {
            std::to_string(use.allocationCount) + (use.allocationCount == 1 ? " allocation" : " allocations");
 }
 
+std::vector<MemoryPurpose> memoryPurposes(const SuppleMemoryUse& use) {
+    std::vector<MemoryPurpose> purposes;
+    for (const Purpose& purpose : kOnDevice) {
+        purposes.push_back({purpose.name, use.*purpose.bytes});
+    }
+    for (const Purpose& purpose : kMapped) {
+        purposes.push_back({purpose.name, use.*purpose.bytes});
+    }
+    return purposes;
+}
+
 nlohmann::ordered_json memoryJson(const SuppleMemoryUse& use) {
     nlohmann::ordered_json json = {{"deviceLocalBytes", use.deviceLocal},
                                    {"hostVisibleBytes", use.hostVisible},
                                    {"allocations", use.allocationCount}};
-    for (const std::span<const Purpose> purposes :
-         {std::span<const Purpose>(kOnDevice), std::span<const Purpose>(kMapped)}) {
-        for (const Purpose& purpose : purposes) {
-            json[std::string(purpose.name) + "Bytes"] = use.*purpose.bytes;
-        }
+    for (const MemoryPurpose& purpose : memoryPurposes(use)) {
+        json[std::string(purpose.name) + "Bytes"] = purpose.bytes;
     }
     return json;
 }

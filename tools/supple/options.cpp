@@ -94,7 +94,11 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
         names.emplace_back(known.name);
     }
     names.insert(names.end(), extraSchemes.begin(), extraSchemes.end());
+    const auto renamed = [](const std::string& text) {
+        return std::string(text == "exact" ? "exact is called catmull-clark now" : "");
+    };
     command.add_option("--scheme", scheme, "Surface scheme; auto: the one that suits each part")
+        ->check(CLI::Validator(renamed, ""))
         ->check(CLI::IsMember(names))
         ->capture_default_str();
     bindSettings(command, "--part-scheme", partSchemes, host::parsePartScheme,

@@ -1,4 +1,5 @@
 // The command lines of supple render, sheet and view. What they do stands in render.h, contact_sheet.h and view.h.
+#include "tools/supple/animate.h"
 #include "tools/supple/command.h"
 #include "tools/supple/contact_sheet.h"
 #include "tools/supple/options.h"
@@ -6,6 +7,7 @@
 #include "tools/supple/render.h"
 #include "tools/supple/view.h"
 #include "tools/supple/view_keys.h"
+#include "tools/supple/views.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -38,6 +40,13 @@ CLI::Validator sizeValidator() {
     return {size, "WxH"};
 }
 
+std::vector<std::string> viewNames() {
+    std::vector<std::string> names;
+    for (const NamedView& view : kViews)
+        names.emplace_back(view.name);
+    return names;
+}
+
 void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
     bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
@@ -49,8 +58,9 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     command.add_flag("--shared-samples", draw.sharedSamples,
                      "One mesh whose patches share the samples on their borders (catmull-clark, pm, prep); without "
                      "lines of patches");
-    command.add_option("--view", draw.view, "What is shown")
-        ->check(CLI::IsMember({"shaded", "wire", "patches", "normals", "zebra"}))
+    command.add_option("--view", draw.view, "What is shown")->check(CLI::IsMember(viewNames()))->capture_default_str();
+    command.add_option("--joint", draw.joint, "With --view weights: how much this joint moves the surface")
+        ->type_name("NAME|INDEX")
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
@@ -79,12 +89,45 @@ void bindCamera(CLI::App& command, RenderOptions& options) {
         ->check(CLI::Range(0.01, 170.0))
         ->capture_default_str()
         ->needs(eye);
-    for (const char* framing : {"--yaw", "--pitch", "--zoom", "--at"}) {
+    for (const char* framing : {"--yaw", "--pitch", "--zoom", "--at", "--camera"}) {
         eye->excludes(command.get_option(framing));
     }
 }
 
+void bindAlpha(CLI::App& command, DrawOptions& draw) {
+    command.add_flag("--alpha", draw.alpha,
+                     "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+}
+
 } // namespace
+
+void bindAnimate(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<AnimateOptions>();
+    CLI::App* command = app.add_subcommand("animate", "A clip as an animated picture, or one picture a frame");
+    command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "An animated WebP; or PNGs, with #### where the numbers of the frames go")
+        ->required()
+        ->type_name("OUT.webp|OUT_####.png");
+    command->add_option("--clip", options->clip, "Clip by name or index; the first one without it")
+        ->type_name("NAME|INDEX");
+    command->add_option("--size", options->size, "Of the pictures")->check(sizeValidator())->capture_default_str();
+    command->add_option("--fps", options->fps, "Frames a second")->check(CLI::Range(1.0, 240.0))->capture_default_str();
+    command->add_option("--seconds", options->seconds, "Instead of the clip's length (4 without a clip)")
+        ->check(CLI::Range(0.001, 3600.0));
+    command->add_option("--turn", options->turn, "Degrees that the camera goes round the figure from end to end")
+        ->check(CLI::Range(-3600.0, 3600.0));
+    command->add_option("--quality", options->quality, "Of a WebP; 100 keeps every bit")
+        ->check(CLI::Range(0.0f, 100.0f))
+        ->capture_default_str();
+    bindAlpha(*command, options->draw);
+    bindDraw(*command, options->draw);
+    command->callback([options, &exitCode] {
+        checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
+        exitCode = runAnimate(*options);
+    });
+}
 
 void bindRender(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RenderOptions>();
@@ -101,6 +144,17 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
         ->check(CLI::Validator(place, "X,Y"))
         ->capture_default_str();
+    const auto cameraFault = [](const std::string& text) {
+        host::Camera camera;
+        return parseCamera(text, camera) ? std::string() : text + " is not X,Y,Z,DISTANCE";
+    };
+    command
+        ->add_option("--camera", options->camera,
+                     "What the camera looks at, and from how far away, instead of what fills the picture")
+        ->check(CLI::Validator(cameraFault, "X,Y,Z,DISTANCE"))
+        ->excludes(command->get_option("--zoom"))
+        ->excludes(command->get_option("--at"));
+    bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     bindCamera(*command, *options);
@@ -140,13 +194,19 @@ void bindSheet(CLI::App& app, int& exitCode) {
 void bindView(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ViewOptions>();
     CLI::App* command = app.add_subcommand("view", "Characters in a window, playing");
-    command->add_option("FILE", options->files, "glTF, GLB or OBJ; one is shown at a time")->required();
+    command->add_option("FILE", options->files,
+                        "glTF, GLB or OBJ; one is shown at a time. Without one, choose it in the window");
     command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
     command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
     CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");
     command->add_option("--screenshot", options->screenshot, "Write the last frame, window and all")
         ->needs(frames)
         ->type_name("OUT.png");
+    command
+        ->add_option("--look", options->look,
+                     "auto: on a CPU device fast while something moves, then ever better; with --frames the studio's")
+        ->check(CLI::IsMember({"auto", "fast", "studio"}))
+        ->capture_default_str();
     bindDraw(*command, options->draw);
     std::string keys = "Keys:";
     for (const ViewKey& key : kViewKeys) {

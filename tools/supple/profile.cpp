@@ -112,7 +112,7 @@ void printChanges(const std::vector<RunChange>& changes) {
 /// Another build and this one in turns.
 int profileAgainst(const ProfileOptions& options) {
     const Result<MeasuredPair> pair =
-        measureInTurns({options.against, options.rounds, options.frames, options.arguments});
+        measureInTurns({options.against, options.rounds, options.frames, options.timeout, options.arguments});
     if (!pair) {
         return fail(pair.error());
     }
@@ -219,12 +219,33 @@ Result<std::vector<ProfileRun>> profile(Session& session, const ProfileOptions& 
     return runs;
 }
 
+std::vector<OutputPath> outputsOf(const ProfileOptions& options) {
+    return {{"--json", options.json},
+            {"--csv", options.csv},
+            {"--html", options.html},
+            {"--trace", options.trace},
+            {"--hashes", options.hashes}};
+}
+
+/// What is wrong with the command line, as far as no file has to be read for it.
+int checkUsage(const ProfileOptions& options) {
+    const std::vector<OutputPath> outputs = outputsOf(options);
+    if (const std::string same = sameOutputs(outputs); !same.empty()) {
+        return fail(kExitUsage, same);
+    }
+    if (options.failAbove > 0.0 && options.compare.empty() && options.against.empty()) {
+        return fail(kExitUsage, "--fail-above: needs --compare or --against");
+    }
+    const Status writable = canWrite(outputs);
+    return writable ? kExitOk : fail(writable.error());
+}
+
 int runProfile(const ProfileOptions& options) {
+    if (const int wrong = checkUsage(options); wrong != kExitOk) {
+        return wrong;
+    }
     if (!options.against.empty()) {
         return profileAgainst(options);
-    }
-    if (options.failAbove > 0.0 && options.compare.empty()) {
-        return fail(kExitUsage, "--fail-above: needs --compare or --against");
     }
     const Result<std::vector<MeasuredRun>> earlier = earlierRuns(options);
     if (!earlier) {
@@ -282,6 +303,12 @@ void bindGates(CLI::App& command, ProfileOptions& options) {
     command.add_option("--rounds", options.rounds, "With --against: how often each is measured, --frames a time")
         ->needs(against)
         ->check(CLI::Range(kLeastRounds, 1000u))
+        ->capture_default_str();
+    command
+        .add_option("--timeout", options.timeout,
+                    "With --against: seconds after which a measurement is ended, and the command fails")
+        ->needs(against)
+        ->check(CLI::Range(1u, 86400u))
         ->capture_default_str();
     command
         .add_option("--fail-above", options.failAbove,
@@ -346,17 +373,15 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
     bindGates(*command, *options);
     bindSurface(*command, options->surface, {"all", "cage"});
     bindDevice(*command, options->device);
-    command->callback([options, &exitCode] {
+    command->callback([options, command, &exitCode] {
         std::vector<std::string> inputs = options->files;
         const std::vector<std::string>& clips = options->surface.reading.clipFiles;
         inputs.insert(inputs.end(), clips.begin(), clips.end());
         inputs.push_back(options->compare);
-        checkOutputs(inputs, {{"--json", options->json},
-                              {"--csv", options->csv},
-                              {"--trace", options->trace},
-                              {"--html", options->html},
-                              {"--hashes", options->hashes}});
-        exitCode = runProfile(*options);
+        checkOutputs(inputs, outputsOf(*options));
+        const std::string unused =
+            unusedBySweeps(*options, command->count("--rate") > 0, command->count("--instances") > 0);
+        exitCode = unused.empty() ? runProfile(*options) : fail(kExitUsage, unused);
     });
 }
 

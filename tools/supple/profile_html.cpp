@@ -106,17 +106,14 @@ std::string passTable(const RunSummary& summary) {
 std::string memoryOf(const ProfileRun& run) {
     ShareBar bar;
     std::string legend;
-    const nlohmann::ordered_json memory = memoryJson(run.memory);
-    for (const auto& [name, value] : memory.items()) {
-        const bool isSum = name == "deviceLocalBytes" || name == "hostVisibleBytes" || name == "allocations";
-        const double bytes = value.get<double>();
-        if (isSum || bytes == 0.0) {
+    for (const MemoryPurpose& purpose : memoryPurposes(run.memory)) {
+        if (purpose.bytes == 0) {
             continue;
         }
-        legend += "<i class=" + colorClass(bar.shares.size()) + "></i>" +
-                  escaped(name.substr(0, name.size() - std::string("Bytes").size())) +
+        const auto bytes = static_cast<double>(purpose.bytes);
+        legend += "<i class=" + colorClass(bar.shares.size()) + "></i>" + escaped(purpose.name) +
                   formatted(" %.3f MiB &ensp; ", bytes / (1024.0 * 1024.0));
-        bar.shares.emplace_back(name, bytes);
+        bar.shares.emplace_back(purpose.name, bytes);
     }
     return "<h3>Memory by purpose</h3>" + toSvg(bar) + "<p>" + legend + "</p>";
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
@@ -10,14 +12,16 @@
 #include <spawn.h>
 #include <string_view>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace supple::tools {
 namespace {
 
 /// Options with a value that belong to this command alone.
-constexpr std::string_view kOwn[] = {"--against", "--rounds", "--frames", "--json",    "--csv",        "--trace",
-                                     "--html",    "--hashes", "--sweep",  "--compare", "--fail-above", "--budget-ms"};
+constexpr std::string_view kOwn[] = {"--against",    "--rounds",    "--frames", "--json",  "--csv",
+                                     "--trace",      "--html",      "--hashes", "--sweep", "--compare",
+                                     "--fail-above", "--budget-ms", "--timeout"};
 
 std::vector<std::string> sharedArguments(const std::vector<std::string>& arguments) {
     std::vector<std::string> shared;
@@ -33,7 +37,29 @@ std::vector<std::string> sharedArguments(const std::vector<std::string>& argumen
     return shared;
 }
 
-Status runCommand(const std::string& command, std::vector<std::string> arguments) {
+/// Waits for a child; one that takes longer is killed. What waitpid tells of its end.
+Result<int> endOf(pid_t child, const std::string& command, uint32_t timeout) {
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(timeout);
+    int status = 0;
+    for (;;) {
+        const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended == child) {
+            return status;
+        }
+        if (ended < 0 && errno != EINTR) {
+            return Error{ErrorCode::asset, command + ": its end was not seen"};
+        }
+        if (std::chrono::steady_clock::now() >= last) {
+            kill(child, SIGKILL);
+            waitpid(child, &status, 0);
+            return Error{ErrorCode::asset,
+                         command + ": not done after " + std::to_string(timeout) + " s (--timeout), and ended"};
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+}
+
+Status runCommand(const std::string& command, std::vector<std::string> arguments, uint32_t timeout) {
     std::vector<char*> pointers;
     arguments.insert(arguments.begin(), command);
     for (std::string& argument : arguments) {
@@ -49,18 +75,16 @@ Status runCommand(const std::string& command, std::vector<std::string> arguments
     if (failed != 0) {
         return Error{ErrorCode::asset, command + ": cannot be run"};
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) {
-            return Error{ErrorCode::asset, command + ": its end was not seen"};
-        }
+    const Result<int> status = endOf(child, command, timeout);
+    if (!status) {
+        return status.error();
     }
-    if (WIFSIGNALED(status)) {
-        return Error{ErrorCode::asset, command + ": ended by signal " + std::to_string(WTERMSIG(status))};
+    if (WIFSIGNALED(*status)) {
+        return Error{ErrorCode::asset, command + ": ended by signal " + std::to_string(WTERMSIG(*status))};
     }
-    if (WEXITSTATUS(status) != 0) {
+    if (WEXITSTATUS(*status) != 0) {
         return Error{ErrorCode::asset,
-                     command + ": failed with these arguments, exit code " + std::to_string(WEXITSTATUS(status))};
+                     command + ": failed with these arguments, exit code " + std::to_string(WEXITSTATUS(*status))};
     }
     return success();
 }
@@ -83,9 +107,9 @@ private:
     std::filesystem::path path_;
 };
 
-Status measure(const std::string& command, const std::vector<std::string>& arguments, const Scratch& scratch,
-               std::vector<MeasuredRun>& runs) {
-    if (Status status = runCommand(command, arguments); !status) {
+Status measure(const std::string& command, const std::vector<std::string>& arguments, uint32_t timeout,
+               const Scratch& scratch, std::vector<MeasuredRun>& runs) {
+    if (Status status = runCommand(command, arguments, timeout); !status) {
         return status;
     }
     std::ifstream file(scratch.file());
@@ -123,8 +147,8 @@ Result<MeasuredPair> measureInTurns(const RoundsOptions& options) {
         }
         for (const bool second : {false, true}) {
             const bool before = (round % 2 == 0) != second;
-            const Status status = before ? measure(options.against, arguments, scratch, pair.before)
-                                         : measure(own, arguments, scratch, pair.after);
+            const Status status = before ? measure(options.against, arguments, options.timeout, scratch, pair.before)
+                                         : measure(own, arguments, options.timeout, scratch, pair.after);
             if (!status) {
                 endLine();
                 return status.error();

@@ -12,6 +12,7 @@ struct RoundsOptions {
     std::string against; ///< the other build's command
     uint32_t rounds = 16;
     uint32_t frames = 60;               ///< a round
+    uint32_t timeout = 600;             ///< seconds that a round of one build may take
     std::vector<std::string> arguments; ///< of this command line, the subcommand first
 };
 

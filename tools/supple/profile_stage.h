@@ -30,6 +30,7 @@ struct ProfileOptions {
     std::string compare;                ///< an earlier result
     std::string against;                ///< another build's command
     uint32_t rounds = 16;               ///< with it
+    uint32_t timeout = 600;             ///< with `against`: seconds that one measurement may take
     double failAbove = 0.0;             ///< percent; 0: no gate
     double budgetMs = 0.0;              ///< of the frame; 0: no gate
     std::vector<std::string> arguments; ///< of the command line

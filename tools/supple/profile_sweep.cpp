@@ -42,4 +42,18 @@ std::vector<ProfileOptions> settingsOf(const ProfileOptions& options) {
     return settings;
 }
 
+std::string unusedBySweeps(const ProfileOptions& options, bool givesRate, bool givesInstances) {
+    bool everyRate = !options.sweeps.empty();
+    bool everyCount = everyRate;
+    for (const std::string& text : options.sweeps) {
+        const Result<Sweep> sweep = parseSweep(text); // the command line has checked it
+        everyRate = everyRate && sweep && sweep->ofRate;
+        everyCount = everyCount && sweep && !sweep->ofRate;
+    }
+    if (everyRate && givesRate) {
+        return "--rate: every run has a rate of --sweep; leave one of them out";
+    }
+    return everyCount && givesInstances ? "--instances: every run has a number of --sweep; leave one of them out" : "";
+}
+
 } // namespace supple::tools

@@ -20,4 +20,7 @@ struct Sweep {
 /// What a run is made with each: the options' own or, if there are sweeps, each value of each of them.
 [[nodiscard]] std::vector<ProfileOptions> settingsOf(const ProfileOptions& options);
 
+/// Of a rate or a number of instances that is given, but that no sweep leaves as it is; empty: none.
+[[nodiscard]] std::string unusedBySweeps(const ProfileOptions& options, bool givesRate, bool givesInstances);
+
 } // namespace supple::tools

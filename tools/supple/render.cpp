@@ -2,6 +2,7 @@
 
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
+#include "tools/supple/output_files.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
 
@@ -98,6 +99,8 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     scene.camera = options.eye.empty() ? host::frameCamera(points, radians(options.draw.yaw),
                                                            radians(options.draw.pitch), aspect, kMargin)
                                        : placedCamera(options, scene.bounds);
+    if (!options.camera.empty())
+        parseCamera(options.camera, scene.camera); // the command line has checked it
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)
         closeUp(scene.camera, options, aspect);
@@ -133,7 +136,7 @@ Status drawSheet(std::vector<Shown>& all, const host::Scene& scene, const Render
     const uint32_t stepY = kSheetLabelHeight + cell.height + kSheetGap;
     host::Picture sheet = blankSheet(kSheetGap + columns * stepX, kSheetGap + rows * stepY);
     for (uint32_t i = 0; i < count; ++i) {
-        const Result<host::Picture> picture = all[i].stage->draw(scene);
+        const Result<host::Picture> picture = all[i].stage->draw(scene, options.draw.alpha);
         if (!picture)
             return picture.error();
         const uint32_t x = kSheetGap + i % columns * stepX;
@@ -151,7 +154,8 @@ Status render(Session& session, const RenderOptions& options, VkExtent2D size, u
         if (!shown)
             return shown.error();
         all.push_back(std::move(*shown));
-        const Result<host::Picture> picture = all.front().stage->draw(sceneFor(all, options, size, view));
+        const Result<host::Picture> picture =
+            all.front().stage->draw(sceneFor(all, options, size, view), options.draw.alpha);
         if (!picture)
             return picture.error();
         return host::writePng(*picture, options.output);
@@ -188,6 +192,17 @@ bool parsePoint(const std::string& text, glm::vec3& point) {
            std::isfinite(point.z);
 }
 
+bool parseCamera(const std::string& text, host::Camera& camera) {
+    float x = 0.0f, y = 0.0f, z = 0.0f, distance = 0.0f;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%f,%f,%f,%f%n", &x, &y, &z, &distance, &read) != 4 ||
+        static_cast<size_t>(read) != text.size() || !std::isfinite(x + y + z + distance) || !(distance > 0.0f))
+        return false;
+    camera.target = {x, y, z};
+    camera.distance = distance;
+    return true;
+}
+
 Status renderPicture(Session& session, const RenderOptions& options) {
     const Result<VkExtent2D> size = parseSize(options.size);
     const Result<uint32_t> view = parseView(options.draw.view);
@@ -203,6 +218,9 @@ int runRender(const RenderOptions& options) {
     const Result<uint32_t> view = parseView(options.draw.view);
     if (!view)
         return fail(kExitUsage, "--view: " + view.error().message);
+    const OutputPath output[] = {{"--output", options.output}};
+    if (const Status writable = canWrite(output); !writable)
+        return fail(writable.error());
     return withSession(deviceFlags(options.draw),
                        [&](Session& session) { return render(session, options, *size, *view); });
 }

@@ -22,9 +22,11 @@ struct DrawOptions {
     uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
     std::vector<std::string> parts;  ///< names or indices: draw these alone; none: all
     bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
-    std::string view = "shaded";     ///< shaded | wire | patches | normals | zebra
+    std::string view = "shaded";     ///< of kViews (views.h)
+    std::string joint = "0";         ///< whose weights the view "weights" shows: name or index
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
     bool ground = true;              ///< a floor that takes shadows
+    bool alpha = false;              ///< nothing behind the figure: render, animate
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;

@@ -1,6 +1,7 @@
 #include "tools/supple/render_stage.h"
 
 #include "tools/common/figure_file.h"
+#include "tools/supple/views.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -18,16 +19,13 @@ Result<VkExtent2D> parseSize(const std::string& text) {
 }
 
 Result<uint32_t> parseView(const std::string& name) {
-    constexpr std::pair<const char*, uint32_t> kViews[] = {
-        {"shaded", host::shared::kViewShaded},   {"wire", host::shared::kViewWire},
-        {"patches", host::shared::kViewPatches}, {"normals", host::shared::kViewNormals},
-        {"zebra", host::shared::kViewZebra},
-    };
-    for (const auto& [known, view] : kViews) {
-        if (name == known)
-            return view;
+    std::string all;
+    for (const NamedView& known : kViews) {
+        if (name == known.name)
+            return known.view;
+        all += (all.empty() ? "" : ", ") + std::string(known.name);
     }
-    return Error{ErrorCode::argument, name + " is no view (shaded, wire, patches, normals, zebra)"};
+    return Error{ErrorCode::argument, name + " is no view (" + all + ")"};
 }
 
 DeviceFlags deviceFlags(const DrawOptions& options) {
@@ -114,6 +112,13 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
     if (!target)
         return target.error();
     stage->target_ = std::move(*target);
+    if (options.view == "weights") {
+        const Result<uint32_t> joint = host::findNamed(file, "joint", stage->figure_->jointNames(), options.joint);
+        if (!joint)
+            return joint.error();
+        if (const Status status = stage->group_->showWeights(*joint); !status)
+            return status.error();
+    }
     Result<host::FigureBinding> binding = stage->renderer_->bind(*stage->group_);
     if (!binding)
         return binding.error();
@@ -128,7 +133,21 @@ Status Stage::pose(const ClipTime& pose) {
     return session_.context->evaluate(groups);
 }
 
-Result<host::Picture> Stage::draw(host::Scene scene) {
+Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
+    if (!alpha)
+        return drawPasses(scene);
+    scene.backdrop = glm::vec3(0.0f);
+    const Result<host::Picture> overBlack = drawPasses(scene);
+    if (!overBlack)
+        return overBlack.error();
+    scene.backdrop = glm::vec3(1.0f);
+    const Result<host::Picture> overWhite = drawPasses(scene);
+    if (!overWhite)
+        return overWhite.error();
+    return host::pictureWithAlpha(*overBlack, *overWhite);
+}
+
+Result<host::Picture> Stage::drawPasses(host::Scene scene) {
     scene.group = group_.get();
     scene.binding = &binding_;
     host::PictureAverage average(target_.extent().width, target_.extent().height);

@@ -50,9 +50,11 @@ public:
     }
     [[nodiscard]] Status pose(const ClipTime& pose);
     /// Draws the figure as it is posed; group and binding of the scene are filled in here.
-    [[nodiscard]] Result<host::Picture> draw(host::Scene scene);
+    /// alpha: nothing stands behind it; shadows on the floor are there.
+    [[nodiscard]] Result<host::Picture> draw(host::Scene scene, bool alpha = false);
 
 private:
+    [[nodiscard]] Result<host::Picture> drawPasses(host::Scene scene);
     explicit Stage(Session& session) : session_(session) {}
 
     Session& session_;

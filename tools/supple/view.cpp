@@ -17,11 +17,13 @@ int runView(const ViewOptions&) {
 #include "host/overlay.h"
 #include "host/window.h"
 #include "tools/supple/view_panel.h"
+#include "tools/supple/view_pictures.h"
 #include "tools/supple/view_stage.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace supple::tools {
@@ -42,6 +44,13 @@ VkFormat srgbFormat(VkFormat format) {
     return format == VK_FORMAT_B8G8R8A8_UNORM ? VK_FORMAT_B8G8R8A8_SRGB : VK_FORMAT_R8G8B8A8_SRGB;
 }
 
+/// The same frames are to be the same pictures, and good ones.
+Look lookOf(const ViewOptions& options) {
+    if (options.look == "auto" && options.frames == 0)
+        return Look::automatic;
+    return options.look == "fast" ? Look::fast : Look::studio;
+}
+
 /// Everything of the viewer, in the order it is made; it goes in the opposite order.
 class Viewer {
 public:
@@ -50,22 +59,33 @@ public:
     [[nodiscard]] Status open(VkExtent2D size);
     [[nodiscard]] Status run();
     [[nodiscard]] std::shared_ptr<const host::ValidationLog> validation() const { return validation_; }
-    /// Whether a file was refused, which has been said.
+    /// Whether a file of the command line was refused, which has been said.
     [[nodiscard]] bool hasRefused() const {
-        return panel_ && std::find(panel_->refused.begin(), panel_->refused.end(), true) != panel_->refused.end();
+        const size_t given = panel_ ? options_.files.size() : 0;
+        return given > 0 &&
+               std::any_of(panel_->files.begin(), panel_->files.begin() + static_cast<std::ptrdiff_t>(given),
+                           [](const PanelFile& file) { return file.refused; });
     }
 
 private:
+    void startPanel();
     [[nodiscard]] Status openFirst(float shape);
     void refuse(size_t file, const Error& error);
+    /// Opens a file that is shown then; on failure says why and leaves the old one.
+    [[nodiscard]] Status show(const std::string& path);
+    /// Files that were dropped on the window: the last one is shown. A folder is browsed.
+    [[nodiscard]] Status takeDropped();
     /// Figures are framed beside the panel, unless it takes half of the window and more.
     void coverByPanel(uint32_t width);
+    /// Frames that are counted leave nothing behind and depend on nothing.
+    [[nodiscard]] bool remembers() const { return options_.frames == 0; }
+    void remember(const std::string& path);
     [[nodiscard]] Status fitTarget();
     [[nodiscard]] Status fulfil(const PanelWishes& wishes);
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
     void copyToWindow(const host::WindowFrame& frame) const;
     void copyToHost(const host::WindowFrame& frame) const;
-    [[nodiscard]] Status writeScreenshot() const;
+    [[nodiscard]] Status writeScreenshot(const std::string& path) const;
     [[nodiscard]] double secondsSinceLast();
     [[nodiscard]] float aspect() const {
         return static_cast<float>(window_->swapchain().extent().width) /
@@ -79,11 +99,15 @@ private:
     std::unique_ptr<host::Window> window_;
     std::unique_ptr<host::Overlay> overlay_;
     std::unique_ptr<host::SurfaceRenderer> renderer_;
-    host::DrawTarget target_;
+    std::unique_ptr<ViewPictures> pictures_;
+    std::optional<LookPace> pace_;
+    std::optional<ViewStage::Shown> lastShown_;
+    double seconds_ = 0.0; ///< since the last frame began
     uint32_t targetGeneration_ = 0;
     host::Buffer screenshot_;
     std::unique_ptr<ViewStage> stage_;
     std::optional<PanelState> panel_;
+    ViewExport export_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
@@ -112,25 +136,41 @@ Status Viewer::open(VkExtent2D size) {
         return status.error();
     if (const Status status = keep(host::Overlay::create(*device_, *window_), overlay_); !status)
         return status.error();
+    // The largest maps that a look of view_look.h has.
+    host::StudioQuality quality = host::StudioQuality::interactive(device_->isCpu());
+    quality.shadowSize = std::max(quality.shadowSize, host::StudioQuality::refining().shadowSize);
     const host::RendererOptions rendererOptions{.colorFormat = srgbFormat(window_->swapchain().format()),
-                                                .quality = host::StudioQuality::interactive(device_->isCpu()),
+                                                .quality = quality,
                                                 .framesInFlight = host::kFramesInFlight};
     if (const Status status = keep(host::SurfaceRenderer::create(*device_, rendererOptions), renderer_); !status)
         return status.error();
+    if (const Status status = keep(ViewPictures::create(*device_, *renderer_), pictures_); !status)
+        return status.error();
+    pace_.emplace(device_->isCpu(), host::StudioQuality::refining().passes, options_.frames > 0);
     if (const Status status = keep(ViewStage::create(*context_, *renderer_, options_.draw), stage_); !status)
         return status.error();
-    panel_.emplace(PanelState{options_.files,
-                              std::vector<bool>(options_.files.size(), false),
-                              0,
-                              {},
-                              device_->name(),
-                              0.0,
-                              options_.frames == 0});
+    startPanel();
     coverByPanel(size.width);
     if (const Status status = openFirst(static_cast<float>(size.width) / static_cast<float>(size.height)); !status)
         return status.error();
     window_->waitIdle(context_->lastFrame()); // opening evaluates frames of its own
     return success();
+}
+
+void Viewer::startPanel() {
+    panel_.emplace();
+    for (const std::string& file : options_.files)
+        panel_->files.push_back({file, false});
+    panel_->device = device_->name();
+    panel_->timings = options_.frames == 0;
+    panel_->exportSize[0] = static_cast<int>(window_->swapchain().extent().width);
+    panel_->exportSize[1] = static_cast<int>(window_->swapchain().extent().height);
+    if (remembers())
+        panel_->recent = readRecentFiles(recentFilesPath());
+    std::error_code fault;
+    panel_->browser.enter(std::filesystem::current_path(fault));
+    panel_->browser.open = options_.files.empty();
+    stage_->settings.look = lookOf(options_);
 }
 
 /// Shows the first file that can be opened, and says which of the others cannot be read.
@@ -145,6 +185,7 @@ Status Viewer::openFirst(float shape) {
         const Status status = stage_->open(options_.files[i], options_.clip, shape);
         if (status) {
             panel_->file = i;
+            remember(options_.files[i]);
             continue;
         }
         const bool more = i + 1 < options_.files.size();
@@ -161,22 +202,26 @@ void Viewer::coverByPanel(uint32_t width) {
 }
 
 void Viewer::refuse(size_t file, const Error& error) {
-    panel_->refused[file] = true;
+    panel_->files[file].refused = true;
     panel_->message = error.message;
     fail(error);
 }
 
 double Viewer::secondsSinceLast() {
     const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    panel_->frameMilliseconds += 0.1 * (seconds * 1e3 - panel_->frameMilliseconds);
-    return options_.frames > 0 ? kFixedStep : seconds;
+    seconds_ = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    panel_->frameMilliseconds += 0.1 * (seconds_ * 1e3 - panel_->frameMilliseconds);
+    return options_.frames > 0 ? kFixedStep : seconds_;
 }
 
 Status Viewer::run() {
     uint32_t drawn = 0;
+    bool windowPicture = false;
     while (!window_->shouldClose()) {
-        Result<std::optional<host::WindowFrame>> begun = window_->begin();
+        // A picture that stays costs nothing until something happens; timings go on.
+        constexpr double kPatience = 0.1;
+        Result<std::optional<host::WindowFrame>> begun =
+            window_->begin(panel_->step.kind == LookStep::Kind::keep ? kPatience : 0.0);
         if (!begun)
             return begun.error();
         if (!begun->has_value())
@@ -186,25 +231,34 @@ Status Viewer::run() {
         stage_->retire(window_->completedFrame());
         coverByPanel(window_->swapchain().extent().width);
         stage_->advance(secondsSinceLast());
+        panel_->keys = window_->takeKeys();
+        panel_->exported = export_.report();
         overlay_->beginPanels();
         const PanelWishes wishes = buildPanel(*panel_, *stage_, aspect());
         overlay_->endPanels();
 
         const bool isLast = options_.frames > 0 && drawn + 1 == options_.frames;
-        const bool readBack = isLast && !options_.screenshot.empty();
+        const bool readBack = windowPicture || (isLast && !options_.screenshot.empty());
         if (const Status status = drawFrame(**begun, readBack); !status)
             return status.error();
         ++drawn;
         if (readBack) {
             window_->waitIdle(context_->lastFrame());
-            if (const Status status = writeScreenshot(); !status)
+            const std::string path = windowPicture ? freeName("window", ".png") : options_.screenshot;
+            if (const Status status = writeScreenshot(path); !status)
                 return status.error();
+            if (windowPicture)
+                note("wrote " + path);
+            windowPicture = false;
         }
+        windowPicture = wishes.windowPicture;
         if (isLast || wishes.close)
             break;
         // Between frames, so that nothing half recorded refers to what is exchanged.
-        if (const Status status = fulfil(wishes); !status)
-            panel_->message = status.error().message;
+        for (const Status& status : {takeDropped(), fulfil(wishes)}) {
+            if (!status)
+                panel_->message = status.error().message;
+        }
     }
     window_->waitIdle(context_->lastFrame());
     return success();
@@ -214,26 +268,73 @@ Status Viewer::fitTarget() {
     if (targetGeneration_ == window_->swapchain().generation())
         return success();
     window_->waitIdle(context_->lastFrame());
-    Result<host::DrawTarget> target = host::DrawTarget::create(
-        *device_, window_->swapchain().extent(), renderer_->samples(), srgbFormat(window_->swapchain().format()));
-    if (!target)
-        return target.error();
-    target_ = std::move(*target);
+    if (const Status status = pictures_->fit(window_->swapchain().extent(), srgbFormat(window_->swapchain().format()));
+        !status)
+        return status.error();
+    lastShown_.reset();
     targetGeneration_ = window_->swapchain().generation();
     return success();
 }
 
+Status Viewer::show(const std::string& path) {
+    const auto known = std::find_if(panel_->files.begin(), panel_->files.end(),
+                                    [&](const PanelFile& file) { return file.path == path; });
+    const auto index = static_cast<size_t>(known - panel_->files.begin());
+    if (known == panel_->files.end())
+        panel_->files.push_back({path, false});
+    window_->waitIdle(context_->lastFrame());
+    if (const Status status = stage_->open(path, {}, aspect()); !status) {
+        refuse(index, status.error());
+        return status.error();
+    }
+    window_->waitIdle(context_->lastFrame());
+    panel_->files[index].refused = false;
+    panel_->file = index;
+    panel_->message.clear();
+    panel_->browser.open = false;
+    remember(path);
+    return success();
+}
+
+Status Viewer::takeDropped() {
+    std::string last;
+    for (const std::string& path : window_->takeDropped()) {
+        std::error_code unknown;
+        if (std::filesystem::is_directory(path, unknown)) {
+            panel_->browser.enter(path);
+            panel_->browser.open = true;
+        } else {
+            last = path;
+        }
+    }
+    return last.empty() ? success() : show(last);
+}
+
+void Viewer::remember(const std::string& path) {
+    if (!remembers())
+        return;
+    rememberFile(recentFilesPath(), path);
+    panel_->recent = readRecentFiles(recentFilesPath());
+}
+
 Status Viewer::fulfil(const PanelWishes& wishes) {
     if (wishes.file) {
-        window_->waitIdle(context_->lastFrame());
-        if (const Status status = stage_->open(options_.files[*wishes.file], {}, aspect()); !status) {
-            refuse(*wishes.file, status.error());
+        if (const Status status = show(*wishes.file); !status)
             return status.error();
-        }
-        panel_->refused[*wishes.file] = false;
+    }
+    if (!stage_->hasFigure())
+        return success();
+    if (wishes.save) {
+        export_.start(*stage_, options_.draw, *wishes.save);
+        if (wishes.save->kind == ExportKind::commandLine)
+            window_->copyText(export_.report());
+    }
+    if (stage_->needsWeights()) {
         window_->waitIdle(context_->lastFrame());
-        panel_->file = *wishes.file;
-        panel_->message.clear();
+        const Status measured = stage_->measureWeights();
+        window_->waitIdle(context_->lastFrame()); // it evaluates frames of its own
+        if (!measured)
+            return measured.error();
     }
     Status remade = success();
     if (wishes.scheme && *wishes.scheme != stage_->scheme())
@@ -259,9 +360,12 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
 
 Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
     const uint64_t number = context_->nextFrame();
-    if (const Status status = stage_->record(frame.commands, frame.slot, number, window_->completedFrame(), target_);
-        !status)
+    if (const Status status = stage_->evaluate(frame.commands, number, window_->completedFrame()); !status)
         return status.error();
+    ViewStage::Shown shown = stage_->shown();
+    panel_->step = pace_->next(shown.settings.look, lastShown_ == shown, seconds_);
+    lastShown_ = std::move(shown);
+    pictures_->record(frame.commands, frame.slot, stage_->scene(window_->swapchain().extent()), panel_->step);
     copyToWindow(frame);
     if (const Status status = overlay_->record(frame); !status)
         return status.error();
@@ -290,7 +394,7 @@ void Viewer::copyToWindow(const host::WindowFrame& frame) const {
     region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.dstSubresource = region.srcSubresource;
     region.extent = {window_->swapchain().extent().width, window_->swapchain().extent().height, 1};
-    vkCmdCopyImage(frame.commands, target_.color().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
+    vkCmdCopyImage(frame.commands, pictures_->shown().handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite},
                        {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor});
@@ -310,7 +414,7 @@ void Viewer::copyToHost(const host::WindowFrame& frame) const {
     host::memoryBarrier(frame.commands, kCopyWrite, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
 }
 
-Status Viewer::writeScreenshot() const {
+Status Viewer::writeScreenshot(const std::string& path) const {
     host::Picture picture =
         host::Picture::blank(window_->swapchain().extent().width, window_->swapchain().extent().height);
     std::memcpy(picture.rgba.data(), screenshot_.mapped(), picture.rgba.size());
@@ -319,7 +423,7 @@ Status Viewer::writeScreenshot() const {
             std::swap(picture.rgba[i], picture.rgba[i + 2]);
         picture.rgba[i + 3] = 255;
     }
-    return host::writePng(picture, options_.screenshot);
+    return host::writePng(picture, path);
 }
 
 } // namespace
@@ -328,8 +432,6 @@ int runView(const ViewOptions& options) {
     const Result<VkExtent2D> size = parseSize(options.size);
     if (!size)
         return fail(kExitUsage, "--size: " + size.error().message);
-    if (options.files.empty())
-        return fail(kExitUsage, "view: no file");
     std::shared_ptr<const host::ValidationLog> validation;
     bool refused = false;
     {

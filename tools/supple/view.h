@@ -14,6 +14,7 @@ struct ViewOptions {
     std::string clip;               ///< name or index to begin with; empty takes the first clip
     std::string size = "1280x800";  ///< WxH of the window
     uint32_t frames = 0;            ///< close after so many frames; 0 stays open
+    std::string look = "auto";      ///< auto | fast | studio: see view_look.h
     std::string screenshot;         ///< .png of the last frame, window and all; needs frames
     DrawOptions draw;
 };

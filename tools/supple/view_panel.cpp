@@ -4,6 +4,7 @@
 
 #include "tools/supple/command.h"
 #include "tools/supple/view_keys.h"
+#include "tools/supple/views.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace supple::tools {
 
 namespace {
 
-constexpr const char* kViewNames[] = {"shaded", "wire", "patches", "normals", "zebra"};
+constexpr int kViewKeysCount = 5; ///< views that have a key
 constexpr float kRadiansPerPixel = 0.0085f;
 constexpr float kListHeight = 150.0f; ///< of a list that may be long; longer ones scroll
 const ImVec4 kFailureColor(1.0f, 0.5f, 0.4f, 1.0f);
@@ -28,6 +29,10 @@ void moveCamera(ViewStage& stage) {
         return;
     const float height = std::max(io.DisplaySize.y, 1.0f);
     const bool panKey = io.KeyShift;
+    const auto justPressed = [](ImGuiMouseButton button) { return ImGui::IsMouseClicked(button); };
+    if (justPressed(ImGuiMouseButton_Left) || justPressed(ImGuiMouseButton_Right) ||
+        justPressed(ImGuiMouseButton_Middle))
+        return; // how the mouse got there is no dragging
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f) && !panKey)
         stage.orbit(-io.MouseDelta.x * kRadiansPerPixel, io.MouseDelta.y * kRadiansPerPixel);
     else if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f) ||
@@ -38,32 +43,69 @@ void moveCamera(ViewStage& stage) {
         stage.zoom(io.MouseWheel);
 }
 
-void handleKeys(ViewStage& stage, float aspect, PanelWishes& wishes) {
+void wishExport(const PanelState& state, ExportKind kind, PanelWishes& wishes) {
+    const auto side = [](int pixels) { return static_cast<uint32_t>(std::clamp(pixels, 1, 16384)); };
+    wishes.save = {kind, {side(state.exportSize[0]), side(state.exportSize[1])}, state.exportAlpha};
+}
+
+void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& wishes) {
     if (ImGui::GetIO().WantTextInput)
         return;
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    const auto pressed = [&](int key) {
+        return std::any_of(state.keys.begin(), state.keys.end(),
+                           [&](const host::KeyPress& press) { return press.key == key; });
+    };
+    const auto isShifted = [&](int key) {
+        return std::any_of(state.keys.begin(), state.keys.end(), [&](const host::KeyPress& press) {
+            return press.key == key && (press.modifiers & GLFW_MOD_SHIFT) != 0;
+        });
+    };
     if (pressed(GLFW_KEY_SPACE))
         stage.settings.playing = !stage.settings.playing;
-    for (int i = 0; i < static_cast<int>(std::size(kViewNames)); ++i) {
+    for (int i = 0; i < kViewKeysCount; ++i) {
         if (pressed(GLFW_KEY_1 + i))
-            stage.settings.view = static_cast<uint32_t>(i);
+            stage.settings.view = kViews[i].view;
     }
-    if (pressed(GLFW_KEY_F1) || (pressed(GLFW_KEY_SLASH) && ImGui::GetIO().KeyShift))
+    // The other views one after another, and back with Shift.
+    constexpr auto kViewCount = static_cast<uint32_t>(std::size(kViews));
+    if (pressed(GLFW_KEY_V))
+        stage.settings.view = (stage.settings.view + (isShifted(GLFW_KEY_V) ? kViewCount - 1 : 1)) % kViewCount;
+    if (pressed(GLFW_KEY_J))
+        stage.settings.joints = !stage.settings.joints;
+    if (pressed(GLFW_KEY_F1) || isShifted(GLFW_KEY_SLASH))
         stage.settings.keys = !stage.settings.keys;
     if (pressed(GLFW_KEY_P))
         stage.settings.panel = !stage.settings.panel;
     if (pressed(GLFW_KEY_C))
         stage.settings.cageOverlay = !stage.settings.cageOverlay;
-    if (pressed(GLFW_KEY_F))
+    if (pressed(GLFW_KEY_O))
+        state.browser.open = !state.browser.open;
+    if (pressed(GLFW_KEY_L))
+        stage.settings.look = stage.settings.look == Look::studio ? Look::automatic : Look::studio;
+    if (pressed(GLFW_KEY_F) && stage.hasFigure())
         stage.frameFigure(aspect);
+    if (pressed(GLFW_KEY_E) && stage.hasFigure())
+        wishExport(state, ExportKind::picture, wishes);
+    if (pressed(GLFW_KEY_K) && stage.hasFigure())
+        wishExport(state, ExportKind::commandLine, wishes);
+    wishes.windowPicture = pressed(GLFW_KEY_F12);
     wishes.close = pressed(GLFW_KEY_ESCAPE);
 }
 
-void buildFiles(const PanelState& state, PanelWishes& wishes) {
+void buildFiles(PanelState& state, const ViewStage& stage, PanelWishes& wishes) {
     const auto shortName = [&](size_t i) {
-        return std::filesystem::path(state.files[i]).filename().string() + (state.refused[i] ? " (refused)" : "");
+        return printable(std::filesystem::path(state.files[i].path).filename().string()) +
+               (state.files[i].refused ? " (refused)" : "");
     };
+    if (ImGui::Button("open"))
+        state.browser.open = !state.browser.open;
+    ImGui::SameLine();
+    if (!stage.hasFigure()) {
+        ImGui::TextDisabled("or drop a file here");
+        return;
+    }
     if (state.files.size() == 1) {
+        ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(shortName(0).c_str());
         return;
     }
@@ -72,10 +114,55 @@ void buildFiles(const PanelState& state, PanelWishes& wishes) {
         for (size_t i = 0; i < state.files.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
             if (ImGui::Selectable(shortName(i).c_str(), i == state.file) && i != state.file)
-                wishes.file = i;
+                wishes.file = state.files[i].path;
             ImGui::PopID();
         }
         ImGui::EndCombo();
+    }
+}
+
+/// A second clip over the first one.
+void buildCrossfade(ViewStage& stage) {
+    ViewSettings& settings = stage.settings;
+    const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
+    if (clips.size() < 2)
+        return;
+    const bool fades = settings.fadeClip < clips.size();
+    if (ImGui::BeginCombo("fade to", fades ? printable(clips[settings.fadeClip].name).c_str() : "no other clip")) {
+        if (ImGui::Selectable("no other clip", !fades))
+            settings.fadeClip = SUPPLE_REST_POSE;
+        for (uint32_t i = 0; i < clips.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Selectable(printable(clips[i].name).c_str(), settings.fadeClip == i))
+                settings.fadeClip = i;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    if (fades)
+        ImGui::SliderFloat("weight", &settings.fade, 0.0f, 1.0f, "%.2f");
+}
+
+/// Bones from joint to joint, over the picture.
+void drawJoints(const ViewStage& stage, float aspect) {
+    const std::vector<ViewStage::ShownJoint> joints = stage.shownJoints(aspect);
+    const std::vector<uint32_t>& parents = stage.figure().jointParents();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto place = [&](const ViewStage::ShownJoint& joint) {
+        return ImVec2(joint.at.x * size.x, joint.at.y * size.y);
+    };
+    const ImU32 ink = IM_COL32(255, 255, 255, 220), rim = IM_COL32(0, 0, 0, 160);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    for (size_t i = 0; i < joints.size(); ++i) {
+        if (!joints[i].seen)
+            continue;
+        if (parents[i] != SUPPLE_NO_JOINT && joints[parents[i]].seen) {
+            draw.AddLine(place(joints[parents[i]]), place(joints[i]), rim, 3.0f);
+            draw.AddLine(place(joints[parents[i]]), place(joints[i]), ink, 1.5f);
+        }
+        draw.AddCircleFilled(place(joints[i]), 4.0f, rim);
+        draw.AddCircleFilled(place(joints[i]), 3.0f,
+                             i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
     }
 }
 
@@ -108,6 +195,7 @@ void buildPlayback(ViewStage& stage) {
     const double start = 0.0;
     if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &settings.time, &start, &duration, "%.2f s"))
         settings.playing = false;
+    buildCrossfade(stage);
     ImGui::SliderFloat("speed", &settings.speed, 0.05f, 3.0f, "%.2f x", ImGuiSliderFlags_Logarithmic);
 }
 
@@ -128,6 +216,31 @@ void buildScheme(const ViewStage& stage, PanelWishes& wishes) {
         wishes.skinning = skinning == 1 ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
 }
 
+/// What is painted on the surface.
+void buildView(ViewStage& stage) {
+    ViewSettings& settings = stage.settings;
+    if (ImGui::BeginCombo("view", kViews[settings.view].name)) {
+        for (const NamedView& view : kViews) {
+            if (ImGui::Selectable(view.name, settings.view == view.view))
+                settings.view = view.view;
+        }
+        ImGui::EndCombo();
+    }
+    const std::vector<std::string>& joints = stage.figure().jointNames();
+    if (joints.empty())
+        return;
+    if (settings.view == host::shared::kViewHeat &&
+        ImGui::BeginCombo("joint", printable(joints[settings.joint]).c_str())) {
+        for (uint32_t i = 0; i < joints.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Selectable(printable(joints[i]).c_str(), settings.joint == i))
+                settings.joint = i;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+}
+
 void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     ViewSettings& settings = stage.settings;
     buildScheme(stage, wishes);
@@ -145,13 +258,15 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     // A rate is a new group: made when the slider is let go, not at every step of it.
     if (ImGui::IsItemDeactivatedAfterEdit())
         wishes.rate = stage.offeredRate(static_cast<uint32_t>(settings.rate));
-    int view = static_cast<int>(settings.view);
-    if (ImGui::Combo("view", &view, kViewNames, static_cast<int>(std::size(kViewNames))))
-        settings.view = static_cast<uint32_t>(view);
+    buildView(stage);
     ImGui::Checkbox("cage lines", &settings.cageOverlay);
     ImGui::SameLine();
     ImGui::Checkbox("cage only", &settings.cageFaces);
     ImGui::Checkbox("ground", &settings.ground);
+    if (!stage.figure().jointNames().empty()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("joints", &settings.joints);
+    }
     uint32_t patches = 0, vertices = 0;
     for (const host::FigureSurface& surface : stage.group().surfaces()) {
         patches += surface.output.surface.patchCount;
@@ -343,30 +458,93 @@ void buildKeys(ViewStage& stage) {
     ImGui::End();
 }
 
-/// What the panel has, from above.
-void buildSections(const PanelState& state, ViewStage& stage, PanelWishes& wishes) {
-    buildFiles(state, wishes);
-    buildPlayback(stage);
-    ImGui::Separator();
-    buildSurface(stage, wishes);
-    buildMorphs(stage);
-    buildWarnings(stage);
-    buildParts(stage);
-    if (state.timings) {
-        ImGui::Separator();
-        buildTimings(state, stage);
+/// How pictures come about, and how far this one has come.
+void buildLook(const PanelState& state, ViewSettings& settings) {
+    int look = static_cast<int>(settings.look);
+    if (ImGui::Combo("look", &look, "auto\0fast\0studio\0"))
+        settings.look = static_cast<Look>(look);
+    if (!state.timings)
+        return;
+    switch (state.step.kind) {
+    case LookStep::Kind::studio:
+        break;
+    case LookStep::Kind::fast:
+        ImGui::TextDisabled("fast, %.0f %% of the pixels",
+                            100.0f * kFastScales[state.step.scaleIndex] * kFastScales[state.step.scaleIndex]);
+        break;
+    case LookStep::Kind::refine:
+        ImGui::TextDisabled("refining, pass %u", state.step.pass + 1);
+        break;
+    case LookStep::Kind::keep:
+        ImGui::TextDisabled("refined");
+        break;
     }
-    if (!state.message.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
-        ImGui::TextWrapped("%s", printable(state.message).c_str());
-        ImGui::PopStyleColor();
+}
+
+/// Pictures of what is shown.
+void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& wishes) {
+    if (ImGui::CollapsingHeader("export")) {
+        ImGui::InputInt2("pixels", state.exportSize);
+        ImGui::Checkbox("alpha", &state.exportAlpha);
+        if (ImGui::Button("picture"))
+            wishExport(state, ExportKind::picture, wishes);
+        ImGui::SameLine();
+        if (ImGui::Button("sequence"))
+            wishExport(state, ExportKind::sequence, wishes);
+        ImGui::SameLine();
+        if (ImGui::Button("animation"))
+            wishExport(state, ExportKind::animation, wishes);
+        if (ImGui::Button("copy the command line"))
+            wishExport(state, ExportKind::commandLine, wishes);
+        if (settings.fadeClip != SUPPLE_REST_POSE)
+            ImGui::TextWrapped("The crossfade is left out: the command line has none.");
+    }
+    if (!state.exported.empty())
+        ImGui::TextWrapped("%s", printable(state.exported).c_str());
+}
+
+/// What the panel has, from above.
+void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes) {
+    buildFiles(state, stage, wishes);
+    if (stage.hasFigure()) {
+        buildPlayback(stage);
+        ImGui::Separator();
+        buildSurface(stage, wishes);
+        buildLook(state, stage.settings);
+        buildMorphs(stage);
+        buildWarnings(stage);
+        buildParts(stage);
+        buildExport(state, stage.settings, wishes);
+        if (state.timings) {
+            ImGui::Separator();
+            buildTimings(state, stage);
+        }
     }
     ImGui::TextDisabled("F1 shows the keys");
 }
 
+/// Why something could not be done, until it is closed.
+void buildMessage(PanelState& state) {
+    if (state.message.empty())
+        return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    bool open = true;
+    const float left = std::min(kPanelRight, 0.5f * size.x);
+    ImGui::SetNextWindowPos(ImVec2(left, size.y - 16.0f), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
+    ImGui::SetNextWindowSize(ImVec2(std::min(560.0f, size.x - left - 16.0f), 0.0f), ImGuiCond_Always);
+    if (ImGui::Begin("failed", &open, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
+        ImGui::PushStyleColor(ImGuiCol_Text, kFailureColor);
+        ImGui::TextWrapped("%s", printable(state.message).c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::End();
+    if (!open)
+        state.message.clear();
+}
+
 } // namespace
 
-PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) {
+PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     PanelWishes wishes;
     if (stage.settings.panel) {
         ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
@@ -375,9 +553,17 @@ PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect) 
             buildSections(state, stage, wishes);
         ImGui::End();
     }
+    if (state.browser.open) {
+        if (std::optional<std::string> chosen = state.browser.build(state.recent))
+            wishes.file = std::move(chosen);
+    }
+    if (stage.hasFigure() && stage.settings.joints)
+        drawJoints(stage, aspect);
     buildKeys(stage);
-    moveCamera(stage);
-    handleKeys(stage, aspect, wishes);
+    buildMessage(state);
+    if (stage.hasFigure())
+        moveCamera(stage);
+    handleKeys(state, stage, aspect, wishes);
     return wishes;
 }
 

@@ -1,6 +1,9 @@
 // The viewer's panel and keys.
 #pragma once
 
+#include "host/window.h"
+#include "tools/supple/file_browser.h"
+#include "tools/supple/view_export.h"
 #include "tools/supple/view_stage.h"
 
 #include <optional>
@@ -9,22 +12,35 @@
 
 namespace supple::tools {
 
+struct PanelFile {
+    std::string path;
+    bool refused = false; ///< it could not be opened
+};
+
 struct PanelState {
-    const std::vector<std::string>& files;
-    std::vector<bool> refused; ///< per file: it could not be opened
-    size_t file = 0;           ///< the one that is shown
-    std::string message;       ///< the last failure
-    std::string device;        ///< its name
+    std::vector<PanelFile> files;
+    size_t file = 0;     ///< the one that is shown, if one is
+    std::string message; ///< the last failure
+    std::string device;  ///< its name
     double frameMilliseconds = 0.0;
-    bool timings = true; ///< shown; they differ from run to run
+    bool timings = true;              ///< shown; they differ from run to run
+    std::vector<host::KeyPress> keys; ///< that went down since the last frame
+    LookStep step;                    ///< of the last frame
+    FileBrowser browser;
+    std::string exported; ///< what is being written, or was
+    int exportSize[2] = {1280, 960};
+    bool exportAlpha = false;
+    std::vector<std::string> recent; ///< files that were opened last
 };
 
 /// What the user asked for that cannot be done while the panel is built.
 struct PanelWishes {
-    std::optional<size_t> file;
+    std::optional<std::string> file;
     std::optional<uint32_t> rate;
     std::optional<SuppleScheme> scheme;
     std::optional<SuppleSkinning> skinning;
+    std::optional<ExportWish> save;
+    bool windowPicture = false; ///< of the next frame, panel and all
     bool close = false;
 };
 
@@ -32,6 +48,6 @@ struct PanelWishes {
 inline constexpr float kPanelRight = 332.0f;
 
 /// Builds the panel and moves the camera; changes the stage's settings in place.
-[[nodiscard]] PanelWishes buildPanel(const PanelState& state, ViewStage& stage, float aspect);
+[[nodiscard]] PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect);
 
 } // namespace supple::tools

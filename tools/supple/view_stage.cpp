@@ -4,6 +4,7 @@
 #include "tools/common/figure_file.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -84,6 +85,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
         return binding.error();
 
     retired_.clear();
+    ++version_;
     binding_ = std::move(*binding);
     group_ = std::move(*group);
     figure_ = std::move(*figure);
@@ -92,6 +94,8 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     settings.morphWeights = std::move(*weights);
     extent_ = std::move(*extent);
     settings.clip = *chosen != SUPPLE_REST_POSE || clipCount == 0 ? *chosen : 0;
+    settings.fadeClip = SUPPLE_REST_POSE;
+    settings.joint = 0;
     settings.time = 0.0;
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
@@ -146,6 +150,7 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     Result<host::FigureBinding> binding = renderer_.bind(**group);
     if (!binding)
         return binding.error();
+    ++version_;
     group_->release();
     retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
     group_ = std::move(*group);
@@ -173,15 +178,23 @@ void ViewStage::retire(uint64_t completedFrame) {
 }
 
 void ViewStage::advance(double seconds) {
-    const double duration = figure_->clipDuration(settings.clip);
+    const double duration = hasFigure() ? figure_->clipDuration(settings.clip) : 0.0;
     if (!settings.playing || duration <= 0.0)
         return;
-    settings.time = std::fmod(settings.time + seconds * static_cast<double>(settings.speed), duration);
+    settings.time += seconds * static_cast<double>(settings.speed);
+    if (settings.fadeClip == SUPPLE_REST_POSE) // two clips wrap each by its own duration
+        settings.time = std::fmod(settings.time, duration);
 }
 
 void ViewStage::frameFigure(float aspect) {
     camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect * (1.0f - covered_), kWindowMargin);
-    pan(-0.5f * covered_ * aspect, 0.0f);
+    aside_ = 0.5f * covered_ * aspect;
+    pan(-aside_, 0.0f);
+}
+
+glm::vec3 ViewStage::centeredTarget() const {
+    const glm::vec3 right = glm::transpose(glm::mat3(camera_.view()))[0];
+    return camera_.target + right * (aside_ * 2.0f * camera_.distance * std::tan(camera_.fieldOfView * 0.5f));
 }
 
 void ViewStage::orbit(float yaw, float pitch) {
@@ -202,12 +215,21 @@ void ViewStage::zoom(float steps) {
 
 Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
                          const host::DrawTarget& target) {
+    if (const Status status = evaluate(commands, frame, completedFrame); !status)
+        return status.error();
+    renderer_.record(commands, slot, target, scene(target.extent()));
+    return success();
+}
+
+Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame) {
     if (const Status status =
             context_.check(suppleBeginFrame(context_.handle(), frame, completedFrame), "suppleBeginFrame");
         !status)
         return status.error();
     readTimings();
-    if (const Status status = group_->pose(0, settings.clip, settings.time); !status)
+    if (!hasFigure())
+        return success();
+    if (const Status status = pose(); !status)
         return status.error();
     if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
         return status.error();
@@ -223,10 +245,73 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
     desc.groupCount = 1;
     desc.before = host::kRendererReads;
     desc.after = host::kRendererReads;
-    if (const Status status = context_.check(suppleRecord(context_.handle(), commands, &desc), "suppleRecord"); !status)
-        return status.error();
+    return context_.check(suppleRecord(context_.handle(), commands, &desc), "suppleRecord");
+}
 
+ViewStage::Shown ViewStage::shown() const {
+    Shown shown{settings, camera_, version_};
+    // What is drawn over the picture changes nothing of it.
+    shown.settings.panel = shown.settings.keys = shown.settings.joints = shown.settings.timingsPaused = false;
+    shown.settings.budgetMs = 0.0f;
+    return shown;
+}
+
+Status ViewStage::pose() const {
+    if (settings.fadeClip == SUPPLE_REST_POSE || settings.fade <= 0.0f || settings.clip >= figure_->clips().size())
+        return group_->pose(0, settings.clip, settings.time);
+    SuppleClipLayer layers[2]{};
+    layers[0].clip = settings.clip;
+    layers[0].time = settings.time;
+    layers[0].weight = 1.0f;
+    layers[1].clip = settings.fadeClip;
+    layers[1].time = settings.time;
+    layers[1].weight = settings.fade;
+    layers[0].flags = layers[1].flags = SUPPLE_LAYER_LOOP;
+    SupplePoseDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.layers = layers;
+    desc.layerCount = 2;
+    return context_.check(suppleSetPose(context_.handle(), group_->instance(0), &desc), "suppleSetPose");
+}
+
+bool ViewStage::needsWeights() const {
+    return hasFigure() && settings.view == host::shared::kViewHeat && !figure_->jointNames().empty() &&
+           weights_ != std::pair(version_, settings.joint);
+}
+
+Status ViewStage::measureWeights() {
+    weights_ = {version_, settings.joint};
+    if (const Status status = group_->showWeights(settings.joint); !status)
+        return status.error();
+    Result<host::FigureBinding> binding = renderer_.bind(*group_);
+    if (!binding)
+        return binding.error();
+    binding_ = std::move(*binding);
+    return success();
+}
+
+std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {
+    std::vector<ShownJoint> joints(figure_->jointNames().size());
+    const glm::mat4 view = camera_.projection(aspect, extent_.bounds.radius()) * camera_.view();
+    for (uint32_t i = 0; i < joints.size(); ++i) {
+        glm::mat4 place(1.0f);
+        if (suppleGetJointTransform(context_.handle(), group_->instance(0), i, &place[0][0]) != SUPPLE_OK)
+            continue;
+        const glm::vec4 at = view * place[3];
+        joints[i] = {at.w > 0.0f, glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w)};
+    }
+    return joints;
+}
+
+host::Scene ViewStage::scene(VkExtent2D extent) const {
     host::Scene scene;
+    if (!hasFigure()) {
+        scene.bounds = {glm::vec3(-1.0f, 0.0f, -1.0f), glm::vec3(1.0f, 2.0f, 1.0f)};
+        scene.camera = host::frameCamera(std::array{scene.bounds.min, scene.bounds.max}, startYaw_, startPitch_, 1.0f,
+                                         kWindowMargin);
+        scene.ground = 0.0f;
+        return scene;
+    }
     scene.group = group_.get();
     scene.binding = &binding_;
     scene.camera = camera_;
@@ -238,9 +323,8 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
     scene.view = settings.view;
     scene.cageFaces = settings.cageFaces;
     scene.cageEdges = settings.cageFaces || settings.cageOverlay;
-    scene.pixelScale = pixelScale(target.extent());
-    renderer_.record(commands, slot, target, scene);
-    return success();
+    scene.pixelScale = pixelScale(extent);
+    return scene;
 }
 
 void ViewStage::readTimings() {

@@ -4,6 +4,7 @@
 #include "host/surface_renderer.h"
 #include "tools/supple/pass_history.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/view_look.h"
 
 #include <cstdint>
 #include <map>
@@ -20,10 +21,15 @@ struct ViewSettings {
     bool playing = true;
     float speed = 1.0f;
     int rate = 8;
-    uint32_t view = 0;      ///< host::shared::kView...
-    bool cageFaces = false; ///< the cage instead of the surface
+    uint32_t view = 0;                    ///< host::shared::kView...
+    uint32_t joint = 0;                   ///< whose weights kViewHeat shows
+    bool joints = false;                  ///< drawn over the picture
+    uint32_t fadeClip = SUPPLE_REST_POSE; ///< blended over `clip`; none: SUPPLE_REST_POSE
+    float fade = 0.5f;                    ///< its weight
+    bool cageFaces = false;               ///< the cage instead of the surface
     bool cageOverlay = false;
     bool ground = true;
+    Look look = Look::studio;
     bool panel = true; ///< shown
     bool keys = false; ///< the help window
     bool timingsPaused = false;
@@ -31,6 +37,8 @@ struct ViewSettings {
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
     std::vector<bool> shownParts; ///< of the figure
+
+    bool operator==(const ViewSettings&) const = default;
 };
 
 /// A pass of the last completed frames, smoothed.
@@ -76,12 +84,37 @@ public:
     /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
     void setCovered(float share) { covered_ = share; }
     void frameFigure(float aspect);
+    [[nodiscard]] const host::Camera& camera() const { return camera_; }
+    /// The camera's target if no panel covered the picture when the figure was framed.
+    [[nodiscard]] glm::vec3 centeredTarget() const;
     void orbit(float yaw, float pitch);
     /// In fractions of the picture's height.
     void pan(float right, float up);
     void zoom(float steps);
 
-    /// One frame: Supple's passes, then the picture.
+    /// What a frame shows: equal ones are the same picture.
+    struct Shown {
+        ViewSettings settings;
+        host::Camera camera;
+        uint32_t version = 0; ///< of the group
+        bool operator==(const Shown&) const = default;
+    };
+    [[nodiscard]] Shown shown() const;
+
+    /// Whose weights kViewHeat shows: measured anew where they are not those of the group. No frame may be pending.
+    [[nodiscard]] bool needsWeights() const;
+    [[nodiscard]] Status measureWeights();
+    /// Joints in the picture, in fractions of it from its upper left; not where they are behind the eye.
+    struct ShownJoint {
+        bool seen = false;
+        glm::vec2 at{0.0f};
+    };
+    [[nodiscard]] std::vector<ShownJoint> shownJoints(float aspect) const;
+
+    /// Supple's passes of a frame.
+    [[nodiscard]] Status evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame);
+    [[nodiscard]] host::Scene scene(VkExtent2D extent) const;
+    /// Both: Supple's passes, then the picture.
     [[nodiscard]] Status record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
                                 const host::DrawTarget& target);
 
@@ -98,6 +131,8 @@ private:
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
     void readTimings();
+    /// Clip, time and crossfade.
+    [[nodiscard]] Status pose() const;
 
     host::Context& context_;
     host::SurfaceRenderer& renderer_;
@@ -112,6 +147,7 @@ private:
     std::vector<host::PartScheme> partSchemes_;
     bool sharedSamples_ = false;
     float covered_ = 0.0f;
+    float aside_ = 0.0f; ///< how far the figure was framed beside the middle, in heights of the picture
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
@@ -119,7 +155,9 @@ private:
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
-    std::vector<Retired> retired_; ///< before figure_ in time, so gone before it
+    uint32_t version_ = 0;                        ///< counts groups
+    std::pair<uint32_t, uint32_t> weights_{0, 0}; ///< of which version and joint the group has values; 0: none
+    std::vector<Retired> retired_;                ///< before figure_ in time, so gone before it
     Extent extent_;
     host::Camera camera_;
     std::map<std::string, PassTime> passTimes_;

@@ -1,0 +1,82 @@
+#include "tools/supple/file_browser.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+
+namespace supple::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr size_t kRecentFiles = 12;
+
+} // namespace
+
+bool isCharacterFile(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+}
+
+Folder readFolder(const fs::path& path) {
+    std::error_code fault;
+    Folder folder{fs::weakly_canonical(path, fault), {}, {}, {}};
+    if (fault)
+        folder.path = path;
+    fs::directory_iterator entry(path, fault);
+    for (; !fault && entry != fs::directory_iterator(); entry.increment(fault)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code unknown; // a link that leads nowhere is neither
+        if (name.starts_with('.'))
+            continue;
+        if (entry->is_directory(unknown))
+            folder.folders.push_back(name);
+        else if (isCharacterFile(entry->path()) && entry->is_regular_file(unknown))
+            folder.files.push_back(name);
+    }
+    if (fault)
+        folder.fault = folder.path.string() + ": " + fault.message();
+    std::sort(folder.folders.begin(), folder.folders.end());
+    std::sort(folder.files.begin(), folder.files.end());
+    return folder;
+}
+
+fs::path recentFilesPath() {
+    const char* const state = std::getenv("XDG_STATE_HOME");
+    if (state != nullptr && fs::path(state).is_absolute())
+        return fs::path(state) / "supple" / "recent";
+    const char* const home = std::getenv("HOME");
+    return home != nullptr && *home != '\0' ? fs::path(home) / ".local" / "state" / "supple" / "recent" : fs::path();
+}
+
+std::vector<std::string> readRecentFiles(const fs::path& list) {
+    std::vector<std::string> files;
+    std::ifstream in(list);
+    for (std::string line; files.size() < kRecentFiles && std::getline(in, line);) {
+        std::error_code unknown;
+        if (fs::is_regular_file(line, unknown))
+            files.push_back(line);
+    }
+    return files;
+}
+
+void rememberFile(const fs::path& list, const std::string& file) {
+    if (list.empty())
+        return;
+    std::error_code fault;
+    const std::string path = fs::absolute(file, fault).lexically_normal().string();
+    if (fault || path.find('\n') != std::string::npos)
+        return;
+    std::vector<std::string> files = readRecentFiles(list);
+    std::erase(files, path);
+    files.insert(files.begin(), path);
+    fs::create_directories(list.parent_path(), fault);
+    std::ofstream out(list, std::ios::trunc);
+    for (size_t i = 0; i < std::min(files.size(), kRecentFiles); ++i)
+        out << files[i] << '\n';
+}
+
+} // namespace supple::tools

@@ -1,0 +1,154 @@
+#include "tools/supple/view_export.h"
+
+#include "tools/common/formatted.h"
+#include "tools/supple/command.h"
+#include "tools/supple/views.h"
+#include "tools/supple/webp_animation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+
+namespace supple::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As few digits as lead back to the same angle.
+double degrees(float angle) {
+    const auto exact = static_cast<double>(angle) * 180.0 / glm::pi<double>();
+    const double rounded = std::round(exact * 1e3) / 1e3;
+    return radians(rounded) == angle ? rounded : exact;
+}
+
+std::string sizeText(VkExtent2D size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+/// As --clip takes it.
+std::string clipText(const host::Figure& figure, uint32_t clip) {
+    const std::vector<host::Figure::Clip>& clips = figure.clips();
+    if (clip >= clips.size())
+        return {};
+    const auto sameName = [&](const host::Figure::Clip& other) { return other.name == clips[clip].name; };
+    return !clips[clip].name.empty() && std::count_if(clips.begin(), clips.end(), sameName) == 1 ? clips[clip].name
+                                                                                                 : std::to_string(clip);
+}
+
+DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
+    const ViewSettings& settings = stage.settings;
+    DrawOptions draw = given;
+    draw.scheme = settings.cageFaces ? "cage" : schemeName(stage.scheme());
+    draw.rate = static_cast<uint32_t>(settings.rate);
+    draw.skinning = stage.skinning() == SUPPLE_SKINNING_DUAL_QUATERNION ? "dual-quaternion" : "linear";
+    draw.view = kViews[settings.view].name;
+    if (settings.view == host::shared::kViewHeat)
+        draw.joint = std::to_string(settings.joint);
+    draw.cageOverlay = settings.cageOverlay;
+    draw.ground = settings.ground;
+    draw.alpha = wish.alpha;
+    draw.yaw = degrees(stage.camera().yaw);
+    draw.pitch = degrees(stage.camera().pitch);
+    draw.parts.clear();
+    if (std::find(settings.shownParts.begin(), settings.shownParts.end(), false) != settings.shownParts.end()) {
+        for (size_t part = 0; part < settings.shownParts.size(); ++part) {
+            if (settings.shownParts[part])
+                draw.parts.push_back(std::to_string(part));
+        }
+    }
+    draw.morphs.clear();
+    for (const host::NamedTargets& morph : stage.morphs()) {
+        if (!settings.morphWeights.empty())
+            draw.morphs.push_back({morph.name, stage.morphWeight(morph)});
+    }
+    return draw;
+}
+
+Status makePicture(const RenderOptions& options) {
+    return inSession(deviceFlags(options.draw), [&](Session& session) { return renderPicture(session, options); });
+}
+
+Status makeFrames(const AnimateOptions& options) {
+    return inSession(deviceFlags(options.draw), [&](Session& session) { return animate(session, options); });
+}
+
+} // namespace
+
+std::string freeName(const std::string& stem, const std::string& ending) {
+    std::error_code unknown;
+    std::string name = stem + ending;
+    const auto isTaken = [&] { return fs::exists(frameFile(name, 0).empty() ? name : frameFile(name, 0), unknown); };
+    for (int number = 2; isTaken(); ++number)
+        name = stem + "_" + std::to_string(number) + ending;
+    return name;
+}
+
+RenderOptions shownPicture(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
+    RenderOptions options;
+    options.file = stage.figure().path();
+    options.clip = clipText(stage.figure(), stage.settings.clip);
+    options.time = options.clip.empty() ? 0.0 : stage.settings.time;
+    options.size = sizeText(wish.size);
+    const glm::vec3 target = stage.centeredTarget();
+    options.camera = formatted("%.9g,%.9g,%.9g,%.9g", static_cast<double>(target.x), static_cast<double>(target.y),
+                               static_cast<double>(target.z), static_cast<double>(stage.camera().distance));
+    options.draw = shownDraw(stage, given, wish);
+    return options;
+}
+
+AnimateOptions shownClip(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
+    AnimateOptions options;
+    options.file = stage.figure().path();
+    options.clip = clipText(stage.figure(), stage.settings.clip);
+    options.size = sizeText(wish.size);
+    options.draw = shownDraw(stage, given, wish);
+    return options;
+}
+
+void ViewExport::start(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
+    if (isBusy())
+        return;
+    const bool frames = wish.kind == ExportKind::sequence || wish.kind == ExportKind::animation;
+    const char* const ending = wish.kind == ExportKind::animation  ? ".webp"
+                               : wish.kind == ExportKind::sequence ? "_####.png"
+                                                                   : ".png";
+    output_ = freeName(fs::path(stage.figure().path()).stem().string(), ending);
+    if (frames) {
+        AnimateOptions options = shownClip(stage, given, wish);
+        options.output = output_;
+        if (const std::string fault = animateOutputFault(output_); !fault.empty()) {
+            report_ = fault;
+            return;
+        }
+        work_ = std::async(std::launch::async, [options] { return makeFrames(options); });
+    } else {
+        RenderOptions options = shownPicture(stage, given, wish);
+        options.output = output_;
+        if (wish.kind == ExportKind::commandLine) {
+            report_ = commandLine(options);
+            std::printf("%s\n", report_.c_str());
+            std::fflush(stdout);
+            return;
+        }
+        work_ = std::async(std::launch::async, [options] { return makePicture(options); });
+    }
+    report_ = "writing " + output_;
+}
+
+const std::string& ViewExport::report() {
+    if (isBusy() && work_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        const Status status = work_.get();
+        report_ = status ? "wrote " + output_ : status.error().message;
+        if (status)
+            note(report_);
+        else
+            fail(status.error());
+    }
+    return report_;
+}
+
+} // namespace supple::tools
