@@ -166,8 +166,9 @@ std::vector<Picture> plotsOf(const Json& result) {
     const bool cpu = result.value("cpuDevice", false);
     std::vector<std::string> cages;
     for (const Json& row : result["rows"]) {
-        if (std::find(cages.begin(), cages.end(), row["cage"]) == cages.end()) {
-            cages.push_back(row["cage"]);
+        const auto cage = row["cage"].get<std::string>();
+        if (std::find(cages.begin(), cages.end(), cage) == cages.end()) {
+            cages.push_back(cage);
         }
     }
     std::vector<Picture> pictures;
