@@ -107,7 +107,7 @@ Clip run(const Skeleton& skeleton) {
     constexpr int kFrames = 20;
     const Gait gait{0.36,  0.235,
                     0.165, 0.40,
-                    0.060, {{0.0, -6}, {0.05, 0}, {0.14, 0}, {0.36, 50}, {0.52, 76}, {0.70, 48}, {0.90, 0}, {1.0, -6}}};
+                    0.032, {{0.0, -6}, {0.05, 0}, {0.14, 0}, {0.36, 50}, {0.52, 76}, {0.70, 48}, {0.90, 0}, {1.0, -6}}};
     for (int frame = 0; frame <= kFrames; ++frame) {
         const double phase = static_cast<double>(frame % kFrames) / kFrames;
         const double bob = -std::cos(2 * kTurn * (phase - 0.16));
