@@ -31,12 +31,11 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
     for (const Face& face : piece.faces) {
         const Swatch look = swatch(face.part);
         const Vec3 normal = piece.normal(face);
-        const bool eye = face.part == Part::Eye;
         for (size_t i = 0; i < face.points.size(); ++i) {
             cage.faceVertices.push_back(base + static_cast<uint32_t>(face.points[i]));
             const Vec2 uv = face.uvs.empty() ? boxed(piece.position(face.points[i]), normal) : face.uvs[i];
             const Vec2 at =
-                look.material == 0 ? facePlace(piece.position(face.points[i])) : uv * (eye ? 1 : look.density);
+                look.material == kFaceMaterial ? facePlace(piece.position(face.points[i])) : uv * look.density;
             cage.cornerUvs.push_back({rounded(at.x), rounded(at.y)});
             cage.cornerColors.push_back({shade(look.colour.x), shade(look.colour.y), shade(look.colour.z), 1.0f});
         }

@@ -25,10 +25,10 @@ struct Gait {
 };
 
 // Where a foot is at `phase` of its cycle, 0 when it lands.
-void step(Pose& pose, const std::string& side, double phase, const Gait& gait, double rise) {
+void step(Pose& pose, const std::string& side, double phase, const Gait& gait) {
     phase -= std::floor(phase);
     const double heel = gait.roll(phase);
-    Vec3 shift{side == ".L" ? -gait.inward : gait.inward, rise * 0, 0};
+    Vec3 shift{side == ".L" ? -gait.inward : gait.inward, 0, 0};
     if (phase < gait.stance) {
         shift.z = gait.stride * (1 - 2 * phase / gait.stance);
     } else {
@@ -90,8 +90,8 @@ Clip walk(const Skeleton& skeleton) {
                {-0.16, -0.16 + 0.10 * late, 0.96}});
         curl(pose, ".R", 1, 1);
         curl(pose, ".L", 0.36 + 0.06 * late, 0.3);
-        step(pose, ".L", phase, gait, 0);
-        step(pose, ".R", phase + 0.5, gait, 0);
+        step(pose, ".L", phase, gait);
+        step(pose, ".R", phase + 0.5, gait);
         drape(pose);
         pose.turn("scabbard", -3 * bob + 5 * swing(phase - 0.1), 0, 2 * wave(phase - 0.1));
         clip.frames.push_back(pose);
@@ -107,7 +107,7 @@ Clip run(const Skeleton& skeleton) {
     constexpr int kFrames = 20;
     const Gait gait{0.36,  0.235,
                     0.165, 0.40,
-                    0.060, {{0.0, -6}, {0.05, 0}, {0.14, 0}, {0.36, 50}, {0.52, 76}, {0.70, 48}, {0.90, 0}, {1.0, -6}}};
+                    0.032, {{0.0, -6}, {0.05, 0}, {0.14, 0}, {0.36, 50}, {0.52, 76}, {0.70, 48}, {0.90, 0}, {1.0, -6}}};
     for (int frame = 0; frame <= kFrames; ++frame) {
         const double phase = static_cast<double>(frame % kFrames) / kFrames;
         const double bob = -std::cos(2 * kTurn * (phase - 0.16));
@@ -132,8 +132,8 @@ Clip run(const Skeleton& skeleton) {
         place(pose, ".R", right);
         curl(pose, ".R", 1, 1);
         curl(pose, ".L", 0.75, 0.7);
-        step(pose, ".L", phase, gait, 0);
-        step(pose, ".R", phase + 0.5, gait, 0);
+        step(pose, ".L", phase, gait);
+        step(pose, ".R", phase + 0.5, gait);
         drape(pose);
         pose.turn("scabbard", -6 * bob + 9 * swing(phase - 0.1), 0, 3 * wave(phase - 0.1));
         clip.frames.push_back(pose);

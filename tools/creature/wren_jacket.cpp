@@ -27,7 +27,7 @@ constexpr JacketSlice kSlices[] = {
 };
 constexpr double kBandDensity = 14; // as swatch() has it
 constexpr int kFront = 3, kSide = 6, kHalf = 2 * kFront + kSide;
-constexpr size_t kHem = 2, kBelt = 9, kArmLow = 13, kArmHigh = 16;
+constexpr size_t kHem = 2, kArmLow = 13, kArmHigh = 16;
 
 class Jacket {
 public:

@@ -13,6 +13,7 @@ struct Swatch {
     double density = 1; // of its textures: repeats a metre
 };
 
+constexpr uint32_t kFaceMaterial = 0;
 Swatch swatch(Part part);
 // Where the face's picture shows a point, and back: the picture is the head from the front.
 Vec2 facePlace(const Vec3& point);

@@ -31,11 +31,7 @@ void addTurn(Cage& cage, const Vec3& middle, const Vec2& radii, double dip, doub
 
 void addTail(Cage& cage, double shift, double length, double wide, double phase) {
     const size_t firstFace = cage.faces.size();
-    std::vector<Vec3> line;
-    for (int i = 0; i <= 32; ++i) {
-        const std::vector<Vec3> through(std::begin(kScarfTail), std::end(kScarfTail));
-        line = spline(through, 33);
-    }
+    const std::vector<Vec3> line = spline({std::begin(kScarfTail), std::end(kScarfTail)}, 33);
     const auto surface = [&](double u, double v) {
         const double at = std::clamp(v, -0.01, 1.01) * length * 32;
         const size_t k = static_cast<size_t>(std::clamp(at, 0.0, 31.0));

@@ -12,11 +12,6 @@ namespace supple::creature::wren {
 const Hand kOnShoulder{{-0.222, 1.105, 0.150}, {-0.62, -1, -0.30}, {0.05, 0.72, 0.66}, {-0.26, 0.40, -0.88}};
 const Hand kOnScabbard{{0.240, 1.008, -0.022}, {0.85, -0.10, -0.70}, {-0.22, -0.74, 0.62}, {-0.45, 0.60, 0.60}};
 
-Hand mixed(const Hand& a, const Hand& b, double share) {
-    return {mix(a.wrist, b.wrist, share), mix(a.pole, b.pole, share), mix(a.fingers, b.fingers, share),
-            mix(a.thumb, b.thumb, share)};
-}
-
 Hand between(const std::vector<HandKey>& keys, double time) {
     const auto value = [&](Vec3 Hand::*member, int axis) {
         std::vector<std::pair<double, double>> list;

@@ -19,7 +19,6 @@ struct HandKey {
     Hand hand;
 };
 Hand between(const std::vector<HandKey>& keys, double time);
-Hand mixed(const Hand& a, const Hand& b, double share);
 
 // How Wren stands between actions: the sword on the right shoulder, the left hand on the scabbard.
 extern const Hand kOnShoulder, kOnScabbard;

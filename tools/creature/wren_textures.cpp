@@ -67,7 +67,7 @@ Vec3 eye(double u, double v) {
     return mix(c, Vec3(0.9), 0.75 * ramp(0.055, 0.030, std::hypot(x - 0.16, y + 0.19)));
 }
 
-// A plain weave of eight threads each way a tile, each with its own thickness.
+// A plain weave of sixteen threads each way a tile.
 double weave(double u, double v) {
     constexpr int kThreads = 16;
     const double x = u * kThreads, y = v * kThreads;
