@@ -309,14 +309,15 @@ private:
         return 0;
     }
 
+    struct LimitRow {
+        uint32_t point, place, sample;
+    };
+
     /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
         const bool facet = c.key.kind == FragmentKind::facet;
         const Pattern& pattern = c.after[steps_].pattern->pattern;
         const int32_t side = 1 << steps_;
-        struct LimitRow {
-            uint32_t point, place, sample;
-        };
         std::vector<LimitRow> oneByOne, inStrips;
         std::vector<Section> strips; // columns
         std::vector<uint32_t> stripSectors;
@@ -361,6 +362,11 @@ private:
         for (size_t i = 0; i < strips.size(); ++i) {
             writer_.put({strips[i].table, strips[i].count, stripSectors[i], 0u});
         }
+        writeLimitRows(c, oneByOne, inStrips);
+    }
+
+    void writeLimitRows(ClassTables& c, const std::vector<LimitRow>& oneByOne, const std::vector<LimitRow>& inStrips) {
+        const Pattern& pattern = c.after[steps_].pattern->pattern;
         c.limitRows = {writer_.element(), static_cast<uint32_t>(oneByOne.size() + inStrips.size())};
         c.limitOneByOne = static_cast<uint32_t>(oneByOne.size());
         for (const std::vector<LimitRow>* rows : {&oneByOne, &inStrips}) {
