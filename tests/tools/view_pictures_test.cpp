@@ -4,6 +4,7 @@
 #include "tests/tools/validated_device.h"
 #include "tools/supple/view_stage.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
