@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <set>
 #include <string_view>
@@ -13,10 +14,19 @@
 namespace supple::cage::gltf {
 namespace {
 
+/// The decimal number with the fewest digits that reads as the float: 0.6, not 0.6000000238418579.
+double shortest(float value) {
+    char text[32];
+    const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
+    double number = 0.0;
+    std::from_chars(text, end, number);
+    return number;
+}
+
 /// Left out where it is glTF's default.
 void writeNumber(json& object, const char* key, float value, float byDefault) {
     if (value != byDefault) {
-        object[key] = static_cast<double>(value);
+        object[key] = shortest(value);
     }
 }
 
@@ -97,7 +107,7 @@ private:
         }
         if (from.emissiveStrength != 1.0f) {
             addExtension(material, "KHR_materials_emissive_strength")["emissiveStrength"] =
-                static_cast<double>(from.emissiveStrength);
+                shortest(from.emissiveStrength);
         }
         if (from.unlit) {
             addExtension(material, "KHR_materials_unlit");
@@ -109,7 +119,7 @@ private:
     void writeVisibility(const Material& from, json& material) {
         if (from.alphaMode == AlphaMode::mask) {
             material["alphaMode"] = "MASK";
-            material["alphaCutoff"] = std::max(static_cast<double>(from.alphaCutoff), 0.0);
+            material["alphaCutoff"] = shortest(std::max(from.alphaCutoff, 0.0f));
         } else if (from.alphaMode == AlphaMode::blend) {
             material["alphaMode"] = "BLEND";
         }

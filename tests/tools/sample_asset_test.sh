@@ -1,8 +1,10 @@
 #!/bin/sh
 # What a tool of ours makes is what lies in samples/assets, to the byte.
-# Usage: sample_assets_test.sh TOOL ASSET.glb
+# Usage: sample_asset_test.sh ASSET.glb TOOL [OPTION..]
 set -eu
+asset=$1
+shift
 made=$(mktemp)
 trap 'rm -f "$made"' EXIT
-"$1" "$made"
-cmp "$made" "$2"
+"$@" "$made"
+cmp "$made" "$asset"
