@@ -4,8 +4,10 @@ import numpy as np
 
 import glb
 
-# Blender keeps 1 - v, and so does its exporter: what is lost is a unit in the last place of 1.
+# Blender keeps 1 - v, and so does its exporter: what is lost is a unit in the last place of 1 or of what is larger.
 UV_ROUNDING = 2.0**-24
+# The importer keeps colors as bytes in sRGB, which are farthest apart at white.
+COLOR_ROUNDING = 0.006
 
 
 def ulps(a, b):
@@ -54,7 +56,13 @@ def compare_cage(before, after, faults):
         old, new = before.corner_values(key), after.corner_values(key)
         faults.expect((old is None) == (new is None), key + " is there in one of them")
         if old is not None and new is not None:
-            faults.at_most("texture coordinates", float(np.abs(old - new).max()), UV_ROUNDING)
+            size = np.exp2(np.ceil(np.log2(np.maximum(1, 1 + np.abs(old)))))
+            faults.at_most("texture coordinates", float((np.abs(old - new) / size).max()), UV_ROUNDING)
+    old, new = before.corner_values("COLOR_0"), after.corner_values("COLOR_0")
+    faults.expect((old is None) == (new is None), "COLOR_0 is there in one of them")
+    if old is not None and new is not None:
+        width = min(old.shape[1], new.shape[1])
+        faults.at_most("colors", float(np.abs(old[:, :width] - new[:, :width]).max()), COLOR_ROUNDING)
     compare_weights(before, after, faults)
 
 
@@ -66,6 +74,8 @@ def compare(path_before, path_after):
         other = after.get(name)
         if other is None and len(before) == len(after) == 1:
             other = next(iter(after.values()))
+        if other is None:  # a bone has the name as well
+            other = next((own for key, own in after.items() if key.rpartition(".")[0] == name), None)
         if other is None:
             faults.expect(False, "mesh %s is gone" % name)
             continue

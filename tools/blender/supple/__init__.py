@@ -11,7 +11,7 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import export, importer, panel, settings
+from . import colors, export, importer, panel, settings
 
 
 def _say(line):
@@ -29,6 +29,7 @@ class glTF2ImportUserExtension(importer.ImportHooks):
 
 
 def glTF2_pre_export_callback(export_settings):
+    colors.mend_exporter()
     if settings.export_wanted():
         export.switch_subdivision_off(export_settings)
 
