@@ -2,6 +2,7 @@
 #include "cage/gltf/reader.h"
 #include "cage/procedural.h"
 #include "tests/support/blend_surface.h"
+#include "tests/support/corner_weights.h"
 #include "tests/support/exact_quads.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_levels.h"
@@ -686,6 +687,11 @@ TEST_P(LodViews, AttributesFollowTheSamples) {
                         v = sample.weights.x * kY[sample.side] + sample.weights.y * kY[next] + sample.weights.z * 0.5;
                     }
                     wanted = (1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[3] + u * at[2]);
+                } else if (range->domain == SUPPLE_DOMAIN_PENTAGON) {
+                    const auto weights = pentagonWeights(sample.side, sample.weights);
+                    for (uint32_t c = 0; c < sides; ++c) {
+                        wanted += static_cast<double>(weights[c]) * at[c];
+                    }
                 } else {
                     for (uint32_t c = 0; c < sides; ++c) {
                         wanted += sample.weights.z / sides * at[c];
