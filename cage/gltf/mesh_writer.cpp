@@ -1,8 +1,10 @@
 #include "cage/gltf/mesh_writer.h"
 
+#include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
+#include "cage/refusal.h"
 
 #include <algorithm>
 #include <array>
@@ -199,6 +201,9 @@ private:
         std::vector<glm::vec3> positions;
         for (const uint32_t v : part.cageVertices) {
             positions.push_back(cage_.positions[v]);
+            if (const char* const fault = faultOfCoordinates(&positions.back().x, 3)) {
+                refuse(at("vertex", v), std::string(fault) + " in the space of its node");
+            }
         }
         json attributes;
         attributes["POSITION"] = packer_.addFloats("VEC3", floatsOf(positions), Target::vertices, true);

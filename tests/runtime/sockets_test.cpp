@@ -155,7 +155,7 @@ TEST_F(Sockets, ASingularInverseBindGivesTheRestTransform) {
     cage::Character tube = socketTube();
     tube.skin.inverseBinds[0] = glm::scale(glm::mat4(1.0f), {1.0f, 0.0f, 1.0f});
     tube.skin.inverseBinds[1] = glm::scale(glm::mat4(1.0f), {1e-30f, 1e-30f, 1e-30f}); // whose inverse is far beyond
-    tube.skin.inverseBinds[1][3] = glm::vec4(1e20f, 0.0f, 0.0f, 1.0f);                 // what floats hold
+    tube.skin.inverseBinds[1][3] = glm::vec4(1e9f, 0.0f, 0.0f, 1.0f);                  // what floats hold
     const SuppleAsset asset = own->createAsset(tube);
     for (uint32_t j = 0; j < 3; ++j) {
         const SuppleJointInfo info = jointInfo(asset, j);
