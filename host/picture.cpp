@@ -9,7 +9,7 @@
 #include <cstring>
 #include <memory>
 
-// The one place where stb is compiled; static, so that it never meets another copy (imgui) in the linker.
+// Static, so that it never meets another copy (of imgui, of tools/creature) in the linker.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"

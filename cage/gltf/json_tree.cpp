@@ -43,7 +43,7 @@ public:
         return close(Json(std::span(std::as_const(tree_.items_)).subspan(first)));
     }
 
-    /// Of several members of one name, the last counts.
+    /// If several members have one name, the last counts.
     bool end_object() {
         const auto from = pending_.begin() + static_cast<std::ptrdiff_t>(opened_.back().first);
         std::stable_sort(from, pending_.end(),

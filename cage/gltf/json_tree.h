@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::string string() const { return std::string(isString() ? text() : std::string_view()); }
     [[nodiscard]] std::string_view text() const { return {text_, size_}; }
 
-    /// Of an array; every other value has none.
+    /// The items of an array. Every other value has none.
     [[nodiscard]] std::span<const Json> items() const {
         return isArray() ? std::span(items_, size_) : std::span<const Json>();
     }
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] const Json* end() const { return items().data() + items().size(); }
     [[nodiscard]] const Json& operator[](size_t item) const { return items_[item]; }
 
-    /// Of an object, by rising name, each name once; every other value has none.
+    /// The members of an object, by rising name, each name once. Every other value has none.
     [[nodiscard]] std::span<const JsonMember> members() const;
     /// Null where absent.
     [[nodiscard]] const Json* find(std::string_view name) const;

@@ -125,8 +125,8 @@ struct Model {
     int defaultScene = -1;
 };
 
-/// Of a document that checkStructure() has passed. Where decodedInto[view] is not -1, that buffer takes the place of
-/// what the bufferView names.
+/// The model of a document that checkStructure() has passed. Where decodedInto[view] is not -1, that buffer takes the
+/// place of what the bufferView names.
 [[nodiscard]] Model toModel(const Json& root, const std::vector<int>& decodedInto);
 
 [[nodiscard]] size_t componentSize(int componentType);

@@ -174,6 +174,11 @@ Slopes slopesAt(Corners c, vec2 u, vec2 v) {
     return Slopes(v.y * (c.uv[1] - c.uv[0]) + v.x * (c.uv[2] - c.uv[3]),
                   u.y * (c.uv[3] - c.uv[0]) + u.x * (c.uv[2] - c.uv[1]));
 }
+Slopes slopesOnPentagon(Corners c, uint sector, vec3 l) {
+    Slopes slopes;
+    pentagonSlopes(c.uv, sector, l, slopes.a, slopes.b);
+    return slopes;
+}
 // In a sector, with the weights of its corners and the centre.
 Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
     uint next = sector + 1u == kCorners ? 0u : sector + 1u;
@@ -184,11 +189,7 @@ Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
         vec2 a = along.x * uv.a + along.y * uv.b, across = inwards.x * uv.a + inwards.y * uv.b;
         return Slopes(a, 0.5 * (a + across));
     }
-    if (kDomain == kPentagonDomain) {
-        Slopes slopes;
-        pentagonSlopes(c.uv, sector, l, slopes.a, slopes.b);
-        return slopes;
-    }
+    if (kDomain == kPentagonDomain) return slopesOnPentagon(c, sector, l);
     return Slopes(c.uv[next] - c.uv[sector], uvCentre(c, kCorners) - c.uv[sector]);
 }
 
@@ -410,11 +411,7 @@ Slopes curveSlopes(uint first, vec2 t, bool sectors) {
 // Along its side and inwards, as evaluate/edge.comp has the derivatives of the position.
 Slopes slopesOnEdge(Corners c, uint side, uint corners, bool sectors, vec2 t) {
     vec2 own = c.uv[side], next = c.uv[side + 1u == corners ? 0u : side + 1u], along = next - own;
-    if (corners == 5u) {
-        Slopes slopes;
-        pentagonSlopes(c.uv, side, vec3(t.y, t.x, 0.0), slopes.a, slopes.b);
-        return slopes;
-    }
+    if (corners == 5u) return slopesOnPentagon(c, side, vec3(t.y, t.x, 0.0));
     if (sectors && corners != 4u) return Slopes(along, uvCentre(c, corners) - own);
     if (corners == 3u) { // polar
         if (side == 0u) return Slopes(along, c.uv[2] - (t.y * own + t.x * next));

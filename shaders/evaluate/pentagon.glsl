@@ -9,8 +9,9 @@ struct PentagonPlace {
     bool first;              // the corner is the first one of the own side
     vec2 slope;              // of `at.y`, per weight of the corner and of the middle of the own side
 };
-// `l`: the weights of a sector's corners and of the centre. The three points O (the centre), A, M of half a sector have weights
-// of their own: `corner` of A, `middle` of M. With M + M' = 2 cos^2(36) A the bilinear map a M + b M' + ab (A - M - M') is that point where
+// `l`: the weights of a sector's corners and of the centre. In its half of the sector the point is corner A + middle M, seen from
+// the centre, with M the middle of the own side. With M + M' = 2 cos^2(36) A, the bilinear map a M + b M' + ab (A - M - M') is
+// that point where
 //   a = b + middle,   (1 - m) b^2 + (m + (1 - m) middle) b = corner,   m = 2 cos^2(36)
 PentagonPlace pentagonPlace(uint sector, vec3 l) {
     const float kMiddles = 1.3090169943749475, kRest = 1.0 - kMiddles;
@@ -50,7 +51,8 @@ void pentagonSlopes(vec2 uv[5], uint sector, vec3 l, out vec2 along, out vec2 in
     vec2 own = 0.5 * (corner + uv[place.own]), other = 0.5 * (corner + uv[place.other]), q = 1.0 - place.at;
     vec2 a = q.y * (own - centre) + place.at.y * (corner - other), b = q.x * (other - centre) + place.at.x * (corner - own);
     // How the weights of the corner and of the middle change: l.x falls in both directions, and l.y grows along the side.
-    vec2 alongStep = place.first ? vec2(-2.0, 2.0) : vec2(2.0, -2.0), inwardStep = place.first ? vec2(-1.0, 0.0) : vec2(1.0, -2.0);
+    vec2 alongStep = place.first ? vec2(-2.0, 2.0) : vec2(2.0, -2.0);
+    vec2 inwardStep = place.first ? vec2(-1.0, 0.0) : vec2(1.0, -2.0);
     float alongB = dot(place.slope, alongStep), inwardB = dot(place.slope, inwardStep);
     along = (alongB + alongStep.y) * a + alongB * b;
     inwards = (inwardB + inwardStep.y) * a + inwardB * b;

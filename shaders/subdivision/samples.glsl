@@ -98,7 +98,7 @@ void centreLimit(uint mask, uint sector, out vec3 position, out Frame frame) {
     }
 }
 
-// Of a sample's two limit row elements.
+// The sample of two elements of a limit row.
 void limitSample(uvec4 around, uvec4 place, uint header, uint fragments, uint fragment, uint step, out vec3 position,
                  out Frame frame) {
     uvec4 head = tableElement(header), lists = tableElement(header + 1u);

@@ -297,7 +297,7 @@ private:
     }
 
     /// How often to turn from a point's first neighbour to the direction of the sector's first edge, by quarters (Loop:
-    /// sixths). Of a centre 0.
+    /// sixths). A centre has 0.
     [[nodiscard]] uint32_t turnsAt(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
                                    int32_t b) const {
         const uint32_t next = pointAt(key, sector, a + 1, b), step = loop_ ? 1 : 2;

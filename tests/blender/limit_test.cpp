@@ -21,7 +21,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of the extent of what Blender shows and the origin, from which floats are counted. A case may have its own.
+/// As parts of the extent of what Blender shows, with the origin, from which floats are counted. A case may have its
+/// own limit.
 constexpr double kLargestDistance = 2e-6;
 constexpr double kLargestUvDistance = 1e-6;
 /// Samples so near to a point of Blender's, as a part of the extent, are samples of the same place.

@@ -37,7 +37,7 @@ double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// Of the input that is running, for who reads what a crash leaves.
+// The input that is running is kept, for who reads what a crash leaves.
 const Bytes* running = nullptr;
 std::string kept;
 

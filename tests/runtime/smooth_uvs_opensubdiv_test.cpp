@@ -120,9 +120,7 @@ QuadsOfFaces::Place quarterOf(bool quads, uint32_t patch, glm::dvec2 uv) {
     const uint32_t part = patch % 4;
     const glm::dvec2 half = 0.5 * uv;
     if (quads) {
-        const glm::dvec2 turned[] = {
-            half, {1.0 - half.y, half.x}, {1.0 - half.x, 1.0 - half.y}, {half.y, 1.0 - half.x}};
-        return {patch / 4, 0, turned[part]};
+        return {patch / 4, 0, ExactQuads::inFace(half.x, half.y, part)};
     }
     const double rest = 0.5 - half.x - half.y;
     const glm::dvec2 within[] = {half, {0.5 + rest, half.x}, {half.y, 0.5 + rest}, {0.5 - half.y, half.x + half.y}};

@@ -112,10 +112,7 @@ public:
         Place place = quads_[quad];
         place.uv = uv;
         if (stepped_ && cage_.sides(place.face) == 4) {
-            const glm::dvec2 half = 0.5 * uv;
-            const glm::dvec2 turned[] = {
-                half, {1.0 - half.y, half.x}, {1.0 - half.x, 1.0 - half.y}, {half.y, 1.0 - half.x}};
-            place.uv = turned[place.part];
+            place.uv = ExactQuads::inFace(0.5 * uv.x, 0.5 * uv.y, place.part);
             place.part = 0;
         }
         return place;

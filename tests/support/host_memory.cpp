@@ -15,7 +15,7 @@ std::atomic<uint64_t> largest{0};
 std::atomic<int64_t> live{0};
 std::atomic<int64_t> peak{0};
 
-// Of one thread: drivers have threads of their own, whose allocations would shift the count from run to run.
+// One thread is counted. Drivers have threads of their own, whose allocations would shift the count from run to run.
 thread_local bool armed = false;
 thread_local bool paused = false;
 thread_local bool came = false;

@@ -89,7 +89,7 @@ void bindCamera(CLI::App& command, RenderOptions& options) {
         ->check(CLI::Range(0.01, 170.0))
         ->capture_default_str()
         ->needs(eye);
-    for (const char* framing : {"--yaw", "--pitch", "--zoom", "--at", "--camera"}) {
+    for (const char* framing : {"--yaw", "--pitch", "--zoom", "--at"}) {
         eye->excludes(command.get_option(framing));
     }
 }
@@ -144,16 +144,6 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
         ->check(CLI::Validator(place, "X,Y"))
         ->capture_default_str();
-    const auto cameraFault = [](const std::string& text) {
-        host::Camera camera;
-        return parseCamera(text, camera) ? std::string() : text + " is not X,Y,Z,DISTANCE";
-    };
-    command
-        ->add_option("--camera", options->camera,
-                     "What the camera looks at, and from how far away, instead of what fills the picture")
-        ->check(CLI::Validator(cameraFault, "X,Y,Z,DISTANCE"))
-        ->excludes(command->get_option("--zoom"))
-        ->excludes(command->get_option("--at"));
     bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});

@@ -99,8 +99,6 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     scene.camera = options.eye.empty() ? host::frameCamera(points, radians(options.draw.yaw),
                                                            radians(options.draw.pitch), aspect, kMargin)
                                        : placedCamera(options, scene.bounds);
-    if (!options.camera.empty())
-        parseCamera(options.camera, scene.camera); // the command line has checked it
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)
         closeUp(scene.camera, options, aspect);
@@ -190,17 +188,6 @@ bool parsePoint(const std::string& text, glm::vec3& point) {
     return std::sscanf(text.c_str(), "%f,%f,%f%n", &point.x, &point.y, &point.z, &read) == 3 &&
            static_cast<size_t>(read) == text.size() && std::isfinite(point.x) && std::isfinite(point.y) &&
            std::isfinite(point.z);
-}
-
-bool parseCamera(const std::string& text, host::Camera& camera) {
-    float x = 0.0f, y = 0.0f, z = 0.0f, distance = 0.0f;
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%f,%f,%f,%f%n", &x, &y, &z, &distance, &read) != 4 ||
-        static_cast<size_t>(read) != text.size() || !std::isfinite(x + y + z + distance) || !(distance > 0.0f))
-        return false;
-    camera.target = {x, y, z};
-    camera.distance = distance;
-    return true;
 }
 
 Status renderPicture(Session& session, const RenderOptions& options) {

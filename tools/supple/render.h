@@ -23,9 +23,6 @@ struct RenderOptions {
     std::string lookAt; ///< X,Y,Z: with `eye`
     std::string up = "0,1,0";  ///< X,Y,Z: with `eye`
     double fieldOfView = 27.0; ///< degrees from lower to upper edge; with `eye`
-    /// TX,TY,TZ,DISTANCE: where the camera looks, and from how far away, instead of what fills the picture; empty:
-    /// that.
-    std::string camera;
     DrawOptions draw;
 };
 
@@ -37,8 +34,6 @@ inline constexpr const char* kAllSchemes = "all";
 
 /// "X,Y,Z", all finite; false leaves the point undefined.
 [[nodiscard]] bool parsePoint(const std::string& text, glm::vec3& point);
-/// RenderOptions::camera; false leaves `camera` as it is.
-bool parseCamera(const std::string& text, host::Camera& camera);
 
 /// Draws the picture into its file.
 [[nodiscard]] Status renderPicture(Session& session, const RenderOptions& options);

@@ -101,18 +101,28 @@ void addDraw(Words& words, const DrawOptions& draw) {
     addReading(words, draw.reading);
 }
 
+/// What single pictures and animated ones have in common.
+template <class Options>
+void addPicture(Words& words, const Options& options) {
+    const Options usual;
+    words.add(options.file).add("-o").add(options.output);
+    words.option("--size", options.size, usual.size);
+    words.option("--clip", options.clip, usual.clip);
+}
+
 } // namespace
 
 std::string commandLine(const RenderOptions& options) {
     const RenderOptions usual;
     Words words("supple render");
-    words.add(options.file).add("-o").add(options.output);
-    words.option("--size", options.size, usual.size);
-    words.option("--clip", options.clip, usual.clip);
+    addPicture(words, options);
     words.option("--time", options.time, usual.time);
     words.option("--zoom", options.zoom, usual.zoom);
     words.option("--at", options.at, usual.at);
-    words.option("--camera", options.camera, usual.camera);
+    words.option("--eye", options.eye, usual.eye);
+    words.option("--look-at", options.lookAt, usual.lookAt);
+    words.option("--up", options.up, usual.up);
+    words.option("--fov", options.fieldOfView, usual.fieldOfView);
     addDraw(words, options.draw);
     return words.text();
 }
@@ -120,9 +130,7 @@ std::string commandLine(const RenderOptions& options) {
 std::string commandLine(const AnimateOptions& options) {
     const AnimateOptions usual;
     Words words("supple animate");
-    words.add(options.file).add("-o").add(options.output);
-    words.option("--size", options.size, usual.size);
-    words.option("--clip", options.clip, usual.clip);
+    addPicture(words, options);
     words.option("--fps", options.fps, usual.fps);
     words.option("--seconds", options.seconds, usual.seconds);
     words.option("--turn", options.turn, usual.turn);

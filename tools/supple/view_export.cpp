@@ -39,6 +39,10 @@ std::string clipText(const host::Figure& figure, uint32_t clip) {
                                                                                                  : std::to_string(clip);
 }
 
+std::string pointText(const glm::vec3& p) {
+    return formatted("%.9g,%.9g,%.9g", static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+}
+
 DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
     const ViewSettings& settings = stage.settings;
     DrawOptions draw = given;
@@ -51,8 +55,6 @@ DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const Ex
     draw.cageOverlay = settings.cageOverlay;
     draw.ground = settings.ground;
     draw.alpha = wish.alpha;
-    draw.yaw = degrees(stage.camera().yaw);
-    draw.pitch = degrees(stage.camera().pitch);
     draw.parts.clear();
     if (std::find(settings.shownParts.begin(), settings.shownParts.end(), false) != settings.shownParts.end()) {
         for (size_t part = 0; part < settings.shownParts.size(); ++part) {
@@ -88,15 +90,20 @@ std::string freeName(const std::string& stem, const std::string& ending) {
 }
 
 RenderOptions shownPicture(const ViewStage& stage, const DrawOptions& given, const ExportWish& wish) {
+    const DrawOptions usual;
     RenderOptions options;
     options.file = stage.figure().path();
     options.clip = clipText(stage.figure(), stage.settings.clip);
     options.time = options.clip.empty() ? 0.0 : stage.settings.time;
     options.size = sizeText(wish.size);
-    const glm::vec3 target = stage.centeredTarget();
-    options.camera = formatted("%.9g,%.9g,%.9g,%.9g", static_cast<double>(target.x), static_cast<double>(target.y),
-                               static_cast<double>(target.z), static_cast<double>(stage.camera().distance));
+    host::Camera camera = stage.camera();
+    camera.target = stage.centeredTarget();
+    options.eye = pointText(camera.eye());
+    options.lookAt = pointText(camera.target);
+    options.fieldOfView = degrees(camera.fieldOfView);
     options.draw = shownDraw(stage, given, wish);
+    options.draw.yaw = usual.yaw; // --eye has them
+    options.draw.pitch = usual.pitch;
     return options;
 }
 
@@ -106,6 +113,8 @@ AnimateOptions shownClip(const ViewStage& stage, const DrawOptions& given, const
     options.clip = clipText(stage.figure(), stage.settings.clip);
     options.size = sizeText(wish.size);
     options.draw = shownDraw(stage, given, wish);
+    options.draw.yaw = degrees(stage.camera().yaw);
+    options.draw.pitch = degrees(stage.camera().pitch);
     return options;
 }
 
