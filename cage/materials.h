@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace supple::cage {
 
@@ -25,6 +27,26 @@ namespace supple::cage {
     const bool trimmed = material.trim && material.trim->domain == TrimDomain::uv;
     return std::max(sets, trimmed ? material.trim->texture.uvSet + 1 : 0);
 }
+
+/// How a normal map lies: the texture coordinates of its own frame are turn() of those of a UV set. They have the
+/// direction and the hand of those that it is looked up at, but not their scale.
+struct MapFrame {
+    uint32_t uvSet = 0;
+    glm::vec2 down{0.0f, 1.0f}; ///< a unit vector: the second of its coordinates grows this way. Zero: none does
+    float hand = 1.0f;          ///< -1: KHR_texture_transform mirrors it. 0: it has no area
+
+    [[nodiscard]] glm::vec2 turn(const glm::vec2& uv) const {
+        return {hand * (down.y * uv.x - down.x * uv.y), down.x * uv.x + down.y * uv.y};
+    }
+    bool operator==(const MapFrame&) const = default;
+};
+
+/// Of every material of a character. Empty if all are the first UV set as it is: then nobody needs to turn anything.
+/// The frame of a map on a UV set that the cage lacks has no direction.
+[[nodiscard]] std::vector<MapFrame> mapFramesOf(const Character& character);
+
+/// The texture coordinates that tangents follow, one per corner; `frames`: mapFramesOf(). Empty if the cage has none.
+[[nodiscard]] std::vector<glm::vec2> mapUvs(const Cage& cage, std::span<const MapFrame> frames);
 
 /// A material of which only the name is known. glTF's own defaults are a rough metal, which few characters are made of.
 [[nodiscard]] inline Material namedMaterial(std::string name) {

@@ -28,8 +28,9 @@ constexpr uint32_t previousOf(uint32_t k) {
 /// MikkTSpace of triangles. A place is a corner of a triangle; it has the number 3 * triangle + k.
 class TangentSpace {
 public:
-    TangentSpace(const Cage& cage, std::span<const uint32_t> triangles, std::span<const glm::vec3> normals)
-        : cage_(cage), corners_(triangles), normals_(normals), triangles_(triangles.size() / 3),
+    TangentSpace(const Cage& cage, std::span<const uint32_t> triangles, std::span<const glm::vec3> normals,
+                 std::span<const glm::vec2> uvs)
+        : cage_(cage), corners_(triangles), normals_(normals), uvs_(uvs), triangles_(triangles.size() / 3),
           groups_(triangles.size(), kNone) {}
 
     std::vector<glm::vec4> build() {
@@ -64,7 +65,7 @@ private:
     [[nodiscard]] glm::dvec3 position(uint32_t place) const {
         return cage_.positions[cage_.faceVertices[corners_[place]]];
     }
-    [[nodiscard]] glm::dvec2 uv(uint32_t place) const { return cage_.cornerUvs[corners_[place]]; }
+    [[nodiscard]] glm::dvec2 uv(uint32_t place) const { return uvs_[corners_[place]]; }
     [[nodiscard]] glm::dvec3 normal(uint32_t place) const { return normals_[corners_[place]]; }
 
     /// Places with one position, normal and texture coordinate are one point.
@@ -73,7 +74,7 @@ private:
             const uint32_t corner = corners_[place];
             const glm::vec3& p = cage_.positions[cage_.faceVertices[corner]];
             const glm::vec3& n = normals_[corner];
-            const glm::vec2& t = cage_.cornerUvs[corner];
+            const glm::vec2& t = uvs_[corner];
             return std::array<float, 8>{p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y};
         };
         std::vector<uint32_t> order(corners_.size());
@@ -209,6 +210,7 @@ private:
     const Cage& cage_;
     const std::span<const uint32_t> corners_;
     const std::span<const glm::vec3> normals_;
+    const std::span<const glm::vec2> uvs_;
     std::vector<Triangle> triangles_;
     std::vector<uint32_t> points_; ///< by place: the first place with the same
     std::vector<uint32_t> groups_; ///< by place: the place that its group began with
@@ -218,13 +220,13 @@ private:
 } // namespace
 
 std::vector<glm::vec4> triangleTangents(const Cage& cage, std::span<const uint32_t> triangles,
-                                        std::span<const glm::vec3> normals) {
+                                        std::span<const glm::vec3> normals, std::span<const glm::vec2> uvs) {
     const glm::vec4 kNoTangent(0.0f, 0.0f, 0.0f, 1.0f);
     const bool authored = !cage.cornerTangents.empty();
     const auto given = [&](uint32_t corner) { return authored && cage.cornerTangents[corner] != glm::vec4(0.0f); };
     std::vector<glm::vec4> tangents(triangles.size(), kNoTangent);
-    if (!cage.cornerUvs.empty() && !std::all_of(triangles.begin(), triangles.end(), given)) {
-        tangents = TangentSpace(cage, triangles, normals).build();
+    if (!uvs.empty() && !std::all_of(triangles.begin(), triangles.end(), given)) {
+        tangents = TangentSpace(cage, triangles, normals, uvs).build();
     }
     for (size_t place = 0; place < triangles.size() && authored; ++place) {
         if (given(triangles[place])) {

@@ -15,11 +15,6 @@ shared::TexturePlace placeOf(const SuppleTextureInfo& texture, bool uv1) {
              texture.image != SUPPLE_NO_IMAGE ? 1.0f : 0.0f}};
 }
 
-/// The group's tangents belong to the first texture coordinates as they are.
-bool liesAsTangents(const SuppleTextureInfo& texture) {
-    return texture.uvSet == 0 && texture.rotation == 0.0f && texture.scale[0] > 0.0f && texture.scale[1] > 0.0f;
-}
-
 /// Holes that the base color's alpha does not make.
 bool hasOwnTrim(const SuppleMaterialInfo& material) {
     return material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
@@ -40,7 +35,6 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1) {
     set(material.unlit != 0, shared::kMaterialUnlit);
     set(ownTrim, shared::kMaterialTrim);
     set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
-    set(liesAsTangents(material.normal), shared::kMaterialTangents);
     for (const SuppleTextureInfo* texture : {&material.baseColor, &material.metallicRoughness, &material.normal,
                                              &material.occlusion, &material.emissive, &material.trim}) {
         set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);

@@ -61,21 +61,34 @@ private:
     [[nodiscard]] uint32_t recordOf(const PatchRange& range, uint32_t patch) const {
         return range.section.table + (patch - range.firstPatch) * recordElements(tables_, range.patchClass);
     }
-    [[nodiscard]] uint32_t cornerElements() const { return tables_.uvSets == 2 || tables_.faceUvs ? 2 : 1; }
     [[nodiscard]] uint32_t attributeElement(const PatchRange& range, uint32_t patch, uint32_t corner) const {
         const uint32_t at = cornerCount(domainOf(range.patchClass)) * (patch - range.firstPatch) + corner;
         const uint32_t word = tables_.words[range.attributes + (tables_.attributeHalves ? at / 2 : at)];
         const uint32_t number = !tables_.attributeHalves ? word : word >> 16 * (at % 2) & 0xFFFFu;
-        return tables_.attributes + cornerElements() * number;
+        return tables_.attributes + tables_.cornerElements() * number;
     }
 
-    /// The sign of a patch's area in texture coordinates (shaders/evaluate/attributes.comp).
+    /// The texture coordinates that tangents follow.
+    [[nodiscard]] glm::vec2 mapUv(uint32_t element) const {
+        const auto pair = [&](size_t word) {
+            const uint32_t* words = &tables_.words[size_t{4} * element + word];
+            return glm::vec2(std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1]));
+        };
+        if (!tables_.mapFrames) {
+            return pair(0);
+        }
+        const size_t frame = size_t{4} * (tables_.cornerElements() - 1);
+        const uint32_t* words = &tables_.words[size_t{4} * element + frame];
+        return cage::MapFrame{words[3], pair(frame), std::bit_cast<float>(words[2])}.turn(
+            pair(words[3] == 1 && tables_.uvSets == 2 ? 4 : 0));
+    }
+
+    /// The sign of a patch's area in these (shaders/evaluate/attributes.comp).
     [[nodiscard]] int handOf(const PatchRange& range, uint32_t patch) const {
         const uint32_t corners = cornerCount(domainOf(range.patchClass));
         std::array<glm::vec2, kMaxSides> uvs{};
         for (uint32_t k = 0; k < corners; ++k) {
-            const uint32_t* words = &tables_.words[size_t{4} * attributeElement(range, patch, k)];
-            uvs[k] = {std::bit_cast<float>(words[0]), std::bit_cast<float>(words[1])};
+            uvs[k] = mapUv(attributeElement(range, patch, k));
         }
         float area = 0.0f;
         for (uint32_t k = 0; k < corners; ++k) {

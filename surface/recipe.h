@@ -2,8 +2,10 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/materials.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace supple::surface {
 
@@ -56,6 +58,8 @@ struct Recipe {
     uint32_t rate = 0;      ///< segments along an edge of the cage (Scheme::tableRate); 0: tables for all rates
     bool attributes = true; ///< the tables have corner attributes
     bool tangents = false;  ///< of a mesh with attributes: vertices have tangents, and differ where these do
+    /// With tangents, by material: how its normal map lies (cage::mapFramesOf).
+    std::vector<cage::MapFrame> mapFrames;
     /// How texture coordinates are interpolated; all: linearly. Without attributes it does not matter.
     cage::UvMode uvMode = cage::UvMode::all;
     bool lod = false;         ///< the tables have what level of detail needs

@@ -143,6 +143,7 @@ struct Tables {
         cage::UvMode::all;   ///< all: texture coordinates are linear, and the tables have no smooth ones
     bool uvQuads = false;    ///< smooth texture coordinates are quads of leaves, whatever the classes of patches
     bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
+    bool mapFrames = false;  ///< corners have the frame of their material's normal map (cage::MapFrame)
     uint32_t attributes = 0; ///< first element of the corner attributes, which come last
     bool attributeHalves = false; ///< a word holds two attribute numbers
     uint32_t isolationSteps = 0;  ///< the cage is subdivided so often before patches are made of its faces
@@ -159,6 +160,10 @@ struct Tables {
     std::vector<std::string> notes; ///< what the scheme changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;
+    /// Elements of corner attributes a corner.
+    [[nodiscard]] uint32_t cornerElements() const {
+        return 1u + (uvSets == 2 || faceUvs ? 1u : 0u) + (mapFrames ? 1u : 0u);
+    }
     /// What corners have beside the first UV set and the color: shared::kOutput... bits.
     [[nodiscard]] uint32_t attributeOutputs() const {
         return (uvSets == 2 ? shared::kOutputUvs1 : 0) | (faceUvs ? shared::kOutputFaceUvs : 0) |

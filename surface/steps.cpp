@@ -236,7 +236,8 @@ uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format) {
 }
 
 uint32_t outputsOf(const ProgramBuilder& builder) {
-    return builder.tables.attributeOutputs() & builder.needs.attributeOutputs;
+    return (builder.tables.attributeOutputs() & builder.needs.attributeOutputs) |
+           (builder.tables.mapFrames ? kOutputMapFrames : 0);
 }
 
 gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,

@@ -12,57 +12,70 @@ namespace {
 /// Numbers what corners have, once for corners of a vertex that have the same.
 class CornerNumbers {
 public:
-    explicit CornerNumbers(const cage::Cage& cage)
-        : cage_(cage), alike_(cage.cornerUvs.empty() && cage.cornerUvs1.empty() && cage.cornerColors.empty() &&
-                              cage.cornerFaceUvs.empty()),
+    CornerNumbers(const Recipe& recipe, const cage::Cage& cage)
+        : recipe_(recipe), cage_(cage),
+          alike_(recipe.mapFrames.empty() && cage.cornerUvs.empty() && cage.cornerUvs1.empty() &&
+                 cage.cornerColors.empty() && cage.cornerFaceUvs.empty()),
           last_(alike_ ? 1 : cage.vertexCount(), cage::kNone) {}
 
-    uint32_t of(uint32_t corner) {
+    uint32_t of(uint32_t corner, uint32_t material) {
         uint32_t& last = last_[alike_ ? 0 : cage_.faceVertices[corner]];
         const CornerWords words = cornerWords(cage_, corner);
+        const cage::MapFrame frame = mapFrameOf(recipe_, material);
         uint32_t number = last;
         for (uint32_t tries = 0; number != cage::kNone && tries < kTries; ++tries, number = known_[number].before) {
-            if (known_[number].words == words) {
+            if (known_[number].words == words && known_[number].frame == frame) {
                 return number;
             }
         }
-        known_.push_back({words, last});
+        known_.push_back({words, frame, last});
         last = static_cast<uint32_t>(known_.size() - 1);
         return last;
     }
 
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(known_.size()); }
-    [[nodiscard]] const CornerWords& words(uint32_t number) const { return known_[number].words; }
+    /// The first `count` words that a corner has, and the frame of its normal map.
+    void put(uint32_t number, size_t count, TableWriter& writer) const {
+        const Known& corner = known_[number];
+        writer.put(std::span(corner.words).first(count));
+        if (!recipe_.mapFrames.empty()) {
+            writer.putFloats({corner.frame.down.x, corner.frame.down.y, corner.frame.hand});
+            writer.put({corner.frame.uvSet});
+        }
+    }
 
 private:
     static constexpr uint32_t kTries = 8; ///< a vertex of many thousand corners may not cost their square
 
     struct Known {
         CornerWords words;
+        cage::MapFrame frame;
         uint32_t before = cage::kNone; ///< of the vertex
     };
 
+    const Recipe& recipe_;
     const cage::Cage& cage_;
     bool alike_;                 ///< corners have nothing
     std::vector<uint32_t> last_; ///< by vertex
     std::vector<Known> known_;
 };
 
-void writeAttributes(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer,
-                     Tables& tables) {
+void writeAttributes(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
+                     TableWriter& writer, Tables& tables) {
     const size_t elementWords = noteAttributes(cage, tables);
-    CornerNumbers known(cage);
+    tables.mapFrames = !recipe.mapFrames.empty();
+    CornerNumbers known(recipe, cage);
     std::vector<uint32_t> numbers; // patch by patch
     numbers.reserve(cage.cornerCount());
     for (const DraftPatch& patch : patches) {
         for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
-            numbers.push_back(known.of(patch.cageCorners[i]));
+            numbers.push_back(known.of(patch.cageCorners[i], patch.info.material));
         }
     }
     tables.attributes = writer.element();
-    writer.reserve(elementWords * known.count() + numbers.size());
+    writer.reserve(size_t{4} * tables.cornerElements() * known.count() + numbers.size());
     for (uint32_t number = 0; number < known.count(); ++number) {
-        writer.put(std::span(known.words(number)).first(elementWords));
+        known.put(number, elementWords, writer);
     }
     tables.attributeHalves = known.count() <= 1u << 16;
     size_t next = 0;
@@ -99,6 +112,10 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
     tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
     tables.faceUvs = !cage.cornerFaceUvs.empty();
     return tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
+}
+
+cage::MapFrame mapFrameOf(const Recipe& recipe, uint32_t material) {
+    return material < recipe.mapFrames.size() ? recipe.mapFrames[material] : cage::MapFrame{};
 }
 
 bool Tables::hasTangents() const {
@@ -175,8 +192,9 @@ void listPatches(const std::vector<DraftPatch>& patches, Tables& tables) {
     }
 }
 
-void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables) {
-    writeAttributes(cage, patches, writer, tables);
+void finishTables(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
+                  TableWriter& writer, Tables& tables) {
+    writeAttributes(recipe, cage, patches, writer, tables);
     listPatches(patches, tables);
 }
 

@@ -1,6 +1,7 @@
 // Writes the tables of a scheme word by word, and the parts that all schemes have. Private to surface/.
 #pragma once
 
+#include "surface/recipe.h"
 #include "surface/scheme.h"
 
 #include <algorithm>
@@ -81,17 +82,20 @@ void countPatch(PatchClass patchClass, uint32_t patch, TableWriter& writer, Tabl
 /// Counts a vertex, whose record comes next, among those of its kernel in the vertex pass.
 void countVertex(const KindOfKernel& kernel, uint32_t coefficients, TableWriter& writer, Tables& tables);
 
-/// What a corner has besides its position, as the tables hold it (shaders/shared/surface.h): the first four words, all
-/// if there is a second UV set or a face UV.
+/// What a corner has besides its position, as the tables hold it (shaders/shared/surface.h): the first four words, and
+/// eight if there is a second UV set or a face UV.
 using CornerWords = std::array<uint32_t, 8>;
 [[nodiscard]] CornerWords cornerWords(const cage::Cage& cage, uint32_t corner);
 /// Notes in `tables` what corners of the cage have. Returns how many of their words are written: whole elements.
 uint32_t noteAttributes(const cage::Cage& cage, Tables& tables);
+/// How the normal map of a material lies.
+[[nodiscard]] cage::MapFrame mapFrameOf(const Recipe& recipe, uint32_t material);
 
 /// Lists the patches and what is drawn. `patches` are in device order.
 void listPatches(const std::vector<DraftPatch>& patches, Tables& tables);
 /// Writes what every scheme's tables end with: corner attributes, draw ranges and the list of patches. `patches` are in
 /// device order, and tables.ranges has their classes; this fills in PatchRange::attributes.
-void finishTables(const cage::Cage& cage, const std::vector<DraftPatch>& patches, TableWriter& writer, Tables& tables);
+void finishTables(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
+                  TableWriter& writer, Tables& tables);
 
 } // namespace supple::surface

@@ -92,8 +92,7 @@ SUPPLE_HOST_CONST kMaterialUnlit = 8u;       // the base color is shown as it is
 SUPPLE_HOST_CONST kMaterialTrim = 16u;       // surface: where the trim's texture is below the cutoff is a hole
 SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a face
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
-SUPPLE_HOST_CONST kMaterialTangents = 128u;  // the normal map lies as the group's tangents do
-SUPPLE_HOST_CONST kMaterialUvs1 = 256u;      // a texture lies on the second texture coordinates
+SUPPLE_HOST_CONST kMaterialUvs1 = 128u;      // a texture lies on the second texture coordinates
 
 // From here on a translucent material is solid.
 SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;

@@ -80,7 +80,7 @@ vec3 normalFromMap(vec3 front) {
         return front;
     vec2 uv = placed(kNormal, inUvs);
     vec3 texel = normalTexelAt(uv);
-    if (materialHas(kMaterialTangents) && (push.flags & kDrawTangents) != 0u)
+    if ((push.flags & kDrawTangents) != 0u)
         return mappedNormal(front, inNormal, inTangent, texel);
     return mappedNormalHere(front, inPosition, uv, texel);
 }

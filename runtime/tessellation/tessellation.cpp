@@ -122,6 +122,9 @@ Status Tessellation::buildTables() {
     if (const Status chosen = chooseUvs(recipe); !chosen) {
         return chosen;
     }
+    if (recipe.attributes && wanted_.has(Stream::tangents)) {
+        recipe.mapFrames = cage::mapFramesOf(desc_.asset->character);
+    }
     Result<std::shared_ptr<SchemeTables>> built = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
     if (!built) {
         return built.error();

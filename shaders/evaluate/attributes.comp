@@ -28,7 +28,9 @@ const bool kRings = false;
 layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, .. where they are written
 layout(constant_id = kSectorsConstant) const bool kSectors = false;
 const bool kDirections = (kOutputs & kOutputDirections) != 0u;
-const bool kMoreUvs = (kOutputs & (kOutputUvs1 | kOutputFaceUvs)) != 0u;
+// Corners have the frames of normal maps. Otherwise these are the first texture coordinates as they are.
+const bool kMapFrames = (kOutputs & kOutputMapFrames) != 0u;
+const bool kMoreUvs = (kOutputs & (kOutputUvs1 | kOutputFaceUvs | kOutputMapFrames)) != 0u;
 
 layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
 layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
@@ -90,33 +92,50 @@ struct Corners {
     vec2 uv[5];
     vec4 color[5];
     vec4 more[5]; // second UV, face UV
-    // With directions: the sign of the face's area in texture coordinates, which all of its samples have, and its size there.
+    // With directions: in the frame of the normal map the texture coordinates, the sign of the face's area, which all of its
+    // samples have, and its size.
+    vec2 map[5];
     float side, size;
+    vec3 frame; // a direction and a sign: see turned()
+    bool second; // the map lies on the second UV set
 #ifdef SMOOTH
     SmoothPatch smooth0, smooth1; // of the first and the second UV set
 #endif
 };
-uint cornerElements() { return push.uvSets == 2u || push.faceUvs != 0u ? 2u : 1u; }
+bool haveMore() { return push.uvSets == 2u || push.faceUvs != 0u; }
+uint cornerElements() { return 1u + uint(haveMore()) + uint(kMapFrames); }
+// Texture coordinates in the frame of the corners' normal map (cage::MapFrame::turn).
+vec2 turned(Corners c, vec2 uv) {
+    precise vec2 map = vec2(c.frame.z * (c.frame.y * uv.x - c.frame.x * uv.y), c.frame.x * uv.x + c.frame.y * uv.y);
+    return map;
+}
 void loadCorner(inout Corners c, uint k, uint element) {
     uvec4 corner = tableElement(element);
     c.uv[k] = uintBitsToFloat(corner.xy);
     c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
-    c.more[k] = kMoreUvs ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+    c.more[k] = kMoreUvs && haveMore() ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
+    if (kDirections) c.map[k] = c.uv[k];
+    if (kMapFrames) {
+        uvec4 frame = tableElement(element + cornerElements() - 1u);
+        c.frame = uintBitsToFloat(frame.xyz);
+        c.second = frame.w == 1u;
+        c.map[k] = turned(c, c.second ? c.more[k].xy : c.uv[k]);
+    }
 }
-vec2 uvCentre(Corners c, uint corners) {
+vec2 mapCentre(Corners c, uint corners) {
     vec2 sum = vec2(0.0);
-    for (uint k = 0u; k < corners; ++k) sum += c.uv[k];
+    for (uint k = 0u; k < corners; ++k) sum += c.map[k];
     return sum / float(corners);
 }
 void findSide(inout Corners c, uint corners) {
-    vec2 centre = uvCentre(c, corners);
+    vec2 centre = mapCentre(c, corners);
     float area = 0.0;
     c.size = 0.0;
     for (uint k = 0u; k < corners; ++k) {
-        vec2 p = c.uv[k] - c.uv[0], q = c.uv[k + 1u == corners ? 0u : k + 1u] - c.uv[0];
+        vec2 p = c.map[k] - c.map[0], q = c.map[k + 1u == corners ? 0u : k + 1u] - c.map[0];
         precise float twice = p.x * q.y - p.y * q.x;
         area += twice;
-        c.size = max(c.size, distance(c.uv[k], centre));
+        c.size = max(c.size, distance(c.map[k], centre));
     }
     c.side = sign(area);
 }
@@ -133,7 +152,7 @@ Corners loadCorners(uint patchIndex) {
 #ifdef SMOOTH
     uint first = push.smoothUvs + push.uvSets * kSmoothElements * patchIndex;
     c.smooth0 = loadSmooth(first);
-    if ((kOutputs & kOutputUvs1) != 0u) c.smooth1 = loadSmooth(first + kSmoothElements);
+    if ((kOutputs & kOutputUvs1) != 0u || (kMapFrames && push.uvSets == 2u)) c.smooth1 = loadSmooth(first + kSmoothElements);
 #endif
     return c;
 }
@@ -162,21 +181,21 @@ Sample weighted(Corners c, float w[5]) {
 }
 void store(uint vertex, Corners c, float w[5]) { store(vertex, weighted(c, w)); }
 
-// Derivatives of the texture coordinates in the parameters whose derivatives evaluation has (docs/tangents.md): u and v of a
+// Derivatives of the map's texture coordinates in the parameters whose derivatives evaluation has (docs/tangents.md): u and v of a
 // patch, or along a sector's edge and towards the centre.
 struct Slopes {
     vec2 a, b;
 };
 Slopes slopesAt(Corners c, vec2 u, vec2 v) {
     // On polar patches both derivatives along u lack the factor 1 - v.
-    if (kDomain == kTriangleDomain) return Slopes(c.uv[1] - c.uv[0], c.uv[2] - c.uv[0]);
-    if (kDomain == kPolarDomain) return Slopes(c.uv[1] - c.uv[0], c.uv[2] - (u.y * c.uv[0] + u.x * c.uv[1]));
-    return Slopes(v.y * (c.uv[1] - c.uv[0]) + v.x * (c.uv[2] - c.uv[3]),
-                  u.y * (c.uv[3] - c.uv[0]) + u.x * (c.uv[2] - c.uv[1]));
+    if (kDomain == kTriangleDomain) return Slopes(c.map[1] - c.map[0], c.map[2] - c.map[0]);
+    if (kDomain == kPolarDomain) return Slopes(c.map[1] - c.map[0], c.map[2] - (u.y * c.map[0] + u.x * c.map[1]));
+    return Slopes(v.y * (c.map[1] - c.map[0]) + v.x * (c.map[2] - c.map[3]),
+                  u.y * (c.map[3] - c.map[0]) + u.x * (c.map[2] - c.map[1]));
 }
 Slopes slopesOnPentagon(Corners c, uint sector, vec3 l) {
     Slopes slopes;
-    pentagonSlopes(c.uv, sector, l, slopes.a, slopes.b);
+    pentagonSlopes(c.map, sector, l, slopes.a, slopes.b);
     return slopes;
 }
 // In a sector, with the weights of its corners and the centre.
@@ -190,7 +209,7 @@ Slopes sectorSlopes(Corners c, uint sector, vec3 l) {
         return Slopes(a, 0.5 * (a + across));
     }
     if (kDomain == kPentagonDomain) return slopesOnPentagon(c, sector, l);
-    return Slopes(c.uv[next] - c.uv[sector], uvCentre(c, kCorners) - c.uv[sector]);
+    return Slopes(c.map[next] - c.map[sector], mapCentre(c, kCorners) - c.map[sector]);
 }
 
 // The tangent is the direction in which the second texture coordinate stands still: a P_a + b P_b with (a, b) = side (t_b, -t_a).
@@ -207,6 +226,17 @@ void storeDirection(uint vertex, Corners c, Slopes slopes) {
     directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
 }
 
+// Of smooth texture coordinates, which have derivatives of their own. In the table of samples these are turned already.
+Slopes mapSlopes(Corners c, Slopes uv) {
+#ifdef SAMPLES
+    const bool turn = false;
+#else
+    const bool turn = kMapFrames;
+#endif
+    if (turn) return Slopes(turned(c, uv.a), turned(c, uv.b));
+    return uv;
+}
+
 #ifdef SMOOTH
 void storeSmooth(uint vertex, Corners c, float w[5], SmoothPlace at) {
     Sample s = weighted(c, w);
@@ -214,7 +244,8 @@ void storeSmooth(uint vertex, Corners c, float w[5], SmoothPlace at) {
     s.uv = uv.uv;
     if ((kOutputs & kOutputUvs1) != 0u) s.more.xy = smoothAt(c.smooth1, at).uv;
     store(vertex, s);
-    if (kDirections) storeDirection(vertex, c, Slopes(uv.a, uv.b));
+    if (kMapFrames && c.second) uv = smoothAt(c.smooth1, at);
+    if (kDirections) storeDirection(vertex, c, mapSlopes(c, Slopes(uv.a, uv.b)));
 }
 #endif
 
@@ -410,14 +441,14 @@ Slopes curveSlopes(uint first, vec2 t, bool sectors) {
 
 // Along its side and inwards, as evaluate/edge.comp has the derivatives of the position.
 Slopes slopesOnEdge(Corners c, uint side, uint corners, bool sectors, vec2 t) {
-    vec2 own = c.uv[side], next = c.uv[side + 1u == corners ? 0u : side + 1u], along = next - own;
+    vec2 own = c.map[side], next = c.map[side + 1u == corners ? 0u : side + 1u], along = next - own;
     if (corners == 5u) return slopesOnPentagon(c, side, vec3(t.y, t.x, 0.0));
-    if (sectors && corners != 4u) return Slopes(along, uvCentre(c, corners) - own);
+    if (sectors && corners != 4u) return Slopes(along, mapCentre(c, corners) - own);
     if (corners == 3u) { // polar
-        if (side == 0u) return Slopes(along, c.uv[2] - (t.y * own + t.x * next));
-        return Slopes(along, side == 1u ? c.uv[0] - c.uv[1] : c.uv[1] - c.uv[0]);
+        if (side == 0u) return Slopes(along, c.map[2] - (t.y * own + t.x * next));
+        return Slopes(along, side == 1u ? c.map[0] - c.map[1] : c.map[1] - c.map[0]);
     }
-    vec2 across = t.y * (c.uv[(side + 3u) & 3u] - own) + t.x * (c.uv[(side + 2u) & 3u] - next);
+    vec2 across = t.y * (c.map[(side + 3u) & 3u] - own) + t.x * (c.map[(side + 2u) & 3u] - next);
     return Slopes(along, sectors ? 0.5 * (along + across) : across);
 }
 
@@ -440,8 +471,12 @@ void storeOnEdge(uint id) {
 #ifdef QUADS
     SmoothUv onSide = smoothOnSide(patchOfEdge.z, side, t);
     s.uv = onSide.uv;
-    if (push.uvSets == 2u) s.more.xy = smoothOnSide(patchOfEdge.z + kSmoothElements, side, t).uv;
-    Slopes slopes = Slopes(onSide.a, onSide.b);
+    if (push.uvSets == 2u) {
+        SmoothUv second = smoothOnSide(patchOfEdge.z + kSmoothElements, side, t);
+        s.more.xy = second.uv;
+        if (kMapFrames && c.second) onSide = second;
+    }
+    Slopes slopes = mapSlopes(c, Slopes(onSide.a, onSide.b));
 #else
     if (patchOfEdge.z != 0u) {
         s.uv = curvePoint(patchOfEdge.z, t);
@@ -455,7 +490,8 @@ void storeOnEdge(uint id) {
 #ifndef QUADS
         if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(SUPPLE_PM_SINGULAR_STEP, 1.0 - SUPPLE_PM_SINGULAR_STEP);
         Slopes slopes = slopesOnEdge(c, side, corners, sectors, t);
-        if (patchOfEdge.z != 0u) slopes = curveSlopes(patchOfEdge.z, t, sectors);
+        uint curves = patchOfEdge.z + (kMapFrames && c.second ? kUvCurveElements : 0u);
+        if (patchOfEdge.z != 0u) slopes = mapSlopes(c, curveSlopes(curves, t, sectors));
 #endif
         storeDirection(vertex, c, slopes);
     }

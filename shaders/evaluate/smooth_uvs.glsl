@@ -177,7 +177,7 @@ struct SmoothPlace {
     uint index;
 };
 SmoothPatch loadSmooth(uint first) { return SmoothPatch(first); }
-// Of the slopes the second coordinate's are known: a direction asks for no more.
+// Of the slopes the second coordinate's are known, in the frame of the normal map: a direction asks for no more.
 SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     vec4 s = uintBitsToFloat(tableElement(c.first + at.index));
     return SmoothUv(s.xy, vec2(0.0, s.z), vec2(0.0, s.w));

@@ -19,7 +19,8 @@
 //                    points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease gives a
 //                    vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
 //   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second UV
-//                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none
+//                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none; with
+//                    kOutputMapFrames one more: (a unit vector, a sign, a UV set as uint), how the material's normal map lies
 //   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
 //                    patches begins an element
 //   smooth UVs       where texture coordinates are smooth, in the order of patches, per UV set what SmoothPatch of
@@ -96,6 +97,7 @@ SUPPLE_SHARED_CONST kVertexPosition = 2u; // position alone, 12 bytes: where a s
 SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
 SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
 SUPPLE_SHARED_CONST kOutputDirections = 4u;
+SUPPLE_SHARED_CONST kOutputMapFrames = 8u; // no output: with directions, corners have the frames of normal maps
 
 // Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch (docs/tangents.md): a
 // in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A tangent word is what a host

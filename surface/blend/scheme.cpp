@@ -47,7 +47,7 @@ public:
             writeTurns(chartClass);
         }
         writePatches();
-        finishTables(mesh_.cage, patches_, writer_, tables_);
+        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();

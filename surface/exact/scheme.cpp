@@ -90,7 +90,7 @@ public:
             ring.add(run.vertex, corners_.spokesOf(run), !run.closed);
         }
         tables_.ring = ring.write();
-        finishTables(cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_);
         if (const Status smooth = writeSmoothUvs(); !smooth) {
             return smooth.error();
         }

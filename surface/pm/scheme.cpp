@@ -70,7 +70,7 @@ public:
         writePatches();
         addFacets();
         writeRing();
-        finishTables(cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();

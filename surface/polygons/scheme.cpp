@@ -112,7 +112,7 @@ public:
     /// Corners that differ in attributes or tangents are different vertices, if the recipe has these.
     Builder(const cage::Cage& cage, Frames frames, const Recipe& recipe)
         : cage_(cage), frames_(std::move(frames)), attributes_(recipe.attributes),
-          tangents_(recipe.tangents && recipe.attributes), writer_(tables_.words) {}
+          tangents_(recipe.tangents && recipe.attributes), mapFrames_(recipe.mapFrames), writer_(tables_.words) {}
 
     Tables build() {
         tables_.rate = 1;
@@ -213,7 +213,7 @@ private:
             normals.push_back(hasNormal(corner) ? cage_.cornerNormals[corner]
                                                 : glm::vec3(frames_.frames[frames_.cornerFrames[corner]].axes[2]));
         }
-        return cage::triangleTangents(cage_, corners, normals);
+        return cage::triangleTangents(cage_, corners, normals, cage::mapUvs(cage_, mapFrames_));
     }
 
     void writeDirections(const std::vector<Vertex>& vertices) {
@@ -250,6 +250,7 @@ private:
     const cage::Cage& cage_;
     const Frames frames_;
     const bool attributes_, tangents_;
+    const std::span<const cage::MapFrame> mapFrames_;
     std::vector<uint32_t> faceNumbers_; ///< per face: its place in the pool
     Tables tables_;
     TableWriter writer_;

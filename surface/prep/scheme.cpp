@@ -47,7 +47,7 @@ public:
             ring.add(v, spokes, topology_.boundary[v] != 0);
         }
         tables_.ring = ring.write();
-        finishTables(cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();

@@ -99,7 +99,7 @@ public:
             tables_.ranges.push_back(
                 {loop_ ? PatchClass::loop : PatchClass::fragment, {0, static_cast<uint32_t>(patches_.size())}, 0, 0});
         }
-        finishTables(mesh_.cage, patches_, writer_, tables_);
+        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -519,10 +519,11 @@ private:
         const size_t samples = sets.front().size() / mesh_.cage.faceCount();
         writer_.reserve(4 * samples * sets.size() * patches_.size());
         for (const DraftPatch& patch : patches_) {
+            const cage::MapFrame frame = mapFrameOf(recipe_, patch.info.material);
             for (const std::vector<UvSample>& set : sets) {
                 for (size_t i = samples * patch.facet; i < samples * (patch.facet + 1); ++i) {
                     const UvSample& s = set[i];
-                    writer_.putFloats({s.value.x + 0.0, s.value.y + 0.0, s.u.y, s.v.y});
+                    writer_.putFloats({s.value.x + 0.0, s.value.y + 0.0, frame.turn(s.u).y, frame.turn(s.v).y});
                 }
             }
         }

@@ -506,7 +506,7 @@ double fromMikkTSpace(const Crowd& crowd) {
     for (uint32_t c = 0; c <= corners.size(); c += 3) {
         refined.faceStarts.push_back(c);
     }
-    const std::vector<glm::vec4> theirs = cage::triangleTangents(refined, corners, normals);
+    const std::vector<glm::vec4> theirs = cage::triangleTangents(refined, corners, normals, refined.cornerUvs);
     double sum = 0.0;
     size_t count = 0;
     for (const uint32_t c : corners) {

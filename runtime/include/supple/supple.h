@@ -1096,7 +1096,8 @@ typedef struct SuppleVertexStreams {
     /** TANGENTS: one uint32 per vertex, counted as vertices are. It is glTF's TANGENT: a unit vector that is orthogonal
      * to the normal, in octahedral coordinates (x in snorm16 in the low half, y in the 15 bits above), and the sign w
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
-     * docs/tangents.md says where tangents point. The bitangent is w * cross(normal, tangent), for a normal map whose
+     * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
+     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map whose
      * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
      * (suppleSetTransform) keeps w: negate it. */
     SuppleBufferRange tangents;
