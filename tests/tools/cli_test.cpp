@@ -134,7 +134,7 @@ TEST_F(Cli, BadInputIsOneAndNamesTheFile) {
 }
 
 TEST_F(Cli, TheLimitOfMemoryIsKept) {
-    const std::string file = "'" SUPPLE_SAMPLE_ASSETS "/helmet.glb'";
+    const std::string file = "'" SUPPLE_SAMPLE_ASSETS "/wren.glb'";
     for (const char* command : {"inspect ", "convert -o out.glb ", "bake -o out.ply ", "render -o out.png "}) {
         expectFailure(run(command + file + " --memory-limit 1"), 1, "needs more memory than the 1048576 bytes");
     }
