@@ -24,6 +24,9 @@ namespace supple::host {
 
 namespace {
 
+constexpr float kShadowBias = 4.0f;
+constexpr float kShadowBiasSlope = 1.75f;
+
 /// Keeps what was made, or says why it was not.
 template <class T>
 Status keep(Result<T> made, T& out) {
@@ -36,16 +39,14 @@ Status keep(Result<T> made, T& out) {
 } // namespace
 
 Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, const DrawFormats& formats) {
-    std::unique_ptr<DrawPipelines> pipelines(new DrawPipelines(device));
+    std::unique_ptr<DrawPipelines> pipelines(new DrawPipelines(device, formats));
     if (const Status status = pipelines->createLayouts(); !status)
         return status.error();
     if (const Status status = pipelines->createSamplers(formats.shadow); !status)
         return status.error();
-    if (const Status status = pipelines->createShadowPipelines(formats); !status)
+    if (const Status status = pipelines->createShadowPipelines(); !status)
         return status.error();
-    if (const Status status = pipelines->createFacePipelines(formats); !status)
-        return status.error();
-    if (const Status status = pipelines->createPicturePipelines(formats); !status)
+    if (const Status status = pipelines->createPicturePipelines(); !status)
         return status.error();
     return pipelines;
 }
@@ -54,7 +55,7 @@ Status DrawPipelines::createLayouts() {
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
     const std::initializer_list<Binding> frame = {
-        {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
+        {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex | kFragment},
         {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
         {shared::kEnvironmentBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
     };
@@ -124,61 +125,54 @@ Status DrawPipelines::createSamplers(VkFormat shadowFormat) {
     return success();
 }
 
-Status DrawPipelines::createShadowPipelines(const DrawFormats& formats) {
+Status DrawPipelines::createShadowPipelines() {
     GraphicsDesc desc{.name = "surface shadow",
                       .layout = layout,
                       .vertexShader = surface_shadow_vert,
-                      .depth = formats.shadow,
-                      .depthBias = 4.0f,
-                      .depthBiasSlope = 1.75f};
+                      .depth = formats_.shadow,
+                      .depthBias = kShadowBias,
+                      .depthBiasSlope = kShadowBiasSlope};
     if (const Status status = keep(createGraphicsPipeline(device_, desc), surfaceShadow); !status)
         return status.error();
     desc.name = "cage shadow";
     desc.vertexShader = cage_shadow_vert;
-    if (const Status status = keep(createGraphicsPipeline(device_, desc), cageShadow); !status)
-        return status.error();
-    desc.name = "surface shadow, trimmed";
-    desc.vertexShader = surface_shadow_trim_vert;
-    desc.fragmentShader = surface_shadow_trim_frag;
-    if (const Status status = keep(createGraphicsPipeline(device_, desc), surfaceShadowTrim); !status)
-        return status.error();
-    desc.name = "cage shadow, trimmed";
-    desc.vertexShader = cage_shadow_trim_vert;
-    return keep(createGraphicsPipeline(device_, desc), cageShadowTrim);
+    return keep(createGraphicsPipeline(device_, desc), cageShadow);
 }
 
-Status DrawPipelines::createFacePipelines(const DrawFormats& formats) {
-    GraphicsDesc desc{.layout = layout, .colors = {formats.color}, .depth = formats.depth, .samples = formats.samples};
-    for (const bool vertexLit : {false, true}) {
-        for (const bool maps : {false, true}) {
-            for (const bool blend : {false, true}) {
-                const size_t index = Faces{vertexLit, maps, blend}.index();
-                desc.constants = {vertexLit ? 1u : 0u, maps ? 1u : 0u};
-                desc.blend = blend;
-                desc.depthWrite = !blend;
-                // Coverage smooths the edges of holes. What blends needs its alpha itself.
-                desc.alphaToCoverage = !blend && formats.samples != VK_SAMPLE_COUNT_1_BIT;
-                desc.name = "surface";
-                desc.vertexShader = surface_vert;
-                desc.fragmentShader = surface_frag;
-                if (const Status status = keep(createGraphicsPipeline(device_, desc), surfaces_[index]); !status)
-                    return status.error();
-                if (vertexLit)
-                    continue;
-                desc.name = "cage face";
-                desc.vertexShader = cage_face_vert;
-                desc.fragmentShader = cage_face_frag;
-                if (const Status status = keep(createGraphicsPipeline(device_, desc), cageFaces_[index]); !status)
-                    return status.error();
-            }
-        }
+Status DrawPipelines::prepare(const Faces& faces) {
+    if (faces_.contains(faces))
+        return success();
+    GraphicsDesc desc{.layout = layout,
+                      .constants = {faces.vertexLit ? 1u : 0u, faces.maps ? 1u : 0u, faces.view, faces.material}};
+    if (faces.shadow) {
+        desc.name = faces.cage ? "cage shadow, trimmed" : "surface shadow, trimmed";
+        desc.vertexShader = faces.cage ? std::span<const uint32_t>(cage_shadow_trim_vert) : surface_shadow_trim_vert;
+        desc.fragmentShader = surface_shadow_trim_frag;
+        desc.depth = formats_.shadow;
+        desc.depthBias = kShadowBias;
+        desc.depthBiasSlope = kShadowBiasSlope;
+    } else {
+        desc.name = faces.cage ? "cage face" : "surface";
+        desc.vertexShader = faces.cage ? std::span<const uint32_t>(cage_face_vert) : surface_vert;
+        desc.fragmentShader = faces.cage ? std::span<const uint32_t>(cage_face_frag) : surface_frag;
+        desc.colors = {formats_.color};
+        desc.depth = formats_.depth;
+        desc.samples = formats_.samples;
+        desc.blend = faces.blend;
+        desc.depthWrite = !faces.blend;
+        // Coverage smooths the edges of holes. What blends needs its alpha itself.
+        desc.alphaToCoverage = !faces.blend && formats_.samples != VK_SAMPLE_COUNT_1_BIT;
     }
+    VkPipeline made = VK_NULL_HANDLE;
+    if (const Status status = keep(createGraphicsPipeline(device_, desc), made); !status)
+        return status.error();
+    faces_[faces] = made;
     return success();
 }
 
-Status DrawPipelines::createPicturePipelines(const DrawFormats& formats) {
+Status DrawPipelines::createPicturePipelines() {
     const GraphicsDesc opaque{
-        .layout = layout, .colors = {formats.color}, .depth = formats.depth, .samples = formats.samples};
+        .layout = layout, .colors = {formats_.color}, .depth = formats_.depth, .samples = formats_.samples};
     const auto make = [&](const char* name, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
                           GraphicsDesc desc, VkPipeline& out) {
         desc.name = name;

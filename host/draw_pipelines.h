@@ -3,6 +3,8 @@
 
 #include "host/device.h"
 
+#include <compare>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -29,36 +31,39 @@ public:
     VkSampler shadowSampler = VK_NULL_HANDLE;
     VkSampler environmentSampler = VK_NULL_HANDLE;
 
-    /// What faces are drawn with.
+    /// What faces are drawn with: there is a pipeline for each of these.
     struct Faces {
+        bool cage = false;      ///< of the cage instead of the surface
+        bool shadow = false;    ///< the shadow of what has holes, and nothing else
+        uint32_t material = 0;  ///< what it has: shared::kMaterial...
+        uint32_t view = 0;      ///< shared::kView...; 0 of a shadow
         bool vertexLit = false; ///< the light is looked up once a vertex; only of the surface
         bool maps = false;      ///< the material has normal, occlusion or emissive maps
         bool blend = false;     ///< over what is there, by alpha
 
-        [[nodiscard]] size_t index() const { return (vertexLit ? 4u : 0u) + (maps ? 2u : 0u) + (blend ? 1u : 0u); }
+        auto operator<=>(const Faces&) const = default;
     };
-    [[nodiscard]] VkPipeline surface(const Faces& faces) const { return surfaces_[faces.index()]; }
-    [[nodiscard]] VkPipeline cageFace(const Faces& faces) const { return cageFaces_[faces.index()]; }
+    /// Makes the pipeline if there is none yet.
+    [[nodiscard]] Status prepare(const Faces& faces);
+    /// They are prepared.
+    [[nodiscard]] VkPipeline operator[](const Faces& faces) const { return faces_.at(faces); }
 
-    VkPipeline surfaceShadow = VK_NULL_HANDLE;
-    VkPipeline surfaceShadowTrim = VK_NULL_HANDLE; ///< with holes
+    VkPipeline surfaceShadow = VK_NULL_HANDLE; ///< without holes
     VkPipeline cageShadow = VK_NULL_HANDLE;
-    VkPipeline cageShadowTrim = VK_NULL_HANDLE;
     VkPipeline cageEdge = VK_NULL_HANDLE;
     VkPipeline ground = VK_NULL_HANDLE;
     VkPipeline backdrop = VK_NULL_HANDLE;
 
 private:
-    explicit DrawPipelines(Device& device) : device_(device) {}
+    DrawPipelines(Device& device, const DrawFormats& formats) : device_(device), formats_(formats) {}
     [[nodiscard]] Status createLayouts();
     [[nodiscard]] Status createSamplers(VkFormat shadowFormat);
-    [[nodiscard]] Status createShadowPipelines(const DrawFormats& formats);
-    [[nodiscard]] Status createFacePipelines(const DrawFormats& formats);
-    [[nodiscard]] Status createPicturePipelines(const DrawFormats& formats);
+    [[nodiscard]] Status createShadowPipelines();
+    [[nodiscard]] Status createPicturePipelines();
 
     Device& device_;
-    VkPipeline surfaces_[8]{};
-    VkPipeline cageFaces_[4]{};
+    DrawFormats formats_;
+    std::map<Faces, VkPipeline> faces_;
 };
 
 } // namespace supple::host

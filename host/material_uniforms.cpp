@@ -11,8 +11,7 @@ shared::TexturePlace placeOf(const SuppleTextureInfo& texture, bool uv1) {
     const float c = std::cos(texture.rotation);
     const float s = std::sin(texture.rotation);
     return {{c * texture.scale[0], s * texture.scale[1], texture.offset[0], uv1 && texture.uvSet == 1 ? 1.0f : 0.0f},
-            {-s * texture.scale[0], c * texture.scale[1], texture.offset[1],
-             texture.image != SUPPLE_NO_IMAGE ? 1.0f : 0.0f}};
+            {-s * texture.scale[0], c * texture.scale[1], texture.offset[1], 0.0f}};
 }
 
 /// Holes that the base color's alpha does not make.
@@ -35,9 +34,12 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1) {
     set(material.unlit != 0, shared::kMaterialUnlit);
     set(ownTrim, shared::kMaterialTrim);
     set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
+    uint32_t hasTexture = shared::kMaterialTexture; // in the order of shared::kBaseColor and so on
     for (const SuppleTextureInfo* texture : {&material.baseColor, &material.metallicRoughness, &material.normal,
                                              &material.occlusion, &material.emissive, &material.trim}) {
         set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);
+        set(texture->image != SUPPLE_NO_IMAGE, hasTexture);
+        hasTexture <<= 1;
     }
     return flags;
 }
@@ -58,7 +60,6 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bo
     uniforms.places[shared::kOcclusion] = placeOf(material.occlusion, uv1);
     uniforms.places[shared::kEmissive] = placeOf(material.emissive, uv1);
     uniforms.places[shared::kTrim] = placeOf(material.trim, uv1);
-    uniforms.flags = materialFlags(material, uv1);
     const bool ownTrim = hasOwnTrim(material);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;

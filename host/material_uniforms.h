@@ -9,7 +9,7 @@ namespace supple::host {
 
 /// `uv1`: there is a second UV set to look anything up on.
 [[nodiscard]] shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bool uv1);
-/// Its flags alone: shared::kMaterial...
+/// What it has: shared::kMaterial...
 [[nodiscard]] uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1);
 
 } // namespace supple::host

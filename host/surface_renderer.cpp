@@ -67,6 +67,20 @@ bool isTrimmed(const SuppleMaterialInfo& material) {
     return material.trimDomain != SUPPLE_TRIM_NONE || material.alphaMode != SUPPLE_ALPHA_OPAQUE;
 }
 
+/// The cage has the holes of masks, not those of a trim of its own.
+bool isMasked(const SuppleMaterialInfo& material) {
+    return (materialFlags(material, false) & shared::kMaterialTrimAlpha) != 0;
+}
+
+uint32_t flagsOf(const Scene& scene, uint32_t material) {
+    const Figure& figure = scene.group->figure();
+    return materialFlags(figure.materials().of(material), !figure.cage().uvSets[1].empty());
+}
+
+DrawPipelines::Faces shadowFaces(const Scene& scene, uint32_t material) {
+    return {.cage = scene.cageFaces, .shadow = true, .material = flagsOf(scene, material)};
+}
+
 /// The scheme polygons has no grids to draw the lines of; the edges of the cage are its lines.
 bool isWireOfMesh(const Scene& scene, uint32_t part) {
     return scene.view == shared::kViewWire && scene.group->isMeshPart(part);
@@ -230,7 +244,7 @@ Status SurfaceRenderer::createEnvironment() {
 }
 
 Status SurfaceRenderer::createSlots(uint32_t count) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = count;
@@ -242,7 +256,7 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
         Slot slot;
         Result<Buffer> uniforms =
-            device_.createBuffer(sizeof(shared::FrameUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload);
+            device_.createBuffer(sizeof(shared::FrameUniforms), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload);
         if (!uniforms)
             return uniforms.error();
         slot.uniforms = std::move(*uniforms);
@@ -259,7 +273,7 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
                                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         constexpr VkDescriptorType kImage = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         VkWriteDescriptorSet writes[] = {
-            descriptorWrite(slot.set, shared::kFrameBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+            descriptorWrite(slot.set, shared::kFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
             descriptorWrite(slot.set, shared::kShadowBinding, kImage),
             descriptorWrite(slot.set, shared::kEnvironmentBinding, kImage)};
         writes[0].pBufferInfo = &buffer;
@@ -403,6 +417,36 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
         descriptorWrite(binding.materials_[material], slot, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     write.pImageInfo = &described;
     vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    return success();
+}
+
+DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const Run& run, bool blend) const {
+    const bool isFlat = scene.view >= shared::kViewTangents;
+    const bool hasMaps = scene.group->figure().materials().hasMaps(run.material);
+    const uint32_t edgeRate = scene.group->surfaces()[run.surface].edgeRate;
+    return {.cage = scene.cageFaces,
+            .material = flagsOf(scene, run.material),
+            .view = scene.view,
+            .vertexLit = !scene.cageFaces && !isFlat && device_.isCpu() && edgeRate >= kVertexLitRate,
+            .maps = isFlat || (scene.view == shared::kViewShaded && hasMaps),
+            .blend = blend};
+}
+
+Status SurfaceRenderer::prepare(const Scene& scene) {
+    if (scene.group == nullptr)
+        return success();
+    for (const Run& run : runsOf(scene)) {
+        const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
+        std::vector<DrawPipelines::Faces> wanted{facesOf(scene, run, false)};
+        if (isBlended(scene, material))
+            wanted.push_back(facesOf(scene, run, true));
+        if (scene.cageFaces ? isMasked(material) : isTrimmed(material))
+            wanted.push_back(shadowFaces(scene, run.material));
+        for (const DrawPipelines::Faces& faces : wanted) {
+            if (const Status status = pipelines_->prepare(faces); !status)
+                return status.error();
+        }
+    }
     return success();
 }
 
@@ -556,13 +600,12 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
 }
 
 /// Push constants that fit any draw of the surface; ranges and materials are filled in draw by draw.
-shared::DrawPush SurfaceRenderer::basePush(const Scene& scene, const FigureSurface& surface, uint32_t light) const {
+shared::DrawPush SurfaceRenderer::basePush(const FigureSurface& surface, uint32_t light) const {
     const GroupOutput& output = surface.output;
     shared::DrawPush push{};
     push.rate = output.grid.rate;
     push.verticesPerInstance = output.grid.verticesPerInstance;
     push.cageVerticesPerInstance = output.info.cageVerticesPerInstance;
-    push.view = scene.view;
     push.light = light;
     if (output.streams.vertexFormat == SUPPLE_VERTEX_24)
         push.flags |= shared::kDrawVertex24;
@@ -595,14 +638,15 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
                                         uint32_t light) const {
     const GroupOutput& output = surface.output;
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene, surface, light);
+    shared::DrawPush push = basePush(surface, light);
     VkPipeline bound = VK_NULL_HANDLE;
     for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = output.grid.drawRanges[i];
         if (!scene.group->isPartVisible(range.part))
             continue;
         const bool trimmed = isTrimmed(materials.of(range.material));
-        const VkPipeline wanted = trimmed ? pipelines_->surfaceShadowTrim : pipelines_->surfaceShadow;
+        const VkPipeline wanted =
+            trimmed ? (*pipelines_)[shadowFaces(scene, range.material)] : pipelines_->surfaceShadow;
         if (bound != wanted)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
         bound = wanted;
@@ -649,11 +693,7 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
         if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < shared::kSolidAlpha)
             continue;
         const FigureSurface& own = scene.group->surfaces()[run.surface];
-        const bool isFlat = scene.view >= shared::kViewTangents;
-        const bool maps = isFlat || (scene.view == shared::kViewShaded && materials.hasMaps(run.material));
-        const bool vertexLit = !scene.cageFaces && !isFlat && device_.isCpu() && own.edgeRate >= kVertexLitRate;
-        const DrawPipelines::Faces faces{vertexLit, maps, blend};
-        const VkPipeline wanted = scene.cageFaces ? pipelines_->cageFace(faces) : pipelines_->surface(faces);
+        const VkPipeline wanted = (*pipelines_)[facesOf(scene, run, blend)];
         if (bound != wanted)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
         bound = wanted;
@@ -677,7 +717,7 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
 void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
                               uint32_t flags) const {
     const FigureSurface& surface = scene.group->surfaces()[run.surface];
-    shared::DrawPush push = basePush(scene, surface, 0);
+    shared::DrawPush push = basePush(surface, 0);
     push.flags |= flags;
     vkCmdSetCullMode(commands, cull);
     if (scene.cageFaces) {
@@ -704,15 +744,13 @@ void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, cons
 
 void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), light);
+    shared::DrawPush push = basePush(scene.group->surfaces().front(), light);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
         if (!scene.group->isPartVisible(range.part))
             continue;
-        // The cage has the holes of masks, not those of a trim of its own.
-        const uint32_t flags = materialFlags(materials.of(range.material), false);
-        const bool mask = (flags & shared::kMaterialTrimAlpha) != 0;
+        const bool mask = isMasked(materials.of(range.material));
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                          mask ? pipelines_->cageShadowTrim : pipelines_->cageShadow);
+                          mask ? (*pipelines_)[shadowFaces(scene, range.material)] : pipelines_->cageShadow);
         if (mask)
             bindMaterial(commands, scene, range.material);
         push.primitive = range.firstCorner;
@@ -722,7 +760,7 @@ void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scen
 }
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
-    shared::DrawPush push = basePush(scene, scene.group->surfaces().front(), 0);
+    shared::DrawPush push = basePush(scene.group->surfaces().front(), 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     for (const Figure::EdgeRange& range : scene.group->figure().cageEdgeRanges()) {
         const bool wire = isWireOfMesh(scene, range.part);

@@ -75,8 +75,10 @@ public:
 
     /// What the targets of this renderer must have.
     [[nodiscard]] VkSampleCountFlagBits samples() const { return pictureSamples(device_, quality_.multisample); }
-    /// Records the whole picture, outside of rendering. `slot` (below framesInFlight) must not be in use by a pending
-    /// picture; the target is left in TRANSFER_SRC_OPTIMAL, visible to copies.
+    /// Makes the pipelines of a scene that there are none of yet: before its first picture in this view.
+    [[nodiscard]] Status prepare(const Scene& scene);
+    /// Records the whole picture of a prepared scene, outside of rendering. `slot` (below framesInFlight) must not be
+    /// in use by a pending picture; the target is left in TRANSFER_SRC_OPTIMAL, visible to copies.
     void record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene);
 
 private:
@@ -98,7 +100,7 @@ private:
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
-    [[nodiscard]] shared::DrawPush basePush(const Scene& scene, const FigureSurface& surface, uint32_t light) const;
+    [[nodiscard]] shared::DrawPush basePush(const FigureSurface& surface, uint32_t light) const;
     void bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const;
     void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
@@ -113,6 +115,7 @@ private:
         uint32_t material = SUPPLE_NO_MATERIAL;
     };
     [[nodiscard]] std::vector<Run> runsOf(const Scene& scene) const;
+    [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const Run& run, bool blend) const;
     /// Leaves the runs that blend, the farthest first.
     void keepBlended(std::vector<Run>& runs, const Scene& scene) const;
     /// blend: what blends, over what is there; else what hides all behind it, also where a material that blends is

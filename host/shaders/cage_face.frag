@@ -18,27 +18,27 @@ void main() {
     vec3 front = inNormal * inversesqrt(max(dot(inNormal, inNormal), 1e-30));
     vec3 n = gl_FrontFacing ? front : -front;
     vec4 base = baseColorAt(inUvs, inColor);
-    bool shaded = push.view == kViewShaded;
-    Material material = shaded || isFlatView(push.view) ? materialAt(base.rgb, inUvs) : plainMaterial(vec3(0.50, 0.47, 0.44), 0.6);
+    bool shaded = kView == kViewShaded;
+    Material material = shaded || isFlatView(kView) ? materialAt(base.rgb, inUvs) : plainMaterial(vec3(0.50, 0.47, 0.44), 0.6);
     vec3 mapped = front;
     if (kMaps && shaded && hasTexture(kNormal)) {
         vec2 uv = placed(kNormal, inUvs);
         mapped = mappedNormalHere(front, inPosition, uv, normalTexelAt(uv));
     }
     vec3 flatly = vec3(0.0);
-    if (isFlatView(push.view)) {
+    if (isFlatView(kView)) {
         vec3 tangent = mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
-        flatly = flatColor(push.view, base, material, inUvs, tangent, inColor.rgb, 0.0);
-        if (isShadedFlat(push.view))
+        flatly = flatColor(kView, base, material, inUvs, tangent, inColor.rgb, 0.0);
+        if (isShadedFlat(kView))
             flatly *= formShade(n, v);
     }
     if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a))
         discard;
-    if (push.view == kViewNormals) {
+    if (kView == kViewNormals) {
         outColor = vec4(fromSrgb(front * 0.5 + 0.5), 1.0);
         return;
     }
-    if (isFlatView(push.view)) {
+    if (isFlatView(kView)) {
         outColor = vec4(flatly, 1.0);
         return;
     }

@@ -84,7 +84,7 @@ SUPPLE_HOST_CONST kDrawCoverage = 4u;   // alpha becomes coverage of the pixel's
 SUPPLE_HOST_CONST kDrawTangents = 8u;   // the surface has tangents
 SUPPLE_HOST_CONST kDrawSolid = 16u;     // of a translucent material: only where it is solid
 
-// MaterialUniforms::flags
+// What a material has: a constant of its shaders.
 SUPPLE_HOST_CONST kMaterialDoubleSided = 1u; // back faces are meant to be seen
 SUPPLE_HOST_CONST kMaterialMask = 2u;        // cage: alpha below the cutoff is a hole
 SUPPLE_HOST_CONST kMaterialTranslucent = 4u; // alpha is coverage
@@ -93,6 +93,7 @@ SUPPLE_HOST_CONST kMaterialTrim = 16u;       // surface: where the trim's textur
 SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a face
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
 SUPPLE_HOST_CONST kMaterialUvs1 = 128u;      // a texture lies on the second texture coordinates
+SUPPLE_HOST_CONST kMaterialTexture = 256u;   // << kBaseColor: the texture of that place; and so on
 
 // From here on a translucent material is solid.
 SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;
@@ -144,7 +145,6 @@ struct DrawPush {
     uint firstVertex; // of the draw range
     uint verticesPerInstance;
     uint cageVerticesPerInstance;
-    uint view;
     uint flags;
     uint light;     // whose shadow map is being drawn
     uint primitive; // first cage corner or edge of the draw
@@ -153,7 +153,7 @@ struct DrawPush {
 // Of a texture on texture coordinates (x, y): it is looked up at (dot(u.xyz, (x, y, 1)), dot(v.xyz, (x, y, 1))).
 struct TexturePlace {
     vec4 u; // w: 1 if these are the second texture coordinates
-    vec4 v; // w: 1 if there is a texture
+    vec4 v;
 };
 
 struct MaterialUniforms {
@@ -166,8 +166,8 @@ struct MaterialUniforms {
     float occlusionStrength;
     float cutoff; // the trim's, or the mask's
     float trimTiles;
-    uint flags;
     uint trimChannel;
+    float unused;
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.

@@ -1,7 +1,9 @@
 // The material of a draw, and its textures but for the trim: see surface_trim.glsl.
 layout(set = 2, binding = kMaterialBinding, std140) uniform MaterialBlock { MaterialUniforms materialData; };
 
-bool materialHas(uint flag) { return (materialData.flags & flag) != 0u; }
+layout(constant_id = 3) const uint kMaterialHas = 0u;
+
+bool materialHas(uint flag) { return (kMaterialHas & flag) != 0u; }
 
 /// Where a texture is looked up; uvs: both sets of texture coordinates.
 vec2 placed(uint which, vec4 uvs) {
@@ -10,4 +12,4 @@ vec2 placed(uint which, vec4 uvs) {
     return vec2(dot(place.u.xyz, uv), dot(place.v.xyz, uv));
 }
 
-bool hasTexture(uint which) { return materialData.places[which].v.w != 0.0; }
+bool hasTexture(uint which) { return materialHas(kMaterialTexture << which); }

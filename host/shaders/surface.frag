@@ -94,11 +94,11 @@ vec3 shownTangent(vec3 front) {
 
 /// The material, or what the view paints in its place.
 Material paintedMaterial(vec3 albedo) {
-    if (push.view == kViewPatches && push.domain != kDrawMesh) {
+    if (kView == kViewPatches && push.domain != kDrawMesh) {
         vec3 color = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0);
         return plainMaterial(color * (1.0 + 0.34 * (patchHash(inPatch) - 0.5)), 0.5);
     }
-    return push.view == kViewShaded || isFlatView(push.view) ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
+    return kView == kViewShaded || isFlatView(kView) ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
 }
 
 void main() {
@@ -110,21 +110,21 @@ void main() {
     vec3 n = back ? -front : front;
     vec4 base = baseColorAt(inUvs, inColor);
     Material material = paintedMaterial(base.rgb);
-    vec3 mapped = push.view == kViewShaded ? normalFromMap(front) : front;
+    vec3 mapped = kView == kViewShaded ? normalFromMap(front) : front;
     if (back)
         mapped = -mapped; // seen from behind, a bump is a dent
     vec3 segments = fwidth(inGrid);
     vec3 flatly = vec3(0.0);
-    if (isFlatView(push.view)) {
-        vec3 tangent = push.view == kViewTangents ? shownTangent(front) : vec3(0.0);
-        flatly = flatColor(push.view, base, material, inUvs, tangent, inColor.rgb, inTangent.x);
-        if (isShadedFlat(push.view))
+    if (isFlatView(kView)) {
+        vec3 tangent = kView == kViewTangents ? shownTangent(front) : vec3(0.0);
+        flatly = flatColor(kView, base, material, inUvs, tangent, inColor.rgb, inTangent.x);
+        if (isShadedFlat(kView))
             flatly *= formShade(n, v);
     }
     // All that asks for neighbouring pixels is done: some may end here.
     if (isLeftOut(base.a))
         discard;
-    float alpha = push.view == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
+    float alpha = kView == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (materialHas(kMaterialTrim)) {
         float value = trimValue(inTrim);
         if ((push.flags & kDrawCoverage) != 0u)
@@ -134,13 +134,13 @@ void main() {
     }
 
     vec3 color;
-    if (push.view == kViewNormals) {
+    if (kView == kViewNormals) {
         color = fromSrgb(front * 0.5 + 0.5);
-    } else if (push.view == kViewZebra) {
+    } else if (kView == kViewZebra) {
         color = zebra(n, v);
-    } else if (isFlatView(push.view)) {
+    } else if (isFlatView(kView)) {
         color = flatly;
-    } else if (push.view == kViewShaded && materialHas(kMaterialUnlit)) {
+    } else if (kView == kViewShaded && materialHas(kMaterialUnlit)) {
         color = base.rgb;
     } else {
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
@@ -155,11 +155,11 @@ void main() {
     }
 
     bool lines = push.domain != kDrawMesh;
-    if (push.view == kViewWire && lines)
+    if (kView == kViewWire && lines)
         color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
-    if (push.view == kViewWire && lines)
+    if (kView == kViewWire && lines)
         color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(insideBorder(), segments, float(push.rate), 1.1 * frame.pixelScale));
-    else if (push.view == kViewPatches && lines)
+    else if (kView == kViewPatches && lines)
         color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(insideBorder(), segments, float(push.rate), 0.9 * frame.pixelScale));
     outColor = vec4(color, alpha);
 }

@@ -53,7 +53,7 @@ void main() {
         outUvs = surfaceUvs();
         outColor = surfaceColor();
     }
-    if (kMaps && push.view == kViewHeat)
+    if (kMaps && kView == kViewHeat)
         outTangent.x = surfaceValue();
     else if (kMaps && (push.flags & kDrawTangents) != 0u)
         outTangent = surfaceTangent();

@@ -1,5 +1,6 @@
 // supple.h, asset.
 #include "cage/formats/reader.h"
+#include "cage/limits.h"
 #include "cage/trim.h"
 #include "runtime/api/entry.h"
 
@@ -23,6 +24,7 @@ static_assert(SUPPLE_ALPHA_OPAQUE == static_cast<int>(cage::AlphaMode::opaque) &
               SUPPLE_ALPHA_BLEND == static_cast<int>(cage::AlphaMode::blend));
 static_assert(SUPPLE_NO_IMAGE == cage::kNone);
 static_assert(SUPPLE_MAX_TRIM_TILES == cage::kMaxTrimTiles);
+static_assert(SUPPLE_MAX_COORDINATE == cage::kMaxCoordinate);
 // A struct within a struct can never grow, and no field may come to lie where there was padding.
 static_assert(sizeof(SuppleTextureInfo) == 12 * sizeof(uint32_t));
 static_assert(sizeof(SuppleMaterialInfo) == offsetof(SuppleMaterialInfo, trim) + sizeof(SuppleTextureInfo));

@@ -1,8 +1,12 @@
-// Calls of the public API in any order, most of them right: the input chooses which, of what and when. Every call comes
-// back with a result that it may have, and what is destroyed leaves no memory on the device.
+// Calls of the public API in any order, most of them right: the input chooses which, of what and when, and whether the
+// device is lost on the way. Every call comes back with a result that it may have, and what is destroyed leaves no
+// memory on the device.
+#include "cage/gltf/writer.h"
 #include "host/context.h"
 #include "host/device.h"
+#include "tests/fault/vulkan_faults.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/rigged_tube.h"
 
 #include <algorithm>
 #include <memory>
@@ -15,9 +19,26 @@ namespace {
 constexpr const char* kCube = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n";
 
+constexpr uint32_t kTubeJoints = 3;
+
+/// A tube with a chain of joints, which a clip moves.
+const std::vector<std::byte>& tube() {
+    static const std::vector<std::byte> bytes = [] {
+        cage::Character made = test::riggedTube({.segments = 4, .sides = 4, .joints = kTubeJoints, .morphTargets = 2});
+        made.clips.push_back(test::clipOf(
+            {test::channel(1, cage::ChannelPath::translation, {0, 1, 2}, {0, 0, 0, -1, 0.5f, 0, -2, 0, 0})}));
+        Result<cage::GlbFile> file = cage::writeGlb(made);
+        demand(file.ok(), "no tube");
+        return std::move(file->bytes);
+    }();
+    return bytes;
+}
+
 host::Device& device() {
     static const std::unique_ptr<host::Device> made = [] {
-        Result<std::unique_ptr<host::Device>> result = host::Device::create({});
+        host::DeviceOptions options;
+        options.suppleGetInstanceProcAddr = &test::faultyGetInstanceProcAddr;
+        Result<std::unique_ptr<host::Device>> result = host::Device::create(options);
         demand(result.ok(), "no device");
         return std::move(*result);
     }();
@@ -61,9 +82,13 @@ public:
     }
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
-    ~Driver() { suppleDestroyContext(context_); }
+    ~Driver() {
+        test::liftVulkanFailure();
+        suppleDestroyContext(context_);
+    }
 
     void run() {
+        const uint64_t before = memory();
         createAsset();
         for (uint32_t step = 0; step < 96 && choose_.any(); ++step) {
             act();
@@ -74,6 +99,9 @@ public:
         for (const SuppleAsset asset : assets_) {
             check(suppleDestroyAsset(context_, asset));
         }
+        if (suppleBeginFrame(context_, frame_ + 1, frame_) == SUPPLE_OK) { // else the device is lost
+            demand(memory() <= before, "something is left on the device");
+        }
     }
 
 private:
@@ -82,8 +110,15 @@ private:
         SupplePoseSource source;
     };
 
+    [[nodiscard]] uint64_t memory() const {
+        SuppleMemoryUse use{};
+        use.structSize = sizeof(use);
+        check(suppleGetContextMemory(context_, &use));
+        return use.deviceLocal + use.hostVisible;
+    }
+
     void check(SuppleResult result) const {
-        demand(result != SUPPLE_ERROR_VULKAN && result != SUPPLE_ERROR_DEVICE_LOST &&
+        demand(result != SUPPLE_ERROR_VULKAN && (mayBeLost_ || result != SUPPLE_ERROR_DEVICE_LOST) &&
                    result != SUPPLE_ERROR_HOST_MEMORY && result != SUPPLE_ERROR_DEVICE_MEMORY,
                suppleResultString(result));
     }
@@ -91,9 +126,15 @@ private:
     void createAsset() {
         SuppleAssetDesc desc{};
         desc.structSize = sizeof(desc);
-        desc.name = "cube.obj";
-        desc.bytes = kCube;
-        desc.byteCount = std::char_traits<char>::length(kCube);
+        if (choose_.below(2) == 1) {
+            desc.name = "tube";
+            desc.bytes = tube().data();
+            desc.byteCount = tube().size();
+        } else {
+            desc.name = "cube.obj";
+            desc.bytes = kCube;
+            desc.byteCount = std::char_traits<char>::length(kCube);
+        }
         SuppleAsset asset{};
         check(suppleCreateAsset(context_, &desc, &asset));
         if (asset.id != 0) {
@@ -156,10 +197,18 @@ private:
     void actOnInstance() {
         const SuppleInstance instance = choose_.of(instances_);
         const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        switch (choose_.below(8)) {
+        switch (choose_.below(10)) {
         case 0:
-            check(suppleSetClipPose(context_, instance, SUPPLE_BIND_POSE, 0.5));
+            check(suppleSetClipPose(context_, instance, choose_.below(2) == 1 ? SUPPLE_BIND_POSE : 0, 0.5));
             break;
+        case 8:
+            play(instance);
+            break;
+        case 9: {
+            const float weights[] = {0.5f, 1.0f};
+            check(suppleSetMorphWeights(context_, instance, weights, 2));
+            break;
+        }
         case 1:
             check(suppleSetTransform(context_, instance, matrix));
             break;
@@ -184,7 +233,27 @@ private:
         }
     }
 
+    void play(SuppleInstance instance) {
+        SupplePlaybackLayer layers[2]{};
+        for (SupplePlaybackLayer& layer : layers) {
+            layer.weight = layer.speed = 1.0f;
+            layer.offset = choose_.below(4);
+        }
+        SupplePlaybackDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.layers = layers;
+        desc.layerCount = 1 + choose_.below(2);
+        check(suppleSetPlayback(context_, instance, &desc));
+        if (!groups_.empty()) {
+            check(suppleSetTime(context_, choose_.of(groups_), choose_.below(8)));
+        }
+    }
+
     void act() {
+        if (choose_.below(128) == 1) {
+            mayBeLost_ = true;
+            test::failVulkan(choose_.below(64), VK_ERROR_DEVICE_LOST);
+        }
         switch (choose_.below(10)) {
         case 0:
             createAsset();
@@ -233,6 +302,7 @@ private:
     SuppleContext context_ = nullptr;
     uint32_t framesInFlight_ = 1;
     uint64_t frame_ = 0, completed_ = 0;
+    bool mayBeLost_ = false;
     std::vector<SuppleAsset> assets_;
     std::vector<SuppleGroup> groups_;
     std::vector<SuppleInstance> instances_;

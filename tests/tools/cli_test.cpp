@@ -133,6 +133,15 @@ TEST_F(Cli, BadInputIsOneAndNamesTheFile) {
     expectFailure(run("inspect cube.gltf"), 1, "cube.bin");
 }
 
+TEST_F(Cli, TheLimitOfMemoryIsKept) {
+    const std::string file = "'" SUPPLE_SAMPLE_ASSETS "/wren.glb'";
+    for (const char* command : {"inspect ", "convert -o out.glb ", "bake -o out.ply ", "render -o out.png "}) {
+        expectFailure(run(command + file + " --memory-limit 1"), 1, "needs more memory than the 1048576 bytes");
+    }
+    EXPECT_EQ(run("inspect " + file + " --memory-limit 100").exitCode, 0);
+    expectFailure(run("inspect " + file + " --memory-limit 0"), 2, "--memory-limit");
+}
+
 TEST_F(Cli, UnknownDeviceIsThree) {
     expectFailure(run("bake cube.gltf -o out.obj --device \"no such device\""), 3, "no such device");
     expectFailure(run("profile cube.gltf --device 99"), 3, "99");

@@ -59,6 +59,26 @@ TEST_F(OutputFiles, AFullDiskLeavesNothingBehind) {
     }
 }
 
+TEST_F(OutputFiles, AFullDiskUnderStdoutIsSaid) {
+    for (const char* arguments : {"inspect cube.obj", "inspect cube.obj --json", "--help", "--version"}) {
+        const Outcome outcome = runProgram("('" SUPPLE_COMMAND "' " + std::string(arguments) + " >/dev/full)");
+        expectFailure(outcome, 1, "stdout: cannot be written");
+    }
+}
+
+TEST_F(OutputFiles, AReaderWhoHasGoneIsSaid) {
+    // The pipe's reader ends before the first byte. What stands in files is whole, or not there.
+    for (const char* arguments : {"inspect cube.obj", "sheet cube.obj --columns 1 --cell 32x32 -o out.png"}) {
+        const Outcome outcome = runProgram("bash -c \"(sleep 1; exec '" SUPPLE_COMMAND "' " + std::string(arguments) +
+                                           ") | true; exit \\${PIPESTATUS[0]}\"");
+        expectFailure(outcome, 1, "stdout: cannot be written");
+    }
+    EXPECT_EQ(readText(file("out.png")).substr(1, 3), "PNG");
+    for (const auto& entry : fs::directory_iterator(file("."))) {
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+    }
+}
+
 TEST_F(OutputFiles, DevicesAreWrittenToAsTheyAre) {
     const Outcome outcome = runOnDevice("profile cube.obj --frames 2 --json /dev/null");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;

@@ -39,6 +39,10 @@ Result<FileInMemory> load(const std::string& path) {
     return FileInMemory{path, parent.empty() ? "." : parent.string(), std::move(*bytes)};
 }
 
+uint64_t memoryLimit(const ReadOptions& flags) {
+    return uint64_t{flags.memoryLimit} << 20;
+}
+
 } // namespace
 
 Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags) {
@@ -52,7 +56,8 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
                                          : flags.keepTriangles ? cage::Pairing::never
                                                                : cage::Pairing::whereClean,
                               .creasesFromNormals = flags.creasesFromNormals,
-                              .strict = flags.strict};
+                              .strict = flags.strict,
+                              .memoryLimit = memoryLimit(flags)};
     std::vector<FileInMemory> clipFiles;
     for (const std::string& clipPath : flags.clipFiles) {
         Result<FileInMemory> clips = load(clipPath);
@@ -78,6 +83,7 @@ Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
     flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
+    desc.memoryLimit = memoryLimit(file.flags);
     desc.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
     desc.name = file.path.c_str();
     desc.bytes = file.bytes.data();

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <supple/supple.h>
 
@@ -47,11 +49,21 @@ int run(int argc, char** argv) {
     return exitCode;
 }
 
+/// Flushes what was printed. A full disk or a reader that has gone is a failure, if there is no other.
+int endOutput(int exitCode) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+        return exitCode;
+    const int own = supple::tools::fail(supple::tools::kExitBadInput, "stdout: cannot be written");
+    return exitCode == supple::tools::kExitOk ? own : exitCode;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    // A write into a closed pipe fails instead, so that no file is left half written.
+    std::signal(SIGPIPE, SIG_IGN);
     try {
-        return run(argc, argv);
+        return endOutput(run(argc, argv));
     } catch (const std::bad_alloc&) {
         return supple::tools::fail(supple::tools::kExitBadInput, "out of memory");
     } catch (const std::exception& error) {

@@ -46,6 +46,12 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
     command.add_flag("--creases-from-normals", reading.creasesFromNormals,
                      "Make edges hard creases where the normals of the file are split");
+    command
+        .add_option("--memory-limit", reading.memoryLimit,
+                    "Most memory that reading a glTF file may take at a time; without it 16 MiB, and 64 bytes for each "
+                    "byte of the file and of those that it names")
+        ->type_name("MIB")
+        ->check(CLI::Range(1u, 1u << 20));
     command.add_flag("--strict", reading.strict, "Refuse a damaged cage, and name all damage, instead of repairing it");
 }
 

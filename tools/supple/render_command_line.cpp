@@ -66,6 +66,8 @@ void addReading(Words& words, const host::ReadOptions& reading) {
     words.flag("--parts-apart", reading.partsApart);
     words.flag("--creases-from-normals", reading.creasesFromNormals);
     words.flag("--strict", reading.strict);
+    if (reading.memoryLimit != 0)
+        words.add("--memory-limit").add(std::to_string(reading.memoryLimit));
     if (reading.scene)
         words.add("--scene").add(std::to_string(*reading.scene));
     if (!reading.clipFiles.empty())

@@ -150,6 +150,8 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
 Result<host::Picture> Stage::drawPasses(host::Scene scene) {
     scene.group = group_.get();
     scene.binding = &binding_;
+    if (const Status status = renderer_->prepare(scene); !status)
+        return status.error();
     host::PictureAverage average(target_.extent().width, target_.extent().height);
     for (scene.pass = 0; scene.pass < renderer_->quality().passes; ++scene.pass) {
         const Status status = session_.device->submitAndWait(

@@ -365,7 +365,9 @@ Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
     ViewStage::Shown shown = stage_->shown();
     panel_->step = pace_->next(shown.settings.look, lastShown_ == shown, seconds_);
     lastShown_ = std::move(shown);
-    pictures_->record(frame.commands, frame.slot, stage_->scene(window_->swapchain().extent()), panel_->step);
+    const host::Scene scene = stage_->scene(window_->swapchain().extent());
+    if (const Status status = pictures_->record(frame.commands, frame.slot, scene, panel_->step); !status)
+        return status.error();
     copyToWindow(frame);
     if (const Status status = overlay_->record(frame); !status)
         return status.error();

@@ -37,11 +37,11 @@ Status ViewPictures::fit(VkExtent2D extent, VkFormat format) {
     return mean_->fit(full_.color());
 }
 
-void ViewPictures::record(VkCommandBuffer commands, uint32_t slot, host::Scene scene, const LookStep& step) {
+Status ViewPictures::record(VkCommandBuffer commands, uint32_t slot, host::Scene scene, const LookStep& step) {
     const host::DrawTarget* target = &full_;
     switch (step.kind) {
     case LookStep::Kind::keep:
-        return;
+        return success();
     case LookStep::Kind::studio:
         break;
     case LookStep::Kind::fast:
@@ -55,6 +55,8 @@ void ViewPictures::record(VkCommandBuffer commands, uint32_t slot, host::Scene s
         scene.pass = step.pass;
         break;
     }
+    if (const Status status = renderer_.prepare(scene); !status)
+        return status.error();
     renderer_.record(commands, slot, *target, scene);
     shown_ = &full_.color();
     if (step.kind == LookStep::Kind::refine)
@@ -62,8 +64,9 @@ void ViewPictures::record(VkCommandBuffer commands, uint32_t slot, host::Scene s
     else if (target != &full_)
         host::stretch(commands, target->color(), mixed_);
     else
-        return;
+        return success();
     shown_ = &mixed_;
+    return success();
 }
 
 } // namespace supple::tools

@@ -17,7 +17,7 @@ public:
     /// No frame may be pending.
     [[nodiscard]] Status fit(VkExtent2D extent, VkFormat format);
     /// `slot`: see SurfaceRenderer::record.
-    void record(VkCommandBuffer commands, uint32_t slot, host::Scene scene, const LookStep& step);
+    [[nodiscard]] Status record(VkCommandBuffer commands, uint32_t slot, host::Scene scene, const LookStep& step);
     /// In TRANSFER_SRC_OPTIMAL, visible to copies.
     [[nodiscard]] const host::Image& shown() const { return *shown_; }
 

@@ -217,7 +217,10 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
                          const host::DrawTarget& target) {
     if (const Status status = evaluate(commands, frame, completedFrame); !status)
         return status.error();
-    renderer_.record(commands, slot, target, scene(target.extent()));
+    const host::Scene drawn = scene(target.extent());
+    if (const Status status = renderer_.prepare(drawn); !status)
+        return status.error();
+    renderer_.record(commands, slot, target, drawn);
     return success();
 }
 

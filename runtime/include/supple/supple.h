@@ -93,6 +93,7 @@ extern "C" {
 #define SUPPLE_MAX_TRIM_TILES 1024u     /**< tiles in one trim image */
 #define SUPPLE_MAX_RATE 64u             /**< see SuppleGroupDesc.rate */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u  /**< see suppleBeginFrame */
+#define SUPPLE_MAX_COORDINATE 1e9f      /**< see SuppleAssetDesc */
 #define SUPPLE_MAX_TIMINGS 4096u        /**< entries per frame: passes x groups. Further entries are not timed */
 
 /** A context borrows the host's device. Assets, groups and views belong to one context. */
@@ -366,7 +367,13 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`) or arrays (`cage`). Everything is copied before the call returns. */
+/** Either a file in memory (`bytes`) or arrays (`cage`). Everything is copied before the call returns.
+ *
+ * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
+ * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
+ * matrices of the host. Then the surface of that instance is not defined, and may be not finite, until its next pose.
+ * The surfaces of other instances are what they would be without it. In a view it counts as large: it takes its part of
+ * the budget. suppleGetClipBounds tells how far a clip goes, suppleReadInstanceBounds how far an instance went. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
     uint32_t flags;    /**< SuppleAssetFlags */

@@ -1,0 +1,443 @@
+#include "tests/fault/every_call.h"
+
+#include "tests/cage/gltf/builder.h"
+#include "tests/support/logged_context.h"
+
+#include <array>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace supple::test {
+
+void Calls::make(const char* name, const std::function<SuppleResult()>& call, SuppleResult good) {
+    for (uint64_t n = 0;; n += stride_) {
+        fault_.arm(n);
+        const SuppleResult result = call();
+        if (!fault_.lift()) {
+            ASSERT_EQ(result, good) << name;
+            return;
+        }
+        ++positions_;
+        ASSERT_EQ(result, fault_.result) << name << ", position " << n;
+    }
+}
+
+void makeOnce(const char* name, const std::function<SuppleResult()>& call, SuppleResult good) {
+    ASSERT_EQ(call(), good) << name;
+}
+
+void quiet(SuppleContextDesc& desc) {
+    desc.log = [](SuppleSeverity, SuppleMessage, const char*, void*) {};
+    desc.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+    desc.drawQueueFamily = desc.queueFamily;
+}
+
+uint64_t deviceMemoryOf(SuppleContext context) {
+    SuppleMemoryUse use{};
+    use.structSize = sizeof(use);
+    EXPECT_EQ(suppleGetContextMemory(context, &use), SUPPLE_OK);
+    return use.deviceLocal + use.hostVisible;
+}
+
+namespace {
+
+std::vector<std::byte> externalFile() {
+    GltfBuilder b = skinnedQuad();
+    b.more += R"(,"images":[{"uri":"picture.png"}],"materials":[{}])";
+    return toBytes(b.json("quad.bin"));
+}
+
+struct Files {
+    std::vector<std::byte> binary = skinnedQuad().binary();
+    int held = 0;
+
+    [[nodiscard]] SuppleFiles callbacks() {
+        SuppleFiles files{};
+        files.user = this;
+        files.read = [](const char* path, SuppleFileBytes* out, void* user) {
+            auto& own = *static_cast<Files*>(user);
+            if (std::strcmp(path, "quad.bin") != 0 && std::strcmp(path, "picture.png") != 0) {
+                return 0;
+            }
+            ++own.held;
+            out->bytes = own.binary.data();
+            out->byteCount = own.binary.size();
+            return 1;
+        };
+        files.release = [](SuppleFileBytes*, void* user) { --static_cast<Files*>(user)->held; };
+        return files;
+    }
+};
+
+class EveryCall {
+public:
+    EveryCall(host::Device& device, const MakeCall& make, const Adjust& adjust)
+        : make_(make), context_(device, adjust), device_(device) {}
+
+    /// Every function, cold and then with frames in flight. Returns what the frames came out as.
+    std::vector<std::byte> run() {
+        const uint64_t before = deviceMemoryOf(handle());
+        createAssets();
+        createGroups();
+        pose();
+        ask();
+        frames(0);
+        change();
+        pose();
+        askMore();
+        frames(1);
+        std::vector<std::byte> bits;
+        if (recorded_ != SUPPLE_OK) { // the device is lost
+            destroy();
+            return bits;
+        }
+        for (const SuppleGroup group : {groups_[0], groups_[1], groups_[2], groups_[3]}) {
+            const std::vector<std::byte> own = surfaceBits(context_, group);
+            bits.insert(bits.end(), own.begin(), own.end());
+        }
+        destroy();
+        EXPECT_LE(deviceMemoryOf(handle()), before) << "something is left on the device";
+        return bits;
+    }
+
+private:
+    void call(const char* name, const std::function<SuppleResult()>& body, SuppleResult good = SUPPLE_OK) {
+        make_(name, body, good);
+    }
+
+    void createAssets() {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.name = "a tube whose name is too long to lie in a string itself";
+        desc.bytes = tubeFile().data();
+        desc.byteCount = tubeFile().size();
+        call("suppleCreateAsset, a GLB", [&] { return suppleCreateAsset(handle(), &desc, &tube_); });
+
+        const std::vector<std::byte> external = externalFile();
+        SuppleFiles files = files_.callbacks();
+        SuppleClipFile clips{};
+        clips.bytes = external.data();
+        clips.byteCount = external.size();
+        clips.files = &files;
+        desc.bytes = external.data();
+        desc.byteCount = external.size();
+        desc.files = &files;
+        desc.clipFiles = &clips;
+        desc.clipFileCount = 1;
+        call("suppleCreateAsset, files of the host", [&] {
+            const SuppleResult result = suppleCreateAsset(handle(), &desc, &quad_);
+            EXPECT_EQ(files_.held, 0);
+            return result;
+        });
+
+        const std::vector<std::byte> obj = toBytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1 4/1\n");
+        SuppleAssetDesc other{};
+        other.structSize = sizeof(other);
+        other.name = "square.obj";
+        other.bytes = obj.data();
+        other.byteCount = obj.size();
+        SuppleAsset square{};
+        call("suppleCreateAsset, an OBJ", [&] { return suppleCreateAsset(handle(), &other, &square); });
+
+        const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+        const uint32_t counts[] = {4}, indices[] = {0, 1, 2, 3};
+        SuppleCageDesc cage{};
+        cage.structSize = sizeof(cage);
+        cage.vertexCount = 4;
+        cage.faceCount = 1;
+        cage.positions = positions;
+        cage.faceVertexCounts = counts;
+        cage.faceVertexIndices = indices;
+        other.bytes = nullptr;
+        other.cage = &cage;
+        call("suppleReloadAsset, arrays", [&] { return suppleReloadAsset(handle(), square, &other); });
+        call("suppleDestroyAsset", [&] { return suppleDestroyAsset(handle(), square); });
+
+        other.cage = nullptr;
+        const std::vector<std::byte> wrong = toBytes(R"({"asset":{"version":"1.0"}})");
+        other.bytes = wrong.data();
+        other.byteCount = wrong.size();
+        call(
+            "suppleCreateAsset, a wrong file", [&] { return suppleCreateAsset(handle(), &other, &square); },
+            SUPPLE_ERROR_ASSET);
+    }
+
+    void createGroups() {
+        SuppleViewDesc viewDesc{};
+        viewDesc.structSize = sizeof(viewDesc);
+        viewDesc.maxVertices = 4096;
+        viewDesc.flags = SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION;
+        call("suppleCreateView", [&] { return suppleCreateView(handle(), &viewDesc, &view_); });
+        const SuppleGroupDesc wanted[] = {
+            {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_BOUNDS,
+             .scheme = SUPPLE_SCHEME_PM},
+            {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
+            {.scheme = SUPPLE_SCHEME_POLYGONS},
+            {.scheme = SUPPLE_SCHEME_PREP, .poseSource = SUPPLE_POSES_PLAYBACK},
+            {.scheme = SUPPLE_SCHEME_FRAGMENTS},
+            {.scheme = SUPPLE_SCHEME_BLEND},
+            {.scheme = SUPPLE_SCHEME_AUTO, .view = view_}};
+        static_assert(std::size(wanted) == kGroups);
+        for (size_t i = 0; i < kGroups; ++i) {
+            SuppleGroupDesc desc = wanted[i];
+            desc.structSize = sizeof(desc);
+            desc.asset = tube_;
+            desc.capacity = 2;
+            desc.rate = 2;
+            const std::string name = "suppleCreateGroup " + std::to_string(i);
+            call(name.c_str(), [&] { return suppleCreateGroup(handle(), &desc, &groups_[i]); });
+            createInstance(i);
+            createInstance(i);
+        }
+    }
+
+    void createInstance(size_t group) {
+        SuppleInstance instance{};
+        call("suppleCreateInstance", [&] { return suppleCreateInstance(handle(), groups_[group], &instance); });
+        instances_[group].push_back(instance);
+    }
+
+    void pose() {
+        for (size_t i = 0; i < kGroups; ++i) {
+            for (const SuppleInstance instance : instances_[i]) {
+                if (i == kPlayed) {
+                    SupplePlaybackLayer layer{};
+                    layer.weight = layer.speed = 1.0f;
+                    SupplePlaybackDesc desc{};
+                    desc.structSize = sizeof(desc);
+                    desc.layers = &layer;
+                    desc.layerCount = 1;
+                    call("suppleSetPlayback", [&] { return suppleSetPlayback(handle(), instance, &desc); });
+                } else {
+                    poseWith(instance);
+                }
+                const double position[3] = {static_cast<double>(instance.slot), 0.0, 0.0};
+                call("suppleSetPosition", [&] { return suppleSetPosition(handle(), instance, position); });
+            }
+        }
+        call("suppleSetPriority", [&] { return suppleSetPriority(handle(), instances_[kSeen][0], 1); });
+        call("suppleSetTime", [&] { return suppleSetTime(handle(), groups_[kPlayed], 0.5); });
+        SuppleMaskDesc mask{};
+        const float ones[] = {1.0f, 0.5f, 1.0f};
+        mask.structSize = sizeof(mask);
+        mask.mask = 1;
+        mask.jointMask = ones;
+        mask.jointMaskCount = 3;
+        call("suppleSetMask", [&] { return suppleSetMask(handle(), groups_[kPlayed], &mask); });
+    }
+
+    void poseWith(SuppleInstance instance) {
+        const float matrices[3 * 16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0,
+                                        0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        const float weights[] = {0.5f, 0.0f, 0.25f, 0.0f};
+        const float data[] = {1, 2, 3, 4};
+        call("suppleSetMatrixPose", [&] { return suppleSetMatrixPose(handle(), instance, matrices, 3); });
+        call("suppleSetMorphWeights", [&] { return suppleSetMorphWeights(handle(), instance, weights, 4); });
+        SuppleClipLayer layer{};
+        layer.weight = 1.0f;
+        layer.time = 0.25;
+        SupplePoseDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.layers = &layer;
+        desc.layerCount = 1;
+        call("suppleSetPose", [&] { return suppleSetPose(handle(), instance, &desc); });
+        call("suppleSetClipPose", [&] { return suppleSetClipPose(handle(), instance, 0, 0.75); });
+        call("suppleSetUserData", [&] { return suppleSetUserData(handle(), instance, data); });
+        call("suppleSetVisible", [&] { return suppleSetVisible(handle(), instance, 1); });
+        call("suppleSetPartVisible", [&] { return suppleSetPartVisible(handle(), instance, 0, 1); });
+        call("suppleTeleport", [&] { return suppleTeleport(handle(), instance); });
+    }
+
+    template <class T, class Get>
+    void get(const char* name, Get&& body) {
+        T info{};
+        info.structSize = sizeof(info);
+        call(name, [&] { return body(&info); });
+    }
+
+    void ask() {
+        get<SuppleAssetInfo>("suppleGetAssetInfo", [&](auto* out) { return suppleGetAssetInfo(handle(), tube_, out); });
+        get<SupplePartInfo>("suppleGetPartInfo", [&](auto* out) { return suppleGetPartInfo(handle(), tube_, 0, out); });
+        get<SuppleClipInfo>("suppleGetClipInfo", [&](auto* out) { return suppleGetClipInfo(handle(), tube_, 0, out); });
+        get<SuppleJointInfo>("suppleGetJointInfo",
+                             [&](auto* out) { return suppleGetJointInfo(handle(), tube_, 0, out); });
+        get<SuppleMaterialInfo>("suppleGetMaterialInfo",
+                                [&](auto* out) { return suppleGetMaterialInfo(handle(), tube_, 0, out); });
+        get<SuppleImageInfo>("suppleGetImageInfo",
+                             [&](auto* out) { return suppleGetImageInfo(handle(), tube_, 0, out); });
+        get<SuppleGroupInfo>("suppleGetGroupInfo",
+                             [&](auto* out) { return suppleGetGroupInfo(handle(), groups_[0], out); });
+        get<SuppleGridOutput>("suppleGetGridOutput",
+                              [&](auto* out) { return suppleGetGridOutput(handle(), groups_[0], 0, out); });
+        get<SuppleMemoryUse>("suppleGetGroupMemory",
+                             [&](auto* out) { return suppleGetGroupMemory(handle(), groups_[0], out); });
+        SuppleBounds bounds{};
+        call("suppleGetClipBounds", [&] { return suppleGetClipBounds(handle(), tube_, 0, &bounds); });
+        call("suppleGetGroupClipBounds", [&] { return suppleGetGroupClipBounds(handle(), groups_[0], 0, &bounds); });
+        float mask[3] = {};
+        call("suppleFillJointMask", [&] { return suppleFillJointMask(handle(), tube_, 0, 1.0f, mask, 3); });
+        float socket[16];
+        call("suppleGetJointTransform", [&] { return suppleGetJointTransform(handle(), instances_[0][0], 1, socket); });
+        uint32_t count = 0;
+        call("suppleGetClipMarkers", [&] { return suppleGetClipMarkers(handle(), tube_, 0, nullptr, &count); });
+        call(
+            "suppleGetTimings", [&] { return suppleGetTimings(handle(), nullptr, &count); }, SUPPLE_NOT_READY);
+        call("suppleSetBudget", [&] { return suppleSetBudget(handle(), "evaluate", 1e9); });
+        call(
+            "suppleSetBudget, of no pass",
+            [&] { return suppleSetBudget(handle(), "a pass of a long name, for a budget", 1e6); },
+            SUPPLE_ERROR_ARGUMENT);
+        call("suppleSetMemoryBudget", [&] { return suppleSetMemoryBudget(handle(), 0, nullptr, nullptr); });
+        // Mistakes need memory for what is said about them.
+        call(
+            "suppleGetClipInfo, out of range",
+            [&] {
+                SuppleClipInfo info{};
+                info.structSize = sizeof(info);
+                return suppleGetClipInfo(handle(), tube_, 1000, &info);
+            },
+            SUPPLE_ERROR_ARGUMENT);
+        SuppleRequirements requirements{};
+        requirements.structSize = sizeof(requirements);
+        call(
+            "suppleQueryRequirements, of nothing",
+            [&] { return suppleQueryRequirements(VK_NULL_HANDLE, VK_NULL_HANDLE, nullptr, &requirements); },
+            SUPPLE_ERROR_ARGUMENT);
+    }
+
+    /// What may also answer that there is nothing yet.
+    template <class Call>
+    void ready(const char* name, Call&& body) {
+        const SuppleResult good = body();
+        EXPECT_NE(good, SUPPLE_ERROR_HOST_MEMORY) << name;
+        call(name, body, good);
+    }
+
+    void askMore() {
+        get<SuppleMorphTargetInfo>("suppleGetMorphTargetInfo",
+                                   [&](auto* out) { return suppleGetMorphTargetInfo(handle(), tube_, 0, out); });
+        get<SuppleSurfaceInfo>("suppleGetSurfaceInfo",
+                               [&](auto* out) { return suppleGetSurfaceInfo(handle(), groups_[0], 0, out); });
+        get<SuppleVertexStreams>("suppleGetVertexStreams",
+                                 [&](auto* out) { return suppleGetVertexStreams(handle(), groups_[0], 0, out); });
+        get<SuppleLevelOutput>("suppleGetLevelOutput",
+                               [&](auto* out) { return suppleGetLevelOutput(handle(), groups_[kSeen], 0, out); });
+        get<SuppleMemoryUse>("suppleGetAssetMemory",
+                             [&](auto* out) { return suppleGetAssetMemory(handle(), tube_, out); });
+        get<SuppleMemoryUse>("suppleGetViewMemory",
+                             [&](auto* out) { return suppleGetViewMemory(handle(), view_, out); });
+        get<SuppleMemoryUse>("suppleGetContextMemory",
+                             [&](auto* out) { return suppleGetContextMemory(handle(), out); });
+        get<SuppleBudget>("suppleGetBudget", [&](auto* out) { return suppleGetBudget(handle(), "evaluate", out); });
+        SuppleViewStatistics statistics{};
+        statistics.structSize = sizeof(statistics);
+        ready("suppleGetViewStatistics", [&] { return suppleGetViewStatistics(handle(), view_, &statistics); });
+        SuppleBufferRange range{};
+        ready("suppleGetInstanceBounds", [&] { return suppleGetInstanceBounds(handle(), groups_[0], &range); });
+        uint64_t ticks = 0;
+        ready("suppleGetTimingOrigin", [&] { return suppleGetTimingOrigin(handle(), &ticks); });
+        uint32_t count = 0;
+        ready("suppleGetPatches", [&] { return suppleGetPatches(handle(), groups_[0], 0, nullptr, &count); });
+        ready("suppleGetClipMarkersBetween",
+              [&] { return suppleGetClipMarkersBetween(handle(), tube_, 0, 0.0, 1.0, 0, nullptr, &count); });
+        SuppleBounds bounds{};
+        ready("suppleReadInstanceBounds",
+              [&] { return suppleReadInstanceBounds(handle(), instances_[0][0], &bounds, &ticks); });
+        const float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        call("suppleSetTransform", [&] { return suppleSetTransform(handle(), instances_[0][0], transform); });
+        const double origin[3] = {};
+        call("suppleSetOrigin", [&] { return suppleSetOrigin(handle(), origin); });
+        ready("suppleSetDepthPyramid", [&] { return suppleSetDepthPyramid(handle(), view_, nullptr); });
+        SuppleClipLayer layer{};
+        layer.weight = 1.0f;
+        SupplePoseDesc pose{};
+        pose.structSize = sizeof(pose);
+        pose.layers = &layer;
+        pose.layerCount = 1;
+        SuppleRootMotion motion{};
+        motion.structSize = sizeof(motion);
+        ready("suppleGetRootMotion", [&] { return suppleGetRootMotion(handle(), tube_, &pose, &motion); });
+    }
+
+    void frames(size_t round) {
+        for (size_t n = 0; n < 3; ++n) {
+            call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
+            ++frame_;
+            SuppleCameraDesc camera{};
+            camera.structSize = sizeof(camera);
+            camera.pixelsPerUnit = 800.0f;
+            call("suppleSetCamera", [&] { return suppleSetCamera(handle(), view_, &camera); });
+            if (n == 1 && round == 0) {
+                call("suppleCancelFrame", [&] { return suppleCancelFrame(handle()); });
+                continue;
+            }
+            context_.frame = frame_;
+            ASSERT_TRUE(device_.submitAndWait([&](VkCommandBuffer commands) { record(commands, round); }).ok());
+        }
+    }
+
+    void record(VkCommandBuffer commands, size_t round) {
+        if (round == 0) {
+            call("suppleRecordUploads", [&] { return suppleRecordUploads(handle(), commands); });
+        }
+        const std::span<const SuppleGroup> all(groups_);
+        if (round == 1) {
+            call("suppleRecordWarmUp",
+                 [&] { return suppleRecordWarmUp(handle(), commands, all.data(), static_cast<uint32_t>(all.size())); });
+        }
+        call("suppleRecord", [&] { return recorded_ = context_.record(commands, all, SUPPLE_RECORD_TIMINGS); });
+        uint32_t count = 0;
+        call("suppleGetAcquireBarriers",
+             [&] { return suppleGetAcquireBarriers(handle(), all.data(), 1, kAnyUse, nullptr, &count); });
+    }
+
+    void change() {
+        for (size_t i = 0; i < kGroups; ++i) {
+            call("suppleSetCapacity", [&] { return suppleSetCapacity(handle(), groups_[i], 3); });
+            createInstance(i);
+        }
+        call("suppleSetRate", [&] { return suppleSetRate(handle(), groups_[1], 1); });
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.name = "a tube whose name is too long to lie in a string itself";
+        desc.bytes = tubeFile().data();
+        desc.byteCount = tubeFile().size();
+        call("suppleReloadAsset", [&] { return suppleReloadAsset(handle(), tube_, &desc); });
+    }
+
+    void destroy() {
+        call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
+        ++frame_;
+        for (size_t i = 0; i < kGroups; ++i) {
+            call("suppleDestroyInstance", [&] { return suppleDestroyInstance(handle(), instances_[i][0]); });
+            call("suppleDestroyGroup", [&] { return suppleDestroyGroup(handle(), groups_[i]); });
+        }
+        call("suppleDestroyView", [&] { return suppleDestroyView(handle(), view_); });
+        call("suppleDestroyAsset", [&] { return suppleDestroyAsset(handle(), tube_); });
+        call("suppleDestroyAsset", [&] { return suppleDestroyAsset(handle(), quad_); });
+        call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
+    }
+
+    [[nodiscard]] SuppleContext handle() const { return context_.handle(); }
+
+    static constexpr size_t kGroups = 7, kPlayed = 3, kSeen = 6;
+    const MakeCall& make_;
+    LoggedContext context_;
+    host::Device& device_;
+    Files files_;
+    uint64_t frame_ = 0;
+    SuppleResult recorded_ = SUPPLE_OK; ///< what the last suppleRecord returned
+    SuppleAsset tube_{}, quad_{};
+    SuppleView view_{};
+    std::array<SuppleGroup, kGroups> groups_{};
+    std::array<std::vector<SuppleInstance>, kGroups> instances_;
+};
+
+} // namespace
+
+std::vector<std::byte> makeEveryCall(host::Device& device, const MakeCall& make, const Adjust& adjust) {
+    return EveryCall(device, make, adjust).run();
+}
+
+} // namespace supple::test
