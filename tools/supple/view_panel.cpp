@@ -4,6 +4,7 @@
 
 #include "tools/supple/command.h"
 #include "tools/supple/view_keys.h"
+#include "tools/supple/view_overlay.h"
 #include "tools/supple/views.h"
 
 #include <GLFW/glfw3.h>
@@ -78,6 +79,15 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
         stage.settings.panel = !stage.settings.panel;
     if (pressed(GLFW_KEY_C))
         stage.settings.cageOverlay = !stage.settings.cageOverlay;
+    if (pressed(GLFW_KEY_S)) {
+        stage.settings.split = !stage.settings.split;
+        if (stage.hasFigure())
+            stage.fitFigure(aspect);
+    }
+    if (pressed(GLFW_KEY_D))
+        stage.settings.levels = !stage.settings.levels;
+    if (pressed(GLFW_KEY_Z))
+        stage.settings.levelsFrozen = !stage.settings.levelsFrozen;
     if (pressed(GLFW_KEY_O))
         state.browser.open = !state.browser.open;
     if (pressed(GLFW_KEY_L))
@@ -143,29 +153,6 @@ void buildCrossfade(ViewStage& stage) {
         ImGui::SliderFloat("weight", &settings.fade, 0.0f, 1.0f, "%.2f");
 }
 
-/// Bones from joint to joint, over the picture.
-void drawJoints(const ViewStage& stage, float aspect) {
-    const std::vector<ViewStage::ShownJoint> joints = stage.shownJoints(aspect);
-    const std::vector<uint32_t>& parents = stage.figure().jointParents();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto place = [&](const ViewStage::ShownJoint& joint) {
-        return ImVec2(joint.at.x * size.x, joint.at.y * size.y);
-    };
-    const ImU32 ink = IM_COL32(255, 255, 255, 220), rim = IM_COL32(0, 0, 0, 160);
-    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    for (size_t i = 0; i < joints.size(); ++i) {
-        if (!joints[i].seen)
-            continue;
-        if (parents[i] != SUPPLE_NO_JOINT && joints[parents[i]].seen) {
-            draw.AddLine(place(joints[parents[i]]), place(joints[i]), rim, 3.0f);
-            draw.AddLine(place(joints[parents[i]]), place(joints[i]), ink, 1.5f);
-        }
-        draw.AddCircleFilled(place(joints[i]), 4.0f, rim);
-        draw.AddCircleFilled(place(joints[i]), 3.0f,
-                             i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
-    }
-}
-
 void buildPlayback(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
     const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
@@ -229,7 +216,7 @@ void buildView(ViewStage& stage) {
     const std::vector<std::string>& joints = stage.figure().jointNames();
     if (joints.empty())
         return;
-    if (settings.view == host::shared::kViewHeat &&
+    if (settings.view == host::shared::kViewWeights &&
         ImGui::BeginCombo("joint", printable(joints[settings.joint]).c_str())) {
         for (uint32_t i = 0; i < joints.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
@@ -241,9 +228,25 @@ void buildView(ViewStage& stage) {
     }
 }
 
-void buildSurface(ViewStage& stage, PanelWishes& wishes) {
+/// What levels of detail are chosen by, and how much that is.
+void buildLevels(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
-    buildScheme(stage, wishes);
+    ImGui::Checkbox("levels of detail", &settings.levels);
+    if (!stage.group().hasLevels())
+        return;
+    ImGui::SameLine();
+    ImGui::Checkbox("freeze", &settings.levelsFrozen);
+    ImGui::SliderFloat("error", &settings.chordError, 0.05f, 20.0f, "%.2f pixels", ImGuiSliderFlags_Logarithmic);
+    const std::optional<SuppleViewStatistics> drawn = stage.group().levelStatistics();
+    if (!drawn)
+        return;
+    ImGui::TextDisabled("%u patches, %u vertices", drawn->patchCount, drawn->vertexCount);
+    if (drawn->levelScales[0] < 1.0f)
+        ImGui::TextDisabled("too many: levels are scaled by %.2f", static_cast<double>(drawn->levelScales[0]));
+}
+
+void buildRate(ViewStage& stage, PanelWishes& wishes) {
+    ViewSettings& settings = stage.settings;
     if (stage.ratesArePowersOfTwo()) {
         // The slider moves the exponent, so that it stops at the rates there are and nowhere else.
         constexpr int kMaxExponent = static_cast<int>(std::bit_width(SUPPLE_MAX_RATE)) - 1;
@@ -258,21 +261,31 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     // A rate is a new group: made when the slider is let go, not at every step of it.
     if (ImGui::IsItemDeactivatedAfterEdit())
         wishes.rate = stage.offeredRate(static_cast<uint32_t>(settings.rate));
-    buildView(stage);
-    ImGui::Checkbox("cage lines", &settings.cageOverlay);
-    ImGui::SameLine();
-    ImGui::Checkbox("cage only", &settings.cageFaces);
-    ImGui::Checkbox("ground", &settings.ground);
-    if (!stage.figure().jointNames().empty()) {
-        ImGui::SameLine();
-        ImGui::Checkbox("joints", &settings.joints);
-    }
     uint32_t patches = 0, vertices = 0;
     for (const host::FigureSurface& surface : stage.group().surfaces()) {
         patches += surface.output.surface.patchCount;
         vertices += surface.output.grid.vertexCount;
     }
     ImGui::TextDisabled("%u patches, %u vertices", patches, vertices);
+}
+
+void buildSurface(ViewStage& stage, PanelWishes& wishes, float aspect) {
+    ViewSettings& settings = stage.settings;
+    buildScheme(stage, wishes);
+    buildLevels(stage);
+    if (!stage.group().hasLevels())
+        buildRate(stage, wishes);
+    buildView(stage);
+    ImGui::Checkbox("cage lines", &settings.cageOverlay);
+    ImGui::SameLine();
+    ImGui::Checkbox("cage only", &settings.cageFaces);
+    if (ImGui::Checkbox("cage beside surface", &settings.split))
+        stage.fitFigure(aspect);
+    ImGui::Checkbox("ground", &settings.ground);
+    if (!stage.figure().jointNames().empty()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("joints", &settings.joints);
+    }
 }
 
 /// The height that a list takes, of which more scrolls.
@@ -504,12 +517,12 @@ void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& w
 }
 
 /// What the panel has, from above.
-void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes) {
+void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes, float aspect) {
     buildFiles(state, stage, wishes);
     if (stage.hasFigure()) {
         buildPlayback(stage);
         ImGui::Separator();
-        buildSurface(stage, wishes);
+        buildSurface(stage, wishes, aspect);
         buildLook(state, stage.settings);
         buildMorphs(stage);
         buildWarnings(stage);
@@ -550,15 +563,15 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
         ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kPanelRight - 32.0f, 0.0f), ImGuiCond_Always);
         if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
-            buildSections(state, stage, wishes);
+            buildSections(state, stage, wishes, aspect);
         ImGui::End();
     }
     if (state.browser.open) {
         if (std::optional<std::string> chosen = state.browser.build(state.recent))
             wishes.file = std::move(chosen);
     }
-    if (stage.hasFigure() && stage.settings.joints)
-        drawJoints(stage, aspect);
+    if (stage.hasFigure())
+        drawOverPicture(stage, aspect);
     buildKeys(stage);
     buildMessage(state);
     if (stage.hasFigure())
