@@ -140,9 +140,12 @@ struct FigureSurface {
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     uint32_t edgeRate = 0;
     Buffer patchClasses; ///< per patch: which of the colors of the view of patch classes it has
-    /// A coarser grid over the same samples: shadows need no more.
-    Buffer shadowIndices;
-    uint32_t shadowIndexCount = 0;
+    /// Coarser grids over the same samples, by SuppleDomain: shadows need no more.
+    struct CoarseGrid {
+        uint32_t firstIndex = 0, indexCount = 0;
+    };
+    std::array<CoarseGrid, 4> coarseGrids;
+    Buffer coarseIndices;
     Buffer values; ///< a float per vertex of an instance, for the views kViewWeights and kViewDistance; may be none
 
     /// SUPPLE_SCHEME_POLYGONS.
@@ -206,6 +209,7 @@ private:
     /// Adds a surface of the group, or one for each of its rates.
     [[nodiscard]] Status addSurface(const GroupOutput& output, uint32_t index);
     [[nodiscard]] Status uploadTables(FigureSurface& surface, uint32_t index) const;
+    [[nodiscard]] Status uploadCoarseGrids(FigureSurface& surface) const;
 
     Figure& figure_;
     std::unique_ptr<LevelView> levels_;

@@ -1,5 +1,7 @@
 #include "host/figure.h"
 
+#include "host/coarse_grid.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -10,26 +12,6 @@ namespace {
 /// Triangles a shadow map may cost before its grid is made coarser.
 constexpr uint64_t kShadowTrianglesCpu = 16'000;
 constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
-
-/// For quads and polar patches: two triangles a cell of a grid of `segments` a side, laid over a patch of `rate`
-/// segments.
-std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
-    const auto sample = [&](uint32_t i, uint32_t j) {
-        const uint32_t column = (i * rate + segments / 2) / segments;
-        const uint32_t row = (j * rate + segments / 2) / segments;
-        return static_cast<uint16_t>(row * (rate + 1) + column);
-    };
-    std::vector<uint16_t> indices;
-    indices.reserve(size_t{6} * segments * segments);
-    for (uint32_t j = 0; j < segments; ++j) {
-        for (uint32_t i = 0; i < segments; ++i) {
-            const uint16_t corners[] = {sample(i, j), sample(i + 1, j), sample(i + 1, j + 1), sample(i, j + 1)};
-            for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
-                indices.push_back(corners[corner]);
-        }
-    }
-    return indices;
-}
 
 /// The first `used` positions of each instance. What fills its stride up to the next instance is never written.
 std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride, uint32_t capacity,
@@ -235,20 +217,32 @@ Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
         return classBuffer.error();
     surface.patchClasses = std::move(*classBuffer);
 
+    return uploadCoarseGrids(surface);
+}
+
+Status FigureGroup::uploadCoarseGrids(FigureSurface& surface) const {
+    Device& device = figure_.context().device();
+    const SuppleGridOutput& grid = surface.output.grid;
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
-    const uint64_t shown = uint64_t{output.surface.patchCount} * output.info.capacity;
-    const uint32_t rate = std::max(output.grid.rate, 1u); // a cage alone has none
-    uint32_t segments = rate;
+    const uint64_t shown = uint64_t{surface.output.surface.patchCount} * surface.output.info.capacity;
+    const uint32_t rate = std::max(grid.rate, 1u);           // a cage alone has none
     const uint32_t fewest = rate < surface.edgeRate ? 1 : 2; // two to an edge of the cage
-    while (segments > fewest && shown * 2 * segments * segments > budget)
-        segments = (segments + 1) / 2;
-    const std::vector<uint16_t> indices = coarseGrid(rate, segments);
-    surface.shadowIndexCount = static_cast<uint32_t>(indices.size());
+    uint32_t segments = rate;
+    while (segments > fewest && shown * 2 * segments * segments > budget &&
+           halvedSegments(segments, rate, fewest) < segments)
+        segments = halvedSegments(segments, rate, fewest);
+    std::vector<uint16_t> indices;
+    for (const SuppleDomain domain :
+         {SUPPLE_DOMAIN_QUAD, SUPPLE_DOMAIN_POLAR, SUPPLE_DOMAIN_TRIANGLE, SUPPLE_DOMAIN_PENTAGON}) {
+        const std::vector<uint16_t> own = coarseGrid(domain, rate, segments);
+        surface.coarseGrids[domain] = {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(own.size())};
+        indices.insert(indices.end(), own.begin(), own.end());
+    }
     Result<Buffer> indexBuffer =
         device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     if (!indexBuffer)
         return indexBuffer.error();
-    surface.shadowIndices = std::move(*indexBuffer);
+    surface.coarseIndices = std::move(*indexBuffer);
     return success();
 }
 

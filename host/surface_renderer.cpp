@@ -57,9 +57,10 @@ void drawCoarse(VkCommandBuffer commands, const Scene& scene, const FigureSurfac
     }
     const SuppleDrawRange& range = surface.output.grid.drawRanges[index];
     const uint32_t patches = range.patchCount * scene.group->visibleCount();
-    if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
-        vkCmdBindIndexBuffer(commands, surface.shadowIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
-        vkCmdDrawIndexed(commands, surface.shadowIndexCount, patches, 0, 0, 0);
+    if (range.domain != SUPPLE_DOMAIN_MESH) {
+        const FigureSurface::CoarseGrid& grid = surface.coarseGrids[range.domain];
+        vkCmdBindIndexBuffer(commands, surface.coarseIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
+        vkCmdDrawIndexed(commands, grid.indexCount, patches, grid.firstIndex, 0, 0);
     } else {
         bindGridIndices(commands, surface.output);
         vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);

@@ -119,7 +119,8 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
                 ring.waitIdle((*context)->lastFrame());
             }
         }
-        EXPECT_FALSE(stage.passTimes().empty());
+        EXPECT_FALSE(stage.passTimes().names().empty());
+        EXPECT_FALSE(stage.partTimes().names().empty());
         ring.waitIdle((*context)->lastFrame());
     }
     device->reset();

@@ -397,16 +397,16 @@ void buildParts(ViewStage& stage) {
     ImGui::TreePop();
 }
 
-constexpr ImU32 kPassColors[] = {IM_COL32(74, 168, 224, 255),  IM_COL32(240, 183, 63, 255),
+constexpr ImU32 kTimeColors[] = {IM_COL32(74, 168, 224, 255),  IM_COL32(240, 183, 63, 255),
                                  IM_COL32(51, 196, 154, 255),  IM_COL32(224, 160, 196, 255),
                                  IM_COL32(143, 208, 247, 255), IM_COL32(245, 139, 76, 255),
                                  IM_COL32(167, 157, 240, 255), IM_COL32(201, 199, 95, 255)};
 constexpr float kGraphHeight = 84.0f;
 
-/// The last frames, the newest on the right: passes one above the other, and the budget.
-void buildGraph(const PassHistory& history, float budgetMs) {
+/// The last frames, the newest on the right: passes or parts one above the other, and the budget.
+void buildGraph(const TimeHistory& history, float budgetMs) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, step = width / static_cast<float>(PassHistory::kFrames);
+    const float width = ImGui::GetContentRegionAvail().x, step = width / static_cast<float>(TimeHistory::kFrames);
     const float most = std::max({history.most(), 1.15f * budgetMs, 1e-3f});
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + kGraphHeight), ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -415,7 +415,7 @@ void buildGraph(const PassHistory& history, float budgetMs) {
         float bottom = corner.y + kGraphHeight;
         for (size_t pass = 0; pass < history.row(i).size(); ++pass) {
             const float top = bottom - kGraphHeight * history.row(i)[pass] / most;
-            draw.AddRectFilled(ImVec2(x, top), ImVec2(x + step, bottom), kPassColors[pass % std::size(kPassColors)]);
+            draw.AddRectFilled(ImVec2(x, top), ImVec2(x + step, bottom), kTimeColors[pass % std::size(kTimeColors)]);
             bottom = top;
         }
     }
@@ -430,26 +430,32 @@ void buildGraph(const PassHistory& history, float budgetMs) {
 }
 
 void buildTimings(const PanelState& state, ViewStage& stage) {
-    const PassHistory& history = stage.passHistory();
+    ViewSettings& settings = stage.settings;
+    const TimeHistory& history = settings.timingsByPart ? stage.partTimes() : stage.passTimes();
     ImGui::TextDisabled("%s", state.device.c_str());
-    buildGraph(history, stage.settings.budgetMs);
-    double sum = 0.0;
-    for (size_t i = 0; i < history.passes().size(); ++i) {
-        const auto found = stage.passTimes().find(history.passes()[i]);
-        if (found == stage.passTimes().end())
-            continue;
-        sum += found->second.gpuMilliseconds;
+    buildGraph(history, settings.budgetMs);
+    int by = settings.timingsByPart ? 1 : 0;
+    ImGui::RadioButton("by pass", &by, 0);
+    ImGui::SameLine();
+    ImGui::RadioButton("by part", &by, 1);
+    settings.timingsByPart = by == 1;
+    float sum = 0.0f;
+    for (size_t i = 0; i < history.names().size(); ++i) {
+        sum += history.means()[i];
         const ImVec2 at = ImGui::GetCursorScreenPos();
         ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 3.0f), ImVec2(at.x + 10.0f, at.y + 13.0f),
-                                                  kPassColors[i % std::size(kPassColors)]);
-        ImGui::Text("   %-12s %8.3f ms", history.passes()[i].c_str(), found->second.gpuMilliseconds);
+                                                  kTimeColors[i % std::size(kTimeColors)]);
+        ImGui::Text("   %-14.14s %8.3f ms", printable(history.names()[i]).c_str(),
+                    static_cast<double>(history.means()[i]));
     }
-    ImGui::Text("surface %.2f ms   frame %.1f ms", sum, state.frameMilliseconds);
-    ImGui::Checkbox("pause", &stage.settings.timingsPaused);
+    if (settings.timingsByPart)
+        ImGui::TextWrapped("A scheme's parts share its time by their patches.");
+    ImGui::Text("surface %.2f ms   frame %.1f ms", static_cast<double>(sum), state.frameMilliseconds);
+    ImGui::Checkbox("pause", &settings.timingsPaused);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
-    if (ImGui::InputFloat("budget ms", &stage.settings.budgetMs, 0.0f, 0.0f, "%.2f"))
-        stage.settings.budgetMs = std::max(stage.settings.budgetMs, 0.0f);
+    if (ImGui::InputFloat("budget ms", &settings.budgetMs, 0.0f, 0.0f, "%.2f"))
+        settings.budgetMs = std::max(settings.budgetMs, 0.0f);
 }
 
 void buildKeys(ViewStage& stage) {

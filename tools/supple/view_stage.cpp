@@ -1,5 +1,6 @@
 #include "tools/supple/view_stage.h"
 
+#include "host/patches.h"
 #include "tools/common/character_file.h"
 #include "tools/common/figure_file.h"
 #include "tools/common/formatted.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace supple::tools {
@@ -19,8 +21,7 @@ constexpr float kWindowMargin = 0.10f;
 constexpr float kSteepest = 1.5f; ///< radians; the camera never looks straight up or down
 /// Poses of each clip that the camera has to hold and the floor has to carry.
 constexpr uint32_t kMeasuredPoses = 5;
-/// Share of a new measurement in the shown time.
-constexpr double kSmoothing = 0.1;
+constexpr uint32_t kMostTimings = 512; ///< of a frame of one group
 
 } // namespace
 
@@ -109,9 +110,9 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
-    passHistory_.clear();
+    partTimes_.clear();
     frameFigure(aspect);
-    return success();
+    return readPartShares();
 }
 
 uint32_t ViewStage::offeredRate(uint32_t rate) const {
@@ -168,7 +169,7 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     binding_ = std::move(*binding);
     // At levels a rate counts for some schemes only, and then it is the largest.
     settings.rate = static_cast<int>(group_->hasLevels() ? rate : group_->edgeRate());
-    return success();
+    return readPartShares();
 }
 
 float ViewStage::morphWeight(const host::NamedTargets& morph) const {
@@ -266,7 +267,8 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
 ViewStage::Shown ViewStage::shown() const {
     Shown shown{settings, camera_, levelCamera_, version_, shownValues_};
     // What is drawn over the picture changes nothing of it.
-    shown.settings.panel = shown.settings.keys = shown.settings.joints = shown.settings.timingsPaused = false;
+    shown.settings.panel = shown.settings.keys = shown.settings.joints = false;
+    shown.settings.timingsPaused = shown.settings.timingsByPart = false;
     shown.settings.budgetMs = 0.0f;
     return shown;
 }
@@ -418,31 +420,49 @@ host::Scene ViewStage::scene(VkExtent2D extent) const {
     return scene;
 }
 
+Status ViewStage::readPartShares() {
+    partShares_.clear();
+    const uint32_t surfaces = group_->surfaces().front().output.info.surfaceCount;
+    for (uint32_t surface = 0; surface < surfaces; ++surface) {
+        const Result<std::vector<uint32_t>> patches = host::patchesByPart(
+            context_, group_->handle(), surface, figure_->cage().parts, figure_->partNames().size());
+        if (!patches)
+            return patches.error();
+        const float all = static_cast<float>(std::max(std::accumulate(patches->begin(), patches->end(), 0u), 1u));
+        std::vector<float>& shares = partShares_.emplace_back();
+        for (const uint32_t count : *patches)
+            shares.push_back(static_cast<float>(count) / all);
+    }
+    return success();
+}
+
 void ViewStage::readTimings() {
-    SuppleTiming timings[64];
-    uint32_t count = static_cast<uint32_t>(std::size(timings));
-    const SuppleResult result = suppleGetTimings(context_.handle(), timings, &count);
-    if (result != SUPPLE_OK && result != SUPPLE_INCOMPLETE)
+    std::vector<SuppleTiming> timings(kMostTimings);
+    std::vector<uint32_t> surfaces(timings.size());
+    uint32_t count = kMostTimings;
+    if (settings.timingsPaused || suppleGetTimings(context_.handle(), timings.data(), &count) != SUPPLE_OK ||
+        suppleGetTimingSurfaces(context_.handle(), surfaces.data(), &count) != SUPPLE_OK)
         return;
-    if (settings.timingsPaused)
-        return;
-    std::map<std::string, PassTime> frame;
+    std::vector<std::pair<std::string, double>> byPass, byPart; // in the order of the frame
     for (uint32_t i = 0; i < count; ++i) {
-        PassTime& pass = frame[timings[i].pass];
-        pass.gpuMilliseconds += (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
-        pass.cpuMilliseconds += timings[i].cpuRecord * 1e-6;
-    }
-    std::vector<std::pair<std::string, double>> device; // in the order of the frame
-    for (uint32_t i = 0; i < count; ++i)
-        device.emplace_back(timings[i].pass, (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6);
-    passHistory_.add(timings[0].frame, device);
-    for (const auto& [name, time] : frame) {
-        const auto [shown, isNew] = passTimes_.try_emplace(name, time);
-        if (isNew)
+        const double time = (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
+        byPass.emplace_back(timings[i].pass, time);
+        if (!hasFigure() || timings[i].group.id != group_->handle().id)
+            continue; // the group before this one
+        if (surfaces[i] == SUPPLE_NO_SURFACE) {
+            byPart.emplace_back("the whole", time);
             continue;
-        shown->second.gpuMilliseconds += kSmoothing * (time.gpuMilliseconds - shown->second.gpuMilliseconds);
-        shown->second.cpuMilliseconds += kSmoothing * (time.cpuMilliseconds - shown->second.cpuMilliseconds);
+        }
+        for (uint32_t part = 0; part < partShares_[surfaces[i]].size(); ++part) {
+            const std::string& name = figure_->partNames()[part];
+            if (partShares_[surfaces[i]][part] > 0.0f)
+                byPart.emplace_back(name.empty() ? "part " + std::to_string(part) : name,
+                                    time * static_cast<double>(partShares_[surfaces[i]][part]));
+        }
     }
+    passTimes_.add(timings[0].frame, byPass);
+    if (!byPart.empty())
+        partTimes_.add(timings[0].frame, byPart);
 }
 
 } // namespace supple::tools

@@ -3,12 +3,11 @@
 
 #include "cage/character.h"
 #include "host/surface_renderer.h"
-#include "tools/supple/pass_history.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/time_history.h"
 #include "tools/supple/view_look.h"
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,18 +37,13 @@ struct ViewSettings {
     bool panel = true; ///< shown
     bool keys = false; ///< the help window
     bool timingsPaused = false;
+    bool timingsByPart = false;
     float budgetMs = 0.0f; ///< of the passes together, a line in their graph; 0: none
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
     std::vector<bool> shownParts; ///< of the figure
 
     bool operator==(const ViewSettings&) const = default;
-};
-
-/// A pass of the last completed frames, smoothed.
-struct PassTime {
-    double gpuMilliseconds = 0.0;
-    double cpuMilliseconds = 0.0;
 };
 
 class ViewStage {
@@ -69,8 +63,10 @@ public:
     /// As the panel shows and sets it: in all parts.
     [[nodiscard]] float morphWeight(const host::NamedTargets& morph) const;
     void setMorphWeight(const host::NamedTargets& morph, float weight);
-    [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
-    [[nodiscard]] const PassHistory& passHistory() const { return passHistory_; }
+    [[nodiscard]] const TimeHistory& passTimes() const { return passTimes_; }
+    /// What each part takes, and what the figure takes as a whole. Parts of one surface go through passes together: its
+    /// time is shared out by how many of its patches they have.
+    [[nodiscard]] const TimeHistory& partTimes() const { return partTimes_; }
 
     /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
     [[nodiscard]] uint32_t offeredRate(uint32_t rate) const;
@@ -151,6 +147,7 @@ private:
                                                                          bool levels) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
     void readTimings();
+    [[nodiscard]] Status readPartShares();
     /// Clip, time and crossfade, morph targets.
     [[nodiscard]] Status pose() const;
     [[nodiscard]] Status showParts() const;
@@ -199,8 +196,9 @@ private:
     Extent extent_;
     host::Camera camera_;
     host::Camera levelCamera_; ///< that levels are chosen by
-    std::map<std::string, PassTime> passTimes_;
-    PassHistory passHistory_;
+    TimeHistory passTimes_;
+    TimeHistory partTimes_;
+    std::vector<std::vector<float>> partShares_; ///< of every surface, by part: they add up to 1
 };
 
 } // namespace supple::tools
