@@ -19,8 +19,9 @@ std::map<uint16_t, uint16_t> borderOf(const std::vector<uint16_t>& indices) {
     }
     std::map<uint16_t, uint16_t> border;
     for (const auto& [from, to] : sides) {
-        if (!sides.contains({to, from}))
+        if (!sides.contains({to, from})) {
             EXPECT_TRUE(border.emplace(from, to).second);
+        }
     }
     return border;
 }
@@ -35,8 +36,9 @@ std::vector<uint32_t> firstSideOf(SuppleDomain domain, uint32_t rate, uint32_t s
     std::vector<uint32_t> places{0};
     for (uint32_t i = 0; i < segments; ++i)
         places.push_back(border.at(static_cast<uint16_t>(places.back())));
-    if (domain == SUPPLE_DOMAIN_PENTAGON) // corner 1 is the first sample of the next sector
+    if (domain == SUPPLE_DOMAIN_PENTAGON) { // corner 1 is the first sample of the next sector
         EXPECT_EQ(std::exchange(places.back(), rate), rate * (rate + 1) / 2);
+    }
     return places;
 }
 

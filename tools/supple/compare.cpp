@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 
 namespace supple::tools {
 namespace {
@@ -69,7 +70,8 @@ Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit, cons
 
 /// Batches are added up in order: the figures do not depend on the number of threads.
 Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit) {
-    const std::vector<PatchBatch> batches = patchBatches(evaluation.output.grid);
+    const std::vector<PatchBatch> batches =
+        patchBatches(std::span(evaluation.output.grid.drawRanges, evaluation.output.grid.drawRangeCount));
     std::vector<Sums> parts(batches.size());
     inThreads(batches,
               [&](const PatchBatch& batch, size_t index) { parts[index] = measure(evaluation, limit, batch); });

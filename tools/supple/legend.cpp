@@ -11,7 +11,8 @@ namespace supple::tools {
 namespace {
 
 constexpr uint32_t kLetterWidth = 6, kLetterHeight = 10; ///< host::Picture::drawText
-constexpr uint8_t kInk[3] = {235, 235, 235};
+constexpr uint32_t kBarWidth = 200;
+constexpr uint8_t kInk[3] = {235, 235, 235}, kDarkInk[3] = {10, 20, 30};
 constexpr float kShade = 0.35f; ///< what is left of the picture behind the legend
 
 std::vector<Legend::Mark> levelMarks() {
@@ -40,7 +41,7 @@ std::optional<Legend> legendOf(uint32_t view) {
     case host::shared::kViewWeights:
         return Legend{"weight of the joint", {{0.0f, "0"}, {0.5f, "0.5"}, {1.0f, "1"}}};
     case host::shared::kViewDistance:
-        return Legend{"distance to the Catmull-Clark limit / extent", distanceMarks()};
+        return Legend{"distance to the limit / extent", distanceMarks()};
     case host::shared::kViewLevels:
         return Legend{"largest level of a patch, in segments", levelMarks()};
     default:
@@ -62,25 +63,30 @@ std::array<uint8_t, 3> scaleColor(float value) {
 }
 
 void drawLegend(host::Picture& picture, const Legend& legend) {
-    const uint32_t scale = std::max(1u, picture.height / 480);
-    const uint32_t letter = kLetterWidth * scale, line = (kLetterHeight + 4) * scale, margin = 8 * scale;
-    const uint32_t bar = std::max(200 * scale, static_cast<uint32_t>(legend.title.size()) * letter);
-    const uint32_t width = bar + 4 * margin, height = 3 * line + 2 * margin; // marks reach beyond the bar's ends
-    if (picture.width < width + 2 * margin || picture.height < height + 2 * margin)
+    // One line, which fits below a figure that fills the picture: the title, and marks inside of the bar.
+    const uint32_t scale = std::max(1u, picture.height / 480), gap = 4 * scale;
+    const uint32_t bar = kBarWidth * scale, height = (kLetterHeight + 2) * scale;
+    const auto textWidth = [&](const std::string& text) {
+        return static_cast<uint32_t>(text.size()) * kLetterWidth * scale;
+    };
+    const uint32_t width = textWidth(legend.title) + bar + 3 * gap;
+    if (picture.width < width + 2 * gap || picture.height < height + 4 * gap)
         return;
-    const uint32_t left = picture.width - width - margin, top = picture.height - height - margin;
-    shade(picture, left, top, width, height);
-    const uint32_t barLeft = left + 2 * margin, barTop = top + margin + line;
-    picture.drawText(barLeft, top + margin, legend.title, scale, kInk);
+    const uint32_t left = picture.width - width - gap, top = picture.height - height - 2 * gap;
+    shade(picture, left, top - gap / 2, width, height + gap);
+    picture.drawText(left + gap, top + scale, legend.title, scale, kInk);
+    const uint32_t barLeft = left + width - gap - bar;
     for (uint32_t x = 0; x < bar; ++x) {
         const std::array<uint8_t, 3> color = scaleColor(static_cast<float>(x) / static_cast<float>(bar - 1));
-        for (uint32_t y = barTop; y < barTop + line - 2 * scale; ++y)
+        for (uint32_t y = top; y < top + height; ++y)
             std::copy(color.begin(), color.end(), picture.pixel(barLeft + x, y));
     }
     for (const Legend::Mark& mark : legend.marks) {
-        const auto x = barLeft + static_cast<uint32_t>(mark.at * static_cast<float>(bar - 1));
-        const uint32_t half = static_cast<uint32_t>(mark.text.size()) * letter / 2;
-        picture.drawText(x - half, barTop + line, mark.text, scale, kInk);
+        const uint32_t room = bar - textWidth(mark.text) - 2 * scale;
+        const auto x = static_cast<uint32_t>(
+            std::clamp(mark.at * static_cast<float>(bar) - 0.5f * static_cast<float>(textWidth(mark.text)),
+                       static_cast<float>(2 * scale), static_cast<float>(room)));
+        picture.drawText(barLeft + x, top + scale, mark.text, scale, mark.at > 0.6f ? kDarkInk : kInk);
     }
 }
 

@@ -25,7 +25,7 @@ struct Legend {
 /// As shaders paint it: sRGB.
 [[nodiscard]] std::array<uint8_t, 3> scaleColor(float value);
 
-/// Into the lower right corner, for pictures that are not too small to hold it.
+/// Into the lower right corner of pictures that are large enough.
 void drawLegend(host::Picture& picture, const Legend& legend);
 
 } // namespace supple::tools

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <span>
+#include <utility>
 
 namespace supple::tools {
 
@@ -28,35 +29,46 @@ Result<std::vector<SupplePatchInfo>> patchesOf(const host::FigureGroup& group, u
 
 } // namespace
 
-Result<std::vector<float>> distancesToLimit(const host::FigureGroup& group, const cage::Cage& cage) {
-    const Result<std::vector<glm::vec3>> vertices = group.readSurface();
-    const Result<std::vector<glm::vec3>> deformed = group.readCage();
-    if (!vertices || !deformed)
-        return !vertices ? vertices.error() : deformed.error();
-    const std::vector<glm::dvec3> positions(deformed->begin(), deformed->end());
-    const Result<LimitSurface> limit = LimitSurface::build(cage, positions);
-    if (!limit)
-        return Error{limit.error().code, group.figure().path() + ": " + limit.error().message};
-    const double extent = 2.0 * static_cast<double>(host::boundsOf(*deformed).radius());
-
-    std::vector<float> values(vertices->size(), -1.0f);
-    size_t first = 0;
+Result<PosedSurfaces> readPosed(const host::FigureGroup& group) {
+    Result<std::vector<glm::vec3>> vertices = group.readSurface();
+    Result<std::vector<glm::vec3>> cage = group.readCage();
+    if (!vertices || !cage)
+        return !vertices ? vertices.error() : cage.error();
+    PosedSurfaces posed{group.figure().path(), std::move(*vertices), std::move(*cage), {}};
     for (uint32_t s = 0; s < group.surfaces().size(); ++s) {
         const host::GroupOutput& output = group.surfaces()[s].output;
-        const Result<std::vector<SupplePatchInfo>> patches = patchesOf(group, s, output.surface.patchCount);
+        const std::span<const SuppleDrawRange> ranges(output.grid.drawRanges, output.grid.drawRangeCount);
+        PosedSurfaces::Surface& surface = posed.surfaces.emplace_back();
+        surface.vertexCount = output.grid.vertexCount;
+        if (ranges.empty() || ranges.front().domain == SUPPLE_DOMAIN_MESH)
+            continue;
+        surface.ranges.assign(ranges.begin(), ranges.end());
+        Result<std::vector<SupplePatchInfo>> patches = patchesOf(group, s, output.surface.patchCount);
         if (!patches)
             return patches.error();
-        const bool mesh = output.grid.drawRangeCount > 0 && output.grid.drawRanges[0].domain == SUPPLE_DOMAIN_MESH;
-        const std::vector<PatchBatch> batches = mesh ? std::vector<PatchBatch>() : patchBatches(output.grid);
-        inThreads(batches, [&](const PatchBatch& batch, size_t) {
+        surface.patches = std::move(*patches);
+    }
+    return posed;
+}
+
+Result<std::vector<float>> distancesToLimit(const PosedSurfaces& posed, const cage::Cage& cage) {
+    const std::vector<glm::dvec3> positions(posed.cage.begin(), posed.cage.end());
+    const Result<LimitSurface> limit = LimitSurface::build(cage, positions);
+    if (!limit)
+        return Error{limit.error().code, posed.path + ": " + limit.error().message};
+    const double extent = 2.0 * static_cast<double>(host::boundsOf(posed.cage).radius());
+    std::vector<float> values(posed.vertices.size(), -1.0f);
+    size_t first = 0;
+    for (const PosedSurfaces::Surface& surface : posed.surfaces) {
+        inThreads(patchBatches(surface.ranges), [&](const PatchBatch& batch, size_t) {
             LimitSurface::Probe probe(*limit);
             batch.forEachVertex([&](uint32_t patch, size_t vertex) {
-                const glm::dvec3 position((*vertices)[first + vertex]);
-                const double distance = probe.measure((*patches)[patch].face, position, glm::dvec3(0.0)).distance;
+                const glm::dvec3 position(posed.vertices[first + vertex]);
+                const double distance = probe.measure(surface.patches[patch].face, position, glm::dvec3(0.0)).distance;
                 values[first + vertex] = onScale(distance / extent);
             });
         });
-        first += output.grid.vertexCount;
+        first += surface.vertexCount;
     }
     return values;
 }

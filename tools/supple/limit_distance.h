@@ -5,14 +5,29 @@
 #include "host/figure.h"
 #include "tools/supple/legend.h"
 
+#include <string>
 #include <vector>
 
 namespace supple::tools {
 
-/// Of every vertex of the group's surfaces, in the order of FigureGroup::readSurface(): where the distance lies on the
-/// scale. `cage`: the figure's. The cage is as the group has deformed it last. Vertices of parts that the scheme
-/// polygons draws have none: their surface is no smooth one. No frame may be pending.
-[[nodiscard]] Result<std::vector<float>> distancesToLimit(const host::FigureGroup& group, const cage::Cage& cage);
+/// A group as it was evaluated last, read back.
+struct PosedSurfaces {
+    std::string path;                ///< of the figure
+    std::vector<glm::vec3> vertices; ///< FigureGroup::readSurface()
+    std::vector<glm::vec3> cage;
+    struct Surface {
+        std::vector<SuppleDrawRange> ranges; ///< none: it is no smooth surface
+        std::vector<SupplePatchInfo> patches;
+        size_t vertexCount = 0;
+    };
+    std::vector<Surface> surfaces;
+};
+/// Waits for the device.
+[[nodiscard]] Result<PosedSurfaces> readPosed(const host::FigureGroup& group);
+
+/// Of every vertex: where its distance lies on the scale. `cage`: the figure's. Vertices of parts that the scheme
+/// polygons draws have none. Any thread may call it.
+[[nodiscard]] Result<std::vector<float>> distancesToLimit(const PosedSurfaces& posed, const cage::Cage& cage);
 
 /// The scale: logarithmic, in fractions of the diagonal of the box round the cage.
 [[nodiscard]] std::vector<Legend::Mark> distanceMarks();

@@ -138,9 +138,8 @@ Summary summarizeSurface(const ProfileRun& run, size_t surface) {
 
 bool areSeveral(const std::vector<ProfiledSurface>& surfaces) {
     constexpr size_t kOneGroup = 2; // as a whole, and its surface
-    return surfaces.size() > kOneGroup || std::any_of(surfaces.begin(), surfaces.end(), [](const auto& surface) {
-               return surface.parts.size() > 1;
-           });
+    return surfaces.size() > kOneGroup ||
+           std::any_of(surfaces.begin(), surfaces.end(), [](const auto& surface) { return surface.parts.size() > 1; });
 }
 
 std::string nameOf(const ProfiledSurface& surface) {

@@ -158,7 +158,10 @@ Status Stage::prepare(const host::Scene& scene) {
         return chooseLevels(scene);
     if (!cage_)
         return success();
-    const Result<std::vector<float>> distances = distancesToLimit(*group_, *cage_);
+    const Result<PosedSurfaces> posed = readPosed(*group_);
+    if (!posed)
+        return posed.error();
+    const Result<std::vector<float>> distances = distancesToLimit(*posed, *cage_);
     const Status status = distances ? group_->setValues(*distances) : distances.error();
     return status ? bind() : status;
 }

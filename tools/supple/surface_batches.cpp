@@ -1,15 +1,14 @@
 #include "tools/supple/surface_batches.h"
 
 #include <algorithm>
-#include <span>
 #include <thread>
 
 namespace supple::tools {
 
-std::vector<PatchBatch> patchBatches(const SuppleGridOutput& grid) {
+std::vector<PatchBatch> patchBatches(std::span<const SuppleDrawRange> ranges) {
     constexpr uint32_t kBatch = 256;
     std::vector<PatchBatch> batches;
-    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+    for (const SuppleDrawRange& range : ranges) {
         const uint32_t end = range.firstPatch + range.patchCount;
         for (uint32_t first = range.firstPatch; first < end; first += kBatch)
             batches.push_back({&range, first, std::min(first + kBatch, end)});

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace supple::tools {
@@ -26,7 +27,7 @@ struct PatchBatch {
     }
 };
 /// In batches of a fixed size: what is found in them does not depend on the number of threads.
-[[nodiscard]] std::vector<PatchBatch> patchBatches(const SuppleGridOutput& grid);
+[[nodiscard]] std::vector<PatchBatch> patchBatches(std::span<const SuppleDrawRange> ranges);
 
 /// Calls `work` for each batch and its number, on all cores.
 void inThreads(const std::vector<PatchBatch>& batches, const std::function<void(const PatchBatch&, size_t)>& work);

@@ -347,7 +347,7 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
     }
     if (stage_->needsValues()) {
         window_->waitIdle(context_->lastFrame());
-        const Status measured = stage_->measureValues();
+        const Status measured = stage_->measureValues(options_.frames > 0);
         window_->waitIdle(context_->lastFrame()); // it evaluates frames of its own
         if (!measured)
             return measured.error();

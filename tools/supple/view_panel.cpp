@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kViewKeysCount = 5; ///< views that have a key
 constexpr float kRadiansPerPixel = 0.0085f;
+constexpr float kLabelWidth = 72.0f;  ///< behind sliders and lists
 constexpr float kListHeight = 150.0f; ///< of a list that may be long; longer ones scroll
 const ImVec4 kFailureColor(1.0f, 0.5f, 0.4f, 1.0f);
 
@@ -231,16 +232,13 @@ void buildView(ViewStage& stage) {
 /// What levels of detail are chosen by, and how much that is.
 void buildLevels(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
-    ImGui::Checkbox("levels of detail", &settings.levels);
-    if (!stage.group().hasLevels())
-        return;
-    ImGui::SameLine();
-    ImGui::Checkbox("freeze", &settings.levelsFrozen);
     ImGui::SliderFloat("error", &settings.chordError, 0.05f, 20.0f, "%.2f pixels", ImGuiSliderFlags_Logarithmic);
+    ImGui::Checkbox("freeze", &settings.levelsFrozen);
     const std::optional<SuppleViewStatistics> drawn = stage.group().levelStatistics();
     if (!drawn)
         return;
-    ImGui::TextDisabled("%u patches, %u vertices", drawn->patchCount, drawn->vertexCount);
+    ImGui::SameLine();
+    ImGui::TextDisabled("%u vertices", drawn->vertexCount);
     if (drawn->levelScales[0] < 1.0f)
         ImGui::TextDisabled("too many: levels are scaled by %.2f", static_cast<double>(drawn->levelScales[0]));
 }
@@ -272,20 +270,32 @@ void buildRate(ViewStage& stage, PanelWishes& wishes) {
 void buildSurface(ViewStage& stage, PanelWishes& wishes, float aspect) {
     ViewSettings& settings = stage.settings;
     buildScheme(stage, wishes);
-    buildLevels(stage);
-    if (!stage.group().hasLevels())
+    if (stage.group().hasLevels())
+        buildLevels(stage);
+    else
         buildRate(stage, wishes);
     buildView(stage);
-    ImGui::Checkbox("cage lines", &settings.cageOverlay);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("cage");
     ImGui::SameLine();
-    ImGui::Checkbox("cage only", &settings.cageFaces);
-    if (ImGui::Checkbox("cage beside surface", &settings.split))
+    ImGui::Checkbox("lines", &settings.cageOverlay);
+    ImGui::SameLine();
+    ImGui::Checkbox("alone", &settings.cageFaces);
+    ImGui::SameLine();
+    if (ImGui::Checkbox("beside", &settings.split))
         stage.fitFigure(aspect);
     ImGui::Checkbox("ground", &settings.ground);
     if (!stage.figure().jointNames().empty()) {
         ImGui::SameLine();
         ImGui::Checkbox("joints", &settings.joints);
     }
+    ImGui::SameLine();
+    // The view of levels has them anyway.
+    bool levels = settings.levels || settings.view == host::shared::kViewLevels;
+    ImGui::BeginDisabled(settings.view == host::shared::kViewLevels);
+    if (ImGui::Checkbox("levels", &levels))
+        settings.levels = levels;
+    ImGui::EndDisabled();
 }
 
 /// The height that a list takes, of which more scrolls.
@@ -439,6 +449,8 @@ void buildTimings(const PanelState& state, ViewStage& stage) {
     ImGui::SameLine();
     ImGui::RadioButton("by part", &by, 1);
     settings.timingsByPart = by == 1;
+    ImGui::SameLine();
+    ImGui::Checkbox("pause", &settings.timingsPaused);
     float sum = 0.0f;
     for (size_t i = 0; i < history.names().size(); ++i) {
         sum += history.means()[i];
@@ -451,8 +463,6 @@ void buildTimings(const PanelState& state, ViewStage& stage) {
     if (settings.timingsByPart)
         ImGui::TextWrapped("A scheme's parts share its time by their patches.");
     ImGui::Text("surface %.2f ms   frame %.1f ms", static_cast<double>(sum), state.frameMilliseconds);
-    ImGui::Checkbox("pause", &settings.timingsPaused);
-    ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
     if (ImGui::InputFloat("budget ms", &settings.budgetMs, 0.0f, 0.0f, "%.2f"))
         settings.budgetMs = std::max(settings.budgetMs, 0.0f);
@@ -568,8 +578,11 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     if (stage.settings.panel) {
         ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kPanelRight - 32.0f, 0.0f), ImGuiCond_Always);
-        if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+            ImGui::PushItemWidth(-kLabelWidth);
             buildSections(state, stage, wishes, aspect);
+            ImGui::PopItemWidth();
+        }
         ImGui::End();
     }
     if (state.browser.open) {

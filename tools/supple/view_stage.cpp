@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -60,7 +61,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     if (!character)
         return character.error();
     std::vector<std::string> warnings = character->character.warnings;
-    cage::Cage cage = character->character.cage;
+    auto cage = std::make_shared<const cage::Cage>(character->character.cage);
     Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, std::move(*character));
     if (!figure)
         return figure.error();
@@ -339,6 +340,8 @@ ViewStage::Values ViewStage::wantedValues() const {
 bool ViewStage::needsValues() const {
     if (!hasFigure() || group_->hasLevels())
         return false;
+    if (distances_.valid())
+        return distances_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     const bool plays = settings.playing && figure_->clipDuration(settings.clip) > 0.0;
     switch (settings.view) {
     case host::shared::kViewWeights:
@@ -350,22 +353,51 @@ bool ViewStage::needsValues() const {
     }
 }
 
-Status ViewStage::measureValues() {
+Status ViewStage::measureValues(bool wait) {
+    if (distances_.valid())
+        return showDistances();
+    const bool first = values_.version != version_ || values_.view != settings.view;
     values_ = wantedValues(); // also if it fails: once is enough
-    Status status = success();
     if (settings.view == host::shared::kViewWeights) {
-        status = group_->showWeights(settings.joint);
-    } else {
-        status = pose();
-        const SuppleGroup groups[] = {group_->handle()};
-        if (status)
-            status = context_.evaluate(groups);
-        const Result<std::vector<float>> distances =
-            status ? distancesToLimit(*group_, cage_) : Result<std::vector<float>>(status.error());
-        status = distances ? group_->setValues(*distances) : distances.error();
+        const Status status = group_->showWeights(settings.joint);
+        return status ? bind() : status;
     }
-    if (!status)
+    Status status = startDistances();
+    if (status && wait)
+        return showDistances();
+    if (status && first) { // none yet
+        const Result<std::vector<glm::vec3>> vertices = group_->readSurface();
+        status = vertices ? group_->setValues(std::vector<float>(vertices->size(), -1.0f)) : vertices.error();
+        status = status ? bind() : status;
+    }
+    return status;
+}
+
+Status ViewStage::startDistances() {
+    if (const Status status = pose(); !status)
         return status.error();
+    const SuppleGroup groups[] = {group_->handle()};
+    if (const Status status = context_.evaluate(groups); !status)
+        return status.error();
+    Result<PosedSurfaces> posed = readPosed(*group_);
+    if (!posed)
+        return posed.error();
+    distances_ = std::async(std::launch::async,
+                            [cage = cage_, posed = std::move(*posed)] { return distancesToLimit(posed, *cage); });
+    return success();
+}
+
+Status ViewStage::showDistances() {
+    const Result<std::vector<float>> distances = distances_.get();
+    if (values_.version != version_ || values_.view != settings.view) {
+        values_ = {}; // something else is looked at by now
+        return success();
+    }
+    const Status status = distances ? group_->setValues(*distances) : distances.error();
+    return status ? bind() : status;
+}
+
+Status ViewStage::bind() {
     Result<host::FigureBinding> binding = renderer_.bind(*group_);
     if (!binding)
         return binding.error();
@@ -375,9 +407,10 @@ Status ViewStage::measureValues() {
 }
 
 std::string ViewStage::measuredPose() const {
-    if (values_.clip >= figure_->clips().size())
-        return "rest pose";
-    return figure_->clips()[values_.clip].name + formatted(" at %.2f s", values_.time);
+    const std::string pose = values_.clip < figure_->clips().size()
+                                 ? figure_->clips()[values_.clip].name + formatted(" at %.2f s", values_.time)
+                                 : "rest pose";
+    return distances_.valid() ? "measuring " + pose : pose;
 }
 
 std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {

@@ -8,6 +8,7 @@
 #include "tools/supple/view_look.h"
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -115,9 +116,10 @@ public:
     /// Whether the view shows values that are still to be measured: weights of another joint; distances in the pose in
     /// which the figure stands. While it plays, distances stay those of the pose that was measured last.
     [[nodiscard]] bool needsValues() const;
-    /// No frame may be pending. Afterwards poses are to be set anew.
-    [[nodiscard]] Status measureValues();
-    /// Where distances were measured.
+    /// No frame may be pending. Afterwards poses are to be set anew. Distances take some seconds: they are measured
+    /// beside the viewer's own work, and shown by a later call, unless it waits.
+    [[nodiscard]] Status measureValues(bool wait);
+    /// The pose in which distances are, or are being measured.
     [[nodiscard]] std::string measuredPose() const;
     /// Joints in the picture, in fractions of it from its upper left; not where they are behind the eye.
     struct ShownJoint {
@@ -166,6 +168,9 @@ private:
         bool operator==(const Values&) const = default;
     };
     [[nodiscard]] Values wantedValues() const;
+    [[nodiscard]] Status startDistances();
+    [[nodiscard]] Status showDistances();
+    [[nodiscard]] Status bind();
 
     host::Context& context_;
     host::SurfaceRenderer& renderer_;
@@ -184,15 +189,16 @@ private:
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
-    cage::Cage cage_; ///< the figure's
+    std::shared_ptr<const cage::Cage> cage_; ///< the figure's
     std::vector<std::string> warnings_;
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
-    uint32_t version_ = 0;         ///< counts groups
-    Values values_;                ///< that the group has
-    uint32_t shownValues_ = 0;     ///< counts measurements
-    std::vector<Retired> retired_; ///< before figure_ in time, so gone before it
+    uint32_t version_ = 0;                              ///< counts groups
+    Values values_;                                     ///< that the group has, or that are being measured
+    std::future<Result<std::vector<float>>> distances_; ///< being measured
+    uint32_t shownValues_ = 0;                          ///< counts measurements
+    std::vector<Retired> retired_;                      ///< before figure_ in time, so gone before it
     Extent extent_;
     host::Camera camera_;
     host::Camera levelCamera_; ///< that levels are chosen by
