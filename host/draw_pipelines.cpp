@@ -71,6 +71,8 @@ Status DrawPipelines::createLayouts() {
         {shared::kCageEdgeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceTangentBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceValueBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kLevelBucketBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kLevelPatchBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
     };
     const auto texture = [](uint32_t which) {
         return Binding{shared::kFirstTextureBinding + which, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment};

@@ -175,7 +175,7 @@ std::vector<uint32_t> Figure::cageCornerWords() {
 
 glm::vec3 Figure::centerOf(uint32_t part, uint32_t material) const {
     const auto own = std::find_if(cageRanges_.begin(), cageRanges_.end(), [&](const CageRange& range) {
-        return range.part == part && range.material == material;
+        return (part == kManyParts || range.part == part) && range.material == material;
     });
     return own != cageRanges_.end() ? own->center : glm::vec3(0.0f);
 }

@@ -7,9 +7,12 @@
 #include "host/context.h"
 #include "host/figure_materials.h"
 #include "host/group_output.h"
+#include "host/level_view.h"
+#include "host/shaders/draw.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -116,19 +119,34 @@ struct GroupOptions {
     SuppleUvInterpolation uvInterpolation = SUPPLE_UV_FROM_FILE;
     bool sharedSamples = false;            ///< SUPPLE_GROUP_INDEXED_MESH
     std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`
+    bool levels = false;                   ///< of detail, as the camera of setLevelCamera() chooses them
 };
 
-/// A surface of a group with what drawing it needs besides Supple's buffers.
+/// A draw command of a surface.
+struct SurfaceDraw {
+    shared::DrawPush push{}; ///< what shaders have to know of it
+    uint32_t material = SUPPLE_NO_MATERIAL;
+    uint32_t part = 0;
+};
+/// SurfaceDraw::part of draws of several parts: the device leaves out those that are hidden.
+inline constexpr uint32_t kManyParts = 0xFFFFFFFFu;
+
+/// A surface of a group with what drawing it needs besides Supple's buffers. If instances have one of several rates, a
+/// surface at one of them.
 struct FigureSurface {
     GroupOutput output{};
+    std::vector<SurfaceDraw> draws; ///< one for each command of the output's indirect buffer
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     uint32_t edgeRate = 0;
     Buffer patchClasses; ///< per patch: which of the colors of the view of patch classes it has
-    /// A coarser grid over the same samples: shadows need no more.
-    Buffer shadowIndices;
-    uint32_t shadowIndexCount = 0;
-    Buffer values; ///< a float per vertex of an instance, for the view kViewHeat; may be none
+    /// Coarser grids over the same samples, by SuppleDomain: shadows need no more.
+    struct CoarseGrid {
+        uint32_t firstIndex = 0, indexCount = 0;
+    };
+    std::array<CoarseGrid, 4> coarseGrids;
+    Buffer coarseIndices;
+    Buffer values; ///< a float per vertex of an instance, for the views kViewWeights and kViewDistance; may be none
 
     /// SUPPLE_SCHEME_POLYGONS.
     [[nodiscard]] bool isMesh() const { return output.surface.scheme == SUPPLE_SCHEME_POLYGONS; }
@@ -149,6 +167,12 @@ public:
     [[nodiscard]] SuppleInstance instance(uint32_t index) const { return instances_[index]; }
     /// One or more.
     [[nodiscard]] const std::vector<FigureSurface>& surfaces() const { return surfaces_; }
+    [[nodiscard]] bool hasLevels() const { return levels_ != nullptr; }
+    /// Groups with levels, before they are recorded: levels are chosen for a picture of this height from this camera,
+    /// so that edges lie within `chordError` pixels of their curves.
+    [[nodiscard]] Status setLevelCamera(const Camera& camera, uint32_t height, float chordError);
+    /// Of groups with levels: what was drawn last.
+    [[nodiscard]] std::optional<SuppleViewStatistics> levelStatistics() const;
     /// The most segments that a surface has along an edge of the cage.
     [[nodiscard]] uint32_t edgeRate() const;
     /// The scheme of the surface that has the part.
@@ -166,22 +190,29 @@ public:
     [[nodiscard]] uint32_t visibleCount() const;
     /// Of all instances, from the next frame that is recorded.
     [[nodiscard]] Status setPartVisible(uint32_t part, bool visible);
-    [[nodiscard]] bool isPartVisible(uint32_t part) const { return visibleParts_[part]; }
-    /// Positions of the vertices of all surfaces, or of the deformed cage, as last evaluated, surface after surface and
-    /// instance after instance; waits for the device.
+    [[nodiscard]] bool isPartVisible(uint32_t part) const { return part == kManyParts || visibleParts_[part]; }
+    /// Positions of the vertices of all surfaces (which have no levels), or of the deformed cage, as last evaluated,
+    /// surface after surface and instance after instance; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
     [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
     /// How much a joint moves each vertex of the surfaces, 0 to 1, as FigureSurface::values: the device evaluates the
     /// bind pose with the joint moved aside, and that is measured. Of a group of one instance whose poses are set;
     /// poses and frames are to be set anew. No frame may be pending.
     [[nodiscard]] Status showWeights(uint32_t joint);
+    /// FigureSurface::values of all vertices in the order of readSurface(), for groups of one instance. No frame may be
+    /// pending; bindings are to be made anew.
+    [[nodiscard]] Status setValues(std::span<const float> values);
 
 private:
     explicit FigureGroup(Figure& figure) : figure_(figure) {}
     [[nodiscard]] Status readSurfaces();
+    /// Adds a surface of the group, or one for each of its rates.
+    [[nodiscard]] Status addSurface(const GroupOutput& output, uint32_t index);
     [[nodiscard]] Status uploadTables(FigureSurface& surface, uint32_t index) const;
+    [[nodiscard]] Status uploadCoarseGrids(FigureSurface& surface) const;
 
     Figure& figure_;
+    std::unique_ptr<LevelView> levels_;
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     std::vector<bool> visible_; ///< per instance

@@ -1,5 +1,7 @@
 #include "host/figure.h"
 
+#include "host/coarse_grid.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -10,26 +12,6 @@ namespace {
 /// Triangles a shadow map may cost before its grid is made coarser.
 constexpr uint64_t kShadowTrianglesCpu = 16'000;
 constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
-
-/// For quads and polar patches: two triangles a cell of a grid of `segments` a side, laid over a patch of `rate`
-/// segments.
-std::vector<uint16_t> coarseGrid(uint32_t rate, uint32_t segments) {
-    const auto sample = [&](uint32_t i, uint32_t j) {
-        const uint32_t column = (i * rate + segments / 2) / segments;
-        const uint32_t row = (j * rate + segments / 2) / segments;
-        return static_cast<uint16_t>(row * (rate + 1) + column);
-    };
-    std::vector<uint16_t> indices;
-    indices.reserve(size_t{6} * segments * segments);
-    for (uint32_t j = 0; j < segments; ++j) {
-        for (uint32_t i = 0; i < segments; ++i) {
-            const uint16_t corners[] = {sample(i, j), sample(i + 1, j), sample(i + 1, j + 1), sample(i, j + 1)};
-            for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
-                indices.push_back(corners[corner]);
-        }
-    }
-    return indices;
-}
 
 /// The first `used` positions of each instance. What fills its stride up to the next instance is never written.
 std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t stride, uint32_t capacity,
@@ -42,6 +24,54 @@ std::vector<glm::vec3> positionsOf(const std::vector<std::byte>& bytes, uint32_t
                         sizeof(glm::vec3));
     }
     return positions;
+}
+
+/// What a surface that has several rates draws at one of them.
+GroupOutput atRate(GroupOutput output, const SuppleRate& rate) {
+    output.info.instances = rate.instances;
+    output.grid.rate = rate.rate;
+    output.grid.drawRanges += rate.firstDrawRange;
+    output.grid.drawRangeCount = rate.drawRangeCount;
+    output.grid.indirect.offset += VkDeviceSize{rate.firstDrawRange} * output.grid.indirect.stride;
+    return output;
+}
+
+std::vector<SurfaceDraw> drawsOf(const SuppleGridOutput& grid) {
+    std::vector<SurfaceDraw> draws;
+    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+        SurfaceDraw& draw = draws.emplace_back();
+        draw.material = range.material;
+        draw.part = range.part;
+        draw.push.rate = grid.rate;
+        draw.push.verticesPerInstance = grid.verticesPerInstance;
+        draw.push.firstPatch = range.firstPatch;
+        draw.push.patchCount = range.patchCount;
+        draw.push.domain = static_cast<uint32_t>(range.domain);
+        draw.push.samplesPerPatch = range.samplesPerPatch;
+        draw.push.firstVertex = range.firstVertex;
+    }
+    return draws;
+}
+
+std::vector<SurfaceDraw> drawsOf(const SuppleLevelOutput& levels) {
+    std::vector<SurfaceDraw> draws;
+    for (uint32_t i = 0; i < levels.drawCount; ++i) {
+        const SuppleLevelDraw& from = levels.draws[i];
+        const bool rings = from.grid != SUPPLE_GRID_QUAD;
+        SurfaceDraw& draw = draws.emplace_back();
+        draw.material = from.material;
+        draw.part = kManyParts;
+        draw.push.flags = shared::kDrawLevels;
+        draw.push.rate = from.capacity;
+        draw.push.verticesPerInstance = from.verticesPerInstance;
+        draw.push.firstPatch = i;
+        draw.push.patchCount = from.grid == SUPPLE_GRID_TRIANGLE_RINGS   ? 3u
+                               : from.grid == SUPPLE_GRID_PENTAGON_RINGS ? 5u
+                                                                         : 4u;
+        draw.push.domain = rings ? shared::kDrawRings : shared::kDrawQuad;
+        draw.push.samplesPerPatch = from.samplesPerPatch;
+    }
+    return draws;
 }
 
 /// With tangents for normal maps, if the group can have them.
@@ -61,11 +91,19 @@ Status createWithTangents(Context& context, SuppleGroupDesc desc, bool tangents,
 Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const GroupOptions& options) {
     Context& context = figure.context();
     std::unique_ptr<FigureGroup> group(new FigureGroup(figure));
+    const bool tangents = figure.materials().hasNormalMaps();
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags = SUPPLE_GROUP_ATTRIBUTES;
-    if (options.sharedSamples) {
-        desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+    if (options.levels) {
+        Result<std::unique_ptr<LevelView>> levels = LevelView::create(context, options.vertexFormat, tangents);
+        if (!levels)
+            return levels.error();
+        group->levels_ = std::move(*levels);
+        desc.view = group->levels_->handle(); // which has the flags
+    } else {
+        desc.flags = SUPPLE_GROUP_ATTRIBUTES;
+        if (options.sharedSamples)
+            desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
     }
     desc.asset = figure.asset();
     desc.capacity = options.instances;
@@ -81,8 +119,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     blend.creaseMode = options.creaseMode;
     blend.sharpThreshold = options.sharpThreshold;
     desc.blend = &blend;
-    if (const Status status = createWithTangents(context, desc, figure.materials().hasNormalMaps(), group->group_);
-        !status)
+    if (const Status status = createWithTangents(context, desc, tangents && !options.levels, group->group_); !status)
         return status.error();
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)
         return status.error();
@@ -99,22 +136,42 @@ Status FigureGroup::readSurfaces() {
     const VkDeviceSize limit = context.device().properties().limits.maxStorageBufferRange;
     uint32_t count = 1;
     for (uint32_t index = 0; index < count; ++index) {
-        FigureSurface& surface = surfaces_.emplace_back();
-        const SuppleResult result = getGroupOutput(context.handle(), group_, surface.output, index);
+        GroupOutput output;
+        const SuppleResult result = getGroupOutput(context.handle(), group_, output, index);
         if (const Status status = context.check(result, "suppleGetGroupInfo"); !status)
             return status.error();
-        count = surface.output.info.surfaceCount;
-        surface.edgeRate = surface.output.grid.rate * surface.output.surface.patchesPerEdge;
-        for (const SuppleBufferRange& view : {surface.output.streams.vertices, surface.output.info.deformedCage}) {
+        count = output.info.surfaceCount;
+        for (const SuppleBufferRange& view : {output.streams.vertices, output.info.deformedCage}) {
             if (view.size > limit)
                 return Error{ErrorCode::limit, figure_.path() + ": " + std::to_string(view.size) +
                                                    " bytes to draw at once; a storage buffer of this device holds " +
                                                    std::to_string(limit) + ": lower the rate or the instances"};
         }
+        if (const Status status = addSurface(output, index); !status)
+            return status.error();
+    }
+    return success();
+}
+
+Status FigureGroup::addSurface(const GroupOutput& output, uint32_t index) {
+    const uint32_t copies = std::max(output.grid.rateCount, 1u); // levels, and a cage alone, have no rates
+    for (uint32_t copy = 0; copy < copies; ++copy) {
+        FigureSurface& surface = surfaces_.emplace_back();
+        surface.output = output.grid.rateCount > 1 ? atRate(output, output.grid.rates[copy]) : output;
+        surface.edgeRate = surface.output.grid.rate * surface.output.surface.patchesPerEdge;
+        surface.draws = surface.output.hasLevels() ? drawsOf(output.levels) : drawsOf(surface.output.grid);
         if (const Status status = uploadTables(surface, index); !status)
             return status.error();
     }
     return success();
+}
+
+Status FigureGroup::setLevelCamera(const Camera& camera, uint32_t height, float chordError) {
+    return levels_->setCamera(camera, height, chordError);
+}
+
+std::optional<SuppleViewStatistics> FigureGroup::levelStatistics() const {
+    return levels_->statistics();
 }
 
 uint32_t FigureGroup::edgeRate() const {
@@ -160,20 +217,32 @@ Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
         return classBuffer.error();
     surface.patchClasses = std::move(*classBuffer);
 
+    return uploadCoarseGrids(surface);
+}
+
+Status FigureGroup::uploadCoarseGrids(FigureSurface& surface) const {
+    Device& device = figure_.context().device();
+    const SuppleGridOutput& grid = surface.output.grid;
     const uint64_t budget = device.isCpu() ? kShadowTrianglesCpu : kShadowTrianglesGpu;
-    const uint64_t shown = uint64_t{output.surface.patchCount} * output.info.capacity;
-    const uint32_t rate = std::max(output.grid.rate, 1u); // a cage alone has none
-    uint32_t segments = rate;
+    const uint64_t shown = uint64_t{surface.output.surface.patchCount} * surface.output.info.capacity;
+    const uint32_t rate = std::max(grid.rate, 1u);           // a cage alone has none
     const uint32_t fewest = rate < surface.edgeRate ? 1 : 2; // two to an edge of the cage
-    while (segments > fewest && shown * 2 * segments * segments > budget)
-        segments = (segments + 1) / 2;
-    const std::vector<uint16_t> indices = coarseGrid(rate, segments);
-    surface.shadowIndexCount = static_cast<uint32_t>(indices.size());
+    uint32_t segments = rate;
+    while (segments > fewest && shown * 2 * segments * segments > budget &&
+           halvedSegments(segments, rate, fewest) < segments)
+        segments = halvedSegments(segments, rate, fewest);
+    std::vector<uint16_t> indices;
+    for (const SuppleDomain domain :
+         {SUPPLE_DOMAIN_QUAD, SUPPLE_DOMAIN_POLAR, SUPPLE_DOMAIN_TRIANGLE, SUPPLE_DOMAIN_PENTAGON}) {
+        const std::vector<uint16_t> own = coarseGrid(domain, rate, segments);
+        surface.coarseGrids[domain] = {static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(own.size())};
+        indices.insert(indices.end(), own.begin(), own.end());
+    }
     Result<Buffer> indexBuffer =
         device.uploadBuffer(indices.data(), indices.size() * sizeof(uint16_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     if (!indexBuffer)
         return indexBuffer.error();
-    surface.shadowIndices = std::move(*indexBuffer);
+    surface.coarseIndices = std::move(*indexBuffer);
     return success();
 }
 
@@ -226,6 +295,23 @@ Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
         all.insert(all.end(), own.begin(), own.end());
     }
     return all;
+}
+
+Status FigureGroup::setValues(std::span<const float> values) {
+    size_t first = 0;
+    for (FigureSurface& surface : surfaces_) {
+        const uint32_t used = surface.output.grid.vertexCount;
+        const std::vector<float> own = used > 0
+                                           ? std::vector<float>(values.begin() + first, values.begin() + first + used)
+                                           : std::vector<float>(1);
+        first += used;
+        Result<Buffer> buffer = figure_.context().device().uploadBuffer(own.data(), own.size() * sizeof(float),
+                                                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        if (!buffer)
+            return buffer.error();
+        surface.values = std::move(*buffer);
+    }
+    return success();
 }
 
 Result<std::vector<glm::vec3>> FigureGroup::readCage() const {

@@ -55,20 +55,10 @@ Status FigureGroup::showWeights(uint32_t joint) {
     const Result<std::vector<glm::vec3>> moved = evaluate();
     if (!moved)
         return moved.error();
-    size_t first = 0;
-    for (FigureSurface& surface : surfaces_) {
-        const uint32_t used = surface.output.grid.vertexCount;
-        std::vector<float> values(std::max(surface.output.grid.verticesPerInstance, 1u));
-        for (uint32_t i = 0; i < used; ++i)
-            values[i] = ((*moved)[first + i].x - (*still)[first + i].x) / aside;
-        first += used;
-        Result<Buffer> buffer = context.device().uploadBuffer(values.data(), values.size() * sizeof(float),
-                                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-        if (!buffer)
-            return buffer.error();
-        surface.values = std::move(*buffer);
-    }
-    return success();
+    std::vector<float> weights(still->size());
+    for (size_t i = 0; i < weights.size(); ++i)
+        weights[i] = std::max(((*moved)[i].x - (*still)[i].x) / aside, 0.0f); // below 0 there would be none
+    return setValues(weights);
 }
 
 } // namespace supple::host

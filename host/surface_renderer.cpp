@@ -13,7 +13,7 @@ namespace supple::host {
 
 namespace {
 
-constexpr uint32_t kFigureBuffers = 11; ///< of set 1
+constexpr uint32_t kFigureBuffers = 13; ///< of set 1
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
 /// The cage's lines over shaded faces, and over the smooth surface.
@@ -25,14 +25,6 @@ constexpr uint32_t kVertexLitRate = 4;
 
 /// Below so many directions the steps of single shadow maps show.
 constexpr uint32_t kFewLights = 12;
-
-void applyRange(const SuppleDrawRange& range, shared::DrawPush& push) {
-    push.firstPatch = range.firstPatch;
-    push.patchCount = range.patchCount;
-    push.domain = static_cast<uint32_t>(range.domain);
-    push.samplesPerPatch = range.samplesPerPatch;
-    push.firstVertex = range.firstVertex;
-}
 
 /// A part of the device's maps serves shadow maps of fewer texels: their lower left corner.
 glm::mat4 cornerOfMap(uint32_t texels, uint32_t mapTexels) {
@@ -49,13 +41,26 @@ void bindGridIndices(VkCommandBuffer commands, const GroupOutput& output) {
                          indices.stride == 4 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16);
 }
 
-/// A range on the grid of the surface's shadows.
-void drawCoarse(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
-                const SuppleDrawRange& range) {
+/// Draw `index` of the surface.
+void drawFine(VkCommandBuffer commands, const FigureSurface& surface, size_t index) {
+    const SuppleBufferRange& indirect = surface.output.indirect();
+    vkCmdDrawIndexedIndirect(commands, indirect.buffer, indirect.offset + VkDeviceSize{index} * indirect.stride, 1,
+                             indirect.stride);
+}
+
+/// The same on the grid of the surface's shadows. Groups with levels have none: the device alone knows what is drawn.
+void drawCoarse(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface, size_t index) {
+    if (scene.group->hasLevels()) {
+        bindGridIndices(commands, surface.output);
+        drawFine(commands, surface, index);
+        return;
+    }
+    const SuppleDrawRange& range = surface.output.grid.drawRanges[index];
     const uint32_t patches = range.patchCount * scene.group->visibleCount();
-    if (range.domain == SUPPLE_DOMAIN_QUAD || range.domain == SUPPLE_DOMAIN_POLAR) {
-        vkCmdBindIndexBuffer(commands, surface.shadowIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
-        vkCmdDrawIndexed(commands, surface.shadowIndexCount, patches, 0, 0, 0);
+    if (range.domain != SUPPLE_DOMAIN_MESH) {
+        const FigureSurface::CoarseGrid& grid = surface.coarseGrids[range.domain];
+        vkCmdBindIndexBuffer(commands, surface.coarseIndices.handle(), 0, VK_INDEX_TYPE_UINT16);
+        vkCmdDrawIndexed(commands, grid.indexCount, patches, grid.firstIndex, 0, 0);
     } else {
         bindGridIndices(commands, surface.output);
         vkCmdDrawIndexed(commands, range.indexCount, patches, range.firstIndex, 0, 0);
@@ -96,13 +101,14 @@ VkCullModeFlags culled(const Scene& scene, uint32_t material) {
                : VK_CULL_MODE_NONE;
 }
 
-/// Nothing is culled at first: the shader tells the sides apart.
-void beginDrawing(VkCommandBuffer commands, VkExtent2D extent, bool flipped) {
-    const auto width = static_cast<float>(extent.width);
+/// Of the whole picture, y up, moved to the right by so many pixels.
+VkViewport pictureViewport(VkExtent2D extent, float shift) {
     const auto height = static_cast<float>(extent.height);
-    const VkViewport viewport = flipped ? VkViewport{0.0f, height, width, -height, 0.0f, 1.0f}
-                                        : VkViewport{0.0f, 0.0f, width, height, 0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
+    return {shift, height, static_cast<float>(extent.width), -height, 0.0f, 1.0f};
+}
+
+/// Nothing is culled at first: the shader tells the sides apart.
+void beginDrawing(VkCommandBuffer commands, const VkViewport& viewport, const VkRect2D& scissor) {
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &scissor);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
@@ -350,6 +356,8 @@ void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& gro
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
         {shared::kSurfaceTangentBinding, orCage(output.streams.tangents)},
+        {shared::kLevelBucketBinding, orCage(output.levels.buckets)},
+        {shared::kLevelPatchBinding, orCage(output.levels.patches)},
         {shared::kSurfaceValueBinding,
          surface.values.handle() != VK_NULL_HANDLE ? wholeInfo(surface.values) : viewInfo(output.info.deformedCage)},
     };
@@ -433,16 +441,8 @@ DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const Run& run
 }
 
 Status SurfaceRenderer::prepare(const Scene& scene) {
-    if (scene.group == nullptr)
-        return success();
-    for (const Run& run : runsOf(scene)) {
-        const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
-        std::vector<DrawPipelines::Faces> wanted{facesOf(scene, run, false)};
-        if (isBlended(scene, material))
-            wanted.push_back(facesOf(scene, run, true));
-        if (scene.cageFaces ? isMasked(material) : isTrimmed(material))
-            wanted.push_back(shadowFaces(scene, run.material));
-        for (const DrawPipelines::Faces& faces : wanted) {
+    for (const Pane& pane : panesOf(scene, {})) {
+        for (const DrawPipelines::Faces& faces : allFaces(pane.scene)) {
             if (const Status status = pipelines_->prepare(faces); !status)
                 return status.error();
         }
@@ -450,12 +450,58 @@ Status SurfaceRenderer::prepare(const Scene& scene) {
     return success();
 }
 
+std::vector<DrawPipelines::Faces> SurfaceRenderer::allFaces(const Scene& scene) const {
+    std::vector<DrawPipelines::Faces> all;
+    if (scene.group == nullptr)
+        return all;
+    for (const Run& run : runsOf(scene)) {
+        const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
+        all.push_back(facesOf(scene, run, false));
+        if (isBlended(scene, material))
+            all.push_back(facesOf(scene, run, true));
+        if (scene.cageFaces ? isMasked(material) : isTrimmed(material))
+            all.push_back(shadowFaces(scene, run.material));
+    }
+    return all;
+}
+
 void SurfaceRenderer::record(VkCommandBuffer commands, uint32_t slot, const DrawTarget& target, const Scene& scene) {
     writeUniforms(slots_[slot], target.extent(), scene);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->layout, 0, 1, &slots_[slot].set, 0,
                             nullptr);
-    recordShadows(commands, scene);
-    recordPicture(commands, target, scene);
+    constexpr SuppleSyncScope kColor{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kDepth{
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    const ImageUse colorUse{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor};
+    // The last picture may still be in the copy that fetches it, and its depth in use.
+    imageBarrier(commands, target.color(), {VK_IMAGE_LAYOUT_UNDEFINED, kCopy}, colorUse);
+    imageBarrier(commands, target.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, kDepth},
+                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepth});
+    if (target.samples() != VK_SAMPLE_COUNT_1_BIT)
+        imageBarrier(commands, target.multisampled(), {VK_IMAGE_LAYOUT_UNDEFINED, kColor}, colorUse);
+    // Panes share the shadow maps and the images that they draw into.
+    for (const Pane& pane : panesOf(scene, target.extent())) {
+        recordShadows(commands, pane.scene);
+        drawPane(commands, target, pane);
+        memoryBarrier(commands, kColor, kColor);
+        memoryBarrier(commands, kDepth, kDepth);
+    }
+    imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
+}
+
+std::vector<SurfaceRenderer::Pane> SurfaceRenderer::panesOf(const Scene& scene, VkExtent2D extent) {
+    if (!scene.split)
+        return {{scene, {{0, 0}, extent}, 0.0f}};
+    const auto width = static_cast<float>(extent.width);
+    const auto middle = static_cast<uint32_t>(0.5f * (1.0f + *scene.split) * width);
+    const float shift = 0.25f * (1.0f - *scene.split) * width;
+    Pane cage{scene, {{0, 0}, {middle, extent.height}}, -shift};
+    cage.scene.cageFaces = cage.scene.cageEdges = true;
+    Pane surface{scene, {{static_cast<int32_t>(middle), 0}, {extent.width - middle, extent.height}}, shift};
+    return {cage, surface};
 }
 
 void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const {
@@ -525,7 +571,8 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         info.layerCount = 1;
         info.pDepthAttachment = &depth;
         vkCmdBeginRendering(commands, &info);
-        beginDrawing(commands, extent, false);
+        const auto side = static_cast<float>(quality_.shadowSize);
+        beginDrawing(commands, {0.0f, 0.0f, side, side, 0.0f, 1.0f}, info.renderArea);
         if (scene.group != nullptr)
             drawShadow(commands, scene, light);
         vkCmdEndRendering(commands);
@@ -543,22 +590,8 @@ void SurfaceRenderer::drawShadow(VkCommandBuffer commands, const Scene& scene, u
     }
 }
 
-void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const {
-    constexpr SuppleSyncScope kColor{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-    constexpr SuppleSyncScope kDepth{
-        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-    constexpr SuppleSyncScope kCopy{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+void SurfaceRenderer::drawPane(VkCommandBuffer commands, const DrawTarget& target, const Pane& pane) const {
     const bool multisampled = target.samples() != VK_SAMPLE_COUNT_1_BIT;
-    const ImageUse colorUse{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor};
-    // The last picture may still be in the copy that fetches it, and its depth in use.
-    imageBarrier(commands, target.color(), {VK_IMAGE_LAYOUT_UNDEFINED, kCopy}, colorUse);
-    imageBarrier(commands, target.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, kDepth},
-                 {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepth});
-    if (multisampled)
-        imageBarrier(commands, target.multisampled(), {VK_IMAGE_LAYOUT_UNDEFINED, kColor}, colorUse);
-
     const Image& drawn = multisampled ? target.multisampled() : target.color();
     VkRenderingAttachmentInfo color = attachment(drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     if (multisampled) {
@@ -572,13 +605,18 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
     depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     depth.clearValue.depthStencil = {1.0f, 0};
     auto info = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-    info.renderArea = {{0, 0}, target.extent()};
+    info.renderArea = pane.area;
     info.layerCount = 1;
     info.colorAttachmentCount = 1;
     info.pColorAttachments = &color;
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
-    beginDrawing(commands, target.extent(), true);
+    beginDrawing(commands, pictureViewport(target.extent(), pane.shift), pane.area);
+    drawScene(commands, pane.scene);
+    vkCmdEndRendering(commands);
+}
+
+void SurfaceRenderer::drawScene(VkCommandBuffer commands, const Scene& scene) const {
     std::vector<Run> runs;
     if (scene.group != nullptr) {
         runs = runsOf(scene);
@@ -595,16 +633,10 @@ void SurfaceRenderer::recordPicture(VkCommandBuffer commands, const DrawTarget& 
         drawFaces(commands, scene, runs, true);
         drawCageEdges(commands, scene);
     }
-    vkCmdEndRendering(commands);
-    imageBarrier(commands, target.color(), colorUse, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kCopy});
 }
 
-/// Push constants that fit any draw of the surface; ranges and materials are filled in draw by draw.
-shared::DrawPush SurfaceRenderer::basePush(const FigureSurface& surface, uint32_t light) const {
+shared::DrawPush SurfaceRenderer::completed(shared::DrawPush push, const FigureSurface& surface, uint32_t light) const {
     const GroupOutput& output = surface.output;
-    shared::DrawPush push{};
-    push.rate = output.grid.rate;
-    push.verticesPerInstance = output.grid.verticesPerInstance;
     push.cageVerticesPerInstance = output.info.cageVerticesPerInstance;
     push.light = light;
     if (output.streams.vertexFormat == SUPPLE_VERTEX_24)
@@ -636,25 +668,22 @@ void SurfaceRenderer::pushConstants(VkCommandBuffer commands, const shared::Draw
 
 void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                                         uint32_t light) const {
-    const GroupOutput& output = surface.output;
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(surface, light);
     VkPipeline bound = VK_NULL_HANDLE;
-    for (uint32_t i = 0; i < output.grid.drawRangeCount; ++i) {
-        const SuppleDrawRange& range = output.grid.drawRanges[i];
-        if (!scene.group->isPartVisible(range.part))
+    for (size_t i = 0; i < surface.draws.size(); ++i) {
+        const SurfaceDraw& draw = surface.draws[i];
+        if (!scene.group->isPartVisible(draw.part))
             continue;
-        const bool trimmed = isTrimmed(materials.of(range.material));
+        const bool trimmed = isTrimmed(materials.of(draw.material));
         const VkPipeline wanted =
-            trimmed ? (*pipelines_)[shadowFaces(scene, range.material)] : pipelines_->surfaceShadow;
+            trimmed ? (*pipelines_)[shadowFaces(scene, draw.material)] : pipelines_->surfaceShadow;
         if (bound != wanted)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
         bound = wanted;
         if (trimmed)
-            bindMaterial(commands, scene, range.material);
-        applyRange(range, push);
-        pushConstants(commands, push);
-        drawCoarse(commands, scene, surface, range);
+            bindMaterial(commands, scene, draw.material);
+        pushConstants(commands, completed(draw.push, surface, light));
+        drawCoarse(commands, scene, surface, i);
     }
 }
 
@@ -662,9 +691,8 @@ std::vector<SurfaceRenderer::Run> SurfaceRenderer::runsOf(const Scene& scene) co
     std::vector<Run> runs;
     const std::vector<FigureSurface>& surfaces = scene.group->surfaces();
     for (size_t s = 0; !scene.cageFaces && s < surfaces.size(); ++s) {
-        const SuppleGridOutput& grid = surfaces[s].output.grid;
-        for (uint32_t i = 0; i < grid.drawRangeCount; ++i)
-            runs.push_back({s, i, grid.drawRanges[i].part, grid.drawRanges[i].material});
+        for (size_t i = 0; i < surfaces[s].draws.size(); ++i)
+            runs.push_back({s, i, surfaces[s].draws[i].part, surfaces[s].draws[i].material});
     }
     const std::vector<Figure::CageRange>& ranges = scene.group->figure().cageRanges();
     for (size_t i = 0; scene.cageFaces && i < ranges.size(); ++i)
@@ -717,34 +745,28 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
 void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
                               uint32_t flags) const {
     const FigureSurface& surface = scene.group->surfaces()[run.surface];
-    shared::DrawPush push = basePush(surface, 0);
-    push.flags |= flags;
     vkCmdSetCullMode(commands, cull);
+    if (!scene.group->isPartVisible(run.part))
+        return;
+    shared::DrawPush push = completed(scene.cageFaces ? shared::DrawPush{} : surface.draws[run.range].push, surface, 0);
+    push.flags |= flags;
     if (scene.cageFaces) {
         const Figure::CageRange& range = scene.group->figure().cageRanges()[run.range];
-        if (!scene.group->isPartVisible(range.part))
-            return;
         push.primitive = range.firstCorner;
         pushConstants(commands, push);
         vkCmdDraw(commands, range.cornerCount, scene.group->visibleCount(), 0, 0);
         return;
     }
-    const SuppleDrawRange& range = surface.output.grid.drawRanges[run.range];
-    applyRange(range, push);
     pushConstants(commands, push);
-    if (scene.coarse) {
-        if (scene.group->isPartVisible(range.part))
-            drawCoarse(commands, scene, surface, range);
-        return;
-    }
-    const SuppleBufferRange& indirect = surface.output.indirect();
-    vkCmdDrawIndexedIndirect(commands, indirect.buffer, indirect.offset + VkDeviceSize{run.range} * indirect.stride, 1,
-                             indirect.stride);
+    if (scene.coarse)
+        drawCoarse(commands, scene, surface, run.range);
+    else
+        drawFine(commands, surface, run.range);
 }
 
 void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const {
     const FigureMaterials& materials = scene.group->figure().materials();
-    shared::DrawPush push = basePush(scene.group->surfaces().front(), light);
+    shared::DrawPush push = completed({}, scene.group->surfaces().front(), light);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
         if (!scene.group->isPartVisible(range.part))
             continue;
@@ -760,7 +782,7 @@ void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scen
 }
 
 void SurfaceRenderer::drawCageEdges(VkCommandBuffer commands, const Scene& scene) const {
-    shared::DrawPush push = basePush(scene.group->surfaces().front(), 0);
+    shared::DrawPush push = completed({}, scene.group->surfaces().front(), 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->cageEdge);
     for (const Figure::EdgeRange& range : scene.group->figure().cageEdgeRanges()) {
         const bool wire = isWireOfMesh(scene, range.part);

@@ -54,6 +54,9 @@ struct Scene {
     uint32_t view = 0;                 ///< shared::kView...
     bool cageFaces = false;            ///< the cage instead of the surface
     bool cageEdges = false;
+    /// The cage beside the surface: both as they stand in the right part of the picture, of which this is the left end
+    /// (a fraction of the width). They are moved into its halves.
+    std::optional<float> split;
     /// Instead of the renderer's: no more lights, no larger maps, the same samples.
     std::optional<StudioQuality> quality;
     uint32_t pass = 0;       ///< of StudioQuality::passes
@@ -99,15 +102,25 @@ private:
                                       const SuppleTextureInfo& texture) const;
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
-    void recordPicture(VkCommandBuffer commands, const DrawTarget& target, const Scene& scene) const;
-    [[nodiscard]] shared::DrawPush basePush(const FigureSurface& surface, uint32_t light) const;
+    /// A part of the picture with a scene of its own.
+    struct Pane {
+        Scene scene;
+        VkRect2D area{};
+        float shift = 0.0f; ///< of the scene to the right, in pixels
+    };
+    /// One, or the two of Scene::split.
+    [[nodiscard]] static std::vector<Pane> panesOf(const Scene& scene, VkExtent2D extent);
+    void drawPane(VkCommandBuffer commands, const DrawTarget& target, const Pane& pane) const;
+    void drawScene(VkCommandBuffer commands, const Scene& scene) const;
+    /// With what all draws of the surface have in common.
+    [[nodiscard]] shared::DrawPush completed(shared::DrawPush push, const FigureSurface& surface, uint32_t light) const;
     void bindSurface(VkCommandBuffer commands, const Scene& scene, size_t surface) const;
     void bindMaterial(VkCommandBuffer commands, const Scene& scene, uint32_t material) const;
     void pushConstants(VkCommandBuffer commands, const shared::DrawPush& push) const;
     void drawShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                            uint32_t light) const;
-    /// Faces of one part and material: a draw range of a surface, or a range of the cage.
+    /// Faces of one part and material: a draw of a surface, or a range of the cage.
     struct Run {
         size_t surface = 0;
         size_t range = 0;
@@ -116,6 +129,8 @@ private:
     };
     [[nodiscard]] std::vector<Run> runsOf(const Scene& scene) const;
     [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const Run& run, bool blend) const;
+    /// What the scene, of one pane, draws with.
+    [[nodiscard]] std::vector<DrawPipelines::Faces> allFaces(const Scene& scene) const;
     /// Leaves the runs that blend, the farthest first.
     void keepBlended(std::vector<Run>& runs, const Scene& scene) const;
     /// blend: what blends, over what is there; else what hides all behind it, also where a material that blends is

@@ -74,12 +74,15 @@ PassCost recordUpload(const Frame& frame, Group& group) {
     return cost;
 }
 
-PassCost recordAttributes(const Frame& frame, Group& group) {
-    return group.surfaces().record(
-        [&](Tessellation& surface) { return surface.recordAttributes(frame.commands, frame.number); });
+PassCost recordAttributes(const Frame& frame, Tessellation& surface) {
+    return surface.recordAttributes(frame.commands, frame.number);
 }
 
-/// A pass of every surface.
+template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
+PassCost recordSurface(const Frame& frame, Tessellation& surface) {
+    return (surface.*record)(frame.commands);
+}
+/// All surfaces together, for passes that also work on the group.
 template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
 PassCost recordSurfaces(const Frame& frame, Group& group) {
     return group.surfaces().record([&](const Tessellation& surface) { return (surface.*record)(frame.commands); });
@@ -137,9 +140,8 @@ PassCost recordList(const Frame& frame, Group& group) {
 }
 
 template <Stage stage>
-PassCost recordStage(const Frame& frame, Group& group) {
-    return group.surfaces().record(
-        [&](const Tessellation& surface) { return surface.recordStage(frame.commands, stage); });
+PassCost recordStage(const Frame& frame, Tessellation& surface) {
+    return surface.recordStage(frame.commands, stage);
 }
 
 bool countsRates(const Group& group) {
@@ -220,10 +222,19 @@ bool constructs(Group& group) {
 /// What stands behind a pass: who may read what it wrote.
 enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, directions, scratch };
 
+/// What a pass records: for every group, or for every surface of it.
+struct Work {
+    constexpr Work(PassCost (*record)(const Frame&, Group&)) : ofGroup(record) {}          // NOLINT
+    constexpr Work(PassCost (*record)(const Frame&, Tessellation&)) : ofSurface(record) {} // NOLINT
+
+    PassCost (*ofGroup)(const Frame&, Group&) = nullptr;
+    PassCost (*ofSurface)(const Frame&, Tessellation&) = nullptr;
+};
+
 struct Row {
     Pass pass;
     bool (*wants)(Group&);
-    PassCost (*record)(const Frame&, Group&);
+    Work work;
     Behind behind = Behind::compute;
     bool timed = true; ///< false: part of the pass before, without label and timing
 };
@@ -235,7 +246,7 @@ constexpr Row kPasses[] = {
     {Pass::pose, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
     {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {Pass::deform, always, recordDeform},
-    {Pass::deform, anySurface<&Tessellation::gathers>, recordSurfaces<&Tessellation::recordGather>},
+    {Pass::deform, anySurface<&Tessellation::gathers>, recordSurface<&Tessellation::recordGather>},
     {Pass::bounds, hasBounds, recordBounds, Behind::bounds},
     {Pass::bounds, readsBounds, recordBoundsReadback, Behind::readback, false},
     {Pass::bounds,
@@ -245,17 +256,16 @@ constexpr Row kPasses[] = {
     {Pass::list, isInView, recordList, Behind::arguments},
     {Pass::vertex, constructs<Stage::vertex>, recordStage<Stage::vertex>},
     {Pass::assemble, constructs<Stage::assemble>, recordStage<Stage::assemble>},
-    {Pass::patch, anySurface<&Tessellation::writesPatches>, recordSurfaces<&Tessellation::recordPatch>,
-     Behind::nothing},
-    {Pass::level, isInView, recordSurfaces<&Tessellation::recordEdgeLevels>},
+    {Pass::patch, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>, Behind::nothing},
+    {Pass::level, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
     {Pass::level, isInView, recordPatchLevels},
     {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
     {Pass::place, isInView, recordPlaces, Behind::places},
     {Pass::place, isInView, recordReadback, Behind::readback, false},
     {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
-     recordSurfaces<&Tessellation::recordLevelAttributes>, Behind::directions},
-    {Pass::evaluate, always, recordSurfaces<&Tessellation::recordEvaluate>, Behind::scratch},
-    {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurfaces<&Tessellation::recordMotion>,
+     recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
+    {Pass::evaluate, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
+    {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
      Behind::nothing},
 };
 
@@ -314,10 +324,19 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
         frame.device.beginLabel(frame.commands, passName(row.pass));
     }
     frame.forEach([&](Group& group) {
-        timing.beginPass();
-        const PassCost cost = row.record(frame, group);
-        if (cost.bytes > 0 || cost.onDevice) {
-            timing.endPass(row.pass, group.link.handle, cost);
+        const auto time = [&](uint32_t surface, auto&& record) {
+            timing.beginPass();
+            const PassCost cost = record();
+            if (cost.bytes > 0 || cost.onDevice) {
+                timing.endPass(row.pass, group.link.handle, surface, cost);
+            }
+        };
+        if (row.work.ofGroup != nullptr) {
+            time(SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); });
+            return;
+        }
+        for (uint32_t surface = 0; surface < group.surfaces().size(); ++surface) {
+            time(surface, [&] { return row.work.ofSurface(frame, group.surfaces()[surface]); });
         }
     });
     if (row.timed) {
@@ -460,7 +479,9 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
-        timing = timings.open(commandBuffer, desc.groupCount);
+        uint32_t surfaces = 0;
+        frame.forEach([&](Group& group) { surfaces += static_cast<uint32_t>(group.surfaces().size()); });
+        timing = timings.open(commandBuffer, surfaces);
     }
     for (const Row& row : kPasses) {
         if (row.wants == always || frame.any(row.wants)) {

@@ -18,9 +18,11 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
     tickMask_ = device.timestampValidBits >= 64 ? ~0ull : (1ull << device.timestampValidBits) - 1;
     tickPeriod_ = static_cast<double>(device.limits.timestampPeriod);
     latest_.reserve(SUPPLE_MAX_TIMINGS);
+    latestSurfaces_.reserve(SUPPLE_MAX_TIMINGS);
     for (uint32_t i = 0; i < framesInFlight; ++i) {
         auto slot = std::make_unique<Slot>();
         slot->entries.resize(SUPPLE_MAX_TIMINGS);
+        slot->surfaces.resize(SUPPLE_MAX_TIMINGS);
         slot->marks.resize(SUPPLE_MAX_TIMINGS);
         slot->solved.resize(SUPPLE_MAX_TIMINGS);
         if (timestamps_) {
@@ -62,13 +64,16 @@ Result<bool> Timings::collect(Slot& slot, const std::function<Shortfall(const Vi
         }
     }
     latest_.clear();
+    latestSurfaces_.clear();
     for (size_t i = 0; i < count && latest_.size() < SUPPLE_MAX_TIMINGS; ++i) {
         latest_.push_back(slot.entries[i]);
+        latestSurfaces_.push_back(slot.surfaces[i]);
         const Shortfall own = slot.solved[i] != nullptr ? shortfall(slot.solved[i], slot.frame) : Shortfall{};
         if (own.any && latest_.size() < SUPPLE_MAX_TIMINGS) {
             const SuppleTiming& solve = slot.entries[i];
             latest_.push_back(
                 {"shortfall", solve.group, solve.frame, solve.gpuEnd, solve.gpuEnd, 0.0, own.instances, own.bytes});
+            latestSurfaces_.push_back(SUPPLE_NO_SURFACE);
         }
     }
     return true;
@@ -114,11 +119,11 @@ void Timings::cancelFrame() {
     current_->timers.clear();
 }
 
-Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t groupCount) {
+Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount) {
     Recording recording;
     if (timestamps_) {
         const auto wanted = static_cast<uint32_t>(
-            std::min<uint64_t>(uint64_t{groupCount} * kMostEntries, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+            std::min<uint64_t>(uint64_t{surfaceCount} * kMostEntries, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
         if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
             return recording;
         }
@@ -136,7 +141,7 @@ void Timings::Recording::beginPass() {
     }
 }
 
-void Timings::Recording::endPass(Pass pass, SuppleGroup group, const PassCost& cost) {
+void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint32_t surface, const PassCost& cost) {
     if (timings_ == nullptr) {
         return;
     }
@@ -151,6 +156,7 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, const PassCost& c
         slot.timers.mark(commandBuffer_, ++mark_);
     }
     slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, cost.points, cost.bytes};
+    slot.surfaces[entry] = surface;
     slot.marks[entry] = mark_;
     slot.solved[entry] = cost.solved;
 }

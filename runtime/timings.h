@@ -39,8 +39,9 @@ enum class Pass : uint32_t {
 };
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
-/// The most entries that a group can have in a frame. Pose comes up to three times, bounds again for occlusion, level
-/// for patches, deform for several surfaces, and attributes if some of these have levels and others rates.
+/// The most entries that a group can have in a frame, for each of its surfaces. Pose comes up to three times, bounds
+/// again for occlusion, level for patches, deform for several surfaces, and attributes if some of these have levels and
+/// others rates.
 inline constexpr size_t kMostEntries = kPassCount + 6;
 
 class Timings {
@@ -64,7 +65,8 @@ public:
     class Recording {
     public:
         void beginPass();
-        void endPass(Pass pass, SuppleGroup group, const PassCost& cost);
+        /// `surface`: of the group, or SUPPLE_NO_SURFACE.
+        void endPass(Pass pass, SuppleGroup group, uint32_t surface, const PassCost& cost);
         /// Behind the last pass.
         void end();
 
@@ -75,11 +77,13 @@ public:
         uint32_t first_ = 0, mark_ = 0; ///< timestamps: the first, and the last that is recorded
         std::chrono::steady_clock::time_point passBegin_;
     };
-    /// Makes room for as many passes as the groups can have.
-    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t groupCount);
+    /// Makes room for as many passes as groups can have that have so many surfaces together.
+    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount);
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }
+    /// Of each of these: the surface, or SUPPLE_NO_SURFACE.
+    [[nodiscard]] const std::vector<uint32_t>& latestSurfaces() const { return latestSurfaces_; }
     /// In ticks: the first timestamp. Nothing before that.
     [[nodiscard]] std::optional<uint64_t> origin() const { return origin_; }
 
@@ -93,6 +97,7 @@ private:
         gpu::Timers timers;
         uint64_t frame = 0;
         std::vector<SuppleTiming> entries; ///< SUPPLE_MAX_TIMINGS, of which `count` are in use
+        std::vector<uint32_t> surfaces;    ///< per entry
         std::vector<uint32_t> marks;       ///< per entry: the timestamp that ends it; the one before begins it
         std::vector<const View*> solved;   ///< per entry, or null; not to be read: it may be gone
         std::atomic<uint32_t> count = 0;
@@ -110,6 +115,7 @@ private:
     double tickPeriod_ = 1.0;
     std::optional<uint64_t> origin_; ///< first tick seen: differences are integers, which doubles could not hold
     std::vector<SuppleTiming> latest_;
+    std::vector<uint32_t> latestSurfaces_;
     std::array<SuppleBudget, kPassCount + 1> budgets_{}; ///< the last: all passes
 };
 

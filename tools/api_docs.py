@@ -16,7 +16,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-HEADERS = ("supple.h", "supple_view.h", "supple_playback.h", "supple.hpp")
+HEADERS = ("supple.h", "supple_view.h", "supple_playback.h", "supple.hpp", "supple_tracy.h")
 INCLUDE = ROOT / "runtime/include/supple"
 PAGE = ROOT / "docs/api.md"
 UNDOCUMENTED = ROOT / "tests/api_docs/undocumented.txt"
@@ -213,7 +213,8 @@ def page(xml):
                 name = plain(member.find("name"))
                 if member.get("kind") == "typedef" and plain(member.find("type")) in (f"struct {name}", f"enum {name}"):
                     continue
-                if member.get("kind") == "define" and name in ("SUPPLE_H", "SUPPLE_VIEW_H", "SUPPLE_PLAYBACK_H", "SUPPLE_API"):
+                if member.get("kind") == "define" and name in (
+                        "SUPPLE_H", "SUPPLE_VIEW_H", "SUPPLE_PLAYBACK_H", "SUPPLE_TRACY_H", "SUPPLE_API"):
                     continue
                 if member.get("kind") == "variable" and name in HEADERS:
                     continue

@@ -28,9 +28,9 @@ void main() {
     vec3 flatly = vec3(0.0);
     if (isFlatView(kView)) {
         vec3 tangent = mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
-        flatly = flatColor(kView, base, material, inUvs, tangent, inColor.rgb, 0.0);
+        flatly = flatColor(kView, base, material, inUvs, tangent, inColor.rgb, -1.0);
         if (isShadedFlat(kView))
-            flatly *= formShade(n, v);
+            flatly *= formShade(kView, n, v);
     }
     if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a))
         discard;

@@ -32,6 +32,8 @@ SUPPLE_HOST_CONST kSurfaceFaceUvBinding = 7u;
 SUPPLE_HOST_CONST kInstancesBinding = 8u;
 SUPPLE_HOST_CONST kSurfaceTangentBinding = 9u;
 SUPPLE_HOST_CONST kSurfaceValueBinding = 10u;
+SUPPLE_HOST_CONST kLevelBucketBinding = 11u; // groups with levels
+SUPPLE_HOST_CONST kLevelPatchBinding = 12u;
 // Set 2, the material: its numbers, and behind them a texture for each of MaterialUniforms::places.
 SUPPLE_HOST_CONST kMaterialBinding = 0u;
 SUPPLE_HOST_CONST kFirstTextureBinding = 1u;
@@ -68,7 +70,14 @@ SUPPLE_HOST_CONST kViewRoughness = 11u;
 SUPPLE_HOST_CONST kViewNormalMap = 12u;
 SUPPLE_HOST_CONST kViewOcclusion = 13u;
 SUPPLE_HOST_CONST kViewEmissive = 14u;
-SUPPLE_HOST_CONST kViewHeat = 15u; // values of the vertices (kSurfaceValueBinding), 0 to 1
+// As colors of a scale, from 0 to 1; below 0 there is no value.
+SUPPLE_HOST_CONST kViewWeights = 15u;  // values of the vertices (kSurfaceValueBinding)
+SUPPLE_HOST_CONST kViewDistance = 16u; // the same
+SUPPLE_HOST_CONST kViewLevels = 17u; // the largest level of the patch, or the rate, by its logarithm; kScaledLevel is 1
+SUPPLE_HOST_FLOAT kScaledLevel = 16.0f;
+// The colors of a scale at 0, 1/4 .. 1, 0xRRGGBB, from dark blue over green to yellow; monotonic in brightness, so that
+// gray prints tell as much (a short viridis).
+#define SUPPLE_SCALE_COLORS 0x440154u, 0x3B528Bu, 0x21918Cu, 0x5EC962u, 0xFDE725u
 
 // DrawPush::domain: values of SuppleDomain.
 SUPPLE_HOST_CONST kDrawQuad = 0u;
@@ -76,6 +85,7 @@ SUPPLE_HOST_CONST kDrawPolar = 1u;
 SUPPLE_HOST_CONST kDrawTriangle = 2u;
 SUPPLE_HOST_CONST kDrawPentagon = 3u;
 SUPPLE_HOST_CONST kDrawMesh = 4u;
+SUPPLE_HOST_CONST kDrawRings = 5u; // levels: SUPPLE_GRID_TRIANGLE_RINGS and the like
 
 // DrawPush::flags
 SUPPLE_HOST_CONST kDrawVertex24 = 1u;   // surface vertices of 24 bytes
@@ -83,6 +93,7 @@ SUPPLE_HOST_CONST kDrawAttributes = 2u; // the group has UV and color
 SUPPLE_HOST_CONST kDrawCoverage = 4u;   // alpha becomes coverage of the pixel's samples
 SUPPLE_HOST_CONST kDrawTangents = 8u;   // the surface has tangents
 SUPPLE_HOST_CONST kDrawSolid = 16u;     // of a translucent material: only where it is solid
+SUPPLE_HOST_CONST kDrawLevels = 32u;    // a SuppleLevelDraw
 
 // What a material has: a constant of its shaders.
 SUPPLE_HOST_CONST kMaterialDoubleSided = 1u; // back faces are meant to be seen
@@ -137,13 +148,13 @@ struct FrameUniforms {
 
 struct DrawPush {
     vec4 lineColor;
-    uint firstPatch;
-    uint patchCount; // of the draw range
-    uint domain;     // SuppleDomain
-    uint rate;
+    uint firstPatch; // of the draw range; kDrawLevels: number of the draw
+    uint patchCount; // of the draw range; kDrawLevels: sides of its patches
+    uint domain;     // SuppleDomain, or kDrawRings
+    uint rate;       // kDrawLevels: the capacity
     uint samplesPerPatch;
-    uint firstVertex; // of the draw range
-    uint verticesPerInstance;
+    uint firstVertex;         // of the draw range
+    uint verticesPerInstance; // kDrawLevels: of a draw instance
     uint cageVerticesPerInstance;
     uint flags;
     uint light;     // whose shadow map is being drawn

@@ -15,13 +15,14 @@ vec3 uvChecker(vec2 uv) {
     return mix(vec3(0.02), color, clamp(min(border.x, border.y), 0.0, 1.0));
 }
 
-/// 0 to 1, from dark blue over green to yellow; monotonic in brightness, so that gray prints tell as much (a short viridis).
-vec3 heat(float value) {
-    const vec3 kSteps[5] = vec3[5](vec3(0x44, 0x01, 0x54), vec3(0x3B, 0x52, 0x8B), vec3(0x21, 0x91, 0x8C),
-                                   vec3(0x5E, 0xC9, 0x62), vec3(0xFD, 0xE7, 0x25));
-    float at = clamp(value, 0.0, 1.0) * 4.0;
+/// The color of a value on the scale. Below 0 there is no value.
+vec3 scaleColor(float value) {
+    if (value < 0.0) return vec3(0.30, 0.29, 0.28);
+    const uint kColors[5] = uint[5](SUPPLE_SCALE_COLORS);
+    float at = min(value, 1.0) * 4.0;
     uint low = min(uint(at), 3u);
-    return fromSrgb(mix(kSteps[low], kSteps[low + 1u], at - float(low)) / 255.0);
+    vec4 color = mix(unpackUnorm4x8(kColors[low]), unpackUnorm4x8(kColors[low + 1u]), at - float(low));
+    return fromSrgb(color.bgr);
 }
 
 /// In the colors that the view has; values of maps are shown as files store them.
@@ -38,12 +39,14 @@ vec3 flatColor(uint view, vec4 base, Material material, vec4 uvs, vec3 tangent, 
         return fromSrgb(hasTexture(kNormal) ? texture(normalTexture, placed(kNormal, uvs)).xyz : vec3(0.5, 0.5, 1.0));
     case kViewOcclusion: return fromSrgb(vec3(material.occlusion));
     case kViewEmissive: return material.emission;
-    default: return heat(value);
+    default: return scaleColor(value);
     }
 }
 
-/// Enough shading to read a form by, from the eye.
-float formShade(vec3 n, vec3 v) { return 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0); }
+/// Enough shading to read a form by, from the eye. One color may cover most of a figure that shows values.
+float formShade(uint view, vec3 n, vec3 v) {
+    return 1.0 - (view >= kViewWeights ? 0.45 : 0.28) * (1.0 - clamp(dot(n, v), 0.0, 1.0));
+}
 
 /// Pictures keep their own colors; what stands for something is shaded a little.
-bool isShadedFlat(uint view) { return view == kViewUv || view == kViewUv1 || view == kViewHeat; }
+bool isShadedFlat(uint view) { return view == kViewUv || view == kViewUv1 || view >= kViewWeights; }

@@ -20,7 +20,7 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
-layout(location = 9) in vec4 inTangent; // kViewHeat: x is the value
+layout(location = 9) in vec4 inTangent; // views of values: x is the value
 
 layout(location = 0) out vec4 outColor;
 
@@ -52,7 +52,7 @@ vec3 insideBorder() {
     float rate = float(push.rate);
     if (push.domain == kDrawQuad) return vec3(min(inGrid.xy, rate - inGrid.xy), kFar);
     if (push.domain == kDrawPolar) return vec3(min(inGrid.x, rate - inGrid.x), inGrid.y, kFar);
-    return push.domain == kDrawTriangle ? inGrid : vec3(kFar, kFar, inGrid.z);
+    return push.domain == kDrawTriangle ? inGrid : vec3(kFar, kFar, inGrid.z); // pentagons and rings
 }
 
 float patchHash(uint x) {
@@ -119,7 +119,7 @@ void main() {
         vec3 tangent = kView == kViewTangents ? shownTangent(front) : vec3(0.0);
         flatly = flatColor(kView, base, material, inUvs, tangent, inColor.rgb, inTangent.x);
         if (isShadedFlat(kView))
-            flatly *= formShade(n, v);
+            flatly *= formShade(kView, n, v);
     }
     // All that asks for neighbouring pixels is done: some may end here.
     if (isLeftOut(base.a))
@@ -159,7 +159,7 @@ void main() {
         color = mix(color, vec3(0.012, 0.016, 0.025), 0.72 * gridLines(inGrid, segments, 0.9 * frame.pixelScale));
     if (kView == kViewWire && lines)
         color = mix(color, vec3(0.78, 0.22, 0.035), borderLine(insideBorder(), segments, float(push.rate), 1.1 * frame.pixelScale));
-    else if (kView == kViewPatches && lines)
+    else if ((kView == kViewPatches || kView == kViewLevels) && lines)
         color = mix(color, vec3(0.01, 0.012, 0.018), 0.85 * borderLine(insideBorder(), segments, float(push.rate), 0.9 * frame.pixelScale));
     outColor = vec4(color, alpha);
 }

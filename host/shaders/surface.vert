@@ -15,12 +15,20 @@ layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
-layout(location = 9) out vec4 outTangent; // glTF's TANGENT; kViewHeat: x is the value
+layout(location = 9) out vec4 outTangent; // glTF's TANGENT; views of values: x is the value
 
 // Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
 // that shades in blocks would do it many times over.
 layout(constant_id = 0) const bool kLightPerVertex = false;
 layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
+
+// Which ring a sample lies in, counted from the border.
+uint ringOf(uint index) {
+    uint ring = 0u;
+    for (uint along = push.rate; along > 1u && index >= push.patchCount * along; ++ring, along -= 2u)
+        index -= push.patchCount * along;
+    return ring;
+}
 
 // Where a sample lies, in segments. Cells' sides are whole numbers of one coordinate; the patch's border is where a
 // coordinate is 0, on quads also where it is the rate. Quads and polar patches have two coordinates, triangles three.
@@ -28,6 +36,8 @@ layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
 // so that all three are continuous over the rays.
 vec3 gridPosition(uint index) {
     if (push.domain == kDrawMesh) return vec3(0.0); // a vertex is of many patches: no lines are drawn
+    if (hasLevels()) index = levelVertex() % push.samplesPerPatch;
+    if (push.domain == kDrawRings) return vec3(0.5, 0.5, ringOf(index));
     uint side = push.rate + 1u;
     if (push.domain <= kDrawPolar) return vec3(index % side, index / side, 0.5);
     uint perSector = push.rate * side / 2u;
@@ -37,6 +47,13 @@ vec3 gridPosition(uint index) {
     for (; rest >= row; --row, ++j) rest -= row;
     float i = float(rest), k = float(push.rate - rest - j);
     return pentagon ? vec3(min(i, k), max(i, k), j) : vec3(i, k, j);
+}
+
+// The value that the view shows.
+float shownValue() {
+    if (kView != kViewLevels) return surfaceValue();
+    if (push.domain == kDrawMesh) return -1.0; // as the file has it
+    return log2(hasLevels() ? largestLevel() : float(push.rate)) / log2(kScaledLevel);
 }
 
 void main() {
@@ -53,8 +70,8 @@ void main() {
         outUvs = surfaceUvs();
         outColor = surfaceColor();
     }
-    if (kMaps && kView == kViewHeat)
-        outTangent.x = surfaceValue();
+    if (kMaps && kView >= kViewWeights)
+        outTangent.x = shownValue();
     else if (kMaps && (push.flags & kDrawTangents) != 0u)
         outTangent = surfaceTangent();
     outTrim = surfaceTrim();

@@ -4,17 +4,32 @@
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
+namespace {
+
+/// What there is of each entry of the newest frame that was timed.
+template <class T>
+SuppleResult fillTimings(Context& context, const char* call, const std::vector<T>& latest, T* out, uint32_t* count) {
+    if (count == nullptr) {
+        return refuse(context, ErrorCode::nullPointer, call, "count is null");
+    }
+    if (latest.empty()) {
+        *count = 0;
+        return SUPPLE_NOT_READY;
+    }
+    return fillArray(latest.data(), latest.size(), out, count);
+}
+
+} // namespace
+
 SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t* count) {
     return guarded(handle, "suppleGetTimings", [&](Context& context) {
-        if (count == nullptr) {
-            return refuse(context, ErrorCode::nullPointer, "suppleGetTimings", "count is null");
-        }
-        const std::vector<SuppleTiming>& latest = context.timings.latest();
-        if (latest.empty()) {
-            *count = 0;
-            return SUPPLE_NOT_READY;
-        }
-        return fillArray(latest.data(), latest.size(), out, count);
+        return fillTimings(context, "suppleGetTimings", context.timings.latest(), out, count);
+    });
+}
+
+SuppleResult suppleGetTimingSurfaces(SuppleContext handle, uint32_t* out, uint32_t* count) {
+    return guarded(handle, "suppleGetTimingSurfaces", [&](Context& context) {
+        return fillTimings(context, "suppleGetTimingSurfaces", context.timings.latestSurfaces(), out, count);
     });
 }
 

@@ -338,6 +338,7 @@ private:
         uint64_t ticks = 0;
         ready("suppleGetTimingOrigin", [&] { return suppleGetTimingOrigin(handle(), &ticks); });
         uint32_t count = 0;
+        ready("suppleGetTimingSurfaces", [&] { return suppleGetTimingSurfaces(handle(), nullptr, &count); });
         ready("suppleGetPatches", [&] { return suppleGetPatches(handle(), groups_[0], 0, nullptr, &count); });
         ready("suppleGetClipMarkersBetween",
               [&] { return suppleGetClipMarkersBetween(handle(), tube_, 0, 0.0, 1.0, 0, nullptr, &count); });

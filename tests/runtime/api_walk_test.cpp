@@ -1759,6 +1759,18 @@ void measurements(Rows& r) {
             },
             phase);
     }
+    constexpr const char* kSurfaces = "suppleGetTimingSurfaces";
+    r.nullContext(kSurfaces, [](World& w, SuppleContext c) {
+        return suppleGetTimingSurfaces(c, w.plain<uint32_t>(2), w.number(2));
+    });
+    r.refuse(kSurfaces, "count null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetTimingSurfaces(w.handle(), w.plain<uint32_t>(2), nullptr); });
+    r.add(kSurfaces, "nothing timed", SUPPLE_NOT_READY, kSilent, [](World& w) {
+        uint32_t count = 2;
+        const SuppleResult result = suppleGetTimingSurfaces(w.handle(), w.plain<uint32_t>(2), &count);
+        EXPECT_EQ(count, 0u);
+        return result;
+    });
     constexpr const char* kOrigin = "suppleGetTimingOrigin";
     r.nullContext(kOrigin, [](World& w, SuppleContext c) { return suppleGetTimingOrigin(c, w.plain<uint64_t>(1)); });
     r.refuse(kOrigin, "ticks null", SUPPLE_MESSAGE_NULL_POINTER,

@@ -104,6 +104,9 @@ TEST(CppLayer, OwnsWhatItMakes) {
     ASSERT_EQ(context.beginFrame(3, 2), SUPPLE_OK);
     EXPECT_EQ(context.timings(timings), SUPPLE_OK);
     EXPECT_FALSE(timings.empty());
+    std::vector<uint32_t> surfaces;
+    EXPECT_EQ(context.timingSurfaces(surfaces), SUPPLE_OK);
+    EXPECT_EQ(surfaces.size(), timings.size());
     SuppleGroupInfo info;
     ASSERT_EQ(group.info(info), SUPPLE_OK);
     EXPECT_EQ(info.surfaceCount, 1u);

@@ -301,10 +301,21 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
     ASSERT_EQ(suppleGetTimings(own.handle(), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);
     ASSERT_EQ(suppleGetTimings(own.handle(), timings.data(), &count), SUPPLE_OK);
+    std::vector<uint32_t> surfaces(count);
+    ASSERT_EQ(suppleGetTimingSurfaces(own.handle(), surfaces.data(), &count), SUPPLE_OK);
+    ASSERT_EQ(count, timings.size());
+    // The surfaces of a pass follow each other, each with an entry of its own.
     std::vector<std::string> passes;
+    std::map<std::string, std::vector<uint32_t>> surfacesOf;
     double end = 0.0;
-    for (const SuppleTiming& timing : timings) {
-        passes.emplace_back(timing.pass);
+    for (size_t i = 0; i < timings.size(); ++i) {
+        const SuppleTiming& timing = timings[i];
+        const bool next = i > 0 && surfaces[i] != SUPPLE_NO_SURFACE && surfaces[i - 1] != SUPPLE_NO_SURFACE &&
+                          surfaces[i] > surfaces[i - 1] && passes.back() == timing.pass;
+        if (!next) {
+            passes.emplace_back(timing.pass);
+        }
+        surfacesOf[timing.pass].push_back(surfaces[i]);
         EXPECT_GE(timing.gpuBegin, end) << timing.pass;
         EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << timing.pass;
         end = timing.gpuEnd;
@@ -313,6 +324,9 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
         "upload", "attributes", "pose",  "pose",  "pose",  "deform", "deform",     "bounds",   "bounds", "list",
         "vertex", "assemble",   "level", "level", "solve", "place",  "attributes", "evaluate", "motion"};
     EXPECT_EQ(passes, expected);
+    EXPECT_EQ(surfacesOf["evaluate"], (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(surfacesOf["deform"], (std::vector<uint32_t>{SUPPLE_NO_SURFACE, 0, 1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(surfacesOf["list"], std::vector<uint32_t>{SUPPLE_NO_SURFACE});
 }
 
 /// One of two parts that are sewn is named: it counts for both. Two are named: they must agree.

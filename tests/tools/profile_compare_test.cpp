@@ -1,9 +1,9 @@
 // What supple profile takes for a change, on numbers that are known; and what it makes of them.
 #include "tools/supple/charts.h"
-#include "tools/supple/pass_history.h"
 #include "tools/supple/profile_compare.h"
 #include "tools/supple/profile_html.h"
 #include "tools/supple/profile_report.h"
+#include "tools/supple/time_history.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -184,18 +184,18 @@ TEST(ProfileSpans, OverlapsCountOnce) {
     EXPECT_DOUBLE_EQ(times.covered[10], 5.0);
 }
 
-TEST(PassHistory, KeepsTheLastFramesAndEachOnce) {
-    PassHistory history;
+TEST(TimeHistory, KeepsTheLastFramesAndEachOnce) {
+    TimeHistory history;
     EXPECT_EQ(history.most(), 0.0f);
     for (uint64_t frame = 1; frame <= 200; ++frame) {
         history.add(frame, {{"deform", 1.0}, {"evaluate", static_cast<double>(frame)}});
         history.add(frame, {{"deform", 9.0}});
     }
-    EXPECT_EQ(history.frames(), PassHistory::kFrames);
+    EXPECT_EQ(history.frames(), TimeHistory::kFrames);
     EXPECT_EQ(history.row(0), (std::vector<float>{1.0f, 51.0f}));
     EXPECT_EQ(history.most(), 201.0f);
     history.add(300, {{"attributes", 2.0}});
-    EXPECT_EQ(history.passes(), (std::vector<std::string>{"deform", "evaluate", "attributes"}));
+    EXPECT_EQ(history.names(), (std::vector<std::string>{"deform", "evaluate", "attributes"}));
     EXPECT_EQ(history.row(history.frames() - 1), (std::vector<float>{0.0f, 0.0f, 2.0f}));
     history.clear();
     EXPECT_EQ(history.frames(), 0u);

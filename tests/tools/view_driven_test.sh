@@ -98,14 +98,40 @@ until_true "F frames the figure" '[ "$(shown)" = "$first" ]'
 
 # Every view has its turn, and comes back to the first.
 for view in wire patches normals zebra tangents uv uv1 vertex-color base-color metallic roughness normal-map occlusion \
-    emissive weights; do
+    emissive weights distance levels; do
     key v
     until_true "V shows $view" "shown | grep -Eq -- '--view $view( |\$)'"
-    case $view in uv | weights) key j; shoot "$view"; key j ;; esac
+    [ "$view" != distance ] || sleep 4 # it is measured beside
+    case $view in uv | weights | distance) key j; shoot "$view"; key j ;; esac
 done
+cmp -s uv.png weights.png && fail "views look alike"
+cmp -s weights.png distance.png && fail "distances look like weights"
+
+# Levels follow the camera until Z freezes them; then another camera sees what they were. D has them in every view.
+shoot levels
+key z
+xdotool mousemove 600 300
+until_true "the wheel brings it closer" 'xdotool click 4; closer=$(shown); [ "$closer" != "$first" ]'
+shown >/dev/null
+shoot levels_frozen
+key z
+shown >/dev/null
+shoot levels_near
+cmp -s levels_frozen.png levels_near.png && fail "Z freezes nothing"
+key f
 key v
 until_true "V comes back" '[ "$(shown)" = "$first" ]'
-cmp -s uv.png weights.png && fail "views look alike"
+key d
+until_true "D asks for levels" "shown | grep -q -- '--levels'"
+key d
+
+# S puts the cage beside the surface, both in sight.
+key s
+until_true "S splits the window" "shown | grep -q -- '--split'"
+shoot split
+key s
+key f
+until_true "S takes the cage away" '[ "$(shown)" = "$first" ]'
 
 # What E writes is what the copied command line makes.
 key e

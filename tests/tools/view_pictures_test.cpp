@@ -47,7 +47,7 @@ protected:
     [[nodiscard]] host::Picture draw(const LookStep& step) {
         const uint64_t number = (*context_)->nextFrame();
         const Status drawn = (*device_)->submitAndWait([&](VkCommandBuffer commands) {
-            EXPECT_TRUE((*stage_)->evaluate(commands, number, number - 1).ok());
+            EXPECT_TRUE((*stage_)->evaluate(commands, number, number - 1, kWindowSize.height).ok());
             (*pictures_)->record(commands, 0, (*stage_)->scene(kWindowSize), step);
         });
         EXPECT_TRUE(drawn.ok());

@@ -5,7 +5,9 @@
 #include "host/vk_struct.h"
 #include "tests/tools/validated_device.h"
 
+#include <chrono>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace supple::tools {
 namespace {
@@ -119,24 +121,40 @@ TEST(ViewStageTest, RateAndFileChangeWhileFramesAreInFlight) {
                 ring.waitIdle((*context)->lastFrame());
             }
         }
-        EXPECT_FALSE(stage.passTimes().empty());
+        EXPECT_FALSE(stage.passTimes().names().empty());
+        EXPECT_FALSE(stage.partTimes().names().empty());
         ring.waitIdle((*context)->lastFrame());
     }
     device->reset();
     EXPECT_EQ(validation->messageCount(), 0u);
 }
 
-/// What a stage stands on, without frames.
+/// What a stage stands on.
 class RemadeStage : public testing::Test {
 protected:
     void SetUp() override {
-        device_ = host::Device::create();
+        device_ = host::createValidatedDevice();
         ASSERT_TRUE(device_.ok()) << device_.error().message;
         context_ = host::Context::create(**device_, {.framesInFlight = 2});
         ASSERT_TRUE(context_.ok()) << context_.error().message;
         renderer_ = host::SurfaceRenderer::create(
             **device_, {.quality = host::StudioQuality::interactive(true), .framesInFlight = 2});
         ASSERT_TRUE(renderer_.ok()) << renderer_.error().message;
+    }
+    void TearDown() override {
+        renderer_->reset();
+        context_->reset();
+        EXPECT_EQ((*device_)->validation()->messageCount(), 0u);
+    }
+    /// A whole frame, which is complete afterwards.
+    void draw(ViewStage& stage) {
+        Result<host::DrawTarget> target = host::DrawTarget::create(**device_, kSize, (*renderer_)->samples());
+        ASSERT_TRUE(target.ok()) << target.error().message;
+        const uint64_t number = (*context_)->nextFrame();
+        Status recorded = success();
+        const Status submitted = (*device_)->submitAndWait(
+            [&](VkCommandBuffer commands) { recorded = stage.record(commands, 0, number, number - 1, *target); });
+        EXPECT_TRUE(recorded.ok() && submitted.ok());
     }
     [[nodiscard]] Result<std::unique_ptr<ViewStage>> create(const DrawOptions& options) {
         return ViewStage::create(**context_, **renderer_, options);
@@ -168,6 +186,64 @@ TEST_F(RemadeStage, SchemeAndSkinningChange) {
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
     ASSERT_TRUE(stage.setSkinning(SUPPLE_SKINNING_DUAL_QUATERNION, lastFrame()).ok());
     EXPECT_EQ(stage.skinning(), SUPPLE_SKINNING_DUAL_QUATERNION);
+    waitIdle();
+}
+
+/// Levels come with their view, follow the camera, and stay while it is frozen.
+TEST_F(RemadeStage, LevelsFollowTheCameraUntilItIsFrozen) {
+    Result<std::unique_ptr<ViewStage>> opened = create({.rate = 4, .view = "levels"});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ViewStage& stage = **opened;
+    ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", {}, kAspect).ok());
+    stage.settings.playing = false;
+    ASSERT_TRUE(stage.needsOtherLevels());
+    ASSERT_TRUE(stage.changeLevels(lastFrame()).ok());
+    EXPECT_FALSE(stage.needsOtherLevels());
+    const auto vertices = [&] {
+        draw(stage);
+        draw(stage); // the statistics are those of the frame before
+        const std::optional<SuppleViewStatistics> drawn = stage.group().levelStatistics();
+        return drawn ? drawn->vertexCount : 0u;
+    };
+    const uint32_t far = vertices();
+    stage.settings.levelsFrozen = true;
+    stage.zoom(8.0f);
+    EXPECT_EQ(vertices(), far);
+    stage.settings.levelsFrozen = false;
+    EXPECT_GT(vertices(), far);
+
+    stage.settings.levels = true;
+    stage.settings.view = host::shared::kViewShaded;
+    EXPECT_FALSE(stage.needsOtherLevels()) << "other views may have them too";
+    stage.settings.view = host::shared::kViewWeights;
+    ASSERT_TRUE(stage.needsOtherLevels()) << "but not those of measured values";
+    ASSERT_TRUE(stage.changeLevels(lastFrame()).ok());
+    EXPECT_EQ(stage.settings.rate, 4);
+    waitIdle();
+}
+
+/// Distances are measured once for each pose in which the figure stands; what is looked at meanwhile may change.
+TEST_F(RemadeStage, DistancesAreMeasuredOncePerPose) {
+    Result<std::unique_ptr<ViewStage>> opened = create({.rate = 2, .view = "distance"});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ViewStage& stage = **opened;
+    ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", {}, kAspect).ok());
+    ASSERT_TRUE(stage.needsValues());
+    ASSERT_TRUE(stage.measureValues(true).ok());
+    EXPECT_FALSE(stage.needsValues());
+    draw(stage);
+    stage.settings.time = 0.25;
+    EXPECT_FALSE(stage.needsValues()) << "it plays";
+    stage.settings.playing = false;
+    ASSERT_TRUE(stage.needsValues());
+    ASSERT_TRUE(stage.measureValues(false).ok());
+    stage.settings.view = host::shared::kViewShaded;
+    while (!stage.needsValues())
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ASSERT_TRUE(stage.measureValues(false).ok());
+    EXPECT_FALSE(stage.needsValues());
+    stage.settings.view = host::shared::kViewDistance;
+    EXPECT_TRUE(stage.needsValues()) << "what was measured was not shown";
     waitIdle();
 }
 

@@ -60,7 +60,8 @@ Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_
         stage.measure(spreadTimes(stage.figure(), clip, kFramedPoses), options.draw.scheme == "cage");
     if (!extent)
         return extent.error();
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    const float aspect =
+        static_cast<float>(size.width) / static_cast<float>(size.height) * (options.draw.split ? 0.5f : 1.0f);
     host::Scene scene;
     scene.bounds = extent->bounds;
     if (options.draw.ground)
@@ -76,6 +77,8 @@ Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_
     scene.view = view;
     scene.cageFaces = options.draw.scheme == "cage";
     scene.cageEdges = scene.cageFaces || options.draw.cageOverlay;
+    if (options.draw.split)
+        scene.split = 0.0f;
     scene.pixelScale = pixelScale(size);
     return scene;
 }

@@ -1,24 +1,18 @@
 #include "tools/supple/compare.h"
 
 #include "tools/supple/limit_surface.h"
+#include "tools/supple/surface_batches.h"
 
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <thread>
 
 namespace supple::tools {
 namespace {
 
 /// Of so many samples one is asked how well it was measured.
 constexpr size_t kDoubted = 5;
-
-/// Patches of one draw range that a thread takes at a time.
-struct Batch {
-    const SuppleDrawRange* range = nullptr;
-    uint32_t first = 0, last = 0; ///< patches
-};
 
 /// Figures of some samples; distances and angles are sums until they are finished.
 struct Sums {
@@ -61,47 +55,26 @@ struct Sums {
     }
 };
 
-Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit, const Batch& batch) {
+Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit, const PatchBatch& batch) {
     Sums sums;
     LimitSurface::Probe probe(limit);
-    for (uint32_t patch = batch.first; patch < batch.last; ++patch) {
-        const size_t first =
-            batch.range->firstVertex + size_t{patch - batch.range->firstPatch} * batch.range->samplesPerPatch;
+    batch.forEachVertex([&](uint32_t patch, size_t i) {
         const uint32_t face = evaluation.patches[patch].face;
-        for (size_t i = first; i < first + batch.range->samplesPerPatch; ++i) {
-            const SuppleBufferRange& view = evaluation.output.streams.vertices;
-            const auto position = element<glm::vec3>(evaluation.vertices, view, i);
-            const auto normal = element<glm::vec3>(evaluation.vertices, view, i, sizeof(glm::vec3));
-            sums.add(probe.measure(face, position, normal, i % kDoubted == 0), face);
-        }
-    }
+        const SuppleBufferRange& view = evaluation.output.streams.vertices;
+        const auto position = element<glm::vec3>(evaluation.vertices, view, i);
+        const auto normal = element<glm::vec3>(evaluation.vertices, view, i, sizeof(glm::vec3));
+        sums.add(probe.measure(face, position, normal, i % kDoubted == 0), face);
+    });
     return sums;
 }
 
-/// In batches of a fixed size that are added up in order: the figures do not depend on the number of threads.
+/// Batches are added up in order: the figures do not depend on the number of threads.
 Sums measure(const EvaluatedSurface& evaluation, const LimitSurface& limit) {
-    constexpr uint32_t kBatch = 256;
-    std::vector<Batch> batches;
-    for (const SuppleDrawRange& range :
-         std::span(evaluation.output.grid.drawRanges, evaluation.output.grid.drawRangeCount)) {
-        const uint32_t end = range.firstPatch + range.patchCount;
-        for (uint32_t first = range.firstPatch; first < end; first += kBatch) {
-            batches.push_back({&range, first, std::min(first + kBatch, end)});
-        }
-    }
+    const std::vector<PatchBatch> batches =
+        patchBatches(std::span(evaluation.output.grid.drawRanges, evaluation.output.grid.drawRangeCount));
     std::vector<Sums> parts(batches.size());
-    const uint32_t threadCount = std::max(std::thread::hardware_concurrency(), 1u);
-    std::vector<std::thread> threads;
-    for (uint32_t t = 0; t < threadCount; ++t) {
-        threads.emplace_back([&, t] {
-            for (size_t i = t; i < batches.size(); i += threadCount) {
-                parts[i] = measure(evaluation, limit, batches[i]);
-            }
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
+    inThreads(batches,
+              [&](const PatchBatch& batch, size_t index) { parts[index] = measure(evaluation, limit, batch); });
     Sums all;
     for (const Sums& part : parts) {
         all.add(part);

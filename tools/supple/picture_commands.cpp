@@ -73,6 +73,16 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
     bindDevice(command, draw.device, draw.mapping, draw.validate);
 }
 
+/// What pictures have that stand alone.
+void bindLooks(CLI::App& command, DrawOptions& draw) {
+    command.add_flag("--split", draw.split, "The cage on the left half, the surface on the right one");
+    command.add_flag("--levels", draw.levels,
+                     "Levels of detail, as the camera needs them, instead of --rate; --view levels has them anyway");
+    command.add_option("--chord-error", draw.chordError, "With levels: pixels that edges may lie beside their curves")
+        ->check(CLI::Range(0.01f, 100.0f))
+        ->capture_default_str();
+}
+
 /// A camera that stands somewhere, instead of one that frames the figure. After the options that it excludes.
 void bindCamera(CLI::App& command, RenderOptions& options) {
     const CLI::Validator isPoint(point, "X,Y,Z");
@@ -123,6 +133,7 @@ void bindAnimate(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     bindAlpha(*command, options->draw);
     bindDraw(*command, options->draw);
+    bindLooks(*command, options->draw);
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
         exitCode = runAnimate(*options);
@@ -147,6 +158,7 @@ void bindRender(CLI::App& app, int& exitCode) {
     bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
+    bindLooks(*command, options->draw);
     bindCamera(*command, *options);
     command->callback([options, &exitCode] {
         glm::vec3 eye, lookAt, up;
@@ -198,6 +210,7 @@ void bindView(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"auto", "fast", "studio"}))
         ->capture_default_str();
     bindDraw(*command, options->draw);
+    bindLooks(*command, options->draw);
     std::string keys = "Keys:";
     for (const ViewKey& key : kViewKeys) {
         keys += std::string("\n  ") + key.keys + std::string(28 - std::string(key.keys).size(), ' ') + key.what;

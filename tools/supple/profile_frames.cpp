@@ -95,7 +95,7 @@ private:
 };
 
 Profiler::Profiler(Session& session, const ProfileOptions& options)
-    : session_(session), options_(options), timings_(kMaxTimings) {}
+    : session_(session), options_(options), timings_(kMaxTimings), timingSurfaces_(kMaxTimings) {}
 
 double Profiler::now() const {
     return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_).count();
@@ -239,14 +239,20 @@ Status Profiler::collect(const ProfileStage& stage, ProfileRun& run) {
         return success();
     }
     collected_ = timings_[0].frame;
-    for (const SuppleTiming& timing : std::span(timings_).first(count)) {
+    if (Status status = check(suppleGetTimingSurfaces(context(), timingSurfaces_.data(), &count), // as many
+                              "suppleGetTimingSurfaces");
+        !status) {
+        return status;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const SuppleTiming& timing = timings_[i];
         if (std::string_view(timing.pass) == "shortfall") { // is no pass; the view's statistics have it
             continue;
         }
         for (auto sample = run.frames.rbegin(); sample != run.frames.rend(); ++sample) {
             if (sample->frame == timing.frame) {
-                sample->passes.push_back(
-                    {timing.pass, timing.gpuBegin, timing.gpuEnd, timing.cpuRecord, timing.points, timing.bytes});
+                sample->passes.push_back({timing.pass, timing.gpuBegin, timing.gpuEnd, timing.cpuRecord, timing.points,
+                                          timing.bytes, stage.surfaceOf(timing.group, timingSurfaces_[i])});
                 break;
             }
         }

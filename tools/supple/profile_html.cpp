@@ -44,6 +44,7 @@ std::string styles() {
     return css;
 }
 
+/// None of the libraries that tools link with writes base64.
 std::string base64(const std::string& bytes) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -101,6 +102,25 @@ std::string passTable(const RunSummary& summary) {
     return text +
            "</table><p class=soft>Shares are of the frame, from the first begin to the last end. Spans of a pass "
            "that overlap count once; passes that overlap each other make more than 100 %.</p>";
+}
+
+/// What each surface of each group takes.
+std::string surfacesOf(const ProfileRun& run, const RunSummary& summary) {
+    if (!areSeveral(run.surfaces)) {
+        return "";
+    }
+    std::string text = "<h3>Groups and surfaces</h3><table><tr><th>what passes work on<th>median ms<th>5 to 95 %"
+                       "<th>share<th>parts</tr>";
+    for (size_t i = 0; i < run.surfaces.size(); ++i) {
+        const Summary& gpu = summary.surfaces[i];
+        text += "<tr><td>" + escaped(nameOf(run.surfaces[i])) +
+                formatted("<td>%.4f<td>%.4f to %.4f<td>%.1f %%<td>", gpu.median, gpu.p05, gpu.p95,
+                          summary.total.gpu.median > 0.0 ? 100.0 * gpu.median / summary.total.gpu.median : 0.0) +
+                escaped(partsText(run.surfaces[i])) + "</tr>";
+    }
+    return text +
+           "</table><p class=soft>Parts of one scheme are one surface and go through passes together. How many of "
+           "its patches a part has is a guess at its share of the time.</p>";
 }
 
 std::string memoryOf(const ProfileRun& run) {
@@ -168,7 +188,8 @@ std::string sectionOf(const ProfileRun& run, const HtmlReport& report) {
         }
     }
     text += "<div style=\"flex:1;min-width:300px\">" + tilesOf(run, summary) + "</div></div>";
-    text += framesOf(run, summary, report.budgetMs) + "<h3>Passes</h3>" + passTable(summary) + memoryOf(run);
+    text += framesOf(run, summary, report.budgetMs) + "<h3>Passes</h3>" + passTable(summary) +
+            surfacesOf(run, summary) + memoryOf(run);
     if (run.budget > 0) {
         text += "<p>Drawn: " + drawnText(run, summary) + ".</p>";
     }

@@ -23,6 +23,23 @@ std::string tableRow(const PassSummary& pass) {
                      static_cast<unsigned long long>(pass.bytes), rate > 0.0 ? formatted("%.1f", rate).c_str() : "-");
 }
 
+/// What each surface of each group takes.
+std::string surfaceTable(const ProfileRun& run, const RunSummary& summary) {
+    if (!areSeveral(run.surfaces)) {
+        return "";
+    }
+    std::string table = formatted("  %-34s %10s %10s %10s\n", "group and surface", "GPU ms", "p95", "share");
+    for (size_t i = 0; i < run.surfaces.size(); ++i) {
+        const Summary& gpu = summary.surfaces[i];
+        const double frame = summary.total.gpu.median;
+        table += formatted("  %-34s %10.4f %10.4f %8.1f %%", nameOf(run.surfaces[i]).c_str(), gpu.median, gpu.p95,
+                           frame > 0.0 ? 100.0 * gpu.median / frame : 0.0);
+        const std::string parts = partsText(run.surfaces[i]);
+        table += (parts.empty() ? "" : "   " + parts) + "\n";
+    }
+    return table;
+}
+
 Json toJson(const Summary& summary) {
     return {{"median", summary.median}, {"p95", summary.p95}, {"max", summary.max}, {"min", summary.min},
             {"p05", summary.p05},       {"p25", summary.p25}, {"p75", summary.p75}};
@@ -31,6 +48,23 @@ Json toJson(const Summary& summary) {
 Json toJson(const PassSummary& pass) {
     return {{"pass", pass.pass},     {"gpuMs", toJson(pass.gpu)}, {"cpuRecordMs", toJson(pass.cpuRecord)},
             {"points", pass.points}, {"bytes", pass.bytes},       {"megapointsPerSecond", pass.megapointsPerSecond()}};
+}
+
+Json surfacesJson(const ProfileRun& run, const RunSummary& summary) {
+    Json surfaces = Json::array();
+    for (size_t i = 0; i < run.surfaces.size(); ++i) {
+        const ProfiledSurface& surface = run.surfaces[i];
+        Json entry = {{"file", surface.file}, {"gpuMs", toJson(summary.surfaces[i])}};
+        if (!surface.scheme.empty()) { // else it is the group as a whole
+            entry["scheme"] = surface.scheme;
+            entry["parts"] = Json::array();
+        }
+        for (const ProfiledSurface::Part& part : surface.parts) {
+            entry["parts"].push_back({{"name", part.name}, {"patches", part.patches}});
+        }
+        surfaces.push_back(std::move(entry));
+    }
+    return surfaces;
 }
 
 Json toJson(const Machine& machine) {
@@ -151,6 +185,7 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
         table += tableRow(pass);
     }
     table += tableRow(summary.total);
+    table += surfaceTable(run, summary);
     table +=
         formatted("  passes cover %.0f %% of the frame; what of them overlaps counts once\n",
                   summary.total.gpu.median > 0.0 ? 100.0 * summary.covered.median / summary.total.gpu.median : 0.0);
@@ -186,6 +221,7 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
         }
         entry["frame"] = toJson(summary.total);
         entry["frame"].erase("pass");
+        entry["surfaces"] = surfacesJson(run, summary);
         entry["coveredMs"] = toJson(summary.covered);
         entry["samples"] = samplesOf(run);
         entry["cpuPoseMs"] = toJson(summary.pose);

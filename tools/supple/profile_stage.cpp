@@ -2,11 +2,13 @@
 
 #include "host/camera.h"
 #include "host/group_output.h"
+#include "host/patches.h"
 #include "tools/supple/command.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace supple::tools {
@@ -58,6 +60,7 @@ Status ProfileStage::destroy() {
         keepFirst(check(suppleDestroyView(handle(), view_), "suppleDestroyView"));
     }
     groups_.clear();
+    firstSurfaces_.clear();
     subjects_.clear();
     view_ = {};
     return status;
@@ -141,10 +144,35 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
         status = startPlayback(subject);
     }
     run.instances += instances;
-    return status ? report(group, run) : status;
+    return status ? report(group, file, run) : status;
 }
 
-Status ProfileStage::report(SuppleGroup group, ProfileRun& run) const {
+Result<ProfiledSurface> ProfileStage::reportSurface(SuppleGroup group, uint32_t index, const SuppleSurfaceInfo& info,
+                                                    const host::CharacterFile& file) const {
+    const cage::Character& character = file.character;
+    const Result<std::vector<uint32_t>> patches =
+        host::patchesByPart(context_, group, index, character.cage.faceParts, character.parts.size());
+    if (!patches) {
+        return patches.error();
+    }
+    ProfiledSurface surface{std::filesystem::path(file.path).filename().string(), schemeName(info.scheme), {}};
+    for (const uint32_t part : std::span(info.parts, info.partCount)) {
+        const std::string name = part < character.parts.size() ? character.parts[part].name : "";
+        surface.parts.push_back({name.empty() ? "part " + std::to_string(part) : printable(name), (*patches)[part]});
+    }
+    return surface;
+}
+
+size_t ProfileStage::surfaceOf(SuppleGroup group, uint32_t surface) const {
+    const auto own =
+        std::find_if(groups_.begin(), groups_.end(), [&](const SuppleGroup& other) { return other.id == group.id; });
+    const size_t first = firstSurfaces_[static_cast<size_t>(own - groups_.begin())];
+    return surface == SUPPLE_NO_SURFACE ? first : first + 1 + surface;
+}
+
+Status ProfileStage::report(SuppleGroup group, const host::CharacterFile& file, ProfileRun& run) {
+    firstSurfaces_.push_back(run.surfaces.size());
+    run.surfaces.push_back({std::filesystem::path(file.path).filename().string(), "", {}});
     uint32_t patches = 0, count = 1;
     for (uint32_t surface = 0; surface < count; ++surface) {
         host::GroupOutput output{};
@@ -154,6 +182,11 @@ Status ProfileStage::report(SuppleGroup group, ProfileRun& run) const {
         }
         count = output.info.surfaceCount;
         patches += output.surface.patchCount;
+        Result<ProfiledSurface> reported = reportSurface(group, surface, output.surface, file);
+        if (!reported) {
+            return reported.error();
+        }
+        run.surfaces.push_back(std::move(*reported));
         const bool none = output.surface.tessellation == SUPPLE_TESSELLATION_NONE;
         run.patchRate = std::max(run.patchRate, none ? run.rate : output.grid.rate);
         const std::string scheme = schemeName(output.surface.scheme);

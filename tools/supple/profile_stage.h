@@ -52,6 +52,8 @@ public:
     /// Of a frame a sixtieth of a second after the one before: all instances play their file's clip in a loop, spread
     /// evenly over its length.
     [[nodiscard]] Status setPoses(uint32_t frame);
+    /// Index of ProfileRun::surfaces.
+    [[nodiscard]] size_t surfaceOf(SuppleGroup group, uint32_t surface) const;
     /// Of the newest completed frame, if there is one and a view.
     [[nodiscard]] std::optional<SuppleViewStatistics> statistics() const;
 
@@ -64,7 +66,10 @@ private:
     };
     [[nodiscard]] Status createView(std::span<const host::CharacterFile> files);
     /// What the group is, for the run's report.
-    [[nodiscard]] Status report(SuppleGroup group, ProfileRun& run) const;
+    [[nodiscard]] Status report(SuppleGroup group, const host::CharacterFile& file, ProfileRun& run);
+    [[nodiscard]] Result<ProfiledSurface> reportSurface(SuppleGroup group, uint32_t index,
+                                                        const SuppleSurfaceInfo& info,
+                                                        const host::CharacterFile& file) const;
     [[nodiscard]] Status createGroup(const host::CharacterFile& file, const std::string& scheme, uint32_t instances,
                                      ProfileRun& run);
     [[nodiscard]] Status setMorphs(const host::CharacterFile& file, const Subject& subject);
@@ -79,7 +84,8 @@ private:
     SuppleView view_{};
     float spacing_ = 1.0f; ///< of the crowd
     std::vector<Subject> subjects_;
-    std::vector<SuppleGroup> groups_; ///< in their order
+    std::vector<SuppleGroup> groups_;   ///< in their order
+    std::vector<size_t> firstSurfaces_; ///< of each in ProfileRun::surfaces: the group as a whole, then its surfaces
 };
 
 } // namespace supple::tools

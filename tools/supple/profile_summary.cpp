@@ -1,5 +1,7 @@
 #include "tools/supple/profile_summary.h"
 
+#include "tools/common/formatted.h"
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -120,7 +122,42 @@ PassSummary summarizePass(const std::string& name, const std::vector<std::map<st
     return summary;
 }
 
+Summary summarizeSurface(const ProfileRun& run, size_t surface) {
+    return summarizeFrames(run, [&](const FrameSample& frame) {
+        std::vector<Span> spans;
+        for (const PassSample& pass : frame.passes) {
+            if (pass.surface == surface) {
+                spans.push_back({pass.gpuBegin, pass.gpuEnd});
+            }
+        }
+        return lengthOf(std::move(spans));
+    });
+}
+
 } // namespace
+
+bool areSeveral(const std::vector<ProfiledSurface>& surfaces) {
+    constexpr size_t kOneGroup = 2; // as a whole, and its surface
+    return surfaces.size() > kOneGroup ||
+           std::any_of(surfaces.begin(), surfaces.end(), [](const auto& surface) { return surface.parts.size() > 1; });
+}
+
+std::string nameOf(const ProfiledSurface& surface) {
+    return surface.file + ", " + (surface.scheme.empty() ? "as a whole" : surface.scheme);
+}
+
+std::string partsText(const ProfiledSurface& surface) {
+    uint32_t all = 0;
+    for (const ProfiledSurface::Part& part : surface.parts) {
+        all += part.patches;
+    }
+    std::string text;
+    for (const ProfiledSurface::Part& part : surface.parts) {
+        text +=
+            (text.empty() ? "" : ", ") + part.name + formatted(" %.0f %%", 100.0 * part.patches / std::max(all, 1u));
+    }
+    return surface.parts.size() < 2 ? "" : text + " of the patches";
+}
 
 double PassSummary::megapointsPerSecond() const {
     return gpu.median > 0.0 ? static_cast<double>(points) / (gpu.median * 1e3) : 0.0;
@@ -151,6 +188,9 @@ RunSummary summarizeRun(const ProfileRun& run) {
         if (name == "evaluate") { // what comes out of a frame is surface vertices
             summary.total.points = pass.points;
         }
+    }
+    for (size_t surface = 0; surface < run.surfaces.size(); ++surface) {
+        summary.surfaces.push_back(summarizeSurface(run, surface));
     }
     if (run.budget > 0) {
         summary.drawn = summarizeDrawn(run);

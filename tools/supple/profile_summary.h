@@ -20,7 +20,25 @@ struct PassSample {
     double cpuRecord = 0.0; ///< nanoseconds
     uint64_t points = 0;
     uint64_t bytes = 0;
+    size_t surface = 0; ///< of ProfileRun::surfaces
 };
+
+/// What a pass works on: a surface of a group, or the group as a whole.
+struct ProfiledSurface {
+    std::string file;   ///< its name alone
+    std::string scheme; ///< empty: the group as a whole, which is posed, deformed and culled
+    struct Part {
+        std::string name;
+        uint32_t patches = 0;
+    };
+    std::vector<Part> parts; ///< of the surface; they go through passes together
+};
+/// Whether they tell more than the passes do: there are several surfaces, or several parts.
+[[nodiscard]] bool areSeveral(const std::vector<ProfiledSurface>& surfaces);
+/// "pip.glb, catmull-clark".
+[[nodiscard]] std::string nameOf(const ProfiledSurface& surface);
+/// "Body 62 %, Hat 38 % of the patches"; empty if there is one.
+[[nodiscard]] std::string partsText(const ProfiledSurface& surface);
 
 /// What a view drew of a frame.
 struct DrawnSample {
@@ -52,6 +70,7 @@ struct ProfileRun {
     uint32_t budget = 0;      ///< of the view, surface vertices; 0: no view
     uint32_t patches = 0;     ///< an instance; of several kinds the most
     SuppleMemoryUse memory{}; ///< of the context, after the last frame
+    std::vector<ProfiledSurface> surfaces;
     std::vector<FrameSample> frames;
     /// The device's clock and the run's, in nanoseconds, before the first frame and after the last. Empty: the device
     /// cannot tell, and the first frame's work is taken to begin when it was submitted.
@@ -84,6 +103,7 @@ struct DrawnSummary {
 
 struct RunSummary {
     std::vector<PassSummary> passes; ///< in the order of the frame
+    std::vector<Summary> surfaces;   ///< GPU: as ProfileRun::surfaces, all passes of each together
     PassSummary total;               ///< GPU: first begin to last end of a frame; CPU, points, bytes: the sums
     Summary covered;                 ///< GPU: of that, what lies within some pass
     Summary pose;                    ///< CPU: setting the poses

@@ -88,6 +88,7 @@ host::Camera placedCamera(const RenderOptions& options, const host::Bounds& boun
 /// What all of them are drawn with: one camera, one floor, one light, so that only the surfaces differ.
 host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options, VkExtent2D size, uint32_t view) {
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    const float framed = options.draw.split ? 0.5f * aspect : aspect;
     host::Scene scene;
     std::vector<glm::vec3> points;
     for (const Shown& shown : all) {
@@ -97,7 +98,7 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     }
     scene.bounds = host::boundsOf(points);
     scene.camera = options.eye.empty() ? host::frameCamera(points, radians(options.draw.yaw),
-                                                           radians(options.draw.pitch), aspect, kMargin)
+                                                           radians(options.draw.pitch), framed, kMargin)
                                        : placedCamera(options, scene.bounds);
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)
@@ -106,6 +107,8 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     const bool cage = all.size() == 1 && all.front().name == "cage";
     scene.cageFaces = cage;
     scene.cageEdges = cage || options.draw.cageOverlay;
+    if (options.draw.split)
+        scene.split = 0.0f;
     scene.pixelScale = pixelScale(size);
     return scene;
 }

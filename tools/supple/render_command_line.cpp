@@ -90,6 +90,9 @@ void addDraw(Words& words, const DrawOptions& draw) {
     words.option("--view", draw.view, usual.view);
     words.option("--joint", draw.joint, usual.joint);
     words.flag("--cage", draw.cageOverlay);
+    words.flag("--split", draw.split);
+    words.flag("--levels", draw.levels);
+    words.option("--chord-error", double{draw.chordError}, double{usual.chordError});
     words.flag("--no-ground", !draw.ground);
     words.flag("--alpha", draw.alpha);
     words.option("--yaw", draw.yaw, usual.yaw);

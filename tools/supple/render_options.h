@@ -12,6 +12,9 @@
 
 namespace supple::tools {
 
+/// Pixels between an edge's curve and its segments, as SuppleCameraDesc has it.
+inline constexpr float kChordError = 0.25f;
+
 struct DrawOptions {
     std::string scheme = "auto"; ///< auto, a scheme's, or cage (the deformed cage itself)
     std::vector<host::PartScheme> partSchemes;
@@ -24,7 +27,10 @@ struct DrawOptions {
     bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
     std::string view = "shaded";     ///< of kViews (views.h)
     std::string joint = "0";         ///< whose weights the view "weights" shows: name or index
+    bool levels = false;             ///< of detail, as the camera needs them, instead of `rate`
+    float chordError = kChordError;  ///< with `levels`: pixels
     bool cageOverlay = false;        ///< the cage's edges drawn over the surface
+    bool split = false;              ///< the cage beside the surface
     bool ground = true;              ///< a floor that takes shadows
     bool alpha = false;              ///< nothing behind the figure: render, animate
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side

@@ -1,6 +1,8 @@
 #include "tools/supple/render_stage.h"
 
 #include "tools/common/figure_file.h"
+#include "tools/supple/legend.h"
+#include "tools/supple/limit_distance.h"
 #include "tools/supple/views.h"
 
 #include <algorithm>
@@ -67,51 +69,63 @@ Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> 
     return extent;
 }
 
-Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
-                                           const DrawOptions& options) {
-    std::unique_ptr<Stage> stage(new Stage(session));
-    host::Device& device = *session.device;
-    Result<std::unique_ptr<host::Figure>> figure = host::openFigure(*session.context, file, options.reading);
-    if (!figure)
-        return figure.error();
-    stage->figure_ = std::move(*figure);
-    Result<std::vector<SuppleScheme>> partSchemes =
-        host::partSchemes(file, stage->figure_->partNames(), options.partSchemes);
-    if (!partSchemes)
-        return partSchemes.error();
+Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const {
+    const std::string& file = figure_->path();
+    Result<std::vector<SuppleScheme>> partSchemes = host::partSchemes(file, figure_->partNames(), options_.partSchemes);
+    const Result<std::vector<float>> weights = host::morphWeights(*figure_, options_.morphs);
+    const Result<std::vector<bool>> shown = host::findParts(file, figure_->partNames(), options_.parts);
+    if (!partSchemes || !weights || !shown)
+        return !partSchemes ? partSchemes.error() : !weights ? weights.error() : shown.error();
     Result<std::unique_ptr<host::FigureGroup>> group =
-        host::FigureGroup::create(*stage->figure_, {.scheme = schemeOf(options.scheme),
-                                                    .rate = options.rate,
-                                                    .skinning = skinningOf(options.skinning),
-                                                    .creaseMode = creaseModeOf(options.creases),
-                                                    .sharpThreshold = options.sharpThreshold,
-                                                    .uvInterpolation = uvInterpolationOf(options.uvMode),
-                                                    .sharedSamples = options.sharedSamples,
-                                                    .partSchemes = std::move(*partSchemes)});
+        host::FigureGroup::create(*figure_, {.scheme = schemeOf(options_.scheme),
+                                             .rate = options_.rate,
+                                             .skinning = skinningOf(options_.skinning),
+                                             .creaseMode = creaseModeOf(options_.creases),
+                                             .sharpThreshold = options_.sharpThreshold,
+                                             .uvInterpolation = uvInterpolationOf(options_.uvMode),
+                                             .sharedSamples = options_.sharedSamples,
+                                             .partSchemes = std::move(*partSchemes),
+                                             .levels = levels});
     if (!group)
         return group.error();
-    stage->group_ = std::move(*group);
-    const Result<std::vector<float>> weights = host::morphWeights(*stage->figure_, options.morphs);
-    if (!weights)
-        return weights.error();
-    if (const Status status = stage->group_->setMorphWeights(0, *weights); !status)
-        return status.error();
-    const Result<std::vector<bool>> shown = host::findParts(file, stage->figure_->partNames(), options.parts);
-    if (!shown)
-        return shown.error();
-    for (uint32_t p = 0; p < shown->size(); ++p) {
-        if (const Status status = stage->group_->setPartVisible(p, (*shown)[p]); !status)
-            return status.error();
-    }
+    Status status = (*group)->setMorphWeights(0, *weights);
+    for (uint32_t p = 0; p < shown->size() && status; ++p)
+        status = (*group)->setPartVisible(p, (*shown)[p]);
+    return status ? std::move(group) : status.error();
+}
+
+Status Stage::openRenderer(VkExtent2D size) {
+    host::Device& device = *session_.device;
     Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
         host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
     if (!renderer)
         return renderer.error();
-    stage->renderer_ = std::move(*renderer);
-    Result<host::DrawTarget> target = host::DrawTarget::create(device, size, stage->renderer_->samples());
+    renderer_ = std::move(*renderer);
+    Result<host::DrawTarget> target = host::DrawTarget::create(device, size, renderer_->samples());
     if (!target)
         return target.error();
-    stage->target_ = std::move(*target);
+    target_ = std::move(*target);
+    return success();
+}
+
+Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
+                                           const DrawOptions& options) {
+    std::unique_ptr<Stage> stage(new Stage(session, options));
+    Result<host::CharacterFile> character = host::readCharacterFile(file, options.reading);
+    if (!character)
+        return character.error();
+    if (options.view == "distance")
+        stage->cage_ = character->character.cage;
+    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(*session.context, std::move(*character));
+    if (!figure)
+        return figure.error();
+    stage->figure_ = std::move(*figure);
+    Result<std::unique_ptr<host::FigureGroup>> group = stage->createGroup(false);
+    if (!group)
+        return group.error();
+    stage->group_ = std::move(*group);
+    if (const Status status = stage->openRenderer(size); !status)
+        return status.error();
     if (options.view == "weights") {
         const Result<uint32_t> joint = host::findNamed(file, "joint", stage->figure_->jointNames(), options.joint);
         if (!joint)
@@ -119,23 +133,65 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& 
         if (const Status status = stage->group_->showWeights(*joint); !status)
             return status.error();
     }
-    Result<host::FigureBinding> binding = stage->renderer_->bind(*stage->group_);
-    if (!binding)
-        return binding.error();
-    stage->binding_ = std::move(*binding);
-    return stage;
+    const Status bound = stage->bind();
+    return bound ? std::move(stage) : Result<std::unique_ptr<Stage>>(bound.error());
 }
 
 Status Stage::pose(const ClipTime& pose) {
+    pose_ = pose;
     if (const Status status = group_->pose(0, pose.clip, pose.time); !status)
         return status.error();
     const SuppleGroup groups[] = {group_->handle()};
     return session_.context->evaluate(groups);
 }
 
+Status Stage::bind() {
+    Result<host::FigureBinding> binding = renderer_->bind(levels_ ? *levels_ : *group_);
+    if (!binding)
+        return binding.error();
+    binding_ = std::move(*binding);
+    return success();
+}
+
+Status Stage::prepare(const host::Scene& scene) {
+    if (options_.levels || options_.view == "levels")
+        return chooseLevels(scene);
+    if (!cage_)
+        return success();
+    const Result<PosedSurfaces> posed = readPosed(*group_);
+    if (!posed)
+        return posed.error();
+    const Result<std::vector<float>> distances = distancesToLimit(*posed, *cage_);
+    const Status status = distances ? group_->setValues(*distances) : distances.error();
+    return status ? bind() : status;
+}
+
+Status Stage::chooseLevels(const host::Scene& scene) {
+    if (!levels_) {
+        Result<std::unique_ptr<host::FigureGroup>> levels = createGroup(true);
+        if (!levels)
+            return levels.error();
+        levels_ = std::move(*levels);
+        if (const Status status = bind(); !status)
+            return status.error();
+    }
+    Status status = levels_->setLevelCamera(scene.camera, target_.extent().height, options_.chordError);
+    if (status)
+        status = levels_->pose(0, pose_.clip, pose_.time);
+    const SuppleGroup groups[] = {levels_->handle()};
+    return status ? session_.context->evaluate(groups) : status;
+}
+
 Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
-    if (!alpha)
-        return drawPasses(scene);
+    if (const Status status = prepare(scene); !status)
+        return status.error();
+    if (!alpha) {
+        Result<host::Picture> picture = drawPasses(scene);
+        const std::optional<Legend> legend = legendOf(scene.view);
+        if (picture && legend)
+            drawLegend(*picture, *legend);
+        return picture;
+    }
     scene.backdrop = glm::vec3(0.0f);
     const Result<host::Picture> overBlack = drawPasses(scene);
     if (!overBlack)
@@ -148,7 +204,7 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
 }
 
 Result<host::Picture> Stage::drawPasses(host::Scene scene) {
-    scene.group = group_.get();
+    scene.group = levels_ ? levels_.get() : group_.get();
     scene.binding = &binding_;
     if (const Status status = renderer_->prepare(scene); !status)
         return status.error();

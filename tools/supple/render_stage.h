@@ -1,12 +1,14 @@
 // One character on the studio's floor, ready to be drawn at any clip and time: what render and the contact sheet share.
 #pragma once
 
+#include "cage/character.h"
 #include "host/surface_renderer.h"
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,23 +47,35 @@ public:
 
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
 
+    /// Poses the figure in every pose in turn.
     [[nodiscard]] Result<Extent> measure(std::span<const ClipTime> poses, bool cage) {
+        pose_ = poses.back();
         return measureGroup(*group_, poses, cage);
     }
     [[nodiscard]] Status pose(const ClipTime& pose);
-    /// Draws the figure as it is posed; group and binding of the scene are filled in here.
+    /// Draws the figure as it was posed last; group and binding of the scene are filled in here.
     /// alpha: nothing stands behind it; shadows on the floor are there.
     [[nodiscard]] Result<host::Picture> draw(host::Scene scene, bool alpha = false);
 
 private:
     [[nodiscard]] Result<host::Picture> drawPasses(host::Scene scene);
-    explicit Stage(Session& session) : session_(session) {}
+    Stage(Session& session, const DrawOptions& options) : session_(session), options_(options) {}
+    [[nodiscard]] Status openRenderer(VkExtent2D size);
+    [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(bool levels) const;
+    [[nodiscard]] Status bind();
+    /// What the view shows of the figure as it is posed: levels for this camera, or distances.
+    [[nodiscard]] Status prepare(const host::Scene& scene);
+    [[nodiscard]] Status chooseLevels(const host::Scene& scene);
 
     Session& session_;
+    const DrawOptions options_;
     std::unique_ptr<host::Figure> figure_;
     std::unique_ptr<host::FigureGroup> group_;
+    std::unique_ptr<host::FigureGroup> levels_; ///< is drawn instead of group_, if levels are wanted
+    std::optional<cage::Cage> cage_;            ///< if distances from its limit are shown
+    ClipTime pose_;
     std::unique_ptr<host::SurfaceRenderer> renderer_;
-    host::FigureBinding binding_;
+    host::FigureBinding binding_; ///< of the group that is drawn
     host::DrawTarget target_;
 };
 

@@ -329,13 +329,6 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         if (wishes.save->kind == ExportKind::commandLine)
             window_->copyText(export_.report());
     }
-    if (stage_->needsWeights()) {
-        window_->waitIdle(context_->lastFrame());
-        const Status measured = stage_->measureWeights();
-        window_->waitIdle(context_->lastFrame()); // it evaluates frames of its own
-        if (!measured)
-            return measured.error();
-    }
     Status remade = success();
     if (wishes.scheme && *wishes.scheme != stage_->scheme())
         remade = stage_->setScheme(*wishes.scheme, context_->lastFrame());
@@ -345,6 +338,20 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         return remade.error();
     if (wishes.scheme || wishes.skinning)
         panel_->message.clear();
+    if (stage_->needsOtherLevels()) {
+        if (const Status status = stage_->changeLevels(context_->lastFrame()); !status) {
+            stage_->settings.levels = false;
+            stage_->settings.view = host::shared::kViewShaded;
+            return status.error();
+        }
+    }
+    if (stage_->needsValues()) {
+        window_->waitIdle(context_->lastFrame());
+        const Status measured = stage_->measureValues(options_.frames > 0);
+        window_->waitIdle(context_->lastFrame()); // it evaluates frames of its own
+        if (!measured)
+            return measured.error();
+    }
     const uint32_t before = stage_->group().edgeRate();
     if (wishes.rate && *wishes.rate == before)
         stage_->settings.rate = static_cast<int>(before); // the slider may have been let go between two rates
@@ -360,7 +367,9 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
 
 Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
     const uint64_t number = context_->nextFrame();
-    if (const Status status = stage_->evaluate(frame.commands, number, window_->completedFrame()); !status)
+    if (const Status status =
+            stage_->evaluate(frame.commands, number, window_->completedFrame(), window_->swapchain().extent().height);
+        !status)
         return status.error();
     ViewStage::Shown shown = stage_->shown();
     panel_->step = pace_->next(shown.settings.look, lastShown_ == shown, seconds_);

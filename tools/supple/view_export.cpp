@@ -50,9 +50,12 @@ DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const Ex
     draw.rate = static_cast<uint32_t>(settings.rate);
     draw.skinning = stage.skinning() == SUPPLE_SKINNING_DUAL_QUATERNION ? "dual-quaternion" : "linear";
     draw.view = kViews[settings.view].name;
-    if (settings.view == host::shared::kViewHeat)
+    if (settings.view == host::shared::kViewWeights)
         draw.joint = std::to_string(settings.joint);
     draw.cageOverlay = settings.cageOverlay;
+    draw.split = settings.split;
+    draw.levels = settings.levels;
+    draw.chordError = settings.chordError;
     draw.ground = settings.ground;
     draw.alpha = wish.alpha;
     draw.parts.clear();

@@ -4,6 +4,7 @@
 
 #include "tools/supple/command.h"
 #include "tools/supple/view_keys.h"
+#include "tools/supple/view_overlay.h"
 #include "tools/supple/views.h"
 
 #include <GLFW/glfw3.h>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kViewKeysCount = 5; ///< views that have a key
 constexpr float kRadiansPerPixel = 0.0085f;
+constexpr float kLabelWidth = 72.0f;  ///< behind sliders and lists
 constexpr float kListHeight = 150.0f; ///< of a list that may be long; longer ones scroll
 const ImVec4 kFailureColor(1.0f, 0.5f, 0.4f, 1.0f);
 
@@ -78,6 +80,15 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
         stage.settings.panel = !stage.settings.panel;
     if (pressed(GLFW_KEY_C))
         stage.settings.cageOverlay = !stage.settings.cageOverlay;
+    if (pressed(GLFW_KEY_S)) {
+        stage.settings.split = !stage.settings.split;
+        if (stage.hasFigure())
+            stage.fitFigure(aspect);
+    }
+    if (pressed(GLFW_KEY_D))
+        stage.settings.levels = !stage.settings.levels;
+    if (pressed(GLFW_KEY_Z))
+        stage.settings.levelsFrozen = !stage.settings.levelsFrozen;
     if (pressed(GLFW_KEY_O))
         state.browser.open = !state.browser.open;
     if (pressed(GLFW_KEY_L))
@@ -143,29 +154,6 @@ void buildCrossfade(ViewStage& stage) {
         ImGui::SliderFloat("weight", &settings.fade, 0.0f, 1.0f, "%.2f");
 }
 
-/// Bones from joint to joint, over the picture.
-void drawJoints(const ViewStage& stage, float aspect) {
-    const std::vector<ViewStage::ShownJoint> joints = stage.shownJoints(aspect);
-    const std::vector<uint32_t>& parents = stage.figure().jointParents();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto place = [&](const ViewStage::ShownJoint& joint) {
-        return ImVec2(joint.at.x * size.x, joint.at.y * size.y);
-    };
-    const ImU32 ink = IM_COL32(255, 255, 255, 220), rim = IM_COL32(0, 0, 0, 160);
-    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    for (size_t i = 0; i < joints.size(); ++i) {
-        if (!joints[i].seen)
-            continue;
-        if (parents[i] != SUPPLE_NO_JOINT && joints[parents[i]].seen) {
-            draw.AddLine(place(joints[parents[i]]), place(joints[i]), rim, 3.0f);
-            draw.AddLine(place(joints[parents[i]]), place(joints[i]), ink, 1.5f);
-        }
-        draw.AddCircleFilled(place(joints[i]), 4.0f, rim);
-        draw.AddCircleFilled(place(joints[i]), 3.0f,
-                             i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
-    }
-}
-
 void buildPlayback(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
     const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
@@ -229,7 +217,7 @@ void buildView(ViewStage& stage) {
     const std::vector<std::string>& joints = stage.figure().jointNames();
     if (joints.empty())
         return;
-    if (settings.view == host::shared::kViewHeat &&
+    if (settings.view == host::shared::kViewWeights &&
         ImGui::BeginCombo("joint", printable(joints[settings.joint]).c_str())) {
         for (uint32_t i = 0; i < joints.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
@@ -241,9 +229,22 @@ void buildView(ViewStage& stage) {
     }
 }
 
-void buildSurface(ViewStage& stage, PanelWishes& wishes) {
+/// What levels of detail are chosen by, and how much that is.
+void buildLevels(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
-    buildScheme(stage, wishes);
+    ImGui::SliderFloat("error", &settings.chordError, 0.05f, 20.0f, "%.2f pixels", ImGuiSliderFlags_Logarithmic);
+    ImGui::Checkbox("freeze", &settings.levelsFrozen);
+    const std::optional<SuppleViewStatistics> drawn = stage.group().levelStatistics();
+    if (!drawn)
+        return;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%u vertices", drawn->vertexCount);
+    if (drawn->levelScales[0] < 1.0f)
+        ImGui::TextDisabled("too many: levels are scaled by %.2f", static_cast<double>(drawn->levelScales[0]));
+}
+
+void buildRate(ViewStage& stage, PanelWishes& wishes) {
+    ViewSettings& settings = stage.settings;
     if (stage.ratesArePowersOfTwo()) {
         // The slider moves the exponent, so that it stops at the rates there are and nowhere else.
         constexpr int kMaxExponent = static_cast<int>(std::bit_width(SUPPLE_MAX_RATE)) - 1;
@@ -258,21 +259,43 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes) {
     // A rate is a new group: made when the slider is let go, not at every step of it.
     if (ImGui::IsItemDeactivatedAfterEdit())
         wishes.rate = stage.offeredRate(static_cast<uint32_t>(settings.rate));
-    buildView(stage);
-    ImGui::Checkbox("cage lines", &settings.cageOverlay);
-    ImGui::SameLine();
-    ImGui::Checkbox("cage only", &settings.cageFaces);
-    ImGui::Checkbox("ground", &settings.ground);
-    if (!stage.figure().jointNames().empty()) {
-        ImGui::SameLine();
-        ImGui::Checkbox("joints", &settings.joints);
-    }
     uint32_t patches = 0, vertices = 0;
     for (const host::FigureSurface& surface : stage.group().surfaces()) {
         patches += surface.output.surface.patchCount;
         vertices += surface.output.grid.vertexCount;
     }
     ImGui::TextDisabled("%u patches, %u vertices", patches, vertices);
+}
+
+void buildSurface(ViewStage& stage, PanelWishes& wishes, float aspect) {
+    ViewSettings& settings = stage.settings;
+    buildScheme(stage, wishes);
+    if (stage.group().hasLevels())
+        buildLevels(stage);
+    else
+        buildRate(stage, wishes);
+    buildView(stage);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("cage");
+    ImGui::SameLine();
+    ImGui::Checkbox("lines", &settings.cageOverlay);
+    ImGui::SameLine();
+    ImGui::Checkbox("alone", &settings.cageFaces);
+    ImGui::SameLine();
+    if (ImGui::Checkbox("beside", &settings.split))
+        stage.fitFigure(aspect);
+    ImGui::Checkbox("ground", &settings.ground);
+    if (!stage.figure().jointNames().empty()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("joints", &settings.joints);
+    }
+    ImGui::SameLine();
+    // The view of levels has them anyway.
+    bool levels = settings.levels || settings.view == host::shared::kViewLevels;
+    ImGui::BeginDisabled(settings.view == host::shared::kViewLevels);
+    if (ImGui::Checkbox("levels", &levels))
+        settings.levels = levels;
+    ImGui::EndDisabled();
 }
 
 /// The height that a list takes, of which more scrolls.
@@ -384,16 +407,16 @@ void buildParts(ViewStage& stage) {
     ImGui::TreePop();
 }
 
-constexpr ImU32 kPassColors[] = {IM_COL32(74, 168, 224, 255),  IM_COL32(240, 183, 63, 255),
+constexpr ImU32 kTimeColors[] = {IM_COL32(74, 168, 224, 255),  IM_COL32(240, 183, 63, 255),
                                  IM_COL32(51, 196, 154, 255),  IM_COL32(224, 160, 196, 255),
                                  IM_COL32(143, 208, 247, 255), IM_COL32(245, 139, 76, 255),
                                  IM_COL32(167, 157, 240, 255), IM_COL32(201, 199, 95, 255)};
 constexpr float kGraphHeight = 84.0f;
 
-/// The last frames, the newest on the right: passes one above the other, and the budget.
-void buildGraph(const PassHistory& history, float budgetMs) {
+/// The last frames, the newest on the right: passes or parts one above the other, and the budget.
+void buildGraph(const TimeHistory& history, float budgetMs) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, step = width / static_cast<float>(PassHistory::kFrames);
+    const float width = ImGui::GetContentRegionAvail().x, step = width / static_cast<float>(TimeHistory::kFrames);
     const float most = std::max({history.most(), 1.15f * budgetMs, 1e-3f});
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + kGraphHeight), ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -402,7 +425,7 @@ void buildGraph(const PassHistory& history, float budgetMs) {
         float bottom = corner.y + kGraphHeight;
         for (size_t pass = 0; pass < history.row(i).size(); ++pass) {
             const float top = bottom - kGraphHeight * history.row(i)[pass] / most;
-            draw.AddRectFilled(ImVec2(x, top), ImVec2(x + step, bottom), kPassColors[pass % std::size(kPassColors)]);
+            draw.AddRectFilled(ImVec2(x, top), ImVec2(x + step, bottom), kTimeColors[pass % std::size(kTimeColors)]);
             bottom = top;
         }
     }
@@ -417,26 +440,32 @@ void buildGraph(const PassHistory& history, float budgetMs) {
 }
 
 void buildTimings(const PanelState& state, ViewStage& stage) {
-    const PassHistory& history = stage.passHistory();
+    ViewSettings& settings = stage.settings;
+    const TimeHistory& history = settings.timingsByPart ? stage.partTimes() : stage.passTimes();
     ImGui::TextDisabled("%s", state.device.c_str());
-    buildGraph(history, stage.settings.budgetMs);
-    double sum = 0.0;
-    for (size_t i = 0; i < history.passes().size(); ++i) {
-        const auto found = stage.passTimes().find(history.passes()[i]);
-        if (found == stage.passTimes().end())
-            continue;
-        sum += found->second.gpuMilliseconds;
+    buildGraph(history, settings.budgetMs);
+    int by = settings.timingsByPart ? 1 : 0;
+    ImGui::RadioButton("by pass", &by, 0);
+    ImGui::SameLine();
+    ImGui::RadioButton("by part", &by, 1);
+    settings.timingsByPart = by == 1;
+    ImGui::SameLine();
+    ImGui::Checkbox("pause", &settings.timingsPaused);
+    float sum = 0.0f;
+    for (size_t i = 0; i < history.names().size(); ++i) {
+        sum += history.means()[i];
         const ImVec2 at = ImGui::GetCursorScreenPos();
         ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 3.0f), ImVec2(at.x + 10.0f, at.y + 13.0f),
-                                                  kPassColors[i % std::size(kPassColors)]);
-        ImGui::Text("   %-12s %8.3f ms", history.passes()[i].c_str(), found->second.gpuMilliseconds);
+                                                  kTimeColors[i % std::size(kTimeColors)]);
+        ImGui::Text("   %-14.14s %8.3f ms", printable(history.names()[i]).c_str(),
+                    static_cast<double>(history.means()[i]));
     }
-    ImGui::Text("surface %.2f ms   frame %.1f ms", sum, state.frameMilliseconds);
-    ImGui::Checkbox("pause", &stage.settings.timingsPaused);
-    ImGui::SameLine();
+    if (settings.timingsByPart)
+        ImGui::TextWrapped("A scheme's parts share its time by their patches.");
+    ImGui::Text("surface %.2f ms   frame %.1f ms", static_cast<double>(sum), state.frameMilliseconds);
     ImGui::SetNextItemWidth(90.0f);
-    if (ImGui::InputFloat("budget ms", &stage.settings.budgetMs, 0.0f, 0.0f, "%.2f"))
-        stage.settings.budgetMs = std::max(stage.settings.budgetMs, 0.0f);
+    if (ImGui::InputFloat("budget ms", &settings.budgetMs, 0.0f, 0.0f, "%.2f"))
+        settings.budgetMs = std::max(settings.budgetMs, 0.0f);
 }
 
 void buildKeys(ViewStage& stage) {
@@ -504,12 +533,12 @@ void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& w
 }
 
 /// What the panel has, from above.
-void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes) {
+void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes, float aspect) {
     buildFiles(state, stage, wishes);
     if (stage.hasFigure()) {
         buildPlayback(stage);
         ImGui::Separator();
-        buildSurface(stage, wishes);
+        buildSurface(stage, wishes, aspect);
         buildLook(state, stage.settings);
         buildMorphs(stage);
         buildWarnings(stage);
@@ -549,16 +578,19 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     if (stage.settings.panel) {
         ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kPanelRight - 32.0f, 0.0f), ImGuiCond_Always);
-        if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
-            buildSections(state, stage, wishes);
+        if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+            ImGui::PushItemWidth(-kLabelWidth);
+            buildSections(state, stage, wishes, aspect);
+            ImGui::PopItemWidth();
+        }
         ImGui::End();
     }
     if (state.browser.open) {
         if (std::optional<std::string> chosen = state.browser.build(state.recent))
             wishes.file = std::move(chosen);
     }
-    if (stage.hasFigure() && stage.settings.joints)
-        drawJoints(stage, aspect);
+    if (stage.hasFigure())
+        drawOverPicture(stage, aspect);
     buildKeys(stage);
     buildMessage(state);
     if (stage.hasFigure())

@@ -1,12 +1,17 @@
 #include "tools/supple/view_stage.h"
 
+#include "host/patches.h"
 #include "tools/common/character_file.h"
 #include "tools/common/figure_file.h"
+#include "tools/common/formatted.h"
+#include "tools/supple/limit_distance.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace supple::tools {
@@ -17,8 +22,7 @@ constexpr float kWindowMargin = 0.10f;
 constexpr float kSteepest = 1.5f; ///< radians; the camera never looks straight up or down
 /// Poses of each clip that the camera has to hold and the floor has to carry.
 constexpr uint32_t kMeasuredPoses = 5;
-/// Share of a new measurement in the shown time.
-constexpr double kSmoothing = 0.1;
+constexpr uint32_t kMostTimings = 512; ///< of a frame of one group
 
 } // namespace
 
@@ -31,6 +35,9 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->settings.view = *view;
     stage->settings.cageFaces = options.scheme == "cage";
     stage->settings.cageOverlay = options.cageOverlay;
+    stage->settings.split = options.split;
+    stage->settings.levels = options.levels;
+    stage->settings.chordError = options.chordError;
     stage->settings.ground = options.ground;
     // The cage is only the first thing shown: the surface is a key away.
     stage->scheme_ = options.scheme == "cage" ? SUPPLE_SCHEME_AUTO : schemeOf(options.scheme);
@@ -54,6 +61,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     if (!character)
         return character.error();
     std::vector<std::string> warnings = character->character.warnings;
+    auto cage = std::make_shared<const cage::Cage>(character->character.cage);
     Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, std::move(*character));
     if (!figure)
         return figure.error();
@@ -66,7 +74,9 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     Result<std::vector<bool>> shownParts = host::findParts(file, (*figure)->partNames(), parts_);
     if (!shownParts)
         return shownParts.error();
-    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(**figure, static_cast<uint32_t>(settings.rate));
+    // It is measured, so it has no levels yet.
+    Result<std::unique_ptr<host::FigureGroup>> group =
+        createGroup(**figure, static_cast<uint32_t>(settings.rate), false);
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
@@ -89,6 +99,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     binding_ = std::move(*binding);
     group_ = std::move(*group);
     figure_ = std::move(*figure);
+    cage_ = std::move(cage);
     warnings_ = std::move(warnings);
     morphs_ = host::targetsByName(*figure_);
     settings.morphWeights = std::move(*weights);
@@ -100,16 +111,17 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
-    passHistory_.clear();
+    partTimes_.clear();
     frameFigure(aspect);
-    return success();
+    return readPartShares();
 }
 
 uint32_t ViewStage::offeredRate(uint32_t rate) const {
     return ratesArePowersOfTwo() ? std::bit_ceil(std::max(rate, 2u)) : rate;
 }
 
-Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate) const {
+Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate,
+                                                                  bool levels) const {
     Result<std::vector<SuppleScheme>> partSchemes = host::partSchemes(figure.path(), figure.partNames(), partSchemes_);
     if (!partSchemes)
         return partSchemes.error();
@@ -120,7 +132,8 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .sharpThreshold = sharpThreshold_,
                                               .uvInterpolation = uvInterpolation_,
                                               .sharedSamples = sharedSamples_,
-                                              .partSchemes = std::move(*partSchemes)});
+                                              .partSchemes = std::move(*partSchemes),
+                                              .levels = levels});
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
@@ -144,7 +157,7 @@ Status ViewStage::setSkinning(SuppleSkinning skinning, uint64_t lastFrame) {
 }
 
 Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
-    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate);
+    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate, wantsLevels());
     if (!group)
         return group.error();
     Result<host::FigureBinding> binding = renderer_.bind(**group);
@@ -155,8 +168,9 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
     group_ = std::move(*group);
     binding_ = std::move(*binding);
-    settings.rate = static_cast<int>(group_->edgeRate());
-    return success();
+    // At levels a rate counts for some schemes only, and then it is the largest.
+    settings.rate = static_cast<int>(group_->hasLevels() ? rate : group_->edgeRate());
+    return readPartShares();
 }
 
 float ViewStage::morphWeight(const host::NamedTargets& morph) const {
@@ -187,7 +201,14 @@ void ViewStage::advance(double seconds) {
 }
 
 void ViewStage::frameFigure(float aspect) {
-    camera_ = host::frameCamera(extent_.points, startYaw_, startPitch_, aspect * (1.0f - covered_), kWindowMargin);
+    camera_.yaw = startYaw_;
+    camera_.pitch = startPitch_;
+    fitFigure(aspect);
+}
+
+void ViewStage::fitFigure(float aspect) {
+    const float shape = aspect * (1.0f - covered_) * (settings.split ? 0.5f : 1.0f);
+    camera_ = host::frameCamera(extent_.points, camera_.yaw, camera_.pitch, shape, kWindowMargin);
     aside_ = 0.5f * covered_ * aspect;
     pan(-aside_, 0.0f);
 }
@@ -215,7 +236,7 @@ void ViewStage::zoom(float steps) {
 
 Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
                          const host::DrawTarget& target) {
-    if (const Status status = evaluate(commands, frame, completedFrame); !status)
+    if (const Status status = evaluate(commands, frame, completedFrame, target.extent().height); !status)
         return status.error();
     const host::Scene drawn = scene(target.extent());
     if (const Status status = renderer_.prepare(drawn); !status)
@@ -224,7 +245,7 @@ Status ViewStage::record(VkCommandBuffer commands, uint32_t slot, uint64_t frame
     return success();
 }
 
-Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame) {
+Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame, uint32_t height) {
     if (const Status status =
             context_.check(suppleBeginFrame(context_.handle(), frame, completedFrame), "suppleBeginFrame");
         !status)
@@ -232,12 +253,8 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
     readTimings();
     if (!hasFigure())
         return success();
-    if (const Status status = pose(); !status)
-        return status.error();
-    if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
-        return status.error();
-    for (uint32_t p = 0; p < settings.shownParts.size(); ++p) {
-        if (const Status status = group_->setPartVisible(p, settings.shownParts[p]); !status)
+    for (const Status& status : {pose(), showParts(), chooseLevels(height)}) {
+        if (!status)
             return status.error();
     }
     const SuppleGroup groups[] = {group_->handle()};
@@ -252,14 +269,30 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
 }
 
 ViewStage::Shown ViewStage::shown() const {
-    Shown shown{settings, camera_, version_};
+    Shown shown{settings, camera_, levelCamera_, version_, shownValues_};
     // What is drawn over the picture changes nothing of it.
-    shown.settings.panel = shown.settings.keys = shown.settings.joints = shown.settings.timingsPaused = false;
+    shown.settings.panel = shown.settings.keys = shown.settings.joints = false;
+    shown.settings.timingsPaused = shown.settings.timingsByPart = false;
     shown.settings.budgetMs = 0.0f;
     return shown;
 }
 
+Status ViewStage::showParts() const {
+    Status status = success();
+    for (uint32_t p = 0; p < settings.shownParts.size() && status; ++p)
+        status = group_->setPartVisible(p, settings.shownParts[p]);
+    return status;
+}
+
+Status ViewStage::chooseLevels(uint32_t height) {
+    if (!settings.levelsFrozen)
+        levelCamera_ = camera_;
+    return group_->hasLevels() ? group_->setLevelCamera(levelCamera_, height, settings.chordError) : success();
+}
+
 Status ViewStage::pose() const {
+    if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
+        return status.error();
     if (settings.fadeClip == SUPPLE_REST_POSE || settings.fade <= 0.0f || settings.clip >= figure_->clips().size())
         return group_->pose(0, settings.clip, settings.time);
     SuppleClipLayer layers[2]{};
@@ -277,31 +310,122 @@ Status ViewStage::pose() const {
     return context_.check(suppleSetPose(context_.handle(), group_->instance(0), &desc), "suppleSetPose");
 }
 
-bool ViewStage::needsWeights() const {
-    return hasFigure() && settings.view == host::shared::kViewHeat && !figure_->jointNames().empty() &&
-           weights_ != std::pair(version_, settings.joint);
+bool ViewStage::wantsLevels() const {
+    // Measured values are those of the vertices of a rate.
+    const bool measured = settings.view == host::shared::kViewWeights || settings.view == host::shared::kViewDistance;
+    return settings.view == host::shared::kViewLevels || (settings.levels && !measured);
 }
 
-Status ViewStage::measureWeights() {
-    weights_ = {version_, settings.joint};
-    if (const Status status = group_->showWeights(settings.joint); !status)
+bool ViewStage::needsOtherLevels() const {
+    return hasFigure() && group_->hasLevels() != wantsLevels();
+}
+
+Status ViewStage::changeLevels(uint64_t lastFrame) {
+    return remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
+}
+
+ViewStage::Values ViewStage::wantedValues() const {
+    Values wanted;
+    wanted.version = version_;
+    wanted.view = settings.view;
+    if (settings.view == host::shared::kViewWeights) {
+        wanted.joint = settings.joint;
+        return wanted;
+    }
+    wanted.clip = settings.clip;
+    wanted.fadeClip = settings.fadeClip;
+    wanted.time = settings.time;
+    wanted.fade = settings.fade;
+    wanted.morphWeights = settings.morphWeights;
+    return wanted;
+}
+
+bool ViewStage::needsValues() const {
+    if (!hasFigure() || group_->hasLevels())
+        return false;
+    if (distances_.valid())
+        return distances_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    const bool plays = settings.playing && figure_->clipDuration(settings.clip) > 0.0;
+    switch (settings.view) {
+    case host::shared::kViewWeights:
+        return !figure_->jointNames().empty() && values_ != wantedValues();
+    case host::shared::kViewDistance:
+        return plays ? values_.version != version_ || values_.view != settings.view : values_ != wantedValues();
+    default:
+        return false;
+    }
+}
+
+Status ViewStage::measureValues(bool wait) {
+    if (distances_.valid())
+        return showDistances();
+    const bool first = values_.version != version_ || values_.view != settings.view;
+    values_ = wantedValues(); // also if it fails: once is enough
+    if (settings.view == host::shared::kViewWeights) {
+        const Status status = group_->showWeights(settings.joint);
+        return status ? bind() : status;
+    }
+    Status status = startDistances();
+    if (status && wait)
+        return showDistances();
+    if (status && first) { // none yet
+        const Result<std::vector<glm::vec3>> vertices = group_->readSurface();
+        status = vertices ? group_->setValues(std::vector<float>(vertices->size(), -1.0f)) : vertices.error();
+        status = status ? bind() : status;
+    }
+    return status;
+}
+
+Status ViewStage::startDistances() {
+    if (const Status status = pose(); !status)
         return status.error();
+    const SuppleGroup groups[] = {group_->handle()};
+    if (const Status status = context_.evaluate(groups); !status)
+        return status.error();
+    Result<PosedSurfaces> posed = readPosed(*group_);
+    if (!posed)
+        return posed.error();
+    distances_ = std::async(std::launch::async,
+                            [cage = cage_, posed = std::move(*posed)] { return distancesToLimit(posed, *cage); });
+    return success();
+}
+
+Status ViewStage::showDistances() {
+    const Result<std::vector<float>> distances = distances_.get();
+    if (values_.version != version_ || values_.view != settings.view) {
+        values_ = {}; // something else is looked at by now
+        return success();
+    }
+    const Status status = distances ? group_->setValues(*distances) : distances.error();
+    return status ? bind() : status;
+}
+
+Status ViewStage::bind() {
     Result<host::FigureBinding> binding = renderer_.bind(*group_);
     if (!binding)
         return binding.error();
     binding_ = std::move(*binding);
+    ++shownValues_;
     return success();
+}
+
+std::string ViewStage::measuredPose() const {
+    const std::string pose = values_.clip < figure_->clips().size()
+                                 ? figure_->clips()[values_.clip].name + formatted(" at %.2f s", values_.time)
+                                 : "rest pose";
+    return distances_.valid() ? "measuring " + pose : pose;
 }
 
 std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {
     std::vector<ShownJoint> joints(figure_->jointNames().size());
     const glm::mat4 view = camera_.projection(aspect, extent_.bounds.radius()) * camera_.view();
+    const glm::vec2 shift(surfaceShift(), 0.0f);
     for (uint32_t i = 0; i < joints.size(); ++i) {
         glm::mat4 place(1.0f);
         if (suppleGetJointTransform(context_.handle(), group_->instance(0), i, &place[0][0]) != SUPPLE_OK)
             continue;
         const glm::vec4 at = view * place[3];
-        joints[i] = {at.w > 0.0f, glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w)};
+        joints[i] = {at.w > 0.0f, shift + glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w)};
     }
     return joints;
 }
@@ -326,35 +450,55 @@ host::Scene ViewStage::scene(VkExtent2D extent) const {
     scene.view = settings.view;
     scene.cageFaces = settings.cageFaces;
     scene.cageEdges = settings.cageFaces || settings.cageOverlay;
+    if (settings.split)
+        scene.split = covered_;
     scene.pixelScale = pixelScale(extent);
     return scene;
 }
 
+Status ViewStage::readPartShares() {
+    partShares_.clear();
+    const uint32_t surfaces = group_->surfaces().front().output.info.surfaceCount;
+    for (uint32_t surface = 0; surface < surfaces; ++surface) {
+        const Result<std::vector<uint32_t>> patches = host::patchesByPart(
+            context_, group_->handle(), surface, figure_->cage().parts, figure_->partNames().size());
+        if (!patches)
+            return patches.error();
+        const float all = static_cast<float>(std::max(std::accumulate(patches->begin(), patches->end(), 0u), 1u));
+        std::vector<float>& shares = partShares_.emplace_back();
+        for (const uint32_t count : *patches)
+            shares.push_back(static_cast<float>(count) / all);
+    }
+    return success();
+}
+
 void ViewStage::readTimings() {
-    SuppleTiming timings[64];
-    uint32_t count = static_cast<uint32_t>(std::size(timings));
-    const SuppleResult result = suppleGetTimings(context_.handle(), timings, &count);
-    if (result != SUPPLE_OK && result != SUPPLE_INCOMPLETE)
+    std::vector<SuppleTiming> timings(kMostTimings);
+    std::vector<uint32_t> surfaces(timings.size());
+    uint32_t count = kMostTimings;
+    if (settings.timingsPaused || suppleGetTimings(context_.handle(), timings.data(), &count) != SUPPLE_OK ||
+        suppleGetTimingSurfaces(context_.handle(), surfaces.data(), &count) != SUPPLE_OK)
         return;
-    if (settings.timingsPaused)
-        return;
-    std::map<std::string, PassTime> frame;
+    std::vector<std::pair<std::string, double>> byPass, byPart; // in the order of the frame
     for (uint32_t i = 0; i < count; ++i) {
-        PassTime& pass = frame[timings[i].pass];
-        pass.gpuMilliseconds += (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
-        pass.cpuMilliseconds += timings[i].cpuRecord * 1e-6;
-    }
-    std::vector<std::pair<std::string, double>> device; // in the order of the frame
-    for (uint32_t i = 0; i < count; ++i)
-        device.emplace_back(timings[i].pass, (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6);
-    passHistory_.add(timings[0].frame, device);
-    for (const auto& [name, time] : frame) {
-        const auto [shown, isNew] = passTimes_.try_emplace(name, time);
-        if (isNew)
+        const double time = (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
+        byPass.emplace_back(timings[i].pass, time);
+        if (!hasFigure() || timings[i].group.id != group_->handle().id)
+            continue; // the group before this one
+        if (surfaces[i] == SUPPLE_NO_SURFACE) {
+            byPart.emplace_back("the whole", time);
             continue;
-        shown->second.gpuMilliseconds += kSmoothing * (time.gpuMilliseconds - shown->second.gpuMilliseconds);
-        shown->second.cpuMilliseconds += kSmoothing * (time.cpuMilliseconds - shown->second.cpuMilliseconds);
+        }
+        for (uint32_t part = 0; part < partShares_[surfaces[i]].size(); ++part) {
+            const std::string& name = figure_->partNames()[part];
+            if (partShares_[surfaces[i]][part] > 0.0f)
+                byPart.emplace_back(name.empty() ? "part " + std::to_string(part) : name,
+                                    time * static_cast<double>(partShares_[surfaces[i]][part]));
+        }
     }
+    passTimes_.add(timings[0].frame, byPass);
+    if (!byPart.empty())
+        partTimes_.add(timings[0].frame, byPart);
 }
 
 } // namespace supple::tools

@@ -1,13 +1,14 @@
 // What the viewer shows: one figure of a list of files, playing, seen by an orbiting camera.
 #pragma once
 
+#include "cage/character.h"
 #include "host/surface_renderer.h"
-#include "tools/supple/pass_history.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/time_history.h"
 #include "tools/supple/view_look.h"
 
 #include <cstdint>
-#include <map>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,29 +23,28 @@ struct ViewSettings {
     float speed = 1.0f;
     int rate = 8;
     uint32_t view = 0;                    ///< host::shared::kView...
-    uint32_t joint = 0;                   ///< whose weights kViewHeat shows
+    uint32_t joint = 0;                   ///< whose weights kViewWeights shows
     bool joints = false;                  ///< drawn over the picture
     uint32_t fadeClip = SUPPLE_REST_POSE; ///< blended over `clip`; none: SUPPLE_REST_POSE
     float fade = 0.5f;                    ///< its weight
     bool cageFaces = false;               ///< the cage instead of the surface
     bool cageOverlay = false;
+    bool split = false;             ///< the cage beside the surface
+    bool levels = false;            ///< of detail, instead of `rate`
+    bool levelsFrozen = false;      ///< the camera that chooses them stays
+    float chordError = kChordError; ///< with levels: pixels
     bool ground = true;
     Look look = Look::studio;
     bool panel = true; ///< shown
     bool keys = false; ///< the help window
     bool timingsPaused = false;
+    bool timingsByPart = false;
     float budgetMs = 0.0f; ///< of the passes together, a line in their graph; 0: none
     /// Of all targets, instead of those of the pose; empty: those of the pose.
     std::vector<float> morphWeights;
     std::vector<bool> shownParts; ///< of the figure
 
     bool operator==(const ViewSettings&) const = default;
-};
-
-/// A pass of the last completed frames, smoothed.
-struct PassTime {
-    double gpuMilliseconds = 0.0;
-    double cpuMilliseconds = 0.0;
 };
 
 class ViewStage {
@@ -64,8 +64,10 @@ public:
     /// As the panel shows and sets it: in all parts.
     [[nodiscard]] float morphWeight(const host::NamedTargets& morph) const;
     void setMorphWeight(const host::NamedTargets& morph, float weight);
-    [[nodiscard]] const std::map<std::string, PassTime>& passTimes() const { return passTimes_; }
-    [[nodiscard]] const PassHistory& passHistory() const { return passHistory_; }
+    [[nodiscard]] const TimeHistory& passTimes() const { return passTimes_; }
+    /// What each part takes, and what the figure takes as a whole. Parts of one surface go through passes together: its
+    /// time is shared out by how many of its patches they have.
+    [[nodiscard]] const TimeHistory& partTimes() const { return partTimes_; }
 
     /// The rate the scheme makes of one that is asked for: with subdivision a power of two.
     [[nodiscard]] uint32_t offeredRate(uint32_t rate) const;
@@ -83,7 +85,12 @@ public:
     void advance(double seconds);
     /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
     void setCovered(float share) { covered_ = share; }
+    /// As at first.
     void frameFigure(float aspect);
+    /// From where the camera stands now.
+    void fitFigure(float aspect);
+    /// How far to the right the surface is moved in the picture, in widths of it.
+    [[nodiscard]] float surfaceShift() const { return settings.split ? 0.25f * (1.0f - covered_) : 0.0f; }
     [[nodiscard]] const host::Camera& camera() const { return camera_; }
     /// The camera's target if no panel covered the picture when the figure was framed.
     [[nodiscard]] glm::vec3 centeredTarget() const;
@@ -96,14 +103,24 @@ public:
     struct Shown {
         ViewSettings settings;
         host::Camera camera;
+        host::Camera levelCamera;
         uint32_t version = 0; ///< of the group
+        uint32_t values = 0;  ///< counts measurements
         bool operator==(const Shown&) const = default;
     };
     [[nodiscard]] Shown shown() const;
 
-    /// Whose weights kViewHeat shows: measured anew where they are not those of the group. No frame may be pending.
-    [[nodiscard]] bool needsWeights() const;
-    [[nodiscard]] Status measureWeights();
+    /// Whether the group should be one with levels, or without, and is not.
+    [[nodiscard]] bool needsOtherLevels() const;
+    [[nodiscard]] Status changeLevels(uint64_t lastFrame);
+    /// Whether the view shows values that are still to be measured: weights of another joint; distances in the pose in
+    /// which the figure stands. While it plays, distances stay those of the pose that was measured last.
+    [[nodiscard]] bool needsValues() const;
+    /// No frame may be pending. Afterwards poses are to be set anew. Distances take some seconds: they are measured
+    /// beside the viewer's own work, and shown by a later call, unless it waits.
+    [[nodiscard]] Status measureValues(bool wait);
+    /// The pose in which distances are, or are being measured.
+    [[nodiscard]] std::string measuredPose() const;
     /// Joints in the picture, in fractions of it from its upper left; not where they are behind the eye.
     struct ShownJoint {
         bool seen = false;
@@ -111,8 +128,8 @@ public:
     };
     [[nodiscard]] std::vector<ShownJoint> shownJoints(float aspect) const;
 
-    /// Supple's passes of a frame.
-    [[nodiscard]] Status evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame);
+    /// Supple's passes of a frame. Levels are chosen for a picture of this height.
+    [[nodiscard]] Status evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame, uint32_t height);
     [[nodiscard]] host::Scene scene(VkExtent2D extent) const;
     /// Both: Supple's passes, then the picture.
     [[nodiscard]] Status record(VkCommandBuffer commands, uint32_t slot, uint64_t frame, uint64_t completedFrame,
@@ -128,11 +145,32 @@ private:
     };
 
     ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
-    [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate) const;
+    [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate,
+                                                                         bool levels) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
     void readTimings();
-    /// Clip, time and crossfade.
+    [[nodiscard]] Status readPartShares();
+    /// Clip, time and crossfade, morph targets.
     [[nodiscard]] Status pose() const;
+    [[nodiscard]] Status showParts() const;
+    [[nodiscard]] Status chooseLevels(uint32_t height);
+    [[nodiscard]] bool wantsLevels() const;
+    /// What the settings ask to be measured.
+    struct Values {
+        uint32_t version = 0; ///< of the group; 0: nothing is measured
+        uint32_t view = 0;
+        uint32_t joint = 0; ///< weights
+        // Distances: the pose.
+        uint32_t clip = 0, fadeClip = 0;
+        double time = 0.0;
+        float fade = 0.0f;
+        std::vector<float> morphWeights;
+        bool operator==(const Values&) const = default;
+    };
+    [[nodiscard]] Values wantedValues() const;
+    [[nodiscard]] Status startDistances();
+    [[nodiscard]] Status showDistances();
+    [[nodiscard]] Status bind();
 
     host::Context& context_;
     host::SurfaceRenderer& renderer_;
@@ -151,17 +189,22 @@ private:
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
+    std::shared_ptr<const cage::Cage> cage_; ///< the figure's
     std::vector<std::string> warnings_;
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
-    uint32_t version_ = 0;                        ///< counts groups
-    std::pair<uint32_t, uint32_t> weights_{0, 0}; ///< of which version and joint the group has values; 0: none
-    std::vector<Retired> retired_;                ///< before figure_ in time, so gone before it
+    uint32_t version_ = 0;                              ///< counts groups
+    Values values_;                                     ///< that the group has, or that are being measured
+    std::future<Result<std::vector<float>>> distances_; ///< being measured
+    uint32_t shownValues_ = 0;                          ///< counts measurements
+    std::vector<Retired> retired_;                      ///< before figure_ in time, so gone before it
     Extent extent_;
     host::Camera camera_;
-    std::map<std::string, PassTime> passTimes_;
-    PassHistory passHistory_;
+    host::Camera levelCamera_; ///< that levels are chosen by
+    TimeHistory passTimes_;
+    TimeHistory partTimes_;
+    std::vector<std::vector<float>> partShares_; ///< of every surface, by part: they add up to 1
 };
 
 } // namespace supple::tools

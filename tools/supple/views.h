@@ -25,7 +25,9 @@ inline constexpr NamedView kViews[] = {
     {"normal-map", host::shared::kViewNormalMap},
     {"occlusion", host::shared::kViewOcclusion},
     {"emissive", host::shared::kViewEmissive},
-    {"weights", host::shared::kViewHeat},
+    {"weights", host::shared::kViewWeights},
+    {"distance", host::shared::kViewDistance},
+    {"levels", host::shared::kViewLevels},
 };
 
 } // namespace supple::tools

@@ -87,6 +87,7 @@ extern "C" {
 #define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
 #define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
+#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see suppleGetTimingSurfaces */
 #define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
@@ -94,7 +95,7 @@ extern "C" {
 #define SUPPLE_MAX_RATE 64u             /**< see SuppleGroupDesc.rate */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u  /**< see suppleBeginFrame */
 #define SUPPLE_MAX_COORDINATE 1e9f      /**< see SuppleAssetDesc */
-#define SUPPLE_MAX_TIMINGS 4096u        /**< entries per frame: passes x groups. Further entries are not timed */
+#define SUPPLE_MAX_TIMINGS 4096u        /**< entries per frame. Further entries are not timed */
 
 /** A context borrows the host's device. Assets, groups and views belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -1231,10 +1232,10 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
  * end, so it includes the barrier before it. Draws of the host are in no pass, also if they are in the same command
  * buffer. On a GPU, work of the host that runs at the same time takes its share of the device. */
 typedef struct SuppleTiming {
-    /** A name in static storage: upload, attributes, pose (up to three times), deform (twice if the group has
-     * several surfaces), vertex, assemble, patch, evaluate, motion. Groups of a view also have bounds (twice with
-     * OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level (twice), solve (once per view) and
-     * place; attributes come twice if some surfaces have levels and others rates. An entry `shortfall` is no pass and
+    /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
+     * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
+     * it as well), list, level (twice), solve (once per view) and place. If a group has several surfaces, passes that
+     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry `shortfall` is no pass and
      * takes no time. It follows solve only in frames in which the view's budget was not enough
      * (SuppleViewStatistics.shortfall). */
     const char* pass;
@@ -1253,6 +1254,10 @@ typedef struct SuppleTiming {
 /** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
  * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
 SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
+/** The surface of its group that each entry of suppleGetTimings is about, in the same order: SuppleSurfaceInfo has its
+ * parts. SUPPLE_NO_SURFACE: the entry is about the whole group. Parts of one surface go through each pass together, so
+ * there are no times for each of them. Fills out and count. SUPPLE_NOT_READY as suppleGetTimings. Never waits. */
+SUPPLE_API SuppleResult suppleGetTimingSurfaces(SuppleContext context, uint32_t* out, uint32_t* count);
 /** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. It stays as long as the context
  * does. With VK_EXT_calibrated_timestamps a host lays the timings beside its own clock (docs/profiling.md).
  * SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. Never waits. */

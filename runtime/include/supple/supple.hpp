@@ -160,6 +160,10 @@ public:
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
         return filled(out, [&](SuppleTiming* to, uint32_t* count) { return suppleGetTimings(handle_, to, count); });
     }
+    /// Of each of the timings: the surface of its group, or SUPPLE_NO_SURFACE.
+    [[nodiscard]] SuppleResult timingSurfaces(std::vector<uint32_t>& out) const {
+        return filled(out, [&](uint32_t* to, uint32_t* count) { return suppleGetTimingSurfaces(handle_, to, count); });
+    }
     /// The device's tick that timings count from.
     [[nodiscard]] SuppleResult timingOrigin(uint64_t& ticks) const { return suppleGetTimingOrigin(handle_, &ticks); }
 

@@ -1,0 +1,79 @@
+#include "tools/supple/view_overlay.h"
+
+#if SUPPLE_HAS_WINDOW
+
+#include "tools/supple/command.h"
+#include "tools/supple/legend.h"
+
+#include <algorithm>
+#include <imgui.h>
+
+namespace supple::tools {
+
+namespace {
+
+/// Bones from joint to joint.
+void drawJoints(const ViewStage& stage, float aspect) {
+    const std::vector<ViewStage::ShownJoint> joints = stage.shownJoints(aspect);
+    const std::vector<uint32_t>& parents = stage.figure().jointParents();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto place = [&](const ViewStage::ShownJoint& joint) {
+        return ImVec2(joint.at.x * size.x, joint.at.y * size.y);
+    };
+    const ImU32 ink = IM_COL32(255, 255, 255, 220), rim = IM_COL32(0, 0, 0, 160);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    for (size_t i = 0; i < joints.size(); ++i) {
+        if (!joints[i].seen)
+            continue;
+        if (parents[i] != SUPPLE_NO_JOINT && joints[parents[i]].seen) {
+            draw.AddLine(place(joints[parents[i]]), place(joints[i]), rim, 3.0f);
+            draw.AddLine(place(joints[parents[i]]), place(joints[i]), ink, 1.5f);
+        }
+        draw.AddCircleFilled(place(joints[i]), 4.0f, rim);
+        draw.AddCircleFilled(place(joints[i]), 3.0f,
+                             i == stage.settings.joint ? ImGui::GetColorU32(ImGuiCol_CheckMark) : ink);
+    }
+}
+
+/// In the lower right corner.
+void drawScale(const Legend& legend) {
+    constexpr float kMargin = 16.0f, kInset = 12.0f, kBarHeight = 12.0f, kLeastWidth = 260.0f;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float bar = std::max(kLeastWidth, ImGui::CalcTextSize(legend.title.c_str()).x);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const ImVec2 corner(size.x - kMargin - bar - 2.0f * kInset, size.y - kMargin - kBarHeight - 2.0f * line - kInset);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled(corner, ImVec2(size.x - kMargin, size.y - kMargin), IM_COL32(0, 0, 0, 160), 4.0f);
+    const ImVec2 left(corner.x + kInset, corner.y + 0.5f * kInset + line);
+    const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+    draw.AddText(ImVec2(left.x, left.y - line), ink, legend.title.c_str());
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+        const float from = static_cast<float>(i) / kSteps, to = static_cast<float>(i + 1) / kSteps;
+        const std::array<uint8_t, 3> color = scaleColor(0.5f * (from + to));
+        draw.AddRectFilled(ImVec2(left.x + from * bar, left.y), ImVec2(left.x + to * bar, left.y + kBarHeight),
+                           IM_COL32(color[0], color[1], color[2], 255));
+    }
+    for (const Legend::Mark& mark : legend.marks) {
+        const float half = 0.5f * ImGui::CalcTextSize(mark.text.c_str()).x;
+        const float x = std::clamp(mark.at * bar - half, 0.0f, bar - 2.0f * half);
+        draw.AddText(ImVec2(left.x + x, left.y + kBarHeight + 2.0f), ink, mark.text.c_str());
+    }
+}
+
+} // namespace
+
+void drawOverPicture(const ViewStage& stage, float aspect) {
+    if (stage.settings.joints)
+        drawJoints(stage, aspect);
+    std::optional<Legend> legend = stage.settings.cageFaces ? std::nullopt : legendOf(stage.settings.view);
+    if (!legend)
+        return;
+    if (stage.settings.view == host::shared::kViewDistance)
+        legend->title += ", " + printable(stage.measuredPose());
+    drawScale(*legend);
+}
+
+} // namespace supple::tools
+
+#endif
