@@ -419,7 +419,10 @@ typedef enum SuppleScheme {
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/catmull_clark.md), at any rate: any polygons,
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
-    SUPPLE_SCHEME_LOOP = 4, /**< subdivision: triangles (larger faces are split into them), semi-sharp creases */
+    /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which larger
+     * faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined as
+     * FRAGMENTS is: SUPPLE_MESSAGE_SCHEME_NOTE says so. */
+    SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
     SUPPLE_SCHEME_BLEND = 5,
@@ -1190,14 +1193,16 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_P5 = 5,        /**< 31 */
     SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
     SUPPLE_PATCH_CATMULL_CLARK = SUPPLE_PATCH_FRAGMENT, /**< the name that it had up to 0.2 */
-    SUPPLE_PATCH_LOOP = 7,                              /**< none */
+    SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
     SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
     SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
     SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
     SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
     SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
-    SUPPLE_PATCH_CREASED = 13
+    SUPPLE_PATCH_CREASED = 13,
+    SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
+    SUPPLE_PATCH_LOOP_IRREGULAR = 15 /**< none, LOOP: a triangle of leaves */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
