@@ -79,9 +79,11 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
         b = corner == 0u ? s.w.z : corner == 1u ? s.w.x : s.w.y;
         float nearest = s.distance;
 #ifdef LEVELS
-        a = withinChain(a, chain.lastLevel), b = withinChain(b, chain.lastLevel);
-        distance = withinChain(distance, chain.lastLevel);
         nearest = onBorder ? distance : a + b;
+        float moved = withinChain(nearest, chain.lastLevel);
+        if (moved > nearest) a *= moved / nearest, b *= moved / nearest;
+        if (onBorder) distance = moved;
+        nearest = moved;
 #endif
         ChainPlace place = chainPlace(nearest, chain.lastLevel);
         scale = place.scale;

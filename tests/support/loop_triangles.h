@@ -35,6 +35,25 @@ struct LoopTriangles {
         return {weights[(3 - first) % 3], weights[(4 - first) % 3], weights[(5 - first) % 3]};
     }
 
+    /// Weights in a face where the device takes a sample at levels: not within the last cell of a chain.
+    [[nodiscard]] glm::dvec3 atLevels(uint32_t face, const glm::dvec3& weights) const {
+        constexpr double kNearest = 1.0 / 64.0;
+        for (int corner = 0; corner < 3; ++corner) {
+            const surface::RefinedMesh& mesh = isolation.parent;
+            const uint32_t first = mesh.cage.faceStarts[face] + static_cast<uint32_t>(corner);
+            if (weights[corner] <= 0.5 || triangles.isPlain(mesh.cage.faceVertices[first])) {
+                continue;
+            }
+            const double distance = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
+            if (distance > 0.0 && distance < kNearest) {
+                glm::dvec3 moved = weights * (kNearest / distance);
+                moved[corner] = 1.0 - kNearest;
+                return moved;
+            }
+        }
+        return weights;
+    }
+
     surface::subdivision::Isolation isolation;
     surface::loop::Triangles triangles;
 
