@@ -133,8 +133,7 @@ uvec2 countsFrom(uint corner, uint a, uint b) {
     return corner == 0u ? uvec2(a, b) : corner == 1u ? uvec2(rest, a) : uvec2(b, rest);
 }
 
-void evaluateRegular(const PatchPlace at) {
-    Triangle t = triangleOf(at.record, false);
+void storeRegular(const PatchPlace at, Triangle t) {
     LeafPoints points = cageLeaf(at, t);
     Leaf leaf = leafOf(points);
     uint j = 1u;
@@ -195,115 +194,137 @@ void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Le
     } while (middle ? j < endJ : j + 1u < endJ);
 }
 
-Frame leafFrame(Leaf leaf, NetSamples s, vec2 w) {
+Frame leafFrame(Leaf leaf, vec2 w) {
     LeafRow row = leafRow(leaf, w.y);
-    return seenFrom(s.own ? 0u : s.corner, 0u, rowAlongX(row, w.x), rowAlongY(row, w.x));
+    return seenFrom(0u, 0u, rowAlongX(row, w.x), rowAlongY(row, w.x));
 }
-// Half of a side, seen from the corner that has it: of the corner's first edge or, with `back`, of its second.
-void storeHalfSide(const PatchPlace at, Triangle t, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf, bool back) {
-    uint begin = s.own ? cell : 0u, netSide = back ? lastOf(begin) : begin;
-    uint corner = s.own ? cell : s.corner, side = back ? lastOf(corner) : corner;
-    bool sharp = (net.sides >> netSide & 1u) != 0u, whole = s.own && hasFlag(t, kWholeTriangleSide, side);
-    LeafSide line = leafSide(points, begin, back, sharp);
-    if (whole) line = leafSide(cageLeaf(at, t), begin, back, sharp);
-    uint k = s.own ? 1u : s.split, end = s.own ? s.least : s.end;
-    bool has = s.own ? cell < 3u : cell == (back ? 2u : 1u);
+// Of a plain corner, half of a side: of its first edge or, with `back`, of its second.
+void storeHalfSide(const PatchPlace at, Triangle t, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf,
+                   LeafPoints cage, bool back) {
+    uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
+    bool whole = hasFlag(t, kWholeTriangleSide, side);
+    LeafPoints from;
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) from.p[k] = whole ? cage.p[k] : points.p[k];
+    LeafSide line = leafSide(from, corner, back, hasFlag(t, kSharpTriangleSide, side));
+    uint k = 1u;
     do {
-        precise float x = netParameter(s, k) - (s.own ? 0.0 : 1.0), rest = 1.0 - x;
-        precise vec3 p = net.origin + onSide(line, whole ? pairOf(k) : vec2(x, rest));
-        vec3 w = back ? weightsOnSide(netSide, vec2(rest, x)) : weightsOnSide(netSide, vec2(x, rest));
-        store(at, has && k < end, back ? countsFrom(corner, 0u, k) : countsFrom(corner, k, 0u), p, leafFrame(leaf, s, w.yz));
-    } while (++k < end);
-}
-// A corner: of a chain's last level, or plain.
-void storeCorner(const PatchPlace at, Triangle t, NetSamples s, uint cell, LeafPoints points, Leaf leaf, bool own) {
-    uint corner = s.own ? cell : s.corner;
-    Frame frame;
-    if (s.own) frame = leafFrame(leaf, s, vec2(cell == 1u, cell == 2u));
-    else frame = withNormal(seenFrom(corner, 0u, points.p[0] - points.p[11], points.p[8] - points.p[11]), cornerNormal(at, corner));
-    store(at, own, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), frame);
+        precise float x = netParameter(s, k), rest = 1.0 - x;
+        vec3 position = onSide(line, whole ? pairOf(k) : vec2(x, rest));
+        vec3 w = back ? weightsOnSide(side, vec2(rest, x)) : weightsOnSide(side, vec2(x, rest));
+        store(at, cell < 3u && k < s.least, back ? countsFrom(corner, 0u, k) : countsFrom(corner, k, 0u), position,
+              leafFrame(leaf, w.yz));
+    } while (++k < s.least);
 }
 // The middles of the sides, at even rates: the corners of the leaf in the middle.
-void storeMiddles(const PatchPlace at, Triangle t, NetSource net, NetSamples s, LeafPoints points, Leaf leaf) {
+void storeMiddles(const PatchPlace at, Triangle t, NetSource net, LeafPoints points, Leaf leaf, LeafPoints cage) {
     uint side = 0u;
     do {
         uint v = lastOf(side);
-        vec3 position = middleOfSide(net, points, side);
-        if (hasFlag(t, kWholeTriangleSide, side)) position = onWholeSide(at, t, side, vec2(0.5));
-        Frame frame = leafFrame(leaf, s, vec2(v == 1u, v == 2u));
-        store(at, true, countsFrom(side, last / 2u, 0u), position, Frame(-frame.du, -frame.dv, frame.normal));
+        bool whole = hasFlag(t, kWholeTriangleSide, side), sharp = hasFlag(t, kSharpTriangleSide, side);
+        vec3 position = whole ? onSide(leafSide(cage, side, false, sharp), vec2(0.5)) : middleOfSide(net, points, side);
+        Frame frame = leafFrame(leaf, vec2(v == 1u, v == 2u));
+        store(at, last % 2u == 0u, countsFrom(side, last / 2u, 0u), position, Frame(-frame.du, -frame.dv, frame.normal));
     } while (++side < 3u);
 }
 
-LeafPoints leafOfNet(vec3 p[kTriangleNetPoints], NetSource net, uint cell) {
+struct NetPoints {
+    vec3 p[kTriangleNetPoints];
+};
+NetPoints netPoints(const PatchPlace at, NetSource net) {
+    NetPoints points;
+    [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
+        uvec4 words = tableElement(net.element + e);
+        [[unroll]] for (uint c = 0u; c < 4u; ++c) {
+            uint k = 4u * e + c;
+            if (k < kTriangleNetPoints) points.p[k] = poolPoint(at, net.first + words[c]);
+        }
+    }
+    return points;
+}
+LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
     const uint kPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),
                                             uint[12](3u, 1u, 4u, 9u, 7u, 2u, 12u, 10u, 5u, 15u, 13u, 0u),
                                             uint[12](5u, 4u, 2u, 0u, 10u, 8u, 3u, 13u, 11u, 1u, 16u, 14u),
                                             uint[12](4u, 5u, 3u, 13u, 14u, 12u, 2u, 0u, 1u, 11u, 9u, 10u));
     LeafPoints leaf;
     [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k)
-        leaf.p[k] = cell < 2u ? (cell == 0u ? p[kPoints[0][k]] : p[kPoints[1][k]])
-                              : (cell == 2u ? p[kPoints[2][k]] : p[kPoints[3][k]]);
-    mirrorInCell(leaf, net, cell);
+        leaf.p[k] = cell < 2u ? (cell == 0u ? net.p[kPoints[0][k]] : net.p[kPoints[1][k]])
+                              : (cell == 2u ? net.p[kPoints[2][k]] : net.p[kPoints[3][k]]);
+    mirrorInCell(leaf, source, cell);
     return leaf;
 }
 
-void storeNet(const PatchPlace at, Triangle t, NetSource net, NetSamples s, bool lastLevel) {
-    vec3 p[kTriangleNetPoints];
-    [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
-        uvec4 words = tableElement(net.element + e);
-        [[unroll]] for (uint c = 0u; c < 4u; ++c) {
-            uint k = 4u * e + c;
-            if (k < kTriangleNetPoints) p[k] = poolPoint(at, net.first + words[c]);
-        }
-    }
-    uint cells = s.own ? 8u | triangleFlags(t, kPlainTriangleCorner) : 14u;
+// The triangle's own net: the leaf in the middle, which comes last, and those at plain corners.
+void storeOwnNet(const PatchPlace at, Triangle t) {
+    uint half_ = (last + 1u) / 2u, cells = 1u << kMiddleCell | triangleFlags(t, kPlainTriangleCorner);
+    NetSamples s = NetSamples(0u, last - half_ + 1u, half_, last, 2.0, true);
+    NetSource net = ownNet(at, t);
+    NetPoints all = netPoints(at, net);
+    LeafPoints points, cage = cageLeaf(at, t);
+    Leaf leaf;
     do {
         uint cell = uint(findLSB(cells));
-        LeafPoints points = leafOfNet(p, net, cell);
-        Leaf leaf = leafOf(points);
+        points = leafOfNet(all, net, cell);
+        leaf = leafOf(points);
         storeInside(at, net, s, cell, leaf);
-        if (cell == kMiddleCell) {
-            if (s.own && last % 2u == 0u) storeMiddles(at, t, net, s, points, leaf);
-        } else {
-            storeHalfSide(at, t, net, s, cell, points, leaf, false);
-            storeHalfSide(at, t, net, s, cell, points, leaf, true);
-            storeCorner(at, t, s, cell, points, leaf, s.own || (lastLevel && cell == 1u));
-        }
+        storeHalfSide(at, t, net, s, cell, points, leaf, cage, false);
+        storeHalfSide(at, t, net, s, cell, points, leaf, cage, true);
+        store(at, cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
+              leafFrame(leaf, vec2(cell == 1u, cell == 2u)));
         cells &= cells - 1u;
     } while (cells != 0u);
+    storeMiddles(at, t, net, points, leaf, cage);
 }
 
-void evaluateIrregular(const PatchPlace at) {
-    Triangle t = triangleOf(at.record, true);
-    uint chains = ~triangleFlags(t, kPlainTriangleCorner) & 7u, level = 1u, corner = 0u, half_ = (last + 1u) / 2u;
-    bool more;
+// What a level has of the corner's two edges: the first has samples in cell 1, the second in cell 2.
+void storeOnEdge(const PatchPlace at, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf) {
+    bool back = cell == 2u;
+    LeafSide line = leafSide(points, 0u, back, (net.sides >> (back ? 2u : 0u) & 1u) != 0u);
+    vec3 first = back ? leaf.c01 : leaf.c10, second = 2.0 * (back ? leaf.c02 : leaf.c20), third = 3.0 * (back ? leaf.c03 : leaf.c30);
+    vec3 fourth = 4.0 * (back ? leaf.c04 : leaf.c40), mixed = back ? leaf.c12 : leaf.c21, across = back ? leaf.c10 : leaf.c01;
+    uint k = s.split;
     do {
-        bool own = level == 1u;
+        precise float x = netParameter(s, k) - 1.0, rest = 1.0 - x;
+        precise vec3 p = net.origin + onSide(line, vec2(x, rest));
+        vec3 d = first + x * (second + x * (third + x * fourth)), e = across + x * (leaf.c11 + x * (mixed + x * 0.5 * fourth));
+        store(at, cell < 3u && k < s.end, back ? countsFrom(s.corner, 0u, k) : countsFrom(s.corner, k, 0u), p,
+              seenFrom(s.corner, 0u, back ? e : d, back ? d : e));
+    } while (++k < s.end);
+}
+
+void storeChains(const PatchPlace at, Triangle t) {
+    uint chains = ~triangleFlags(t, kPlainTriangleCorner) & 7u, level = 2u;
+    do {
+        uint corner = uint(findLSB(chains));
         Chain chain = chainOf(at, corner);
-        NetSource net = ownNet(at, t);
-        NetSamples s = NetSamples(0u, last - half_ + 1u, half_, last, 2.0, true);
-        if (!own) {
-            net = chainNet(at, t, chain, corner, level);
-            uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
-            s = NetSamples(corner, split, split, end, powerOfTwo(float(level)), false);
-        }
-        bool lastLevel = !own && level == chain.lastLevel;
-        storeNet(at, t, net, s, lastLevel);
-        ++level;
-        more = !own && !lastLevel;
-        if (own || lastLevel) { // the next chain
-            more = chains != 0u;
-            corner = more ? uint(findLSB(chains)) : 0u;
-            chains &= chains - 1u;
-            level = 2u;
-        }
-    } while (more);
+        NetSource net = chainNet(at, t, chain, corner, level);
+        uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
+        NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)), false);
+        NetPoints all = netPoints(at, net);
+        uint cell = 1u;
+        do {
+            LeafPoints points = leafOfNet(all, net, cell);
+            Leaf leaf = leafOf(points);
+            storeInside(at, net, s, cell, leaf);
+            storeOnEdge(at, net, s, cell, points, leaf);
+        } while (++cell < 4u);
+        // At the corner the chords of the last level stand in for directions.
+        bool isLast = level == chain.lastLevel;
+        Frame frame = seenFrom(corner, 0u, all.p[3] - all.p[0], all.p[5] - all.p[0]);
+        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withNormal(frame, cornerNormal(at, corner)));
+        chains &= isLast ? chains - 1u : 7u;
+        level = isLast ? 2u : level + 1u;
+    } while (chains != 0u);
 }
 
 void evaluatePatch(const PatchPlace at) {
     last = fixedRate();
-    if (kIrregular) evaluateIrregular(at);
-    else evaluateRegular(at);
+    Triangle t = triangleOf(at.record, kIrregular);
+    if (kIrregular) {
+        storeOwnNet(at, t);
+        storeChains(at, t);
+    } else {
+        storeRegular(at, t);
+    }
 }
 #endif
