@@ -33,7 +33,7 @@ namespace exact {
 } // namespace exact
 
 namespace loop {
-/// Loop by patches of one triangle each. Refuses what needsFragments() names, and as exact::build().
+/// Loop by patches of one triangle each. Refuses semi-sharp creases, and what exact::build() does.
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 } // namespace loop
 

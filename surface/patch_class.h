@@ -32,9 +32,9 @@ enum class Form : uint32_t {
 /// What the borders of patches are.
 enum class Borders : uint8_t {
     cubics,
-    halves, ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
+    halves,  ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
     splines, ///< Loop: quartic box splines, whole or in halves
-    charts  ///< blends of two charts
+    charts   ///< blends of two charts
 };
 
 enum class PatchClass : uint32_t {
@@ -51,9 +51,9 @@ enum class PatchClass : uint32_t {
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
     irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
     irregularSharp = shared::kIrregularSharpPatch, ///< some side is a crease, too
-    creased = shared::kCreasedPatch,        ///< no corner has a chain, but a semi-sharp crease passes
-    loopRegular = shared::kLoopRegularPatch, ///< exact Loop: a quartic box spline
-    loopIrregular = shared::kLoopIrregularPatch ///< some corner has a chain of leaves
+    creased = shared::kCreasedPatch,               ///< no corner has a chain, but a semi-sharp crease passes
+    loopRegular = shared::kLoopRegularPatch,       ///< exact Loop: a quartic box spline
+    loopIrregular = shared::kLoopIrregularPatch    ///< some corner has a chain of leaves
 };
 
 struct PatchClassRow {

@@ -25,8 +25,6 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kLinearUvs, false,
      [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::loopFragments, "Loop in fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false,
-     kAllUvModes, false, [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
     {SchemeId::catmullClark, "Catmull-Clark", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes,
@@ -35,6 +33,17 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }},
 };
+
+/// No host names it: see drawerOf().
+constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
+                                   "Loop in fragments",
+                                   &subdivision::build,
+                                   RateRule::doubling,
+                                   "2, 4, 8..",
+                                   false,
+                                   kAllUvModes,
+                                   false,
+                                   [](const cage::Cage&) { return 0.001f; }};
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -90,7 +99,9 @@ std::span<const Scheme> schemes() {
 }
 
 const Scheme& schemeOf(SchemeId id) {
-    return *std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
+    const auto* found =
+        std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
+    return found != std::end(kSchemes) ? *found : kLoopFragments;
 }
 
 Drawer drawerOf(SchemeId asked, const cage::Cage& cage, bool smoothUvs) {

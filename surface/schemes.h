@@ -51,6 +51,7 @@ struct Scheme {
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };
 
+/// Those that hosts can name.
 [[nodiscard]] std::span<const Scheme> schemes();
 [[nodiscard]] const Scheme& schemeOf(SchemeId id);
 

@@ -35,8 +35,7 @@ uint32_t ChainTables::chainLevels(uint32_t v) const {
 KindOfKernel ChainTables::kernelOf(uint32_t makes) const {
     constexpr const char* kNames[] = {"supple exact limits", "supple exact chains, first level",
                                       "supple exact chains, level", "supple exact chains"};
-    const Kernel kernel =
-        mesh_.subdivision == Subdivision::loop ? Kernel::exactChainTriangles : Kernel::exactChain;
+    const Kernel kernel = mesh_.subdivision == Subdivision::loop ? Kernel::exactChainTriangles : Kernel::exactChain;
     return {kernel, makes, kNames[makes]};
 }
 
@@ -175,14 +174,16 @@ void ChainTables::write(const Places& places, Tables& tables) {
         const uint32_t v = vertices[i];
         const ArrangementTable& arrangement = *vertexArrangements_[v];
         const uint32_t levels = chainLevels(v);
-        writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, places.limit(v), chains_[v], normals_[v], 0u, 0u});
+        writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, places.limit(v), chains_[v], normals_[v],
+                     0u, 0u});
         limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
     }
     if (vertices.empty()) {
         return;
     }
     const auto count = static_cast<uint32_t>(vertices.size());
-    tables.constructions.push_back({Stage::assemble, kernelOf(shared::kMakesLimits), {first, count}, limits, places.isStepped});
+    tables.constructions.push_back(
+        {Stage::assemble, kernelOf(shared::kMakesLimits), {first, count}, limits, places.isStepped});
     writeChains(vertices, first, tables);
     for (uint32_t level = kFirstChainLevel; level <= lastLevel_; ++level) {
         writeLevel(vertices, first, level, tables);
@@ -192,8 +193,7 @@ void ChainTables::write(const Places& places, Tables& tables) {
 /// Whether a block makes all levels of the vertex's chain, in workgroup memory. On CPU devices barriers within a
 /// workgroup cost more than dispatches.
 bool ChainTables::fitsInBlock(uint32_t v) const {
-    return wide_ && chainPoints(v) <= shared::kBlockPoints &&
-           mesh_.fragments[v].spokes() < shared::kBlockLanes;
+    return wide_ && chainPoints(v) <= shared::kBlockPoints && mesh_.fragments[v].spokes() < shared::kBlockLanes;
 }
 /// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
 
@@ -205,8 +205,8 @@ void ChainTables::writeChains(const std::vector<uint32_t>& vertices, uint32_t fi
             ++i;
             continue;
         }
-        const size_t most = std::min(shared::kBlockPoints / chainPoints(v),
-                                     shared::kBlockLanes / (mesh_.fragments[v].spokes() + 1));
+        const size_t most =
+            std::min(shared::kBlockPoints / chainPoints(v), shared::kBlockLanes / (mesh_.fragments[v].spokes() + 1));
         uint32_t count = 1;
         while (count < most && i + count < vertices.size() && chainLevels(vertices[i + count]) > 0 &&
                fanOf(vertices[i + count]) == fanOf(v)) {
@@ -223,9 +223,11 @@ void ChainTables::writeChains(const std::vector<uint32_t>& vertices, uint32_t fi
 }
 
 /// One level of the other chains: blocks of kBlockLanes lanes, of each fan's.
-void ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level, Tables& tables) {
+void ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level,
+                             Tables& tables) {
     const bool isFirst = level == kFirstChainLevel;
-    Construction work{Stage::assemble, kernelOf(isFirst ? shared::kMakesFirstLevel : shared::kMakesLevel), {writer_.element(), 0}, 0};
+    Construction work{
+        Stage::assemble, kernelOf(isFirst ? shared::kMakesFirstLevel : shared::kMakesLevel), {writer_.element(), 0}, 0};
     work.readsPool = !isFirst;
     const auto add = [&](uint32_t fan, uint32_t record, uint32_t count, uint32_t items) {
         for (uint32_t item = 0; item < items; item += shared::kBlockLanes) {

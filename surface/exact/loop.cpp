@@ -1,4 +1,5 @@
 // Loop patches as a scheme: the tables of shaders/shared/{surface,exact}.h (docs/loop.md).
+#include "cage/features.h"
 #include "surface/build.h"
 #include "surface/exact/chain_tables.h"
 #include "surface/exact/triangles.h"
@@ -204,6 +205,9 @@ private:
 } // namespace
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    if (cage::hasSemiSharpCreases(cage)) {
+        return Error{ErrorCode::asset, "creases are semi-sharp: Loop patches have hard ones"};
+    }
     const Result<Isolation> isolation = subdivision::isolateCage(cage, Subdivision::loop);
     if (!isolation) {
         return isolation.error();

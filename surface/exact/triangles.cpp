@@ -53,8 +53,8 @@ CornerKind Triangles::kindOf(uint32_t corner) const {
     }
     // The spokes on the triangle's two sides, and those opposite to them; the two others are left.
     const uint32_t beside = spokeFrom(corner, 2);
-    const bool passes = beside != cage::kNone &&
-                        mesh_.edgeSharpness[cage::spokeEdge(mesh_.cage, mesh_.topology, beside)] > 0.0f;
+    const bool passes =
+        beside != cage::kNone && mesh_.edgeSharpness[cage::spokeEdge(mesh_.cage, mesh_.topology, beside)] > 0.0f;
     return passes ? CornerKind::creased : CornerKind::plain;
 }
 

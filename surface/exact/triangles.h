@@ -13,8 +13,8 @@ namespace supple::surface::loop {
 struct TrianglePlace {
     int32_t a = 0, b = 0;
 };
-/// The net of a triangle after a step, or of a chain's level: two steps along a side, and one more all round. In rows of
-/// three, as shaders/exact/box_spline.glsl has a leaf: seen from the next corner, a row moves on by one.
+/// The net of a triangle after a step, or of a chain's level: two steps along a side, and one more all round. In rows
+/// of three, as shaders/exact/box_spline.glsl has a leaf: seen from the next corner, a row moves on by one.
 inline constexpr std::array<TrianglePlace, shared::kTriangleNetPoints> kTriangleNet{{{0, 0},
                                                                                      {2, 0},
                                                                                      {0, 2},

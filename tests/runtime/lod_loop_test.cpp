@@ -62,8 +62,7 @@ TEST_P(LodLoop, RandomLevelsAreTheLimit) {
             const uint32_t face = found.faces[patch.patch];
             const uint32_t count = surface::lod::sampleCount(surface::lod::Form::triangleRings, patch.capacity);
             for (uint32_t s = 0; s < count; s += 1 + patch.capacity / 8) {
-                const glm::dvec3 given =
-                    LoopTriangles::inFace(ringWeightsOf(patch, s), found.firstCorners[face]);
+                const glm::dvec3 given = LoopTriangles::inFace(ringWeightsOf(patch, s), found.firstCorners[face]);
                 const glm::dvec3 at = triangles.atLevels(face, given);
                 moved += at != given ? 1 : 0;
                 const auto expected = limit.at(face, at.y, at.z);

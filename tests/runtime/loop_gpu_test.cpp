@@ -168,8 +168,7 @@ TEST(LoopMappings, GiveTheSamePositionBits) {
     ComparedBits bits;
     for (const SubdivisionCage& zoo : loopZoo()) {
         for (const uint32_t rate : {6u, 7u}) {
-            ASSERT_NO_FATAL_FAILURE(
-                compareMappings(*device, zoo.cage, loopOptions(SUPPLE_MAPPING_NARROW, rate), bits));
+            ASSERT_NO_FATAL_FAILURE(compareMappings(*device, zoo.cage, loopOptions(SUPPLE_MAPPING_NARROW, rate), bits));
         }
     }
     bits.print("positions in both mappings");

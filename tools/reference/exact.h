@@ -21,8 +21,8 @@ struct Point {
 };
 
 /// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
-[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated, uint32_t fragment,
-                                  uint32_t sector);
+[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
+                                  uint32_t fragment, uint32_t sector);
 
 /// The limit surface over the quads of a cage, or of the cage after one step if not all of its faces are quads: then
 /// face f gives one quad per corner, in the order of the corners (surface::refine()).

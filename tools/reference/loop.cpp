@@ -26,17 +26,17 @@ Place scaled(int32_t s, const Place& x) {
     return {s * x.a, s * x.b};
 }
 
-/// The points of a fragment by their places. What lies across an endless crease is the mirror image of what lies on this
-/// side: the point that makes a parallelogram with the triangle at the crease.
+/// The points of a fragment by their places. What lies across an endless crease is the mirror image of what lies on
+/// this side: the point that makes a parallelogram with the triangle at the crease.
 class Lattice {
 public:
     Lattice(const FragmentNet<double>& net, const Fan& fan, uint32_t sector)
-        : points_(net.points()), fan_(fan), sector_(sector), facet_(false),
-          sharp_{net.sharpnessOf(sector) > 0.0f,
-                 net.sharpnessOf((sector + 1) % (fan.sectors + (fan.open ? 1 : 0))) > 0.0f, false} {}
+        : points_(net.points()), fan_(fan), sector_(sector),
+          facet_(false), sharp_{net.sharpnessOf(sector) > 0.0f,
+                                net.sharpnessOf((sector + 1) % (fan.sectors + (fan.open ? 1 : 0))) > 0.0f, false} {}
     explicit Lattice(const FragmentNet<double>& net)
-        : points_(net.points()), facet_(true),
-          sharp_{net.sharpnessOf(0) > 0.0f, net.sharpnessOf(1) > 0.0f, net.sharpnessOf(2) > 0.0f} {}
+        : points_(net.points()),
+          facet_(true), sharp_{net.sharpnessOf(0) > 0.0f, net.sharpnessOf(1) > 0.0f, net.sharpnessOf(2) > 0.0f} {}
 
     [[nodiscard]] glm::dvec3 at(const Place& p) const {
         if (!facet_) {
@@ -79,8 +79,8 @@ private:
     std::array<bool, 3> sharp_; ///< spokes on both sides of the sector, or lines of the facet
 };
 
-/// The box spline over a triangle of the lattice, whose corner 0 lies at `origin`. With x and y the weights of corners 1
-/// and 2, in powers of these.
+/// The box spline over a triangle of the lattice, whose corner 0 lies at `origin`. With x and y the weights of corners
+/// 1 and 2, in powers of these.
 Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation, double x, double y) {
     const glm::dvec3 centre = lattice.at(origin);
     const auto p = [&](int32_t a, int32_t b) { return lattice.at(origin + scaled(orientation, {a, b})) - centre; };

@@ -24,9 +24,10 @@ public:
 
     [[nodiscard]] uint32_t triangleCount() const { return static_cast<uint32_t>(sectors_.size() / 4); }
 
-    /// Where corners 1 and 2 of a triangle have the weights v and w, and corner 0 the rest. Derivatives are those in v and
-    /// w. The position is exact to rounding but within 2^-40 of a corner, where it is the corner's; there du and dv are
-    /// zero. The normal is the limit's, but for a run of several faces between creases at a corner, where it is a mean.
+    /// Where corners 1 and 2 of a triangle have the weights v and w, and corner 0 the rest. Derivatives are those in v
+    /// and w. The position is exact to rounding but within 2^-40 of a corner, where it is the corner's; there du and dv
+    /// are zero. The normal is the limit's, but for a run of several faces between creases at a corner, where it is a
+    /// mean.
     [[nodiscard]] Point at(uint32_t triangle, double v, double w) const;
 
 private:

@@ -382,9 +382,9 @@ typedef struct SuppleAssetDesc {
      * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
      * too. One file that cannot be read fails the call. */
     const SuppleClipFile* clipFiles;
-    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files can
-     * ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs more
-     * is refused with SUPPLE_ERROR_LIMIT before it gets it. */
+    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files
+     * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
+     * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
 } SuppleAssetDesc;
 
@@ -419,9 +419,9 @@ typedef enum SuppleScheme {
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/catmull_clark.md), at any rate: any polygons,
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
-    /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which larger
-     * faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined as
-     * FRAGMENTS is: SUPPLE_MESSAGE_SCHEME_NOTE says so. */
+    /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which
+     * larger faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined
+     * as FRAGMENTS is: SUPPLE_MESSAGE_SCHEME_NOTE says so. */
     SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
