@@ -3,21 +3,25 @@
 //                                                     one the vertices, of an irregular one its net
 #include "shaders/exact/triangle.glsl"
 
-#ifndef LOCAL_NET
-vec3 netPoint(const PatchPlace at, uint k) {
-    return poolPoint(at, tableWord(4u * (at.record + kTriangleNetElement) + k));
-}
+#ifdef ONE_TRIANGLE // a lane has one alone, and loads its vertices once
+LeafPoints laneCage;
+LeafPoints cageOf(const PatchPlace at, Triangle t) { return laneCage; }
+#else
+LeafPoints cageOf(const PatchPlace at, Triangle t) { return cageLeaf(at, t); }
 #endif
-
-// The points of the leaf in a cell, by their numbers in the net: five bits each, from the first on.
-const uint kCellPoints[4][2] = uint[4][2](uint[2](0x16131460u, 0x22263889u), uint[2](0x04749023u, 0x00D7954Cu),
-                                          uint[2](0x10A00885u, 0x1D00ADA3u), uint[2](0x18E68CA4u, 0x14958402u));
 
 LeafPoints leafInCell(const PatchPlace at, NetSource net, bool own, uint cell) {
     LeafPoints leaf;
+    uint words[20] = netWords(net);
     [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) {
-        uint point = kCellPoints[cell][k / 6u] >> 5u * (k % 6u) & 31u;
-        leaf.p[k] = own ? netPoint(at, point) : poolPoint(at, net.first + tableWord(4u * net.element + point));
+        uint word = net.first + OF_CELL(cell, words, k);
+#ifdef LOCAL_NET
+        if (own) {
+            leaf.p[k] = netPoint(at, cell < 2u ? kCellPoints[cell == 0u ? 0 : 1][k] : kCellPoints[cell == 2u ? 2 : 3][k]);
+            continue;
+        }
+#endif
+        leaf.p[k] = poolPoint(at, word);
     }
     mirrorInCell(leaf, net, cell);
     return leaf;
@@ -33,10 +37,8 @@ struct TrianglePoint {
 const uint kInside = 3u;
 
 vec3 onWholeSide(const PatchPlace at, Triangle t, uint side, vec2 along) {
-    return onSide(leafSide(cageLeaf(at, t), side, false, hasFlag(t, kSharpTriangleSide, side)), along);
+    return onSide(leafSide(cageOf(at, t), side, false, hasFlag(t, kSharpTriangleSide, side)), along);
 }
-vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
-
 // The corner that a sample is, 3 if it is none.
 uint cornerAt(TrianglePoint s) {
     if (s.side != kInside) return s.along.x == 0.0 ? s.side : s.along.y == 0.0 ? nextOf(s.side) : 3u;
@@ -69,7 +71,7 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
     bool onBorder = s.side != kInside, middle = onBorder && s.along.x == s.along.y;
     if (onBorder && isCorner == 3u && !middle) corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
     NetSource net = ownNet(at, t);
-    Chain chain = chainOf(at, corner == 3u ? 0u : corner);
+    Chain chain = chainOf(t, corner == 3u ? 0u : corner);
     bool own = corner == 3u || chain.windows == 0u;
     uint cell = corner, from = 0u;
     float scale = 2.0, a = s.w.y, b = s.w.z;
@@ -102,7 +104,7 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
         position = cornerLimit(at, t, isCorner);
         if (!own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
         frame = seenFrom(from, to, da, db);
-        if (!own) frame = withNormal(frame, cornerNormal(at, corner));
+        if (!own) frame = withNormal(frame, cornerNormal(at, t, corner));
         return;
     }
     frame = seenFrom(from, to, reversed ? -da : da, reversed ? -db : db);

@@ -29,6 +29,8 @@ uint localPlace; // of the lane's patch
 
 vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
 #define LOCAL_NET
+#elif defined(LEVELS)
+#define ONE_TRIANGLE
 #endif
 #include "shaders/exact/triangle_sample.glsl"
 
@@ -89,12 +91,9 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
 void evaluatePatch(const PatchPlace at, uint lodRecord) {
     Triangle t = triangleOf(at.record, kIrregular);
     uint last = at.capacity, rings = (last + 1u) / 2u;
-    LeafPoints points;
+    laneCage = cageLeaf(at, t);
     Leaf leaf;
-    if (!kIrregular) {
-        points = cageLeaf(at, t);
-        leaf = leafOf(points);
-    }
+    if (!kIrregular) leaf = leafOf(laneCage);
     LodPattern inside = recordPattern(lodRecord, 0u, at.capacityIndex);
     uint sector = 0u;
     do {
@@ -109,7 +108,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
                 vec3 position;
                 Frame frame;
                 if (kIrregular) irregularTriangle(at, t, s, sector, position, frame);
-                else regularTriangle(at, t, points, leaf, s, sector, position, frame);
+                else regularTriangle(at, t, laneCage, leaf, s, sector, position, frame);
                 uint own = vertex + k - ring;
                 storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
             } while (++k < last - ring);
@@ -232,24 +231,13 @@ struct NetPoints {
 };
 NetPoints netPoints(const PatchPlace at, NetSource net) {
     NetPoints points;
-    [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
-        uvec4 words = tableElement(net.element + e);
-        [[unroll]] for (uint c = 0u; c < 4u; ++c) {
-            uint k = 4u * e + c;
-            if (k < kTriangleNetPoints) points.p[k] = poolPoint(at, net.first + words[c]);
-        }
-    }
+    uint words[20] = netWords(net);
+    [[unroll]] for (uint k = 0u; k < kTriangleNetPoints; ++k) points.p[k] = poolPoint(at, net.first + words[k]);
     return points;
 }
 LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
-    const uint kPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),
-                                            uint[12](3u, 1u, 4u, 9u, 7u, 2u, 12u, 10u, 5u, 15u, 13u, 0u),
-                                            uint[12](5u, 4u, 2u, 0u, 10u, 8u, 3u, 13u, 11u, 1u, 16u, 14u),
-                                            uint[12](4u, 5u, 3u, 13u, 14u, 12u, 2u, 0u, 1u, 11u, 9u, 10u));
     LeafPoints leaf;
-    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k)
-        leaf.p[k] = cell < 2u ? (cell == 0u ? net.p[kPoints[0][k]] : net.p[kPoints[1][k]])
-                              : (cell == 2u ? net.p[kPoints[2][k]] : net.p[kPoints[3][k]]);
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) leaf.p[k] = OF_CELL(cell, net.p, k);
     mirrorInCell(leaf, source, cell);
     return leaf;
 }
@@ -296,7 +284,7 @@ void storeChains(const PatchPlace at, Triangle t) {
     uint chains = ~triangleFlags(t, kPlainTriangleCorner) & 7u, level = 2u;
     do {
         uint corner = uint(findLSB(chains));
-        Chain chain = chainOf(at, corner);
+        Chain chain = chainOf(t, corner);
         NetSource net = chainNet(at, t, chain, corner, level);
         uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
         NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)), false);
@@ -311,7 +299,7 @@ void storeChains(const PatchPlace at, Triangle t) {
         // At the corner the chords of the last level stand in for directions.
         bool isLast = level == chain.lastLevel;
         Frame frame = seenFrom(corner, 0u, all.p[3] - all.p[0], all.p[5] - all.p[0]);
-        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withNormal(frame, cornerNormal(at, corner)));
+        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withNormal(frame, cornerNormal(at, t, corner)));
         chains &= isLast ? chains - 1u : 7u;
         level = isLast ? 2u : level + 1u;
     } while (chains != 0u);

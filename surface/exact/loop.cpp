@@ -2,6 +2,7 @@
 #include "cage/features.h"
 #include "surface/build.h"
 #include "surface/exact/chain_tables.h"
+#include "surface/exact/needed_rows.h"
 #include "surface/exact/triangles.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
@@ -16,24 +17,6 @@ namespace {
 using exact::ChainTables;
 using exact::VertexNeeds;
 using subdivision::Isolation;
-
-/// Points that are rows of weights: each once.
-class Rows {
-public:
-    explicit Rows(uint32_t all) : numbers_(all, cage::kNone) {}
-    void need(uint32_t row) {
-        if (numbers_[row] == cage::kNone) {
-            numbers_[row] = static_cast<uint32_t>(needed_.size());
-            needed_.push_back(row);
-        }
-    }
-    [[nodiscard]] const std::vector<uint32_t>& needed() const { return needed_; }
-    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(needed_.size()); }
-    [[nodiscard]] uint32_t number(uint32_t row) const { return numbers_[row]; }
-
-private:
-    std::vector<uint32_t> numbers_, needed_;
-};
 
 class Builder {
 public:
@@ -129,12 +112,12 @@ private:
                 triangles_.addLimit(v, rows);
             }
         }
-        for (const uint32_t vertex : vertices_.needed()) {
+        for (const uint32_t vertex : vertices_.rows()) {
             rows.vertices.push_back(vertex);
             rows.weights.push_back(1.0);
             rows.starts.push_back(static_cast<uint32_t>(rows.vertices.size()));
         }
-        const Stencils levelOne = rowsOf(mesh_.stencils.back(), levelOne_.needed());
+        const Stencils levelOne = rowsOf(mesh_.stencils.back(), levelOne_.rows());
         const auto before = static_cast<uint32_t>(rows.vertices.size());
         rows.vertices.insert(rows.vertices.end(), levelOne.vertices.begin(), levelOne.vertices.end());
         rows.weights.insert(rows.weights.end(), levelOne.weights.begin(), levelOne.weights.end());
@@ -196,7 +179,7 @@ private:
     TableWriter writer_;
     exact::FanTables fans_;
     ChainTables chains_;
-    Rows vertices_, levelOne_;
+    exact::NeededRows vertices_, levelOne_;
     uint32_t firstVertex_ = 0, firstLevelOne_ = 0;
     std::vector<uint32_t> limits_;      ///< by vertex: pool indices
     std::vector<uint8_t> firstCorners_; ///< by face

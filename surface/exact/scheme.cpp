@@ -5,6 +5,7 @@
 #include "surface/build.h"
 #include "surface/exact/chain_tables.h"
 #include "surface/exact/corners.h"
+#include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
 #include "surface/fans.h"
 #include "surface/smooth_uvs.h"
@@ -50,7 +51,8 @@ public:
         : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
           rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words), fans_(writer_),
-          chains_({&mesh_, lastLevel_, recipe.wide}, vertexNeeds(), fans_, writer_) {}
+          chains_({&mesh_, lastLevel_, recipe.wide}, vertexNeeds(), fans_, writer_),
+          levelOne_(mesh_.stencils.back().rows()) {}
 
     Result<Tables> build() {
         const Status fits = checkSizes();
@@ -71,7 +73,7 @@ public:
         findLevelOnePoints();
         layOutPool();
         writeFans();
-        chains_.write({[&](uint32_t point) { return firstLevelOne_ + levelOne_[point]; },
+        chains_.write({[&](uint32_t point) { return firstLevelOne_ + levelOne_.number(point); },
                        [](uint32_t vertex) { return vertex; }, steps()},
                       tables_);
         const std::vector<uint32_t> points = ringPoints();
@@ -137,23 +139,18 @@ private:
 
     /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
     void findLevelOnePoints() {
-        levelOne_.assign(mesh_.stencils.back().rows(), cage::kNone);
-        const auto need = [&](uint32_t point) {
-            if (levelOne_[point] == cage::kNone) {
-                levelOne_[point] = static_cast<uint32_t>(needed_.size());
-                needed_.push_back(point);
-            }
-        };
         for (const DraftPatch& patch : patches_) {
             if (patch.info.patchClass == PatchClass::regular) {
                 continue;
             }
             const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, firstCorners_[patch.facet], points_));
-            std::for_each(net.begin(), net.end(), need);
+            for (const uint32_t point : net) {
+                levelOne_.need(point);
+            }
         }
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
             for (uint32_t i = 0; i < chains_.netSize(v); ++i) {
-                need(mesh_.net[mesh_.fragments[v].firstNet + i]);
+                levelOne_.need(mesh_.net[mesh_.fragments[v].firstNet + i]);
             }
         }
     }
@@ -184,7 +181,7 @@ private:
         tables_.tangents = point;
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
-        const uint32_t next = chains_.layOut(firstLevelOne_ + static_cast<uint32_t>(needed_.size()));
+        const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
         tables_.inner = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
     }
@@ -218,7 +215,7 @@ private:
                 tables_.constructions.push_back(vertices);
             }
         }
-        writeStencils(rowsOf(mesh_.stencils.back(), needed_),
+        writeStencils(rowsOf(mesh_.stencils.back(), levelOne_.rows()),
                       {meshStage(), steps(), steps() ? tables_.inner : 0, firstLevelOne_}, writer_, tables_);
     }
 
@@ -279,7 +276,7 @@ private:
         }
         writer_.put({flags});
         for (const uint32_t point : net) {
-            writer_.put({firstLevelOne_ + levelOne_[point]});
+            writer_.put({firstLevelOne_ + levelOne_.number(point)});
         }
         (void)writer_.element();
     }
@@ -333,7 +330,7 @@ private:
     ChainTables chains_;
     std::vector<DraftPatch> patches_;
     std::vector<QuadNet> nets_; ///< of irregular quads, in the order of patches
-    std::vector<uint32_t> levelOne_, needed_;
+    NeededRows levelOne_;
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them
     std::vector<uint32_t> runPoints_, runSlots_; ///< by run

@@ -78,7 +78,7 @@ constexpr HiddenCase kHiddenCases[] = {
     {"fragments", SUPPLE_SCHEME_FRAGMENTS, false, false, kMotion, 0},
     {"fragmentsRates", SUPPLE_SCHEME_FRAGMENTS, false, true, 0, kViewMotion | SUPPLE_VIEW_CULL},
     {"loop", SUPPLE_SCHEME_LOOP, false, false, kMotion, 0},
-    {"loopLevels", SUPPLE_SCHEME_LOOP, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},
+    {"loopLevels", SUPPLE_SCHEME_LOOP, false, true, 0, kViewMotion},
     {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion, 0},
     {"catmullClarkMesh", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
     {"catmullClarkLevels", SUPPLE_SCHEME_CATMULL_CLARK, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},

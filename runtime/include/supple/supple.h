@@ -382,9 +382,9 @@ typedef struct SuppleAssetDesc {
      * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
      * too. One file that cannot be read fails the call. */
     const SuppleClipFile* clipFiles;
-    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files
-     * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
-     * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
+    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files can
+     * ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs more
+     * is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
 } SuppleAssetDesc;
 
@@ -420,8 +420,8 @@ typedef enum SuppleScheme {
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
     /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which
-     * larger faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined
-     * as FRAGMENTS is: SUPPLE_MESSAGE_SCHEME_NOTE says so. */
+     * larger faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined,
+     * and what is said of FRAGMENTS holds for it: SUPPLE_MESSAGE_SCHEME_NOTE tells. */
     SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
@@ -732,7 +732,7 @@ typedef struct SuppleGroupDesc {
     uint32_t capacity; /**< instances that can exist at a time, 1 or more */
     SuppleScheme scheme;
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
-     * FRAGMENTS and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
+     * FRAGMENTS: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
      * of them (SuppleGridOutput.rate). With FRAGMENTS, if the cage has faces that are no quads, it has a quarter.
      * BLEND and CATMULL_CLARK: if the cage has faces that are no quads, `rate` counts segments along an edge of the
      * cage. It is rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
@@ -742,9 +742,9 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
      * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK and BLEND ignore
-     * `rate` and have a SuppleLevelOutput. With FRAGMENTS and LOOP each instance gets the rate that its level asks for,
+     * `rate` and have a SuppleLevelOutput. With FRAGMENTS each instance gets the rate that its level asks for,
      * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * FRAGMENTS, LOOP and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
+     * FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
      * count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
@@ -791,7 +791,7 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
- * be 1 to the rate that the group was created with. Groups of FRAGMENTS, LOOP, BLEND or POLYGONS, or with
+ * be 1 to the rate that the group was created with. Groups of FRAGMENTS, BLEND or POLYGONS, or with
  * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. CATMULL_CLARK
  * rounds it as it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change
  * it, none does; only POLYGONS beside other schemes has no say. */
