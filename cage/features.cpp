@@ -104,6 +104,12 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     return features;
 }
 
+bool hasSemiSharpCreases(const Cage& cage) {
+    return std::any_of(cage.creases.begin(), cage.creases.end(), [](const Crease& crease) {
+        return crease.sharpness > 0.0f && crease.sharpness < kHardSharpness;
+    });
+}
+
 std::string sharpRoundCorners(const Cage& cage) {
     const size_t count = cage.roundCorners.size();
     return count == 0

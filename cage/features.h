@@ -23,6 +23,8 @@ struct Features {
 /// of an edge the last. Negative or NaN sharpness counts as 0. A scalar outside 0..1 is not used.
 /// O(corners), and for each crease the smaller valence of its ends.
 [[nodiscard]] Features buildFeatures(const Cage& cage, const Topology& topology);
+/// Whether some crease is sharp, but not infinitely.
+[[nodiscard]] bool hasSemiSharpCreases(const Cage& cage);
 
 /// For the notes of schemes that make corners of Cage::roundCorners; empty if there are none.
 [[nodiscard]] std::string sharpRoundCorners(const Cage& cage);

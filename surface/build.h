@@ -32,6 +32,11 @@ namespace exact {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 } // namespace exact
 
+namespace loop {
+/// Loop by patches of one triangle each. Refuses semi-sharp creases, and what exact::build() does.
+[[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+} // namespace loop
+
 namespace blend {
 /// O(corners + classes rate^2).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);

@@ -32,8 +32,9 @@ enum class Form : uint32_t {
 /// What the borders of patches are.
 enum class Borders : uint8_t {
     cubics,
-    halves, ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
-    charts  ///< blends of two charts
+    halves,  ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
+    splines, ///< Loop: quartic box splines, whole or in halves
+    charts   ///< blends of two charts
 };
 
 enum class PatchClass : uint32_t {
@@ -50,7 +51,9 @@ enum class PatchClass : uint32_t {
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
     irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
     irregularSharp = shared::kIrregularSharpPatch, ///< some side is a crease, too
-    creased = shared::kCreasedPatch                ///< no corner has a chain, but a semi-sharp crease passes
+    creased = shared::kCreasedPatch,               ///< no corner has a chain, but a semi-sharp crease passes
+    loopRegular = shared::kLoopRegularPatch,       ///< exact Loop: a quartic box spline
+    loopIrregular = shared::kLoopIrregularPatch    ///< some corner has a chain of leaves
 };
 
 struct PatchClassRow {
@@ -72,7 +75,9 @@ struct PatchClassRow {
     /// Exact Catmull-Clark: in the wide mapping a lane takes a quarter at a rate.
     [[nodiscard]] constexpr bool hasQuarters() const { return borders == Borders::halves; }
     /// P_m: triangular sectors round a centre.
-    [[nodiscard]] constexpr bool hasSectors() const { return form != lod::Form::quad; }
+    [[nodiscard]] constexpr bool hasSectors() const { return hasRings() && borders == Borders::cubics; }
+    /// At levels its samples lie in rings.
+    [[nodiscard]] constexpr bool hasRings() const { return form != lod::Form::quad; }
 };
 
 inline constexpr PatchClassRow kPatchClasses[] = {
@@ -101,6 +106,10 @@ inline constexpr PatchClassRow kPatchClasses[] = {
      Kernel::exactEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
     {"creased", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate, Kernel::exactEvaluateLevels,
      Kernel::count, lod::Form::quad, Borders::halves},
+    {"loop-regular", Domain::triangle, 0, shared::kTriangleElements, Kernel::exactTriangles,
+     Kernel::exactTrianglesLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
+    {"loop-irregular", Domain::triangle, 0, shared::kIrregularTriangleElements, Kernel::exactTriangles,
+     Kernel::exactTrianglesLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

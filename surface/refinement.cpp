@@ -242,6 +242,18 @@ Result<RefinedMesh> beginRefinement(const Cage& cage, const SplitRule* rule, std
     return mesh;
 }
 
+Stencils rowsOf(const Stencils& all, std::span<const uint32_t> rows) {
+    Stencils some;
+    some.starts.push_back(0);
+    for (const uint32_t row : rows) {
+        const auto from = static_cast<ptrdiff_t>(all.starts[row]), to = static_cast<ptrdiff_t>(all.starts[row + 1]);
+        some.vertices.insert(some.vertices.end(), all.vertices.begin() + from, all.vertices.begin() + to);
+        some.weights.insert(some.weights.end(), all.weights.begin() + from, all.weights.begin() + to);
+        some.starts.push_back(static_cast<uint32_t>(some.vertices.size()));
+    }
+    return some;
+}
+
 RefinedMesh refine(const RefinedMesh& parent, Subdivision subdivision) {
     RefinedMesh child = Refiner(parent, subdivision).run();
     const Stencils& stencils = child.stencils;

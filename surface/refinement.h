@@ -7,6 +7,7 @@
 #include "surface/subdivision_rules.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Stencils {
 
     [[nodiscard]] uint32_t rows() const { return static_cast<uint32_t>(starts.size() - 1); }
 };
+/// Some of the rows.
+[[nodiscard]] Stencils rowsOf(const Stencils& all, std::span<const uint32_t> rows);
 
 /// A cage that is subdivided, after some number of steps.
 struct RefinedMesh {

@@ -1,5 +1,6 @@
 #include "surface/schemes.h"
 
+#include "cage/features.h"
 #include "cage/trim.h"
 #include "surface/build.h"
 #include "surface/indexed_mesh.h"
@@ -22,7 +23,7 @@ constexpr Scheme kSchemes[] = {
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::loop, "Loop", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
+    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kLinearUvs, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
@@ -32,6 +33,17 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }},
 };
+
+/// No host names it: see drawerOf().
+constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
+                                   "Loop in fragments",
+                                   &subdivision::build,
+                                   RateRule::doubling,
+                                   "2, 4, 8..",
+                                   false,
+                                   kAllUvModes,
+                                   false,
+                                   [](const cage::Cage&) { return 0.001f; }};
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -87,7 +99,19 @@ std::span<const Scheme> schemes() {
 }
 
 const Scheme& schemeOf(SchemeId id) {
-    return *std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
+    const auto* found =
+        std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
+    return found != std::end(kSchemes) ? *found : kLoopFragments;
+}
+
+Drawer drawerOf(SchemeId asked, const cage::Cage& cage, bool smoothUvs) {
+    if (asked != SchemeId::loop) {
+        return {asked, ""};
+    }
+    if (cage::hasSemiSharpCreases(cage)) {
+        return {SchemeId::loopFragments, "creases are semi-sharp"};
+    }
+    return smoothUvs ? Drawer{SchemeId::loopFragments, "texture coordinates are smooth"} : Drawer{asked, ""};
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

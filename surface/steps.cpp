@@ -125,7 +125,7 @@ AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, boo
     }
     if (tables.uvMode == cage::UvMode::all) {
         const Kernel atLevels =
-            row.hasSectors() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
+            row.hasRings() ? Kernel::evaluateAttributesLevelsRings : Kernel::evaluateAttributesLevels;
         return {levels ? atLevels : Kernel::evaluateAttributes, static_cast<uint32_t>(row.domain)};
     }
     AttributeKernel smooth{Kernel::evaluateAttributesSamples, static_cast<uint32_t>(patchClass)};

@@ -11,12 +11,16 @@ namespace {
 
 constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
 
-surface::Recipe recipeOf(const SuppleGroupDesc& desc, uint32_t rate, const View* view) {
+bool wantsAttributes(const SuppleGroupDesc& desc, const View* view) {
+    return view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
+                           : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
+}
+
+surface::Recipe recipeOf(const SuppleGroupDesc& desc, surface::SchemeId drawer, uint32_t rate, const View* view) {
     surface::Recipe recipe;
     recipe.indexedMesh = (desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
-    recipe.attributes = view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
-                                        : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
-    recipe.scheme = static_cast<surface::SchemeId>(desc.scheme);
+    recipe.attributes = wantsAttributes(desc, view);
+    recipe.scheme = drawer;
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     recipe.tangents =
         (scheme.isMesh() || recipe.indexedMesh) && (view != nullptr ? (view->desc().flags & SUPPLE_VIEW_TANGENTS) != 0
@@ -49,6 +53,19 @@ std::optional<cage::UvMode> uvModeOfFile(const TessellationDesc& desc) {
     return std::nullopt;
 }
 
+/// How texture coordinates are interpolated, if the scheme does.
+cage::UvMode uvModeOf(const TessellationDesc& desc, const StreamSet& wanted) {
+    using cage::UvMode;
+    if (desc.group.uvInterpolation != SUPPLE_UV_FROM_FILE) {
+        return static_cast<UvMode>(static_cast<uint32_t>(desc.group.uvInterpolation) - 1);
+    }
+    return uvModeOfFile(desc).value_or(wanted.has(Stream::tangents) ? UvMode::cornersPlus1 : UvMode::all);
+}
+
+StreamSet wantedBy(const TessellationDesc& desc) {
+    return desc.view != nullptr ? StreamSet::ofView(desc.view->desc().flags) : StreamSet::ofGroup(desc.group.flags);
+}
+
 /// The kinds of sets that a program binds.
 std::vector<SetKind> setKindsOf(const surface::Program& program) {
     std::vector<SetKind> kinds;
@@ -66,11 +83,16 @@ std::vector<SetKind> setKindsOf(const surface::Program& program) {
 
 } // namespace
 
-Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDesc& desc) {
-    if (desc.group.scheme == SUPPLE_SCHEME_CAGE) {
-        return makeNoTessellation(desc);
+Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDesc& asked) {
+    if (asked.group.scheme == SUPPLE_SCHEME_CAGE) {
+        return makeNoTessellation(asked);
     }
-    const surface::Scheme& row = surface::schemeOf(static_cast<surface::SchemeId>(desc.group.scheme));
+    TessellationDesc desc = asked;
+    const cage::Cage& cage = desc.asset->cageOf(desc.piece);
+    const bool smoothUvs = wantsAttributes(desc.group, desc.view.get()) && !cage.cornerUvs.empty() &&
+                           uvModeOf(desc, wantedBy(desc)) != cage::UvMode::all;
+    desc.drawer = surface::drawerOf(static_cast<surface::SchemeId>(desc.group.scheme), cage, smoothUvs);
+    const surface::Scheme& row = surface::schemeOf(desc.drawer.scheme);
     if (desc.view != nullptr && !row.hasLevels && !row.hasRates()) {
         return Error{ErrorCode::argument,
                      desc.asset->character.name + ": " + row.name + " cannot be drawn in a view yet"};
@@ -85,7 +107,7 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
 Tessellation::Tessellation(TessellationDesc desc)
     : desc_(std::move(desc)), askedRate_(desc_.group.rate == 0 ? 8 : desc_.group.rate),
       scheme_(std::make_shared<SchemeTables>()) {
-    wanted_ = view() != nullptr ? StreamSet::ofView(view()->desc().flags) : StreamSet::ofGroup(desc_.group.flags);
+    wanted_ = wantedBy(desc_);
     if (desc_.piece != nullptr) {
         gathered_.emplace(*desc_.deform, *desc_.piece);
     }
@@ -96,11 +118,7 @@ Status Tessellation::chooseUvs(surface::Recipe& recipe) {
     using cage::UvMode;
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     const bool asked = desc_.group.uvInterpolation != SUPPLE_UV_FROM_FILE;
-    const std::optional<UvMode> ofFile = uvModeOfFile(desc_);
-    UvMode mode = ofFile.value_or(wanted_.has(Stream::tangents) ? UvMode::cornersPlus1 : UvMode::all);
-    if (asked) {
-        mode = static_cast<UvMode>(static_cast<uint32_t>(desc_.group.uvInterpolation) - 1);
-    }
+    const UvMode mode = uvModeOf(desc_, wanted_);
     recipe.uvMode = mode;
     if (!recipe.attributes || cage().cornerUvs.empty()) {
         recipe.uvMode = UvMode::all; // nobody sees the difference
@@ -111,13 +129,13 @@ Status Tessellation::chooseUvs(surface::Recipe& recipe) {
             return Error{ErrorCode::argument, desc_.asset->character.name + ": " + reason};
         }
         recipe.uvMode = UvMode::all;
-        uvNote_ = asked || ofFile ? reason + ": they are linear" : "";
+        uvNote_ = asked || uvModeOfFile(desc_) ? reason + ": they are linear" : "";
     }
     return success();
 }
 
 Status Tessellation::buildTables() {
-    surface::Recipe recipe = recipeOf(desc_.group, askedRate_, view());
+    surface::Recipe recipe = recipeOf(desc_.group, desc_.drawer.scheme, askedRate_, view());
     recipe.wide = desc_.device->mapping.wide;
     if (const Status chosen = chooseUvs(recipe); !chosen) {
         return chosen;

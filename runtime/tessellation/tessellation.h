@@ -42,6 +42,7 @@ struct TessellationDesc {
     SuppleGroupDesc group{};           ///< `scheme` is the surface's
     std::vector<uint32_t> parts;       ///< rising
     std::shared_ptr<AssetPiece> piece; ///< those parts; null: all of the asset's
+    surface::Drawer drawer;            ///< create() finds it
     bool schemeChosen = false;         ///< the host left it to Supple: outputs that the scheme lacks are left out
     uint32_t surface = 0;              ///< its number in the group
     bool countsHidden = true;          ///< it has the first patches at levels of the group
@@ -53,7 +54,7 @@ struct TessellationDesc {
 class Tessellation {
 public:
     /// Builds the tables, prepares the pipelines and lays out an instance; refuses what the scheme cannot take.
-    [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& desc);
+    [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& asked);
     virtual ~Tessellation() = default;
     Tessellation(const Tessellation&) = delete;
     Tessellation& operator=(const Tessellation&) = delete;
@@ -73,6 +74,8 @@ public:
     }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
+    /// Why another scheme draws the surface than the one asked for, or empty.
+    [[nodiscard]] const std::string& drawerReason() const { return desc_.drawer.reason; }
     /// Why texture coordinates are linear though the file says otherwise, or empty.
     [[nodiscard]] const std::string& uvNote() const { return uvNote_; }
 

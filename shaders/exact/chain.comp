@@ -1,5 +1,5 @@
-// Limit points, normals and chains of vertices that are not plain (docs/catmull_clark.md). Limits: one invocation a vertex and instance.
-// Chains: one a spoke or centre and instance. Narrow mapping: of one level. Wide mapping: they go from level to level in
+// Limit points, normals and chains of vertices that are not plain (docs/catmull_clark.md; with TRIANGLES docs/loop.md). Limits: one
+// invocation a vertex and instance. Chains: one a spoke or centre and instance. Narrow mapping: of one level. Wide mapping: they go from level to level in
 // workgroup memory, unless a vertex has many faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,6 +8,13 @@
 #include "shaders/surface/store.glsl"
 #include "shaders/shared/exact.h"
 #include "shaders/shared/subdivision.h"
+
+#ifdef TRIANGLES
+#define LOOP_RULES
+const uint kPointsOfSpoke = 1u; // of ring 1
+#else
+const uint kPointsOfSpoke = 2u;
+#endif
 
 layout(constant_id = kKindConstant) const uint kMakes = kMakesLimits;
 
@@ -67,6 +74,54 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
 
 uvec4 fan; // sectors, points of a level, whether it is open
 
+void put(uint to, vec3 p) {
+#ifdef WIDE
+    if (kMakes == kMakesChains) {
+        localPoints[to] = vec4(p, 0.0);
+        return;
+    }
+#endif
+    pool[to] = vec4(p, 0.0);
+}
+
+#ifdef TRIANGLES
+// Spiral index of a point a steps along spoke h and b along the next one (surface/subdivision/pattern.h).
+uint pointIndex(uint h, uint a, uint b) {
+    uint r = a + b;
+    if (r == 0u) return 0u;
+    uint place = r * h + b;
+    if (fan.z == 0u && place == r * fan.x) place = 0u; // the last spoke is the first
+    return 1u + fan.x * r * (r - 1u) / 2u + fan.z * (r - 1u) + place;
+}
+
+// What comes of a spoke: its own three points, and those of its sector at (1, 1), (2, 1), (1, 2); or the centre alone.
+struct SpokePoints {
+    vec3 onSpoke[3], inside[3];
+};
+SpokePoints spokePoints(uint h, float sharpness) {
+    // What lies outside of an open fan counts nothing: its borders are sharp. Its last spoke has no sector.
+    uint before = h == 0u ? fan.x - 1u : h - 1u, own = h == fan.x ? 0u : 1u, beside = fan.z != 0u && h == 0u ? 0u : 1u;
+    vec3 c = point(0u), near = point(pointIndex(h, 1u, 0u)), far = point(pointIndex(h, 2u, 0u));
+    vec3 left = point(own * pointIndex(h, 0u, 1u)), leftFar = point(own * pointIndex(h, 1u, 1u));
+    vec3 leftEnd = point(own * pointIndex(h, 0u, 2u));
+    vec3 right = point(beside * pointIndex(before, 1u, 0u)), rightFar = point(beside * pointIndex(before, 1u, 1u));
+    SpokePoints to;
+    to.onSpoke[0] = edgePoint(c, near, left, left, right, right, sharpness);
+    to.onSpoke[1] = vertexPoint(near, vec3[8](far, leftFar, left, c, right, rightFar, c, c), sharpness);
+    to.onSpoke[2] = edgePoint(near, far, leftFar, leftFar, rightFar, rightFar, sharpness);
+    to.inside[0] = edgePoint(near, left, c, c, leftFar, leftFar, 0.0);
+    to.inside[1] = edgePoint(near, leftFar, far, far, left, left, 0.0);
+    to.inside[2] = edgePoint(left, leftFar, near, near, leftEnd, leftEnd, 0.0);
+    return to;
+}
+void putSpokePoints(uint target, uint h, SpokePoints p) {
+    for (uint i = 0u; i < 3u; ++i) put(target + pointIndex(h, i + 1u, 0u), p.onSpoke[i]);
+    if (h == fan.x) return;
+    put(target + pointIndex(h, 1u, 1u), p.inside[0]);
+    put(target + pointIndex(h, 2u, 1u), p.inside[1]);
+    put(target + pointIndex(h, 1u, 2u), p.inside[2]);
+}
+#else
 // Spiral index of a point a steps along spoke h and b along the next one (surface/subdivision/pattern.h).
 uint pointIndex(uint h, uint a, uint b) {
     uint r = max(a, b);
@@ -106,6 +161,14 @@ SpokePoints spokePoints(uint h, float sharpness) {
     }
     return to;
 }
+void putSpokePoints(uint target, uint h, SpokePoints p) {
+    for (uint i = 0u; i < 3u; ++i) {
+        put(target + pointIndex(h, i + 1u, 0u), p.onSpoke[i]);
+        if (h == fan.x) continue;
+        for (uint j = 0u; j < 3u; ++j) put(target + pointIndex(h, i + 1u, j + 1u), p.inside[i][j]);
+    }
+}
+#endif
 
 // A spoke or the centre of a chain.
 struct ChainItem {
@@ -129,25 +192,12 @@ SpokePoints pointsOf(ChainItem item, uint firstWeights, uint level) {
     if (item.sharpness != kNoSharpness) sharpness = softened(uintBitsToFloat(tableWord(item.sharpness + item.spoke)), level - 2u);
     return spokePoints(item.spoke, sharpness);
 }
-void put(uint to, vec3 p) {
-#ifdef WIDE
-    if (kMakes == kMakesChains) {
-        localPoints[to] = vec4(p, 0.0);
-        return;
-    }
-#endif
-    pool[to] = vec4(p, 0.0);
-}
 void putPoints(uint target, ChainItem item, SpokePoints p) {
     if (isCentre(item)) {
         put(target, p.onSpoke[0]);
         return;
     }
-    for (uint i = 0u; i < 3u; ++i) {
-        put(target + pointIndex(item.spoke, i + 1u, 0u), p.onSpoke[i]);
-        if (item.spoke == fan.x) continue;
-        for (uint j = 0u; j < 3u; ++j) put(target + pointIndex(item.spoke, i + 1u, j + 1u), p.inside[i][j]);
-    }
+    putSpokePoints(target, item.spoke, p);
 }
 
 void readNet(uint record) {
@@ -159,7 +209,7 @@ void readNet(uint record) {
 // All levels. To be called by all lanes.
 void makeChains(uvec4 block, uint lane) {
     uint first = gl_LocalInvocationID.x / kBlockLanes * kBlockPoints, vertices = block.z, spokes = fan.x + fan.z;
-    uint net = 1u + 6u * fan.x + 2u * fan.z; // points up to radius 2
+    uint net = 1u + 3u * kPointsOfSpoke * fan.x + 2u * fan.z; // points up to radius 2
     for (uint n = lane; n < vertices * net; n += kBlockLanes) {
         uint vertex = n / net, i = n - vertex * net;
         readNet(block.y + 2u * vertex);

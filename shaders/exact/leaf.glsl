@@ -3,15 +3,13 @@
 // Leaves come as the cells of nets. A net has 5 x 5 points and 2 x 2 cells, and a cell has 4 x 4 of the points. The four cells of a
 // quad's own net, points of level 1, are its quarters; each is seen from its corner. Three cells of a chain's net are the leaves of a level; the fourth, next
 // to the vertex, belongs to the levels that follow.
+#include "shaders/exact/chain_level.glsl"
 #include "shaders/subdivision/sharpness.glsl"
 
 // The weights of the four points in one direction, and their derivatives.
 struct LeafWeights {
     vec4 w, d;
 };
-
-// 2^n of a small integer.
-float powerOfTwo(float n) { return uintBitsToFloat(uint(127 + int(n)) << 23u); }
 
 // (1): the weight that a point across a crease of this sharpness keeps, and its derivative.
 vec2 sharpWeight(float sharpness, float x) {

@@ -39,10 +39,6 @@ Chain chainOf(IrregularQuad quad, uint corner) {
 uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
 vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }
 
-// At levels of detail samples come as near to a vertex as they like, but chains end: what lies in the last cell at the vertex is
-// moved out of it. On a border both quads do the same, for they have the same vertex.
-float withinChain(float distance, uint lastLevel) { return distance > 0.0 ? max(distance, powerOfTwo(-float(lastLevel))) : 0.0; }
-
 // The frame of the quad, of derivatives along a corner's two edges.
 Frame turnedFrame(uint corner, vec3 da, vec3 db) {
     bool odd = (corner & 1u) != 0u;

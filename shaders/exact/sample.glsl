@@ -17,16 +17,6 @@ vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
     return poolPoint(at, net.first + ((k & 1u) == 0u ? halves & 0xFFFFu : halves >> 16u));
 }
 
-// Where a sample lies among the leaves of a chain.
-struct ChainPlace {
-    uint level;
-    float scale; // from distances to parameters of the net
-};
-ChainPlace chainPlace(float far, uint lastLevel) {
-    uint level = uint(clamp(127 - int(floatBitsToUint(far) >> 23u), 2, int(lastLevel))); // 2^-level <= far < 2^(1 - level)
-    return ChainPlace(level, powerOfTwo(float(level)));
-}
-
 // A point of a side, at a pair of the quad's own parameter.
 vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     if (isCubic(quad, side)) return onCubic(sideCubic(at, quad, side), side, pair);

@@ -3,6 +3,7 @@
 // patches know by different coefficients of equal value has one level all the same.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #define PUSH_CONSTANTS LodPush
 #include "shaders/shared/lod.h"
@@ -87,6 +88,30 @@ EdgeCurve curveOf(uint base, uint edge) {
     p[0] = poolPoint(at, componentOf(quad.points, side < 2u ? side : (side + 1u) & 3u));
     p[4] = poolPoint(at, componentOf(quad.points, side < 2u ? side + 1u : side));
     for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)));
+    return quarteredCurve(p);
+}
+#elif defined(TRIANGLES)
+// The border is that of a Loop patch (docs/loop.md).
+#include "shaders/shared/exact.h"
+#include "shaders/surface/net.glsl"
+const bool kTangents = false;
+#include "shaders/evaluate/frame.glsl"
+
+struct PatchPlace {
+    uint record, base;
+};
+vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
+#include "shaders/exact/triangle_sample.glsl"
+
+EdgeCurve curveOf(uint base, uint edge) {
+    uvec4 words = tableElement(push.edges + edge);
+    PatchPlace at = PatchPlace(words.x, base);
+    uint side = words.y;
+    Triangle t = triangleOf(at.record, words.z != 0u);
+    vec3 p[5];
+    p[0] = cornerLimit(at, t, side);
+    p[4] = cornerLimit(at, t, nextOf(side));
+    for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k))));
     return quarteredCurve(p);
 }
 #else

@@ -29,6 +29,16 @@ const bool kHalves = true; // exact Catmull-Clark: some are irregular quads
 #else
 const bool kHalves = false;
 #endif
+#ifdef TRIANGLES // of Loop
+#include "shaders/shared/exact.h"
+const bool kTangents = false;
+#include "shaders/evaluate/frame.glsl"
+struct PatchPlace {
+    uint record, base;
+};
+vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
+#include "shaders/exact/triangle_sample.glsl"
+#endif
 #ifdef BACK_FACES
 const bool kBackFaces = true; // patches that show their backs are left out
 #else
@@ -152,6 +162,27 @@ vec2 irregularLevels(uint record, uint base) {
 }
 #else
 vec2 irregularLevels(uint record, uint base) { return vec2(0.0); }
+#endif
+
+#ifdef TRIANGLES
+// And of a Loop patch: as of sectors. Its middle is that of a leaf, of level 1 in an irregular triangle.
+float triangleLevel(uint record, uint base, bool irregular) {
+    PatchPlace at = PatchPlace(record, base);
+    Triangle t = triangleOf(record, irregular);
+    LeafPoints leaf;
+    if (irregular) leaf = leafInCell(at, ownNet(at, t), true, kMiddleCell);
+    else leaf = cageLeaf(at, t);
+    vec3 outer = (leaf.p[3] + leaf.p[4] + leaf.p[5]) + (leaf.p[9] + leaf.p[10] + leaf.p[11]);
+    vec3 centre = (92.0 * (leaf.p[0] + leaf.p[1] + leaf.p[2]) + 14.0 * (leaf.p[6] + leaf.p[7] + leaf.p[8]) + outer) / 324.0;
+    vec3 corners[3], mean = vec3(0.0);
+    for (uint i = 0u; i < 3u; ++i) {
+        corners[i] = cornerLimit(at, t, i);
+        mean += corners[i] / 3.0;
+    }
+    float reach = 0.0;
+    for (uint i = 0u; i < 3u; ++i) reach = max(reach, lengthOf(corners[i] - centre));
+    return levelOf(2.0 * reach, lengthOf(mean - centre) * (4.0 / 3.0), pixelsPerUnit(centre, reach));
+}
 #endif
 
 // Orthographic: the direction it looks in, which all rays have.
@@ -370,9 +401,13 @@ void main() {
     } else {
         for (uint k = 0u; k < 4u; ++k) ofEdges[k] = k < sides ? uintBitsToFloat(levelWord(words + edges[k])) : 0.0;
         if (sides > 4u) fifth = uintBitsToFloat(levelWord(words + more.x));
+#ifdef TRIANGLES
+        own = vec2(triangleLevel(more.z, base, patchClass == kLoopIrregularPatch));
+#else
         if (kCharts) own = chartLevels(more.z, base);
         else if (irregular) own = irregularLevels(more.z, base);
         else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
+#endif
         level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
     }
     // Nothing is known of where a blend of charts faces, nor an irregular quad.

@@ -63,6 +63,26 @@ SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 // Flags of a record, a bit a side.
 SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
 
+// Loop (docs/loop.md). Triangles: limit points of the corners, flags; kLeafPoints pool indices of vertices. Irregular ones
+// then have, an element each: pool index of the chains of the corners or 0; windows of their sector; points of a level and last
+// level, as quads; normals or kNoNormal; then kTriangleNetPoints pool indices of points of level 1. Windows have one word a point.
+SUPPLE_SHARED_CONST kLeafPoints = 12u;
+SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
+SUPPLE_SHARED_CONST kTriangleWindowElements = 5u;
+SUPPLE_SHARED_CONST kTriangleElements = 4u;
+SUPPLE_SHARED_CONST kIrregularTriangleElements = 13u;
+SUPPLE_SHARED_CONST kTriangleCageElement = 1u;
+SUPPLE_SHARED_CONST kTriangleChainElement = 4u;
+SUPPLE_SHARED_CONST kTriangleNetElement = 8u;
+// Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both ends of a
+// side are plain; a corner is plain.
+SUPPLE_SHARED_CONST kSharpTriangleSide = 0u;
+SUPPLE_SHARED_CONST kCreasedTriangleCorner = 3u;
+SUPPLE_SHARED_CONST kWholeTriangleSide = 6u;
+SUPPLE_SHARED_CONST kPlainTriangleCorner = 9u;
+// Cells of a net: at its three corners, and the middle.
+SUPPLE_SHARED_CONST kMiddleCell = 3u;
+
 SUPPLE_SHARED_END
 
 // Where a point stands in a quad's own net, as a corner counts them: i along its first edge, j along its second. Both begin at 0,

@@ -80,6 +80,8 @@ SUPPLE_SHARED_CONST kTrianglePatch = 10u;
 SUPPLE_SHARED_CONST kIrregularPatch = 11u;
 SUPPLE_SHARED_CONST kIrregularSharpPatch = 12u;
 SUPPLE_SHARED_CONST kCreasedPatch = 13u;
+SUPPLE_SHARED_CONST kLoopRegularPatch = 14u;
+SUPPLE_SHARED_CONST kLoopIrregularPatch = 15u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;

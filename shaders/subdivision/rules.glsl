@@ -4,7 +4,12 @@
 // Every operand is added to its mirror image before anything is scaled, so that all fragments that have a point compute
 // the same bits for it.
 
+// With LOOP_RULES the rules are Loop's.
+#ifdef LOOP_RULES
+const bool kLoop = true;
+#else
 layout(constant_id = kLoopConstant) const bool kLoop = false;
+#endif
 
 struct Sources {
     uint s[8];

@@ -16,11 +16,12 @@ using subdivision::Fan;
 /// limit's. The error shrinks with every step, by a half or faster.
 constexpr uint32_t kStepsToTheLimit = 60;
 
-/// A step of Catmull-Clark on ring 1, applied to weights: those of the ring after it become those of the ring before.
+/// A step of subdivision on ring 1, applied to weights: those of the ring after it become those of the ring before.
 class RingStep {
 public:
     RingStep(const Arrangement& at, uint32_t level)
-        : fan_(at.fan), spokes_(softened(at.spokes, level)), vertex_(softened(at.vertex, level)) {}
+        : fan_(at.fan), quads_(fan_.subdivision == Subdivision::catmullClark), spokes_(softened(at.spokes, level)),
+          vertex_(softened(at.vertex, level)) {}
 
     [[nodiscard]] CentreMask before(const CentreMask& after) const {
         CentreMask mask(after.size(), 0.0);
@@ -28,7 +29,7 @@ public:
         for (uint32_t k = 0; k < spokes_.size(); ++k) {
             addSpoke(k, after[spoke(k)], mask);
         }
-        for (uint32_t h = 0; h < fan_.sectors; ++h) {
+        for (uint32_t h = 0; quads_ && h < fan_.sectors; ++h) {
             const double w = after[face(h)] / 4.0;
             mask[0] += w;
             mask[spoke(h)] += w;
@@ -39,7 +40,9 @@ public:
     }
 
 private:
-    [[nodiscard]] uint32_t spoke(uint32_t k) const { return 1 + 2 * (k % static_cast<uint32_t>(spokes_.size())); }
+    [[nodiscard]] uint32_t spoke(uint32_t k) const {
+        return 1 + (quads_ ? 2 : 1) * (k % static_cast<uint32_t>(spokes_.size()));
+    }
     [[nodiscard]] uint32_t face(uint32_t h) const { return 2 + 2 * (h % fan_.sectors); }
 
     void addCentre(double w, CentreMask& mask) const {
@@ -50,29 +53,37 @@ private:
             mask[spoke(step.second)] += w * step.crease / 8.0;
         }
         if (step.smooth > 0.0) {
-            const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan_.sectors);
+            const CentreWeights weights = refineWeights(fan_.subdivision, fan_.sectors);
             mask[0] += w * step.smooth * weights.centre;
             for (uint32_t h = 0; h < fan_.sectors; ++h) {
                 mask[spoke(h)] += w * step.smooth * weights.spoke;
-                mask[face(h)] += w * step.smooth * weights.face;
+                if (quads_) {
+                    mask[face(h)] += w * step.smooth * weights.face;
+                }
             }
         }
     }
 
     void addSpoke(uint32_t k, double w, CentreMask& mask) const {
         const double sharp = std::min(1.0, static_cast<double>(spokes_[k])), smooth = 1.0 - sharp;
-        mask[0] += w * (sharp / 2.0 + smooth * 6.0 / 16.0);
-        mask[spoke(k)] += w * (sharp / 2.0 + smooth * 6.0 / 16.0);
+        mask[0] += w * (sharp / 2.0 + smooth * 3.0 / 8.0);
+        mask[spoke(k)] += w * (sharp / 2.0 + smooth * 3.0 / 8.0);
         if (smooth == 0.0) {
             return; // an open fan's ends are sharp
         }
         const uint32_t last = (k + fan_.sectors - 1) % fan_.sectors;
-        for (const uint32_t point : {spoke(k + 1), spoke(last), face(k), face(last)}) {
-            mask[point] += w * smooth / 16.0;
+        for (const uint32_t point : {spoke(k + 1), spoke(last)}) {
+            mask[point] += w * smooth / (quads_ ? 16.0 : 8.0);
+        }
+        for (const uint32_t h : {k, last}) {
+            if (quads_) {
+                mask[face(h)] += w * smooth / 16.0;
+            }
         }
     }
 
     const Fan& fan_;
+    bool quads_;
     std::vector<float> spokes_;
     float vertex_;
 };
@@ -141,7 +152,8 @@ LimitRun runOf(const Fan& fan, const CentreRun& centre) {
     const uint32_t spokes = fan.sectors + (fan.open ? 1 : 0);
     run.tangents.assign(centre.sectors + 1, CentreMask(subdivision::pointCount(fan, 1), 0.0));
     for (uint32_t k = 0; k <= centre.sectors; ++k) {
-        run.tangents[k][1 + 2 * ((centre.firstSector + k) % spokes)] = 1.0;
+        const uint32_t stride = fan.subdivision == Subdivision::catmullClark ? 2 : 1;
+        run.tangents[k][1 + stride * ((centre.firstSector + k) % spokes)] = 1.0;
         run.tangents[k][0] = -1.0;
     }
     return run;

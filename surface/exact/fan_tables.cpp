@@ -1,6 +1,7 @@
 #include "surface/exact/fan_tables.h"
 
 #include "shaders/shared/exact.h"
+#include "surface/exact/triangles.h"
 #include "surface/subdivision_rules.h"
 
 #include <array>
@@ -8,6 +9,37 @@
 namespace supple::surface::exact {
 
 using subdivision::Fan;
+
+namespace {
+
+/// What lies outside of an open fan has the weight 0, or is replaced.
+uint32_t pointOrCentre(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
+    const uint32_t index = pointIndex(fan, sector, a, b);
+    return index == subdivision::kNoPoint ? 0 : index;
+}
+
+void writeQuadWindow(const Fan& fan, uint32_t sector, TableWriter& writer) {
+    constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
+    std::array<uint32_t, size_t{8} * shared::kWindowElements> window{};
+    for (int32_t k = 1; k < kPoints; ++k) { // point 0 is read by the missing cell alone
+        window[static_cast<size_t>(k)] = pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1);
+    }
+    writer.putHalves(window);
+}
+
+void writeTriangleWindow(const Fan& fan, uint32_t sector, TableWriter& writer) {
+    for (const loop::TrianglePlace& place : loop::kTriangleNet) {
+        const bool missing = place.a + place.b < 0; // beside the vertex, in the missing cell
+        writer.put({missing ? 0 : pointOrCentre(fan, sector, place.a, place.b)});
+    }
+    (void)writer.element();
+}
+
+} // namespace
+
+uint32_t FanTables::windowElements(Subdivision subdivision) {
+    return subdivision == Subdivision::loop ? shared::kTriangleWindowElements : shared::kWindowElements;
+}
 
 const FanTables::Table& FanTables::of(const Fan& fan) {
     const auto [known, isNew] = tables_.try_emplace(fan);
@@ -19,17 +51,15 @@ const FanTables::Table& FanTables::of(const Fan& fan) {
 
 FanTables::Table FanTables::write(const Fan& fan) {
     const Table table{writer_.element(), writer_.element() + 2};
-    const CentreWeights weights = refineWeights(Subdivision::catmullClark, fan.sectors);
+    const CentreWeights weights = refineWeights(fan.subdivision, fan.sectors);
     writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
     writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
-    constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
     for (uint32_t h = 0; h < fan.sectors; ++h) {
-        std::array<uint32_t, size_t{8} * shared::kWindowElements> window{};
-        for (int32_t k = 1; k < kPoints; ++k) { // point 0 is read by the missing cell alone
-            const uint32_t index = pointIndex(fan, h, k % kSide - 1, k / kSide - 1);
-            window[static_cast<size_t>(k)] = index == subdivision::kNoPoint ? 0 : index; // its weight is 0
+        if (fan.subdivision == Subdivision::loop) {
+            writeTriangleWindow(fan, h, writer_);
+        } else {
+            writeQuadWindow(fan, h, writer_);
         }
-        writer_.putHalves(window);
     }
     return table;
 }

@@ -17,10 +17,11 @@ public:
 
     struct Table {
         uint32_t element = 0;
-        uint32_t windows = 0; ///< element of those of sector 0; kWindowElements each
+        uint32_t windows = 0; ///< element of those of sector 0; windowElements() each
     };
     /// Written when it is asked for first.
     [[nodiscard]] const Table& of(const subdivision::Fan& fan);
+    [[nodiscard]] static uint32_t windowElements(Subdivision subdivision);
 
 private:
     [[nodiscard]] Table write(const subdivision::Fan& fan);

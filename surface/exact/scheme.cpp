@@ -3,9 +3,9 @@
 #include "shaders/shared/subdivision.h"
 #include "surface/borders.h"
 #include "surface/build.h"
-#include "surface/exact/arrangement.h"
+#include "surface/exact/chain_tables.h"
 #include "surface/exact/corners.h"
-#include "surface/exact/fan_tables.h"
+#include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
 #include "surface/fans.h"
 #include "surface/smooth_uvs.h"
@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -23,7 +22,6 @@
 namespace supple::surface::exact {
 namespace {
 
-using subdivision::Fan;
 using subdivision::Isolation;
 
 constexpr uint32_t kRegular = shared::kRegularFan, kOpen = shared::kFewFan;
@@ -33,14 +31,6 @@ constexpr KindOfKernel kVertexKernels[] = {
     {Kernel::exactVertexMeshInPool, kRegular, "supple exact vertex of a step, regular"},
     {Kernel::exactVertexMeshInPool, kOpen, "supple exact vertex of a step, creased"},
 };
-constexpr KindOfKernel kLimitKernel = {Kernel::exactChain, shared::kMakesLimits, "supple exact limits"};
-constexpr KindOfKernel kChainKernel = {Kernel::exactChain, shared::kMakesChains, "supple exact chains"};
-constexpr KindOfKernel kFirstLevelKernel = {Kernel::exactChain, shared::kMakesFirstLevel,
-                                            "supple exact chains, first level"};
-constexpr KindOfKernel kLaterLevelKernel = {Kernel::exactChain, shared::kMakesLevel, "supple exact chains, level"};
-constexpr uint32_t kMaxChainPoints = 0xFFFF; ///< 16-bit numbers
-constexpr uint32_t kLastChainLevel = 6;      ///< of 64 segments along an edge
-
 /// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {
     FanWeights w;
@@ -60,7 +50,9 @@ public:
     Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
         : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
-          rate_(patchRate(recipe.rate)), lastLevel_(lastLevelFor(rate_)), writer_(tables_.words), fans_(writer_) {}
+          rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words), fans_(writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide}, vertexNeeds(), fans_, writer_),
+          levelOne_(mesh_.stencils.back().rows()) {}
 
     Result<Tables> build() {
         const Status fits = checkSizes();
@@ -81,7 +73,9 @@ public:
         findLevelOnePoints();
         layOutPool();
         writeFans();
-        writeVertices();
+        chains_.write({[&](uint32_t point) { return firstLevelOne_ + levelOne_.number(point); },
+                       [](uint32_t vertex) { return vertex; }, steps()},
+                      tables_);
         const std::vector<uint32_t> points = ringPoints();
         RingWriter ring(cage_, topology_, points, firstCorners_, writer_);
         writePatches(ring);
@@ -98,29 +92,23 @@ public:
     }
 
 private:
-    /// A sample at 1 / rate or further from a corner lies in a leaf of this level at most. `rate` 0: any rate.
-    static uint32_t lastLevelFor(uint32_t rate) {
-        return rate == 0 ? kLastChainLevel
-                         : std::max(kFirstChainLevel, static_cast<uint32_t>(std::bit_width(rate - 1)));
-    }
     /// Quads that a step has made have half of the segments.
     [[nodiscard]] uint32_t patchRate(uint32_t rate) const { return steps() ? (rate + 1) / 2 : rate; }
     [[nodiscard]] bool steps() const { return mesh_.isolationSteps > 1; }
-    [[nodiscard]] Fan fanOf(uint32_t v) const {
-        return {Subdivision::catmullClark, mesh_.fragments[v].sectors, mesh_.fragments[v].open};
-    }
-    [[nodiscard]] uint32_t chainPoints(uint32_t v) const { return pointCount(fanOf(v), 3); }
-    [[nodiscard]] uint32_t chainLevels(uint32_t v) const {
-        return corners_.kind(v) == VertexKind::chain ? lastLevel_ - kFirstChainLevel + 1 : 0;
+    [[nodiscard]] std::vector<VertexNeeds> vertexNeeds() const {
+        std::vector<VertexNeeds> needs;
+        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
+            const VertexKind kind = corners_.kind(v);
+            needs.push_back(kind == VertexKind::plain    ? VertexNeeds::nothing
+                            : kind == VertexKind::tensor ? VertexNeeds::limit
+                                                         : VertexNeeds::chain);
+        }
+        return needs;
     }
 
     Status checkSizes() const {
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            if (corners_.kind(v) == VertexKind::chain && chainPoints(v) > kMaxChainPoints) {
-                return Error{ErrorCode::limit, "vertex " + std::to_string(v) + " has " +
-                                                   std::to_string(mesh_.fragments[v].sectors) +
-                                                   " faces: more than chains of leaves count"};
-            }
+        if (const Status fits = chains_.checkSizes(); !fits) {
+            return fits;
         }
         SpokeLimits spokes;
         for (const Run& run : corners_.runs()) {
@@ -151,38 +139,21 @@ private:
 
     /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
     void findLevelOnePoints() {
-        levelOne_.assign(mesh_.stencils.back().rows(), cage::kNone);
-        const auto need = [&](uint32_t point) {
-            if (levelOne_[point] == cage::kNone) {
-                levelOne_[point] = static_cast<uint32_t>(needed_.size());
-                needed_.push_back(point);
-            }
-        };
         for (const DraftPatch& patch : patches_) {
             if (patch.info.patchClass == PatchClass::regular) {
                 continue;
             }
             const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, firstCorners_[patch.facet], points_));
-            std::for_each(net.begin(), net.end(), need);
+            for (const uint32_t point : net) {
+                levelOne_.need(point);
+            }
         }
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            for (uint32_t i = 0; i < netSize(v); ++i) {
-                need(mesh_.net[mesh_.fragments[v].firstNet + i]);
+            for (uint32_t i = 0; i < chains_.netSize(v); ++i) {
+                levelOne_.need(mesh_.net[mesh_.fragments[v].firstNet + i]);
             }
         }
     }
-    /// Points of level 1 round a vertex that is not plain: up to radius 2 for its chain, else for its limit alone.
-    [[nodiscard]] uint32_t netSize(uint32_t v) const {
-        switch (corners_.kind(v)) {
-        case VertexKind::chain:
-            return pointCount(fanOf(v), 2);
-        case VertexKind::tensor:
-            return pointCount(fanOf(v), 1);
-        default:
-            return 0;
-        }
-    }
-
     /// Runs: closed ones first. Slots lie in this order.
     void layOutPool() {
         const std::vector<Run>& runs = corners_.runs();
@@ -210,85 +181,9 @@ private:
         tables_.tangents = point;
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
-        uint32_t next = firstLevelOne_ + static_cast<uint32_t>(needed_.size());
-        normals_.assign(cage_.vertexCount(), cage::kNone);
-        chains_.assign(cage_.vertexCount(), 0);
-        vertexArrangements_.assign(cage_.vertexCount(), nullptr);
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            if (corners_.kind(v) != VertexKind::plain) {
-                vertexArrangements_[v] = &arrangementOf(v);
-                normals_[v] = next;
-                next += vertexArrangements_[v]->runs;
-            }
-        }
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            if (chainLevels(v) > 0) {
-                chains_[v] = next + 1; // behind the point that it is relative to
-                next += 1 + chainLevels(v) * chainPoints(v);
-            }
-        }
+        const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
         tables_.inner = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
-    }
-
-    struct ArrangementTable {
-        uint32_t element = 0, runs = 0;
-        std::vector<uint32_t> runOfSector;
-    };
-    /// Written when it is asked for first.
-    const ArrangementTable& arrangementOf(uint32_t v) {
-        const subdivision::Fragment& fragment = mesh_.fragments[v];
-        const auto spokes = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
-        const Arrangement key{fanOf(v), {spokes, spokes + fragment.spokes()}, fragment.centreSharpness};
-        const auto [known, isNew] = arrangements_.try_emplace(key);
-        if (isNew) {
-            known->second = writeArrangement(key);
-        }
-        return known->second;
-    }
-    ArrangementTable writeArrangement(const Arrangement& key) {
-        const bool sharp = std::any_of(key.spokes.begin(), key.spokes.end(), [](float s) { return s > 0.0f; });
-        uint32_t words = shared::kNoSharpness;
-        if (sharp) {
-            words = 4 * writer_.element();
-            for (const float sharpness : key.spokes) {
-                writer_.put({std::bit_cast<uint32_t>(sharpness)});
-            }
-        }
-        const uint32_t steps = writer_.element();
-        for (uint32_t level = 0; level + kFirstChainLevel <= lastLevel_; ++level) {
-            const CentreStep step = centreStep(softened(key.spokes, level), softened(key.vertex, level));
-            writer_.put({floatBits(step.smooth), floatBits(step.crease), step.first, step.second});
-        }
-        const Limit limit = limitOf(key);
-        const auto ring = static_cast<uint32_t>(limit.position.size()) - 1;
-        ArrangementTable table{writer_.element(), static_cast<uint32_t>(limit.runs.size()),
-                               std::vector<uint32_t>(key.fan.sectors, 0)};
-        writer_.put({table.runs, words, steps, ring});
-        for (uint32_t r = 0; r < table.runs; ++r) {
-            const LimitRun& run = limit.runs[r];
-            writeRun(limit.position, run);
-            for (uint32_t h = 0; h < run.sectors; ++h) {
-                table.runOfSector[(run.firstSector + h) % key.fan.sectors] = r;
-            }
-        }
-        return table;
-    }
-
-    void writeRun(const subdivision::CentreMask& position, const LimitRun& run) {
-        std::vector<const subdivision::CentreMask*> masks{&position};
-        for (const subdivision::CentreMask& tangent : run.tangents) {
-            masks.push_back(&tangent);
-        }
-        const auto blocks = static_cast<uint32_t>((masks.size() + 3) / 4);
-        writer_.put({blocks, 0u, 0u, 0u});
-        for (uint32_t block = 0; block < blocks; ++block) {
-            for (size_t i = 1; i < position.size(); ++i) {
-                for (size_t k = size_t{4} * block; k < size_t{4} * block + 4; ++k) {
-                    writer_.putFloats({k < masks.size() ? (*masks[k])[i] : 0.0});
-                }
-            }
-        }
     }
 
     [[nodiscard]] Stage meshStage() const { return steps() ? Stage::assemble : Stage::vertex; }
@@ -320,121 +215,14 @@ private:
                 tables_.constructions.push_back(vertices);
             }
         }
-        writeStencils(rowsOf(mesh_.stencils.back(), needed_),
+        writeStencils(rowsOf(mesh_.stencils.back(), levelOne_.rows()),
                       {meshStage(), steps(), steps() ? tables_.inner : 0, firstLevelOne_}, writer_, tables_);
     }
-    static Stencils rowsOf(const Stencils& all, const std::vector<uint32_t>& rows) {
-        Stencils some;
-        some.starts.push_back(0);
-        for (const uint32_t row : rows) {
-            const auto from = static_cast<ptrdiff_t>(all.starts[row]), to = static_cast<ptrdiff_t>(all.starts[row + 1]);
-            some.vertices.insert(some.vertices.end(), all.vertices.begin() + from, all.vertices.begin() + to);
-            some.weights.insert(some.weights.end(), all.weights.begin() + from, all.weights.begin() + to);
-            some.starts.push_back(static_cast<uint32_t>(some.vertices.size()));
-        }
-        return some;
-    }
 
-    /// Those that are not plain, by the size of their fans, so that neighbouring lanes loop equally long.
-    void writeVertices() {
-        std::vector<uint32_t> vertices, nets;
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            if (corners_.kind(v) != VertexKind::plain) {
-                vertices.push_back(v);
-            }
-        }
-        std::stable_sort(vertices.begin(), vertices.end(), [&](uint32_t a, uint32_t b) {
-            return std::pair(chainLevels(a), fanOf(a)) < std::pair(chainLevels(b), fanOf(b));
-        });
-        for (const uint32_t v : vertices) {
-            nets.push_back(4 * writer_.element());
-            for (uint32_t i = 0; i < netSize(v); ++i) {
-                writer_.put({firstLevelOne_ + levelOne_[mesh_.net[mesh_.fragments[v].firstNet + i]]});
-            }
-            (void)fans_.of(fanOf(v));
-        }
-        uint32_t limits = 0; // coefficients
-        const uint32_t first = writer_.element();
-        for (size_t i = 0; i < vertices.size(); ++i) {
-            const uint32_t v = vertices[i];
-            const ArrangementTable& arrangement = *vertexArrangements_[v];
-            const uint32_t levels = chainLevels(v);
-            writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, v, chains_[v], normals_[v], 0u, 0u});
-            limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
-        }
-        if (vertices.empty()) {
-            return;
-        }
-        const auto count = static_cast<uint32_t>(vertices.size());
-        tables_.constructions.push_back({Stage::assemble, kLimitKernel, {first, count}, limits, steps()});
-        writeChains(vertices, first);
-        for (uint32_t level = kFirstChainLevel; level <= lastLevel_; ++level) {
-            writeLevel(vertices, first, level);
-        }
+    [[nodiscard]] ChainTables::Corner cornerOf(uint32_t c) {
+        const uint32_t v = cage_.faceVertices[c];
+        return chains_.cornerOf(v, topology_.cornerSpokes[c] - topology_.spokeStarts[v]);
     }
-
-    /// Whether a block makes all levels of the vertex's chain, in workgroup memory. On CPU devices barriers within a
-    /// workgroup cost more than dispatches.
-    [[nodiscard]] bool fitsInBlock(uint32_t v) const {
-        return recipe_.wide && chainPoints(v) <= shared::kBlockPoints &&
-               mesh_.fragments[v].spokes() < shared::kBlockLanes;
-    }
-    /// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
-    void writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord) {
-        Construction work{Stage::assemble, kChainKernel, {writer_.element(), 0}, 0};
-        for (size_t i = 0; i < vertices.size();) {
-            const uint32_t v = vertices[i];
-            if (chainLevels(v) == 0 || !fitsInBlock(v)) {
-                ++i;
-                continue;
-            }
-            const size_t most = std::min(shared::kBlockPoints / chainPoints(v),
-                                         shared::kBlockLanes / (mesh_.fragments[v].spokes() + 1));
-            uint32_t count = 1;
-            while (count < most && i + count < vertices.size() && chainLevels(vertices[i + count]) > 0 &&
-                   fanOf(vertices[i + count]) == fanOf(v)) {
-                ++count;
-            }
-            writer_.put({fans_.of(fanOf(v)).element, firstRecord + 2 * static_cast<uint32_t>(i), count, lastLevel_});
-            work.section.count += shared::kBlockLanes;
-            work.coefficients += count * chainPoints(v) * chainLevels(v);
-            i += count;
-        }
-        if (work.section.count > 0) {
-            tables_.constructions.push_back(work);
-        }
-    }
-
-    /// One level of the other chains: blocks of kBlockLanes lanes, of each fan's.
-    void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level) {
-        const bool isFirst = level == kFirstChainLevel;
-        Construction work{Stage::assemble, isFirst ? kFirstLevelKernel : kLaterLevelKernel, {writer_.element(), 0}, 0};
-        work.readsPool = !isFirst;
-        const auto add = [&](uint32_t fan, uint32_t record, uint32_t count, uint32_t items) {
-            for (uint32_t item = 0; item < items; item += shared::kBlockLanes) {
-                writer_.put({fan, record, count | level << shared::kChainLevelShift, item});
-                work.section.count += shared::kBlockLanes;
-            }
-        };
-        for (size_t i = 0; i < vertices.size();) {
-            size_t end = i;
-            while (end < vertices.size() && fanOf(vertices[end]) == fanOf(vertices[i]) &&
-                   chainLevels(vertices[end]) == chainLevels(vertices[i])) {
-                ++end;
-            }
-            if (chainLevels(vertices[i]) > 0 && !fitsInBlock(vertices[i])) {
-                const auto count = static_cast<uint32_t>(end - i);
-                add(fans_.of(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
-                    count * (mesh_.fragments[vertices[i]].spokes() + 1));
-                work.coefficients += count * chainPoints(vertices[i]);
-            }
-            i = end;
-        }
-        if (work.section.count > 0) {
-            tables_.constructions.push_back(work);
-        }
-    }
-
     [[nodiscard]] uint32_t limitPoint(uint32_t c) const {
         const uint32_t run = corners_.runOf(topology_.cornerSpokes[c]);
         return run == cage::kNone ? cage_.faceVertices[c] : runPoints_[run];
@@ -459,7 +247,7 @@ private:
                 const uint32_t c = patch.cageCorners[i], spoke = topology_.cornerSpokes[c];
                 points[i] = limitPoint(c);
                 const auto [slot, next] = slots_[spoke];
-                spokes[i] = slot == cage::kNone ? chains_[cage_.faceVertices[c]] : spokeWord(slot, next);
+                spokes[i] = slot == cage::kNone ? cornerOf(c).chain : spokeWord(slot, next);
             }
             writer_.put(points);
             writer_.put(spokes);
@@ -475,16 +263,11 @@ private:
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
             const uint32_t end = cage_.faceVertices[patch.cageCorners[(i + 1) % 4]];
-            const uint32_t sector = topology_.cornerSpokes[c] - topology_.spokeStarts[v];
+            const ChainTables::Corner corner = cornerOf(c);
             sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
-            normals[i] = shared::kNoNormal;
-            if (corners_.kind(v) != VertexKind::plain) {
-                normals[i] = normals_[v] + vertexArrangements_[v]->runOfSector[sector];
-            }
-            if (chainLevels(v) > 0) {
-                windows[i] = fans_.of(fanOf(v)).windows + shared::kWindowElements * sector;
-                sizes[i] = chainPoints(v) | lastLevel_ << shared::kChainLevelShift;
-            }
+            normals[i] = corner.normal;
+            windows[i] = corner.windows;
+            sizes[i] = corner.size;
             const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
             flags |= cubic ? 1u << (shared::kCubicSide + i) : 0u;
         }
@@ -493,7 +276,7 @@ private:
         }
         writer_.put({flags});
         for (const uint32_t point : net) {
-            writer_.put({firstLevelOne_ + levelOne_[point]});
+            writer_.put({firstLevelOne_ + levelOne_.number(point)});
         }
         (void)writer_.element();
     }
@@ -544,18 +327,16 @@ private:
     Tables tables_;
     TableWriter writer_;
     FanTables fans_;
+    ChainTables chains_;
     std::vector<DraftPatch> patches_;
     std::vector<QuadNet> nets_; ///< of irregular quads, in the order of patches
-    std::vector<uint32_t> levelOne_, needed_;
+    NeededRows levelOne_;
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them
     std::vector<uint32_t> runPoints_, runSlots_; ///< by run
     /// By spoke of the topology: the slots of the two edges of the sector behind it.
     std::vector<std::array<uint32_t, 2>> slots_;
-    std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; kNone and 0 where there are none
-    std::map<Arrangement, ArrangementTable> arrangements_;
-    std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
-    std::vector<uint8_t> firstCorners_;                       ///< by face
+    std::vector<uint8_t> firstCorners_; ///< by face
 };
 
 } // namespace

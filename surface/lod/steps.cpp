@@ -15,7 +15,8 @@ struct MeasureKernels {
 constexpr MeasureKernels kMeasureKernels[] = {
     {Kernel::lodEdge, Kernel::lodPatch, Kernel::lodPatchBackFaces},
     {Kernel::lodEdgeHalves, Kernel::lodPatchHalves, Kernel::lodPatchHalvesBackFaces},
-    // Nothing is known of where a blend of charts faces.
+    // Nothing is known of where Loop patches and blends of charts face.
+    {Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles, Kernel::lodPatchTriangles},
     {Kernel::lodEdgeCharts, Kernel::lodPatchCharts, Kernel::lodPatchCharts},
 };
 

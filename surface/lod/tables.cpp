@@ -45,6 +45,12 @@ Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
     return {{net[SUPPLE_EXACT_SIDE_MIDDLE(side)], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};
 }
 
+/// A side of a triangle of Loop, by the limit points of its ends.
+Border splineBorder(const uint32_t* record, uint32_t element, uint32_t side, bool irregular) {
+    const auto [first, second] = std::minmax(record[side], record[(side + 1) % 3]);
+    return {{first, second}, {element, side, irregular ? 1u : 0u, shared::kHalvesEdge}};
+}
+
 /// By side of the grid.
 std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass patchClass) {
     const uint32_t* record = &tables.words[size_t{4} * element];
@@ -52,6 +58,12 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
     if (rowOf(patchClass).borders == Borders::charts) {
         for (uint32_t i = 0; i < 4; ++i) {
             all.push_back(chartBorder(tables.words, record + size_t{4} * i, record + size_t{4} * ((i + 1) % 4)));
+        }
+        return all;
+    }
+    if (rowOf(patchClass).borders == Borders::splines) {
+        for (uint32_t side = 0; side < 3; ++side) {
+            all.push_back(splineBorder(record, element, side, patchClass == PatchClass::loopIrregular));
         }
         return all;
     }

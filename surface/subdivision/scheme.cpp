@@ -571,7 +571,7 @@ private:
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Result<Mesh> mesh =
-        buildMesh(cage, recipe.scheme == SchemeId::loop ? Subdivision::loop : Subdivision::catmullClark);
+        buildMesh(cage, recipe.scheme == SchemeId::loopFragments ? Subdivision::loop : Subdivision::catmullClark);
     if (!mesh) {
         return mesh.error();
     }

@@ -77,8 +77,8 @@ constexpr HiddenCase kHiddenCases[] = {
     {"blendLevels", SUPPLE_SCHEME_BLEND, false, true, 0, kViewMotion},
     {"fragments", SUPPLE_SCHEME_FRAGMENTS, false, false, kMotion, 0},
     {"fragmentsRates", SUPPLE_SCHEME_FRAGMENTS, false, true, 0, kViewMotion | SUPPLE_VIEW_CULL},
-    {"loop", SUPPLE_SCHEME_LOOP, false, false, 0, 0},
-    {"loopRates", SUPPLE_SCHEME_LOOP, false, true, 0, 0},
+    {"loop", SUPPLE_SCHEME_LOOP, false, false, kMotion, 0},
+    {"loopLevels", SUPPLE_SCHEME_LOOP, false, true, 0, kViewMotion},
     {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion, 0},
     {"catmullClarkMesh", SUPPLE_SCHEME_CATMULL_CLARK, false, false, kMotion | SUPPLE_GROUP_INDEXED_MESH, 0},
     {"catmullClarkLevels", SUPPLE_SCHEME_CATMULL_CLARK, false, true, 0, kViewMotion | SUPPLE_VIEW_BACK_FACES},
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HiddenPartsAtLevels, testing::ValuesIn(levelCase
 class HiddenPartsOnce : public CrowdContexts {};
 
 bool subdivides(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_FRAGMENTS || scheme == SUPPLE_SCHEME_LOOP;
+    return scheme == SUPPLE_SCHEME_FRAGMENTS;
 }
 
 using Hidden = std::array<std::set<uint32_t>, kHiddenInstances>;

@@ -59,6 +59,7 @@ struct LodCase {
 constexpr LodCase kLodCases[] = {{"p-rep", SUPPLE_SCHEME_PREP},
                                  {"P_m", SUPPLE_SCHEME_PM},
                                  {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK},
+                                 {"Loop", SUPPLE_SCHEME_LOOP},
                                  {"blend", SUPPLE_SCHEME_BLEND},
                                  {"blend, curves", SUPPLE_SCHEME_BLEND, SUPPLE_CREASES_CURVE}};
 

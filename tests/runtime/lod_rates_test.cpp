@@ -240,6 +240,7 @@ cage::Cage withUvs(cage::Cage cage) {
     return cage;
 }
 
+/// Loop has patches without semi-sharp creases.
 cage::Cage creased(cage::Cage cage) {
     return withRandomSharpness(std::move(cage), 7);
 }
@@ -256,9 +257,8 @@ std::vector<RateCase> rateCases() {
         {"fragments, quads, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(quads))},
         {"fragments, mixed", SUPPLE_SCHEME_FRAGMENTS, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
         {"fragments, mixed, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
-        {"Loop, triangles", SUPPLE_SCHEME_LOOP, bodyOf(triangles)},
         {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
-        {"Loop, mixed", SUPPLE_SCHEME_LOOP, bodyOf(mixed)},
+        {"Loop, mixed, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(mixed))},
     };
     const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
     EXPECT_TRUE(pip.ok());
@@ -400,7 +400,7 @@ TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
     const ValidationGuard guard;
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
         TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
-        SuppleGroupDesc desc = groupOf(context.createAsset(bumpySphere()), 12, scheme, 8);
+        SuppleGroupDesc desc = groupOf(context.createAsset(creased(bumpySphere())), 12, scheme, 8);
         desc.view = view.handle();
         Crowd crowd(context, desc);
         ASSERT_TRUE(crowd.valid());
@@ -712,7 +712,7 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
          {Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 1, 1, 1}, Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
           Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 5, 3, 4}, Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
           Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 64, 5, 16},
-          Case{dodecahedron(), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
+          Case{creased(dodecahedron()), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
         SuppleGroupDesc desc = groupOf(context.createAsset(c.cage), 2, c.scheme, c.asked);
         desc.view = view.handle();
         Crowd crowd(context, desc);
@@ -768,7 +768,7 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
     if (device != nullptr) {
         CrowdContext context(*device, mapping);
         TestView view(context, 1024, SUPPLE_VIEW_MOTION);
-        SuppleGroupDesc desc = groupOf(context.createAsset(cube()), capacity, scheme, 8);
+        SuppleGroupDesc desc = groupOf(context.createAsset(creased(cube())), capacity, scheme, 8);
         desc.view = view.handle();
         Crowd crowd(context, desc);
         EXPECT_TRUE(crowd.valid());

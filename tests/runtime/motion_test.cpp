@@ -355,13 +355,14 @@ TEST_F(MotionFrames, RefusedRatesLeaveEverythingAsItWas) {
         EXPECT_EQ(differences(crowd.previous(0), past), 0u);
         EXPECT_EQ(differences(crowd.positions(0), evaluated(c, 1, 0)), 0u);
     };
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
         const MotionCase c{"any rate", scheme, 3, SUPPLE_MAPPING_NARROW};
         refused(c, 0);
         refused(c, scheme == SUPPLE_SCHEME_CATMULL_CLARK ? 5 : 4); // it rounds 3 up to 4
         refused(c, 0xFFFFFFFFu);
     }
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_BLEND}) {
         for (const uint32_t rate : {0u, 3u, 64u, 65u}) {
             refused({"one rate", scheme, 4, SUPPLE_MAPPING_NARROW}, rate);
         }

@@ -53,7 +53,8 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     const std::tuple<std::string, Kernel, Kernel> kBorders[] = {
         {"", Kernel::lodEdge, Kernel::lodPatch},
         {" -DHALVES", Kernel::lodEdgeHalves, Kernel::lodPatchHalves},
-        {" -DCHARTS", Kernel::lodEdgeCharts, Kernel::lodPatchCharts}};
+        {" -DCHARTS", Kernel::lodEdgeCharts, Kernel::lodPatchCharts},
+        {" -DTRIANGLES", Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles}};
     compiled_.reserve(2 * std::size(kBorders)); // shaders point into it
     for (const auto& [borders, edge, patch] : kBorders) {
         const std::vector<uint32_t>& ofPatches = compiled_.emplace_back(patchLevels(borders));

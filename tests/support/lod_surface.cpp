@@ -172,6 +172,26 @@ std::array<glm::vec2, 2> parametersOf(const LodSurface::Patch& patch, uint32_t s
     return {along(i, j == 0 ? 2 : j == last ? 4 : 0), along(j, i == last ? 3 : i == 0 ? 5 : 1)};
 }
 
+glm::dvec3 ringWeightsOf(const LodSurface::Patch& patch, uint32_t sample) {
+    const uint32_t last = patch.capacity;
+    uint32_t ring = 0, at = sample;
+    for (; at >= 3 * (last - 2 * ring); ++ring) {
+        at -= 3 * (last - 2 * ring);
+    }
+    const uint32_t each = last - 2 * ring, side = at / each, k = ring + at % each;
+    const auto pair = [&](uint32_t i, size_t pattern) {
+        const surface::lod::LevelPair level{patch.levels[2 * pattern], patch.levels[2 * pattern + 1]};
+        const surface::lod::Parameter p = surface::lod::parameter(last, i, level);
+        return glm::dvec2(p.t, p.s);
+    };
+    const glm::dvec2 along = pair(k, ring == 0 ? 1 + side : 0);
+    const double across = ring == 0 ? 0.0 : pair(ring, 0).x, third = 2.0 * across / 3.0;
+    glm::dvec3 weights(third);
+    weights[static_cast<int>(side)] += along.y - across;
+    weights[static_cast<int>((side + 1) % 3)] += along.x - across;
+    return weights;
+}
+
 Sides matchSides(const LodSurface& surface) {
     const std::vector<uint32_t> idOf = namePositions(surface);
     Sides sides;

@@ -31,6 +31,9 @@ struct LodSurface {
 /// (u, 1 - u) and (v, 1 - v) of a sample of a grid of rows.
 [[nodiscard]] std::array<glm::vec2, 2> parametersOf(const LodSurface::Patch& patch, uint32_t sample);
 
+/// Weights of the corners at a sample of a grid of three sides, in rings.
+[[nodiscard]] glm::dvec3 ringWeightsOf(const LodSurface::Patch& patch, uint32_t sample);
+
 /// Directed sides of triangles of some area that no other triangle has the other way round, by position bits. 0 on a
 /// closed surface without cracks.
 struct Sides {

@@ -92,6 +92,37 @@ glm::dvec3 unitNormal(const glm::dvec3& du, const glm::dvec3& dv) {
 
 } // namespace
 
+Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated, uint32_t fragmentNumber,
+                    uint32_t sector) {
+    const Fragment& fragment = mesh.fragments[fragmentNumber];
+    FragmentNet<double> net(mesh, isolated);
+    net.load(fragment);
+    const Fan fan = net.fanOf(fragment);
+    const auto spokes = mesh.spokeSharpness.begin() + fragment.firstSpoke;
+    const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
+    const glm::dvec3 centre = net.points()[0];
+    const auto weighted = [&](const subdivision::CentreMask& mask) {
+        glm::dvec3 sum(0.0);
+        for (size_t i = 1; i < mask.size(); ++i) {
+            sum += mask[i] * (net.points()[i] - centre);
+        }
+        return sum;
+    };
+    Point point;
+    point.position = centre + weighted(limit.position);
+    for (const LimitRun& run : limit.runs) {
+        if ((sector + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
+            continue;
+        }
+        glm::dvec3 normal(0.0);
+        for (size_t k = 1; k < run.tangents.size(); ++k) {
+            normal += glm::cross(weighted(run.tangents[k - 1]), weighted(run.tangents[k]));
+        }
+        point.normal = subdivision::unitOrZero(normal);
+    }
+    return point;
+}
+
 LimitSurface::LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
     : mesh_(mesh), isolated_(subdivision::isolate<double>(mesh, positions)), sectors_(mesh.cage.faceCount()) {
     const FragmentNet<double> net(mesh, isolated_);
@@ -113,7 +144,9 @@ Point LimitSurface::at(uint32_t quad, double u, double v) const {
     const bool turned = corner % 2 == 1; // a runs along v
     const Sector& sector = sectors_[4 * size_t{quad} + corner];
     const double a = turned ? along : across, b = turned ? across : along;
-    Point point = std::max(a, b) < std::exp2(-kMostLevels) ? atCorner(sector) : inQuarter(sector, a, b);
+    Point point = std::max(a, b) < std::exp2(-kMostLevels)
+                      ? limitAtCentre(mesh_, isolated_, sector.fragment, sector.number)
+                      : inQuarter(sector, a, b);
     const glm::dvec3 da = point.du, db = point.dv;
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};
     point.du = derivatives[corner][0];
@@ -146,36 +179,6 @@ Point LimitSurface::inQuarter(const Sector& sector, double a, double b) const {
     point.normal = unitNormal(point.du, point.dv);
     point.du *= scale;
     point.dv *= scale;
-    return point;
-}
-
-Point LimitSurface::atCorner(const Sector& sector) const {
-    const Fragment& fragment = mesh_.fragments[sector.fragment];
-    FragmentNet<double> net(mesh_, isolated_);
-    net.load(fragment);
-    const Fan fan = net.fanOf(fragment);
-    const auto spokes = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
-    const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
-    const glm::dvec3 centre = net.points()[0];
-    const auto weighted = [&](const subdivision::CentreMask& mask) {
-        glm::dvec3 sum(0.0);
-        for (size_t i = 1; i < mask.size(); ++i) {
-            sum += mask[i] * (net.points()[i] - centre);
-        }
-        return sum;
-    };
-    Point point;
-    point.position = centre + weighted(limit.position);
-    for (const LimitRun& run : limit.runs) {
-        if ((sector.number + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
-            continue;
-        }
-        glm::dvec3 normal(0.0);
-        for (size_t k = 1; k < run.tangents.size(); ++k) {
-            normal += glm::cross(weighted(run.tangents[k - 1]), weighted(run.tangents[k]));
-        }
-        point.normal = subdivision::unitOrZero(normal);
-    }
     return point;
 }
 

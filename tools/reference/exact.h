@@ -20,6 +20,10 @@ struct Point {
     glm::dvec3 normal{0.0}; ///< of unit length, or zero if there is none
 };
 
+/// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
+[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
+                                  uint32_t fragment, uint32_t sector);
+
 /// The limit surface over the quads of a cage, or of the cage after one step if not all of its faces are quads: then
 /// face f gives one quad per corner, in the order of the corners (surface::refine()).
 class LimitSurface {
@@ -41,7 +45,6 @@ private:
     };
     /// (a, b): from the quarter's corner along its two edges, up to 1/2. Derivatives in a and b.
     [[nodiscard]] Point inQuarter(const Sector& sector, double a, double b) const;
-    [[nodiscard]] Point atCorner(const Sector& sector) const;
 
     const subdivision::Mesh& mesh_;
     std::vector<glm::dvec3> isolated_;                          ///< points of the level at which leaves begin

@@ -58,8 +58,8 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
 void bindRate(CLI::App& command, uint32_t& rate) {
     command
         .add_option("--rate", rate,
-                    "Segments along a patch edge. catmull-clark, blend, fragments and loop: along an edge of the "
-                    "cage; the last two round it up to a power of two")
+                    "Segments along a patch edge. catmull-clark, blend and fragments: along an edge of the cage; "
+                    "fragments, and loop with semi-sharp creases, round it up to a power of two")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
         ->capture_default_str();
 }

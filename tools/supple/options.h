@@ -81,7 +81,7 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
 
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_FRAGMENTS || scheme == SUPPLE_SCHEME_LOOP;
+    return scheme == SUPPLE_SCHEME_FRAGMENTS;
 }
 /// Whether the patches of a scheme have coefficients to read; a cage has no patches, and so none.
 [[nodiscard]] bool hasCoefficients(SuppleScheme scheme);

@@ -427,7 +427,10 @@ typedef enum SuppleScheme {
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/catmull_clark.md), at any rate: any polygons,
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
-    SUPPLE_SCHEME_LOOP = 4, /**< subdivision: triangles (larger faces are split into them), semi-sharp creases */
+    /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which
+     * larger faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined,
+     * and what is said of FRAGMENTS holds for it: SUPPLE_MESSAGE_SCHEME_NOTE tells. */
+    SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
     SUPPLE_SCHEME_BLEND = 5,
@@ -737,7 +740,7 @@ typedef struct SuppleGroupDesc {
     uint32_t capacity; /**< instances that can exist at a time, 1 or more */
     SuppleScheme scheme;
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
-     * FRAGMENTS and LOOP: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
+     * FRAGMENTS: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
      * of them (SuppleGridOutput.rate). With FRAGMENTS, if the cage has faces that are no quads, it has a quarter.
      * BLEND and CATMULL_CLARK: if the cage has faces that are no quads, `rate` counts segments along an edge of the
      * cage. It is rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
@@ -747,9 +750,9 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
      * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK and BLEND ignore
-     * `rate` and have a SuppleLevelOutput. With FRAGMENTS and LOOP each instance gets the rate that its level asks for,
+     * `rate` and have a SuppleLevelOutput. With FRAGMENTS each instance gets the rate that its level asks for,
      * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * FRAGMENTS, LOOP and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
+     * FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
      * count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
@@ -796,7 +799,7 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
  * of suppleCreateGroup. Then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
- * be 1 to the rate that the group was created with. Groups of FRAGMENTS, LOOP, BLEND or POLYGONS, or with
+ * be 1 to the rate that the group was created with. Groups of FRAGMENTS, BLEND or POLYGONS, or with
  * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. CATMULL_CLARK
  * rounds it as it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change
  * it, none does; only POLYGONS beside other schemes has no say. */
@@ -1199,14 +1202,16 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_P5 = 5,        /**< 31 */
     SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
     SUPPLE_PATCH_CATMULL_CLARK = SUPPLE_PATCH_FRAGMENT, /**< the name that it had up to 0.2 */
-    SUPPLE_PATCH_LOOP = 7,                              /**< none */
+    SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
     SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
     SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
     SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
     SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
     SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
-    SUPPLE_PATCH_CREASED = 13
+    SUPPLE_PATCH_CREASED = 13,
+    SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
+    SUPPLE_PATCH_LOOP_IRREGULAR = 15 /**< none, LOOP: a triangle of leaves */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

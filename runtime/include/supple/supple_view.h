@@ -10,7 +10,7 @@
  * All groups of a view write into the view's surface vertices. Before a frame writes any, it counts how many they want.
  * If these do not fit, a factor that changes continuously scales all levels down (docs/lod.md).
  *
- * Subdivision (FRAGMENTS and LOOP) has no such levels per edge. Each instance is drawn at one of several rates, and
+ * Subdivision by refinement (FRAGMENTS) has no such levels per edge. Each instance is drawn at one of several rates, and
  * jumps from one to the next, which may be seen.
  */
 #ifndef SUPPLE_VIEW_H
@@ -51,7 +51,7 @@ typedef struct SuppleViewDesc {
      * A run of patches is the patches of a group that have one class (SupplePatchClass), one material and one window of
      * instances. A window is as many instances as the device can bind of every buffer. Each run reserves 192 vertices
      * of padding. A view has room for 256 runs. suppleCreateGroup fails if no vertices or no runs would remain.
-     * FRAGMENTS, LOOP and POLYGONS take no runs, but a view has at most 256 groups of these. */
+     * FRAGMENTS and POLYGONS take no runs, but a view has at most 256 groups of these. */
     uint32_t maxVertices;
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** 0..1, by priority (suppleSetPriority). Over budget, levels are multiplied by factor^elasticity: 1 scales fully,
@@ -89,10 +89,10 @@ typedef struct SuppleCameraDesc {
     float chordError;    /**< pixels between an edge's curve and its segments, 0 = 0.25 */
     float smallestEdge;  /**< pixels: segments are not made shorter, 0 = 3 */
     float edgeLength;    /**< pixels: segments have this length, whatever the error; 0: the two above decide */
-    /** Surface vertices per frame, of all groups. Those of FRAGMENTS and LOOP count too, though they lie in the
+    /** Surface vertices per frame, of all groups. Those of FRAGMENTS count too, though they lie in the
      * groups' own memory. The budget is at most the view's maxVertices. Like maxVertices it includes 192 per run of
-     * patches: if it is no more than these, no patches are drawn. 0: the budget is maxVertices, and FRAGMENTS and
-     * LOOP have none. */
+     * patches: if it is no more than these, no patches are drawn. 0: the budget is maxVertices, and FRAGMENTS have
+     * none. */
     uint32_t vertexBudget;
     /** CULL: what lies outside its volume is not seen. Column-major, depth 0..w (also reversed, or with an infinite far
      * plane). All zero: everything is inside. If you draw shadow maps, give a larger volume, which holds everything
@@ -224,7 +224,7 @@ typedef struct SuppleViewStatistics {
     uint64_t frame; /**< of suppleBeginFrame */
     /** By priority: the factor that levels were multiplied by; 1 within the budget. */
     float levelScales[SUPPLE_PRIORITY_COUNT];
-    uint32_t vertexCount;           /**< surface vertices written; FRAGMENTS and LOOP only with a vertexBudget */
+    uint32_t vertexCount;           /**< surface vertices written; FRAGMENTS only with a vertexBudget */
     uint32_t wantedVertexCount;     /**< what would be written without a budget, or up to a few per cent more than that.
                                      * Missing instances count at their coarsest */
     uint32_t patchCount;            /**< drawn */

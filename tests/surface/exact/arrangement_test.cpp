@@ -36,15 +36,22 @@ glm::dvec3 normalOf(const LimitRun& run, const std::vector<glm::dvec3>& points) 
     return subdivision::unitOrZero(normal);
 }
 
+class ExactArrangements : public testing::TestWithParam<Subdivision> {};
+INSTANTIATE_TEST_SUITE_P(Subdivisions, ExactArrangements, testing::Values(Subdivision::catmullClark, Subdivision::loop),
+                         [](const auto& param) { return param.param == Subdivision::loop ? "Loop" : "CatmullClark"; });
+
 /// The limit of a vertex does not depend on the level that it is computed on. A mean of normals does.
-TEST(ExactArrangements, AStepChangesNoLimit) {
+TEST_P(ExactArrangements, AStepChangesNoLimit) {
     double apart = 0.0, degrees = 0.0;
     size_t vertices = 0, darts = 0, normals = 0;
     for (const test::SubdivisionCage& zoo : test::subdivisionZoo()) {
-        const Mesh mesh = test::subdivisionMesh(zoo.cage, Subdivision::catmullClark);
+        const Mesh mesh = test::subdivisionMesh(zoo.cage, GetParam());
         const std::vector<glm::dvec3> isolated = subdivision::isolate<double>(mesh, test::doublePositions(zoo.cage));
         const double size = test::extent(test::doublePositions(zoo.cage));
         for (const Fragment& fragment : mesh.fragments) {
+            if (fragment.kind != subdivision::FragmentKind::vertex) {
+                continue;
+            }
             FragmentNet<double> net(mesh, isolated);
             net.load(fragment);
             const Fan fan = net.fanOf(fragment);

@@ -1,0 +1,18 @@
+// Levels of chains (docs/catmull_clark.md, docs/loop.md).
+
+// 2^n of a small integer.
+float powerOfTwo(float n) { return uintBitsToFloat(uint(127 + int(n)) << 23u); }
+
+// At levels of detail samples come as near to a vertex as they like, but chains end: what lies in the last cell at the vertex is
+// moved out of it. On a border both patches do the same, for they have the same vertex.
+float withinChain(float distance, uint lastLevel) { return distance > 0.0 ? max(distance, powerOfTwo(-float(lastLevel))) : 0.0; }
+
+// Where a sample lies among the leaves of a chain.
+struct ChainPlace {
+    uint level;
+    float scale; // from distances to parameters of the net
+};
+ChainPlace chainPlace(float far, uint lastLevel) {
+    uint level = uint(clamp(127 - int(floatBitsToUint(far) >> 23u), 2, int(lastLevel))); // 2^-level <= far < 2^(1 - level)
+    return ChainPlace(level, powerOfTwo(float(level)));
+}

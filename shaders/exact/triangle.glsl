@@ -1,0 +1,101 @@
+// What a record says of a triangle of a Loop patch, and its leaves (docs/loop.md). Before the include: tables.glsl, frame.glsl,
+// net.glsl and
+//   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
+#include "shaders/exact/box_spline.glsl"
+#include "shaders/exact/chain_level.glsl"
+
+struct Triangle {
+    uvec4 corners; // limit points; then flags
+    bool irregular;
+    uvec4 chains, windows, sizes, normals; // of an irregular one
+};
+Triangle triangleOf(uint record, bool irregular) {
+    Triangle t;
+    t.corners = tableElement(record);
+    t.irregular = irregular;
+    t.chains = t.windows = t.sizes = t.normals = uvec4(0u);
+    if (irregular) {
+        t.chains = tableElement(record + kTriangleChainElement);
+        t.windows = tableElement(record + kTriangleChainElement + 1u);
+        t.sizes = tableElement(record + kTriangleChainElement + 2u);
+        t.normals = tableElement(record + kTriangleChainElement + 3u);
+    }
+    return t;
+}
+uint triangleFlags(Triangle t, uint first) { return t.corners.w >> first & 7u; }
+bool hasFlag(Triangle t, uint first, uint k) { return (t.corners.w >> (first + k) & 1u) != 0u; }
+uint nextOf(uint k) { return k == 2u ? 0u : k + 1u; }
+uint lastOf(uint k) { return k == 0u ? 2u : k - 1u; }
+
+// The vertices round it.
+LeafPoints cageLeaf(const PatchPlace at, Triangle t) {
+    LeafPoints leaf;
+    [[unroll]] for (uint e = 0u; e < 3u; ++e) {
+        uvec4 words = tableElement(at.record + kTriangleCageElement + e);
+        [[unroll]] for (uint c = 0u; c < 4u; ++c) leaf.p[4u * e + c] = poolPoint(at, words[c]);
+    }
+    mirror(leaf, triangleFlags(t, kSharpTriangleSide), triangleFlags(t, kCreasedTriangleCorner));
+    return leaf;
+}
+
+// The chain of a corner.
+struct Chain {
+    uint windows, points, size; // windows of its sector, 0 where there is none; pool index of the first point of level 2
+    uint lastLevel;
+};
+Chain chainOf(Triangle t, uint corner) {
+    uint size = componentOf(t.sizes, corner);
+    return Chain(componentOf(t.windows, corner), componentOf(t.chains, corner), size & ((1u << kChainLevelShift) - 1u),
+                 size >> kChainLevelShift);
+}
+vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
+vec3 cornerNormal(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.normals, corner)); }
+
+// A net: the triangle's own, of points of level 1, or that of a level of a chain. Words at `element` from `first` on in the pool.
+// A bit a side that is a crease, and a corner that one passes.
+struct NetSource {
+    uint element, first;
+    uint sides, corners;
+    vec3 origin;
+};
+NetSource ownNet(const PatchPlace at, Triangle t) {
+    return NetSource(at.record + kTriangleNetElement, 0u, triangleFlags(t, kSharpTriangleSide),
+                     triangleFlags(t, kCreasedTriangleCorner), vec3(0.0));
+}
+NetSource chainNet(const PatchPlace at, Triangle t, Chain chain, uint corner, uint level) {
+    uint sides = (hasFlag(t, kSharpTriangleSide, corner) ? 1u : 0u) | (hasFlag(t, kSharpTriangleSide, lastOf(corner)) ? 4u : 0u);
+    return NetSource(chain.windows, chain.points + (level - 2u) * chain.size, sides, 0u, poolPoint(at, chain.points - 1u));
+}
+// The points of the leaf in a cell, by their numbers in the net.
+const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),
+                                            uint[12](3u, 1u, 4u, 9u, 7u, 2u, 12u, 10u, 5u, 15u, 13u, 0u),
+                                            uint[12](5u, 4u, 2u, 0u, 10u, 8u, 3u, 13u, 11u, 1u, 16u, 14u),
+                                            uint[12](4u, 5u, 3u, 13u, 14u, 12u, 2u, 0u, 1u, 11u, 9u, 10u));
+// Which of four, one a cell: for arrays in registers, which lanes cannot index.
+#define OF_CELL(cell, a, k)                                                                                                      \
+    ((cell) < 2u ? ((cell) == 0u ? a[kCellPoints[0][k]] : a[kCellPoints[1][k]])                                                  \
+                 : ((cell) == 2u ? a[kCellPoints[2][k]] : a[kCellPoints[3][k]]))
+// The words of a net.
+uint[20] netWords(NetSource net) {
+    uint words[20];
+    [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
+        uvec4 four = tableElement(net.element + e);
+        [[unroll]] for (uint c = 0u; c < 4u; ++c) words[4u * e + c] = four[c];
+    }
+    return words;
+}
+// Creases at the leaf in a cell.
+void mirrorInCell(inout LeafPoints leaf, NetSource net, uint cell) {
+    uint own = 1u << cell, beside = 1u << cell | 1u << lastOf(cell);
+    bool middle = cell == kMiddleCell;
+    // Corner v of the leaf in the middle is that of side v + 1.
+    uint passing = (net.sides >> 1u | net.sides << 2u) & 7u;
+    mirror(leaf, middle ? 0u : net.sides & beside, middle ? passing : net.corners & own);
+}
+
+// The derivatives along the two edges from corner `from`, along those from corner `to`; the normal is the same.
+Frame seenFrom(uint from, uint to, vec3 da, vec3 db) {
+    bool once = to == nextOf(from), twice = to == lastOf(from);
+    vec3 normal = cross(da, db);
+    return Frame(once ? db - da : twice ? -db : da, once ? -da : twice ? da - db : db, normal);
+}

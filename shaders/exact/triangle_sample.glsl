@@ -1,0 +1,153 @@
+// A single sample of a Loop patch (docs/loop.md). Before the include, what triangle.glsl needs; with LOCAL_NET also
+//   vec3 netPoint(const PatchPlace at, uint k)        point k of the triangle's own points, from workgroup memory: of a regular
+//                                                     one the vertices, of an irregular one its net
+#include "shaders/exact/triangle.glsl"
+
+#ifdef ONE_TRIANGLE // a lane has one alone, and loads its vertices once
+LeafPoints laneCage;
+LeafPoints cageOf(const PatchPlace at, Triangle t) { return laneCage; }
+#else
+LeafPoints cageOf(const PatchPlace at, Triangle t) { return cageLeaf(at, t); }
+#endif
+
+LeafPoints leafInCell(const PatchPlace at, NetSource net, bool own, uint cell) {
+    LeafPoints leaf;
+    uint words[20] = netWords(net);
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) {
+        uint word = net.first + OF_CELL(cell, words, k);
+#ifdef LOCAL_NET
+        if (own) {
+            leaf.p[k] = netPoint(at, cell < 2u ? kCellPoints[cell == 0u ? 0 : 1][k] : kCellPoints[cell == 2u ? 2 : 3][k]);
+            continue;
+        }
+#endif
+        leaf.p[k] = poolPoint(at, word);
+    }
+    mirrorInCell(leaf, net, cell);
+    return leaf;
+}
+
+// Where a sample lies: weights of the corners, distance from the nearest one; side 3 is inside, else the pair along it.
+struct TrianglePoint {
+    vec3 w;
+    float distance;
+    uint side;
+    vec2 along;
+};
+const uint kInside = 3u;
+
+vec3 onWholeSide(const PatchPlace at, Triangle t, uint side, vec2 along) {
+    return onSide(leafSide(cageOf(at, t), side, false, hasFlag(t, kSharpTriangleSide, side)), along);
+}
+// The corner that a sample is, 3 if it is none.
+uint cornerAt(TrianglePoint s) {
+    if (s.side != kInside) return s.along.x == 0.0 ? s.side : s.along.y == 0.0 ? nextOf(s.side) : 3u;
+    return s.w.x == 1.0 ? 0u : s.w.y == 1.0 ? 1u : s.w.z == 1.0 ? 2u : 3u;
+}
+
+// On a side of an irregular triangle that has two halves. `leaf`: the one there, in a cell of the net.
+vec3 onHalfSide(NetSource net, LeafPoints leaf, bool own, uint cell, TrianglePoint s, float scale, float distance) {
+    bool far = s.along.x > s.along.y; // nearer to where the side ends
+    uint begin = own ? cell : 0u;
+    bool sharp = (net.sides >> (far ? lastOf(begin) : begin) & 1u) != 0u;
+    precise float x = distance * scale - (own ? 0.0 : 1.0), rest = 1.0 - x;
+    precise vec3 p = net.origin + onSide(leafSide(leaf, begin, far, sharp), vec2(x, rest));
+    return p;
+}
+vec3 middleOfSide(NetSource net, LeafPoints leaf, uint side) {
+    vec3 p[12];
+    uint v = lastOf(side); // of the leaf in the middle
+    [[unroll]] for (uint k = 0u; k < 12u; ++k) {
+        const uint row = k / 3u * 3u, at = k % 3u;
+        p[k] = v == 0u ? leaf.p[k] : v == 1u ? leaf.p[row + (at + 1u) % 3u] : leaf.p[row + (at + 2u) % 3u];
+    }
+    bool sharp = (net.sides >> side & 1u) != 0u;
+    precise vec3 first = sharp ? p[8] + p[0] : p[11] + p[2], second = sharp ? p[0] + p[6] : p[3] + p[1];
+    return onLine(p[8], p[0], p[6], first, second);
+}
+
+void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to, out vec3 position, out Frame frame) {
+    uint corner = s.w.x > 0.5 ? 0u : s.w.y > 0.5 ? 1u : s.w.z > 0.5 ? 2u : 3u, isCorner = cornerAt(s);
+    bool onBorder = s.side != kInside, middle = onBorder && s.along.x == s.along.y;
+    if (onBorder && isCorner == 3u && !middle) corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
+    NetSource net = ownNet(at, t);
+    Chain chain = chainOf(t, corner == 3u ? 0u : corner);
+    bool own = corner == 3u || chain.windows == 0u;
+    uint cell = corner, from = 0u;
+    float scale = 2.0, a = s.w.y, b = s.w.z;
+    float distance = onBorder ? min(s.along.x, s.along.y) : 0.0;
+    if (!own) {
+        a = corner == 0u ? s.w.y : corner == 1u ? s.w.z : s.w.x;
+        b = corner == 0u ? s.w.z : corner == 1u ? s.w.x : s.w.y;
+        float nearest = s.distance;
+#ifdef LEVELS
+        nearest = onBorder ? distance : a + b;
+        float moved = withinChain(nearest, chain.lastLevel);
+        if (moved > nearest) a *= moved / nearest, b *= moved / nearest;
+        if (onBorder) distance = moved;
+        nearest = moved;
+#endif
+        ChainPlace place = chainPlace(nearest, chain.lastLevel);
+        scale = place.scale;
+        net = chainNet(at, t, chain, corner, place.level);
+        from = corner;
+    }
+    precise float x = a * scale, y = b * scale;
+    if (!own) cell = isCorner != 3u || x >= 1.0 ? 1u : y >= 1.0 ? 2u : kMiddleCell;
+    bool reversed = cell == kMiddleCell;
+    LeafPoints points = leafInCell(at, net, own, cell);
+    Leaf leaf = leafOf(points);
+    precise float inX = reversed ? 1.0 - x : cell == 1u ? x - 1.0 : x, inY = reversed ? 1.0 - y : cell == 2u ? y - 1.0 : y;
+    LeafRow row = leafRow(leaf, inY);
+    vec3 da = rowAlongX(row, inX), db = rowAlongY(row, inX);
+    if (isCorner != 3u) {
+        position = cornerLimit(at, t, isCorner);
+        if (!own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
+        frame = seenFrom(from, to, da, db);
+        if (!own) frame = withNormal(frame, cornerNormal(at, t, corner));
+        return;
+    }
+    frame = seenFrom(from, to, reversed ? -da : da, reversed ? -db : db);
+    if (!onBorder) {
+        precise vec3 p = net.origin + (leaf.first + rowOffset(row, inX));
+        position = p;
+    } else if (hasFlag(t, kWholeTriangleSide, s.side)) {
+        position = onWholeSide(at, t, s.side, s.along);
+    } else if (middle) {
+        position = middleOfSide(net, points, s.side);
+    } else {
+        position = onHalfSide(net, points, own, cell, s, scale, distance);
+    }
+}
+
+void regularTriangle(const PatchPlace at, Triangle t, LeafPoints points, Leaf leaf, TrianglePoint s, uint to, out vec3 position,
+                     out Frame frame) {
+    LeafRow row = leafRow(leaf, s.w.z);
+    frame = seenFrom(0u, to, rowAlongX(row, s.w.y), rowAlongY(row, s.w.y));
+    uint isCorner = cornerAt(s);
+    if (isCorner != 3u) {
+        position = cornerLimit(at, t, isCorner);
+    } else if (s.side != kInside) {
+        position = onSide(leafSide(points, s.side, false, hasFlag(t, kSharpTriangleSide, s.side)), s.along);
+    } else {
+        precise vec3 p = leaf.first + rowOffset(row, s.w.y);
+        position = p;
+    }
+}
+
+// A point of a side alone.
+vec3 sidePoint(const PatchPlace at, Triangle t, TrianglePoint s) {
+    if (hasFlag(t, kWholeTriangleSide, s.side)) return onWholeSide(at, t, s.side, s.along);
+    vec3 position;
+    Frame unused;
+    irregularTriangle(at, t, s, 0u, position, unused);
+    return position;
+}
+
+// A pair along side r as weights of the corners.
+vec3 weightsOnSide(uint side, vec2 along) {
+    return side == 0u ? vec3(along.y, along.x, 0.0) : side == 1u ? vec3(0.0, along.yx) : vec3(along.x, 0.0, along.y);
+}
+TrianglePoint pointOnSide(uint side, vec2 along) {
+    return TrianglePoint(weightsOnSide(side, along), min(along.x, along.y), side, along);
+}

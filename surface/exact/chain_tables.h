@@ -1,0 +1,83 @@
+// Vertices that are not plain: what lies in the pool for them, and the records that make it (shaders/shared/exact.h).
+// Private to exact/.
+#pragma once
+
+#include "shaders/shared/exact.h"
+#include "surface/exact/arrangement.h"
+#include "surface/exact/fan_tables.h"
+#include "surface/subdivision/mesh.h"
+#include "surface/table_writer.h"
+
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace supple::surface::exact {
+
+inline constexpr uint32_t kLastChainLevel = 6; ///< of 64 segments along an edge
+
+/// A sample at 1 / rate or further from a corner lies in a leaf of this level at most. `rate` 0: any rate.
+[[nodiscard]] uint32_t lastChainLevel(uint32_t rate);
+
+enum class VertexNeeds : uint8_t { nothing, limit, chain };
+
+class ChainTables {
+public:
+    struct Desc {
+        const subdivision::Mesh* mesh = nullptr;
+        uint32_t lastLevel = kLastChainLevel;
+        bool wide = false;
+    };
+    /// `fans` and `writer` must outlive this, as the mesh. `needs`: by vertex.
+    ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer);
+
+    /// Refuses a vertex with more faces than 16 bits number the points of its chain.
+    [[nodiscard]] Status checkSizes() const;
+    /// How many points of level 1 round a vertex are needed: up to radius 2 for its chain, up to 1 for its limit.
+    [[nodiscard]] uint32_t netSize(uint32_t vertex) const;
+    /// Takes pool indices from `next` on, and returns the first that is free.
+    [[nodiscard]] uint32_t layOut(uint32_t next);
+
+    /// Where points lie in the pool: that of level 1, and the limit at a vertex.
+    struct Places {
+        std::function<uint32_t(uint32_t)> levelOne, limit;
+        bool isStepped = false; ///< the stage before this one, assemble, writes points of level 1
+    };
+    /// Behind layOut().
+    void write(const Places& places, Tables& tables);
+
+    /// What records of patches say of a sector of a vertex. Without a chain: 0; of a plain vertex no normal.
+    struct Corner {
+        uint32_t chain = 0, windows = 0, size = 0, normal = shared::kNoNormal;
+    };
+    [[nodiscard]] Corner cornerOf(uint32_t vertex, uint32_t sector);
+
+private:
+    struct ArrangementTable {
+        uint32_t element = 0, runs = 0;
+        std::vector<uint32_t> runOfSector;
+    };
+
+    [[nodiscard]] subdivision::Fan fanOf(uint32_t v) const;
+    [[nodiscard]] uint32_t chainPoints(uint32_t v) const { return pointCount(fanOf(v), 3); }
+    [[nodiscard]] uint32_t chainLevels(uint32_t v) const;
+    [[nodiscard]] KindOfKernel kernelOf(uint32_t makes) const;
+    [[nodiscard]] bool fitsInBlock(uint32_t v) const;
+    const ArrangementTable& arrangementOf(uint32_t v);
+    ArrangementTable writeArrangement(const Arrangement& key);
+    void writeRun(const subdivision::CentreMask& position, const LimitRun& run);
+    void writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord, Tables& tables);
+    void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level, Tables& tables);
+
+    const subdivision::Mesh& mesh_;
+    uint32_t lastLevel_;
+    bool wide_;
+    std::vector<VertexNeeds> needs_;
+    FanTables& fans_;
+    TableWriter& writer_;
+    std::map<Arrangement, ArrangementTable> arrangements_;
+    std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
+    std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; kNoNormal and 0 where there are none
+};
+
+} // namespace supple::surface::exact

@@ -1,0 +1,69 @@
+// The triangles that Loop patches are made of, and what is known of their corners.
+#pragma once
+
+#include "surface/exact/triangles.h"
+#include "surface/scheme.h"
+#include "surface/subdivision/mesh.h"
+#include "tests/support/gpu_comparison.h"
+
+#include <utility>
+
+namespace supple::test {
+
+/// The cage must be accepted.
+struct LoopTriangles {
+    explicit LoopTriangles(const cage::Cage& cage) : isolation(isolationOf(cage)), triangles(isolation.parent) {}
+
+    /// `patches`: of a group.
+    template <class Patches>
+    [[nodiscard]] PatchFaces patches(const Patches& patches) const {
+        PatchFaces found = patchFaces(
+            isolation.parent, patches,
+            [&](uint32_t face) {
+                return triangles.chainsOf(face) == 0 ? surface::PatchClass::loopRegular
+                                                     : surface::PatchClass::loopIrregular;
+            },
+            [&](uint32_t face) { return triangles.chainsOf(face); });
+        for (uint32_t f = 0; f < isolation.parent.cage.faceCount(); ++f) {
+            found.firstCorners.push_back(triangles.firstCorner(f));
+        }
+        return found;
+    }
+    /// Weights of a patch's corners as those of its face.
+    [[nodiscard]] static glm::dvec3 inFace(const glm::dvec3& weights, uint32_t firstCorner) {
+        const int first = static_cast<int>(firstCorner);
+        return {weights[(3 - first) % 3], weights[(4 - first) % 3], weights[(5 - first) % 3]};
+    }
+
+    /// Weights in a face where the device takes a sample at levels: not within the last cell of a chain.
+    [[nodiscard]] glm::dvec3 atLevels(uint32_t face, const glm::dvec3& weights) const {
+        constexpr double kNearest = 1.0 / 64.0;
+        for (int corner = 0; corner < 3; ++corner) {
+            const surface::RefinedMesh& mesh = isolation.parent;
+            const uint32_t first = mesh.cage.faceStarts[face] + static_cast<uint32_t>(corner);
+            if (weights[corner] <= 0.5 || triangles.isPlain(mesh.cage.faceVertices[first])) {
+                continue;
+            }
+            const double distance = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
+            if (distance > 0.0 && distance < kNearest) {
+                glm::dvec3 moved = weights * (kNearest / distance);
+                moved[corner] = 1.0 - kNearest;
+                return moved;
+            }
+        }
+        return weights;
+    }
+
+    surface::subdivision::Isolation isolation;
+    surface::loop::Triangles triangles;
+
+private:
+    static surface::subdivision::Isolation isolationOf(const cage::Cage& cage) {
+        Result<surface::subdivision::Isolation> isolation =
+            surface::subdivision::isolateCage(cage, surface::subdivision::Subdivision::loop);
+        EXPECT_TRUE(isolation.ok());
+        return std::move(*isolation);
+    }
+};
+
+} // namespace supple::test
