@@ -107,6 +107,7 @@ protected:
         EXPECT_TRUE(binding.ok());
         scene.group = group->get();
         scene.binding = &*binding;
+        EXPECT_TRUE(renderer.prepare(scene).ok());
         const Status status =
             device_->submitAndWait([&](VkCommandBuffer commands) { renderer.record(commands, 0, target, scene); });
         EXPECT_TRUE(status.ok());

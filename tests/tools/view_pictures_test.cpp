@@ -48,7 +48,7 @@ protected:
         const uint64_t number = (*context_)->nextFrame();
         const Status drawn = (*device_)->submitAndWait([&](VkCommandBuffer commands) {
             EXPECT_TRUE((*stage_)->evaluate(commands, number, number - 1).ok());
-            (*pictures_)->record(commands, 0, (*stage_)->scene(kWindowSize), step);
+            EXPECT_TRUE((*pictures_)->record(commands, 0, (*stage_)->scene(kWindowSize), step).ok());
         });
         EXPECT_TRUE(drawn.ok());
         Result<host::Picture> picture = host::readPicture(**device_, (*pictures_)->shown());
@@ -62,6 +62,7 @@ protected:
         host::Scene scene = (*stage_)->scene(kWindowSize);
         scene.quality = host::StudioQuality::refining();
         scene.pass = pass;
+        EXPECT_TRUE((*renderer_)->prepare(scene).ok());
         EXPECT_TRUE(
             (*device_)
                 ->submitAndWait([&](VkCommandBuffer commands) { (*renderer_)->record(commands, 0, *target, scene); })
