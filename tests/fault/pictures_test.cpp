@@ -2,8 +2,8 @@
 #include "host/picture.h"
 
 #include <algorithm>
-#include <cstring>
 #include <gtest/gtest.h>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,9 +11,8 @@ namespace supple::test {
 namespace {
 
 std::vector<std::byte> bytesOf(const std::string& text) {
-    std::vector<std::byte> bytes(text.size());
-    std::memcpy(bytes.data(), text.data(), text.size());
-    return bytes;
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
 }
 
 std::string refusalOf(const std::string& bytes) {

@@ -85,6 +85,7 @@ protected:
         EXPECT_TRUE(binding.ok());
         scene.group = &group;
         scene.binding = &*binding;
+        EXPECT_TRUE(renderer_->prepare(scene).ok());
         const Status status =
             device_->submitAndWait([&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
         EXPECT_TRUE(status.ok());

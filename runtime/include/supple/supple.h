@@ -390,9 +390,9 @@ typedef struct SuppleAssetDesc {
      * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
      * too. One file that cannot be read fails the call. */
     const SuppleClipFile* clipFiles;
-    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files can
-     * ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs more
-     * is refused with SUPPLE_ERROR_LIMIT before it gets it. */
+    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files
+     * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
+     * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
 } SuppleAssetDesc;
 
