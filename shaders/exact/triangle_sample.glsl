@@ -84,7 +84,10 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
         nearest = onBorder ? distance : a + b;
         float moved = withinChain(nearest, chain.lastLevel);
         if (moved > nearest) a *= moved / nearest, b *= moved / nearest;
-        if (onBorder) distance = moved;
+        if (onBorder) { // without rounding
+            distance = moved;
+            a = a > 0.0 ? moved : 0.0, b = b > 0.0 ? moved : 0.0;
+        }
         nearest = moved;
 #endif
         ChainPlace place = chainPlace(nearest, chain.lastLevel);

@@ -160,12 +160,12 @@ void storeRegular(const PatchPlace at, Triangle t) {
     } while (++side < 3u);
 }
 
-// The samples that the leaves of a net have: i and j steps from its corner along the two edges. The cell at the corner has those
-// with i + j below `least`; the others have those below `end`, and those from `split` on are in the cells further along an edge.
+// The samples that the leaves of a net have, i and j steps from its corner along the two edges. The cell at the corner has those
+// with i + j below `least`, the others those below `end`. The cells further along an edge begin at `split`.
 struct NetSamples {
-    uint corner, split, least, end;
+    uint corner; // the net is seen from: of the triangle's own, 0
+    uint split, least, end;
     float scale; // from distances to parameters of the net
-    bool own;    // of the triangle's own net: all corners are its
 };
 float netParameter(NetSamples s, uint k) {
     precise float x = pairOf(k).x * s.scale;
@@ -186,8 +186,8 @@ void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Le
             precise float x = netParameter(s, i), inX = middle ? 1.0 - x : cell == 1u ? x - 1.0 : x;
             precise vec3 p = net.origin + (leaf.first + rowOffset(row, inX));
             vec3 da = rowAlongX(row, inX), db = rowAlongY(row, inX);
-            Frame frame = seenFrom(s.own ? 0u : s.corner, 0u, middle ? -da : da, middle ? -db : db);
-            store(at, i < endI, countsFrom(s.own ? 0u : s.corner, i, j), p, frame);
+            Frame frame = seenFrom(s.corner, 0u, middle ? -da : da, middle ? -db : db);
+            store(at, i < endI, countsFrom(s.corner, i, j), p, frame);
         } while (++i < endI);
         ++j;
     } while (middle ? j < endJ : j + 1u < endJ);
@@ -198,7 +198,7 @@ Frame leafFrame(Leaf leaf, vec2 w) {
     return seenFrom(0u, 0u, rowAlongX(row, w.x), rowAlongY(row, w.x));
 }
 // Of a plain corner, half of a side: of its first edge or, with `back`, of its second.
-void storeHalfSide(const PatchPlace at, Triangle t, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf,
+void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, LeafPoints points, Leaf leaf,
                    LeafPoints cage, bool back) {
     uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
     bool whole = hasFlag(t, kWholeTriangleSide, side);
@@ -244,8 +244,8 @@ LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
 
 // The triangle's own net: the leaf in the middle, which comes last, and those at plain corners.
 void storeOwnNet(const PatchPlace at, Triangle t) {
-    uint half_ = (last + 1u) / 2u, cells = 1u << kMiddleCell | triangleFlags(t, kPlainTriangleCorner);
-    NetSamples s = NetSamples(0u, last - half_ + 1u, half_, last, 2.0, true);
+    uint nearer = (last + 1u) / 2u, cells = 1u << kMiddleCell | triangleFlags(t, kPlainTriangleCorner);
+    NetSamples s = NetSamples(0u, last - nearer + 1u, nearer, last, 2.0);
     NetSource net = ownNet(at, t);
     NetPoints all = netPoints(at, net);
     LeafPoints points, cage = cageLeaf(at, t);
@@ -255,8 +255,8 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
         points = leafOfNet(all, net, cell);
         leaf = leafOf(points);
         storeInside(at, net, s, cell, leaf);
-        storeHalfSide(at, t, net, s, cell, points, leaf, cage, false);
-        storeHalfSide(at, t, net, s, cell, points, leaf, cage, true);
+        storeHalfSide(at, t, s, cell, points, leaf, cage, false);
+        storeHalfSide(at, t, s, cell, points, leaf, cage, true);
         store(at, cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
               leafFrame(leaf, vec2(cell == 1u, cell == 2u)));
         cells &= cells - 1u;
@@ -287,7 +287,7 @@ void storeChains(const PatchPlace at, Triangle t) {
         Chain chain = chainOf(t, corner);
         NetSource net = chainNet(at, t, chain, corner, level);
         uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
-        NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)), false);
+        NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)));
         NetPoints all = netPoints(at, net);
         uint cell = 1u;
         do {

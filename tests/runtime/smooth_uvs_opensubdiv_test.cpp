@@ -2,6 +2,7 @@
 // neither folds nor poles, where rules of ours go beyond OpenSubdiv's (docs/smooth_uvs.md).
 #include "tests/support/crowd.h"
 #include "tests/support/exact_quads.h"
+#include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/reference/grid.h"
@@ -175,6 +176,15 @@ void compareAll(const char* name, const cage::Cage& cage, SuppleScheme scheme) {
                 compare(figures, gpu, attributes, limit, [&](uint32_t p, glm::dvec2 uv) {
                     const uint32_t face = found.faces[p];
                     return named.at(face, ExactQuads::inFace(uv.x, uv.y, found.firstCorners[face]));
+                });
+            } else if (loop && mode == cage::UvMode::all) { // patches
+                const LoopTriangles triangles(cage);
+                const PatchFaces found = triangles.patches(gpu.patches());
+                compare(figures, gpu, attributes, limit, [&](uint32_t p, glm::dvec2 uv) {
+                    const uint32_t face = found.faces[p];
+                    const glm::dvec3 at =
+                        LoopTriangles::inFace({1.0 - uv.x - uv.y, uv.x, uv.y}, found.firstCorners[face]);
+                    return QuadsOfFaces::Place{face, 0, {at.y, at.z}};
                 });
             } else {
                 compare(figures, gpu, attributes, limit,

@@ -146,7 +146,8 @@ struct Written {
 /// Where the patches of a group's grids have their samples, in the order of the tables.
 struct Grids {
     Grids(const Crowd& crowd, SuppleScheme scheme, const cage::Cage& cage, uint32_t rate) {
-        surface::Recipe recipe{.scheme = static_cast<surface::SchemeId>(scheme)};
+        const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage, true);
+        surface::Recipe recipe{.scheme = drawer.scheme};
         recipe.rate = surface::schemeOf(recipe.scheme).tableRate(rate, false);
         tables = std::move(*surface::buildTables(recipe, cage));
         const SuppleGridOutput grid = crowd.output().grid;
