@@ -115,7 +115,8 @@ void main() {
         mapped = -mapped; // seen from behind, a bump is a dent
     vec3 segments = fwidth(inGrid);
     vec3 flatly = vec3(0.0);
-    if (isFlatView(push.view)) {
+    bool isFlat = kMaps && isFlatView(push.view); // such views are drawn with maps: others need not have their code
+    if (isFlat) {
         vec3 tangent = push.view == kViewTangents ? shownTangent(front) : vec3(0.0);
         flatly = flatColor(push.view, base, material, inUvs, tangent, inColor.rgb, inTangent.x);
         if (isShadedFlat(push.view))
@@ -138,7 +139,7 @@ void main() {
         color = fromSrgb(front * 0.5 + 0.5);
     } else if (push.view == kViewZebra) {
         color = zebra(n, v);
-    } else if (isFlatView(push.view)) {
+    } else if (isFlat) {
         color = flatly;
     } else if (push.view == kViewShaded && materialHas(kMaterialUnlit)) {
         color = base.rgb;

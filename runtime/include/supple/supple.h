@@ -383,9 +383,9 @@ typedef struct SuppleAssetDesc {
      * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
      * too. One file that cannot be read fails the call. */
     const SuppleClipFile* clipFiles;
-    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files can
-     * ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs more
-     * is refused with SUPPLE_ERROR_LIMIT before it gets it. */
+    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files
+     * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
+     * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
 } SuppleAssetDesc;
 
@@ -1227,9 +1227,9 @@ typedef struct SuppleTiming {
     /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
      * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
      * it as well), list, level (twice), solve (once per view) and place. If a group has several surfaces, passes that
-     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry `shortfall` is no pass and
-     * takes no time. It follows solve only in frames in which the view's budget was not enough
-     * (SuppleViewStatistics.shortfall). */
+     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry
+     * `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was not
+     * enough (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
