@@ -1,5 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
+// that shades in blocks would do it many times over.
+layout(constant_id = 0) const bool kLightPerVertex = false;
+layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
+#define LEVELS_POSSIBLE !kLightPerVertex // surfaces with levels are lit pixel by pixel
+
 #include "frame.glsl"
 #include "studio.glsl"
 #include "surface_input.glsl"
@@ -17,11 +23,6 @@ layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
 layout(location = 9) out vec4 outTangent; // glTF's TANGENT; views of values: x is the value
 
-// Where triangles are hardly larger than pixels the light is looked up once a vertex instead of once a pixel: a device
-// that shades in blocks would do it many times over.
-layout(constant_id = 0) const bool kLightPerVertex = false;
-layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
-
 // Which ring a sample lies in, counted from the border.
 uint ringOf(uint index) {
     uint ring = 0u;
@@ -36,8 +37,10 @@ uint ringOf(uint index) {
 // so that all three are continuous over the rays.
 vec3 gridPosition(uint index) {
     if (push.domain == kDrawMesh) return vec3(0.0); // a vertex is of many patches: no lines are drawn
-    if (hasLevels()) index = levelVertex() % push.samplesPerPatch;
-    if (push.domain == kDrawRings) return vec3(0.5, 0.5, ringOf(index));
+    if (hasLevels()) {
+        index = levelVertex() % push.samplesPerPatch;
+        if (push.domain == kDrawRings) return vec3(0.5, 0.5, ringOf(index));
+    }
     uint side = push.rate + 1u;
     if (push.domain <= kDrawPolar) return vec3(index % side, index / side, 0.5);
     uint perSector = push.rate * side / 2u;

@@ -12,7 +12,11 @@ layout(set = 1, binding = kSurfaceValueBinding, std430) readonly buffer SurfaceV
 layout(set = 1, binding = kLevelBucketBinding, std430) readonly buffer LevelBuckets { uvec4 levelBuckets[]; };
 layout(set = 1, binding = kLevelPatchBinding, std430) readonly buffer LevelPatches { uvec4 levelPatches[]; };
 
-bool hasLevels() { return (push.flags & kDrawLevels) != 0u; }
+// What a pipeline never draws should cost it nothing.
+#ifndef LEVELS_POSSIBLE
+#define LEVELS_POSSIBLE true
+#endif
+bool hasLevels() { return LEVELS_POSSIBLE && (push.flags & kDrawLevels) != 0u; }
 
 SuppleDraw drawnLevels() {
     return SuppleDraw(push.firstPatch, push.verticesPerInstance, push.samplesPerPatch, 0u);

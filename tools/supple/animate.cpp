@@ -66,8 +66,8 @@ Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_
     scene.bounds = extent->bounds;
     if (options.draw.ground)
         scene.ground = extent->bounds.min.y;
-    scene.camera = host::frameCamera(extent->points, radians(options.draw.yaw), radians(options.draw.pitch), aspect,
-                                     kAnimateMargin);
+    scene.camera = host::frameCamera(extent->framed(options.draw.split), radians(options.draw.yaw),
+                                     radians(options.draw.pitch), aspect, kAnimateMargin);
     if (options.turn != 0.0) {
         // Turned, it needs the room of its sphere, about its middle.
         scene.camera.target = extent->bounds.center();

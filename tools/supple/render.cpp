@@ -92,7 +92,8 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     host::Scene scene;
     std::vector<glm::vec3> points;
     for (const Shown& shown : all) {
-        points.insert(points.end(), shown.figure.points.begin(), shown.figure.points.end());
+        const std::vector<glm::vec3> own = shown.figure.framed(options.draw.split);
+        points.insert(points.end(), own.begin(), own.end());
         if (shown.ground)
             scene.ground = std::min(scene.ground.value_or(*shown.ground), *shown.ground);
     }

@@ -59,14 +59,23 @@ Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> 
             return status.error();
         if (const Status status = group.figure().context().evaluate(groups); !status)
             return status.error();
-        Result<std::vector<glm::vec3>> points = cage ? group.readCage() : group.readSurface();
-        if (!points)
-            return points.error();
+        const Result<std::vector<glm::vec3>> cagePoints = group.readCage();
+        const Result<std::vector<glm::vec3>> points = cage ? cagePoints : group.readSurface();
+        if (!points || !cagePoints)
+            return !points ? points.error() : cagePoints.error();
         for (const glm::vec3& point : *points)
             extent.bounds.add(point);
         extent.points.insert(extent.points.end(), points->begin(), points->end());
+        extent.cagePoints.insert(extent.cagePoints.end(), cagePoints->begin(), cagePoints->end());
     }
     return extent;
+}
+
+std::vector<glm::vec3> Extent::framed(bool split) const {
+    std::vector<glm::vec3> all = points;
+    if (split)
+        all.insert(all.end(), cagePoints.begin(), cagePoints.end());
+    return all;
 }
 
 Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const {
@@ -154,9 +163,9 @@ Status Stage::bind() {
 }
 
 Status Stage::prepare(const host::Scene& scene) {
-    if (options_.levels || options_.view == "levels")
+    if ((options_.levels || options_.view == "levels") && options_.scheme != "cage")
         return chooseLevels(scene);
-    if (!cage_)
+    if (!cage_ || scene.cageFaces)
         return success();
     const Result<PosedSurfaces> posed = readPosed(*group_);
     if (!posed)
@@ -187,7 +196,7 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
         return status.error();
     if (!alpha) {
         Result<host::Picture> picture = drawPasses(scene);
-        const std::optional<Legend> legend = legendOf(scene.view);
+        const std::optional<Legend> legend = scene.cageFaces ? std::nullopt : legendOf(scene.view);
         if (picture && legend)
             drawLegend(*picture, *legend);
         return picture;

@@ -34,7 +34,11 @@ struct ClipTime {
 /// Where a figure is over a number of poses.
 struct Extent {
     std::vector<glm::vec3> points; ///< of all poses; what a camera has to hold
-    host::Bounds bounds;
+    std::vector<glm::vec3> cagePoints;
+    host::Bounds bounds; ///< of points
+
+    /// Also of the cage, if it is shown beside.
+    [[nodiscard]] std::vector<glm::vec3> framed(bool split) const;
 };
 
 /// Evaluates every pose in turn and notes where the surface (or the cage) is. No frame may be pending.

@@ -527,6 +527,8 @@ void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& w
             wishExport(state, ExportKind::commandLine, wishes);
         if (settings.fadeClip != SUPPLE_REST_POSE)
             ImGui::TextWrapped("The crossfade is left out: the command line has none.");
+        if (settings.levelsFrozen)
+            ImGui::TextWrapped("The frozen camera is left out: levels are chosen from where the picture is seen.");
     }
     if (!state.exported.empty())
         ImGui::TextWrapped("%s", printable(state.exported).c_str());

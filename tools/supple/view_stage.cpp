@@ -208,7 +208,7 @@ void ViewStage::frameFigure(float aspect) {
 
 void ViewStage::fitFigure(float aspect) {
     const float shape = aspect * (1.0f - covered_) * (settings.split ? 0.5f : 1.0f);
-    camera_ = host::frameCamera(extent_.points, camera_.yaw, camera_.pitch, shape, kWindowMargin);
+    camera_ = host::frameCamera(extent_.framed(settings.split), camera_.yaw, camera_.pitch, shape, kWindowMargin);
     aside_ = 0.5f * covered_ * aspect;
     pan(-aside_, 0.0f);
 }

@@ -1240,9 +1240,9 @@ typedef struct SuppleTiming {
     /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
      * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
      * it as well), list, level (twice), solve (once per view) and place. If a group has several surfaces, passes that
-     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry `shortfall` is no pass and
-     * takes no time. It follows solve only in frames in which the view's budget was not enough
-     * (SuppleViewStatistics.shortfall). */
+     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry
+     * `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was not
+     * enough (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
