@@ -58,7 +58,8 @@ TEST(Tangents, OfTexturesAreThoseOfMikktspace) {
     const std::vector<Vectors> all = readVectors();
     ASSERT_EQ(all.size(), 5u);
     for (const Vectors& v : all) {
-        const std::vector<glm::vec4> tangents = triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
+        const std::vector<glm::vec4> tangents =
+            triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
         ASSERT_EQ(tangents.size(), v.tangents.size());
         double largest = 0.0;
         uint32_t none = 0;
@@ -83,10 +84,12 @@ TEST(Tangents, OfTexturesAreThoseOfMikktspace) {
 
 TEST(Tangents, OfTheFileComeFirst) {
     Vectors v = readVectors().front();
-    const std::vector<glm::vec4> own = triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
+    const std::vector<glm::vec4> own =
+        triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
     v.cage.cornerTangents.assign(v.cage.cornerCount(), glm::vec4(0.0f));
     v.cage.cornerTangents[5] = {0.6f, 0.0f, 0.8f, -1.0f};
-    const std::vector<glm::vec4> mixed = triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
+    const std::vector<glm::vec4> mixed =
+        triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs);
     for (size_t i = 0; i < mixed.size(); ++i) {
         EXPECT_EQ(mixed[i], i == 5 ? v.cage.cornerTangents[5] : own[i]) << "corner " << i;
     }
@@ -95,7 +98,8 @@ TEST(Tangents, OfTheFileComeFirst) {
 TEST(Tangents, AreNoneWithoutTextureCoordinates) {
     Vectors v = readVectors().front();
     v.cage.cornerUvs.clear();
-    for (const glm::vec4& tangent : triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs)) {
+    for (const glm::vec4& tangent :
+         triangleTangents(v.cage, allCorners(v.cage), v.cage.cornerNormals, v.cage.cornerUvs)) {
         EXPECT_EQ(tangent, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
     }
     EXPECT_TRUE(triangleTangents({}, {}, {}, {}).empty());

@@ -1,5 +1,5 @@
-// Every public function, in the order of a host: cold, and then with frames in flight. Each call is made as a test wants
-// it: as it is, or first with every position in it failing.
+// Every public function, in the order of a host: cold, and then with frames in flight. Each call is made as a test
+// wants it: as it is, or first with every position in it failing.
 #pragma once
 
 #include "host/device.h"

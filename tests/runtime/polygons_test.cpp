@@ -694,7 +694,8 @@ TEST(Polygons, HaveTheFilesTangentsOrThoseOfMikktspace) {
         ASSERT_TRUE(character.ok());
         const cage::Cage& cage = character->cage;
         ASSERT_EQ(cage.cornerTangents.empty(), !authored) << "TANGENT comes back";
-        const std::vector<glm::vec4> wanted = cage::triangleTangents(cage, drawnCorners(cage), cage.cornerNormals, cage.cornerUvs);
+        const std::vector<glm::vec4> wanted =
+            cage::triangleTangents(cage, drawnCorners(cage), cage.cornerNormals, cage.cornerUvs);
         for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
             SCOPED_TRACE(std::string(mappingName(mapping)) + (authored ? ", of the file" : ", of MikkTSpace"));
             CrowdContext context(*testDevice(), mapping);
