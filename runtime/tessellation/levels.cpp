@@ -1,10 +1,11 @@
-// Groups of a view, p-rep, P_m and the blending surface: patches at real-valued levels. Their vertices are the view's,
+// Groups of a view whose scheme has them: patches at real-valued levels. Their vertices are the view's,
 // and which patches are drawn at which capacity is found anew in every frame (docs/lod.md).
 #include "runtime/tessellation/tessellation.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace supple::runtime {
 
@@ -13,9 +14,10 @@ using namespace supple::shared;
 namespace {
 
 /// How much more curves bend in places than their cage says, by surface::Borders: found by
-/// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact patches bend more
+/// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact quads bend more
 /// at irregular vertices.
-constexpr float kUneven[] = {1.0f, 1.5f, 2.0f};
+constexpr float kUneven[] = {1.0f, 1.5f, 1.0f, 2.0f};
+static_assert(std::size(kUneven) == static_cast<size_t>(surface::Borders::charts) + 1);
 
 class Levels final : public Tessellation {
 public:

@@ -1,5 +1,7 @@
 #include "surface/lod/steps.h"
 
+#include <iterator>
+
 namespace supple::surface::lod {
 
 static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
@@ -19,6 +21,7 @@ constexpr MeasureKernels kMeasureKernels[] = {
     {Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles, Kernel::lodPatchTriangles},
     {Kernel::lodEdgeCharts, Kernel::lodPatchCharts, Kernel::lodPatchCharts},
 };
+static_assert(std::size(kMeasureKernels) == static_cast<size_t>(Borders::charts) + 1);
 
 /// Of edges where `count` is edgeCount, else of patches.
 shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t count) {

@@ -188,6 +188,7 @@ TEST_P(LodCrowds, OneLevelAnInstance) {
                  {SUPPLE_SCHEME_PM, "P_m", cage::makeSplitTorus(8, 7)},
                  {SUPPLE_SCHEME_CATMULL_CLARK, "Catmull-Clark", cage::makeSplitTorus(8, 7), 0.7f},
                  {SUPPLE_SCHEME_CATMULL_CLARK, "Catmull-Clark, sphere", bumpySphere(4), 0.84f, 1.5f},
+                 {SUPPLE_SCHEME_LOOP, "Loop", inTriangles(bumpySphere(4)), 0.84f, 1.4f},
                  {SUPPLE_SCHEME_BLEND, "blend, quads", bumpySphere(4)},
                  {SUPPLE_SCHEME_BLEND, "blend, triangles", inTriangles(bumpySphere(4)), 0.68f, 1.35f}}; // a step first
     for (const auto& [scheme, name, cage, least, most] : cases) {

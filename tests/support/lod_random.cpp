@@ -104,6 +104,10 @@ std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character,
         return std::nullopt;
     }
     runtime::Group& group = *context_->groups.find(*id);
+    if (group.surfaces()[0].kind() != SUPPLE_TESSELLATION_LEVELS) { // fragments stand in for Loop patches
+        EXPECT_TRUE(context_->destroyGroup(*id));
+        return std::nullopt;
+    }
     EXPECT_TRUE(group.slots().create().has_value());
     const SuppleGroup handle{*id};
     SuppleRecordDesc record{};

@@ -24,7 +24,7 @@ public:
         LodSurface surface;
         std::vector<surface::PatchInfo> patches; ///< in device order
     };
-    /// One instance in its bind pose; nothing where the scheme refuses the cage. `desc`: scheme and what belongs to it.
+    /// One instance in its bind pose; nothing where the scheme refuses the cage or has no levels for it. `desc`: scheme and what belongs to it.
     [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc);
 
 private:

@@ -442,9 +442,9 @@ TEST_F(Cli, BakeOfSubdivisionHasAGroupAPatch) {
 
     ASSERT_EQ(runOnDevice("bake cube.gltf -o loop.obj --scheme loop --rate 4").exitCode, 0);
     const Obj triangles = readObj(file("loop.obj"));
-    EXPECT_EQ(triangles.groups.size(), 48u);
-    EXPECT_EQ(triangles.v.size(), 48u * 6u);
-    ASSERT_EQ(triangles.faces.size(), 48u * 4u);
+    EXPECT_EQ(triangles.groups.size(), 12u);
+    EXPECT_EQ(triangles.v.size(), 12u * 15u);
+    ASSERT_EQ(triangles.faces.size(), 12u * 16u);
     for (const Obj* obj : {&quads, &triangles}) {
         for (const auto& face : obj->faces) {
             ASSERT_EQ(face.size(), obj == &quads ? 4u : 3u);
@@ -493,7 +493,7 @@ TEST_F(Cli, InspectKnowsSubdivision) {
     const Json schemes = Json::parse(run("inspect cube.gltf --json").out)["schemes"];
     EXPECT_EQ(schemes["fragments"]["patches"], Json({{"fragment", 24}}));
     EXPECT_EQ(schemes["fragments"]["notes"], Json::array());
-    EXPECT_EQ(schemes["loop"]["patches"], Json({{"loop", 48}}));
+    EXPECT_EQ(schemes["loop"]["patches"], Json({{"loop-irregular", 12}}));
     EXPECT_EQ(schemes["loop"]["notes"],
               Json::array({"6 faces have more than 3 sides, the first is face 0; split into triangles"}));
     EXPECT_NE(run("inspect cube.gltf").out.find("accepted: 24 fragment"), std::string::npos);
@@ -509,7 +509,7 @@ TEST_F(Cli, ProfileOfAllSchemes) {
         if (run["scheme"] == "polygons") { // has no rate
             continue;
         }
-        const bool subdivided = run["scheme"] == "fragments" || run["scheme"] == "loop";
+        const bool subdivided = run["scheme"] == "fragments";
         EXPECT_EQ(run["rate"], 6);
         EXPECT_EQ(run["patchRate"], subdivided ? 4 : 6) << run["scheme"];
     }
@@ -582,15 +582,15 @@ TEST_F(Cli, PartsHaveSchemesOfTheirOwn) {
     const std::vector<std::string> loop = readObj(file("all.obj")).vLines, quads = readObj(file("quads.obj")).vLines;
     const std::vector<std::string> mixed = readObj(file("mixed.obj")).vLines;
     ASSERT_EQ(quads.size(), 3u * 6 * 9) << "six patches of a cube";
-    ASSERT_EQ(loop.size(), 3u * 48 * 3) << "four patches of each triangle";
+    ASSERT_EQ(loop.size(), 3u * 12 * 6) << "two triangles of each square";
     std::vector<std::string> expected(quads.begin(), quads.begin() + 54); // parts in their order
-    expected.insert(expected.end(), loop.begin() + 144, loop.begin() + 288);
+    expected.insert(expected.end(), loop.begin() + 72, loop.begin() + 144);
     expected.insert(expected.end(), quads.begin() + 108, quads.end());
     EXPECT_EQ(mixed, expected);
     const std::string text = readText(file("mixed.obj"));
     EXPECT_NE(text.find("scheme catmull-clark, rate 2, 12 patches"), std::string::npos);
-    EXPECT_NE(text.find("scheme loop, rate 1 (2 asked for along an edge of the cage), 48 patches"), std::string::npos);
-    EXPECT_NE(text.find("g patch_59\n"), std::string::npos) << "numbered through";
+    EXPECT_NE(text.find("scheme loop, rate 2, 12 patches"), std::string::npos);
+    EXPECT_NE(text.find("g patch_23\n"), std::string::npos) << "numbered through";
 
     const std::string bake = "bake cubes.gltf -o x.obj --patches p.json --rate 2 --scheme pm ";
     expectFailure(run(bake + "--part-scheme 1=loop"), 2, "--patches: part 1 has scheme loop");
@@ -736,7 +736,7 @@ TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
 }
 
 TEST_F(Cli, ProfileHashesWhatAViewDrewLast) {
-    for (const char* scheme : {"pm", "loop"}) {
+    for (const char* scheme : {"pm", "loop", "fragments"}) {
         std::vector<std::string> hashes;
         for (const char* frames : {"1", "1", "4"}) {
             const Outcome outcome =
@@ -746,7 +746,7 @@ TEST_F(Cli, ProfileHashesWhatAViewDrewLast) {
             ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
             hashes.push_back(readText(file("hashes.txt")));
             const Json view = Json::parse(readText(file("p.json")))["runs"][0]["view"];
-            const uint64_t drawn = scheme == std::string("pm") ? view["patches"] : view["drawnInstances"];
+            const uint64_t drawn = scheme == std::string("fragments") ? view["drawnInstances"] : view["patches"];
             EXPECT_GT(drawn, 0u);
             EXPECT_EQ(static_cast<uint64_t>(std::count(hashes.back().begin(), hashes.back().end(), '\n')), drawn + 1)
                 << "a line for the scheme, and a line for each: " << hashes.back();

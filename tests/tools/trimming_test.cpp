@@ -146,6 +146,7 @@ protected:
         EXPECT_TRUE(binding.ok());
         scene.group = group->get();
         scene.binding = &*binding;
+        EXPECT_TRUE(renderers_[multisample]->prepare(scene).ok());
         EXPECT_TRUE(device_
                         ->submitAndWait([&](VkCommandBuffer commands) {
                             renderers_[multisample]->record(commands, 0, targets_[multisample], scene);

@@ -10,6 +10,7 @@
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/targets.h"
+#include "tools/bench/views.h"
 #include "tools/common/schemes.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ constexpr double kTurnSeconds = 0.02, kQuickTurnSeconds = 0.002, kWarmSeconds = 
 constexpr uint32_t kLoads = 9, kQuickLoads = 2;
 /// On CPU devices a crowd is no game's: so many show that it works and what a character costs.
 constexpr uint32_t kGpuCrowd = 1000, kCpuCrowd = 16, kQuickCpuCrowd = 4;
+constexpr uint32_t kViewCrowd = 100;
 
 class Run {
 public:
@@ -45,6 +47,9 @@ public:
         }
         if (status) {
             status = crowd();
+        }
+        if (status) {
+            status = views();
         }
         if (status) {
             status = classical();
@@ -70,6 +75,7 @@ private:
     /// Writes them down; fails if one does not hold.
     Status agreed(const std::vector<Agreement>& all);
     Status crowd();
+    Status views();
     Status classical();
     Status heats();
     Status load();
@@ -198,6 +204,27 @@ Status Run::crowd() {
         return measured.error();
     }
     result_["crowd"] = std::move(*measured);
+    return keep();
+}
+
+Status Run::views() {
+    ViewsDesc desc;
+    desc.characters = crowdSize() == 0 ? 0 : options_.quick ? kQuickCpuCrowd : kViewCrowd;
+    desc.schemes = keepWanted({SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK});
+    if (desc.characters == 0 || desc.schemes.empty()) {
+        return success();
+    }
+    if (options_.quick) { // drivers take seconds to compile a view
+        desc.schemes.resize(1);
+    }
+    desc.frames = 3 * options_.rounds;
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rview: %s   ", what.c_str()); };
+    Result<Json> measured = measureViews(device_, *workbench_, desc);
+    std::fprintf(stderr, "\n");
+    if (!measured) {
+        return measured.error();
+    }
+    result_["views"] = std::move(*measured);
     return keep();
 }
 

@@ -171,6 +171,34 @@ std::string crowdTable(const Json& crowd) {
            (table.empty() ? "" : table.text(2));
 }
 
+/// Passes that some row lacks are blank there.
+std::string viewTable(const Json& rows) {
+    std::vector<std::string> head{"scheme", "characters", "vertices", "frame, ms"}, passes;
+    for (const Json& row : rows) {
+        for (const Json& pass : row["passes"]) {
+            const std::string name = pass["pass"];
+            if (std::find(passes.begin(), passes.end(), name) == passes.end()) {
+                passes.push_back(name);
+            }
+        }
+    }
+    head.insert(head.end(), passes.begin(), passes.end());
+    head.emplace_back("(level + place + attributes) / evaluate");
+    Table table(head);
+    for (const Json& row : rows) {
+        std::vector<std::string> cells{row["scheme"], row["characters"].dump(), row["vertices"].dump(),
+                                       number(row["frameMs"])};
+        for (const std::string& name : passes) {
+            const auto own = std::find_if(row["passes"].begin(), row["passes"].end(),
+                                          [&](const Json& pass) { return pass["pass"] == name; });
+            cells.push_back(own == row["passes"].end() ? "" : number((*own)["ms"]));
+        }
+        cells.push_back(number(row["aroundEvaluate"]));
+        table.add(std::move(cells));
+    }
+    return table.empty() ? "" : "## The crowd in a view\n\n" + table.text();
+}
+
 /// The dense mesh first, then its skin, then cage and surface.
 void addClassicalLines(const Json& row, Table& table) {
     const std::string where = row["cage"].get<std::string>() + ", rate " + row["rate"].dump();
@@ -302,6 +330,7 @@ std::string toTables(const Json& result) {
     if (result.contains("crowd")) {
         out += crowdTable(result["crowd"]);
     }
+    out += viewTable(result.value("views", Json::array()));
     out += classicalTables(result.value("classical", Json::array()));
     out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
     return out;

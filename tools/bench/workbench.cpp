@@ -113,7 +113,7 @@ void Workbench::destroy(SuppleView view) {
     inside_->context->destroyView(view.id);
 }
 
-Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
+Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands, uint32_t flags) {
     const uint64_t frame = ++inside_->frame;
     Status status = inside_->context->beginFrame(frame, frame - 1);
     if (!status) {
@@ -121,11 +121,20 @@ Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands) {
     }
     SuppleRecordDesc desc{};
     desc.structSize = sizeof(desc);
+    desc.flags = flags;
     desc.groups = &group;
     desc.groupCount = 1;
     desc.before = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
     desc.after = {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
     return inside_->context->record(commands, desc);
+}
+
+const std::vector<SuppleTiming>& Workbench::timings() const {
+    return inside_->context->timings.latest();
+}
+
+uint32_t Workbench::verticesOf(SuppleView view) const {
+    return inside_->context->views.find(view.id)->statistics().vertexCount;
 }
 
 Status Workbench::recordWarmUp(SuppleGroup group, VkCommandBuffer commands) {

@@ -43,8 +43,12 @@ public:
     void destroy(SuppleGroup group);
     void destroy(SuppleView view);
 
-    /// What suppleBeginFrame and suppleRecord do, all earlier frames being done. Timestamps off.
-    [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands);
+    /// What suppleBeginFrame and suppleRecord do, all earlier frames being done. `flags`: SuppleRecordDesc.flags.
+    [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands, uint32_t flags = 0);
+    /// As suppleGetTimings has them when a frame begins.
+    [[nodiscard]] const std::vector<SuppleTiming>& timings() const;
+    /// What the newest completed frame wrote.
+    [[nodiscard]] uint32_t verticesOf(SuppleView view) const;
     /// A frame of suppleRecordWarmUp alone.
     [[nodiscard]] Status recordWarmUp(SuppleGroup group, VkCommandBuffer commands);
     /// The evaluation alone, from the coefficients of the last frame.

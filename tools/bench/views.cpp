@@ -1,0 +1,141 @@
+#include "tools/bench/views.h"
+
+#include "tools/bench/crowd_character.h"
+#include "tools/common/schemes.h"
+#include "tools/common/statistics.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace supple::bench {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint32_t kWarmFrames = 3, kMaxVertices = 1u << 20;
+
+/// The passes of a frame in the order in which they came, and milliseconds.
+struct FrameTimes {
+    std::vector<std::pair<std::string, double>> passes;
+    double whole = 0.0;
+
+    explicit FrameTimes(const std::vector<SuppleTiming>& timings) {
+        double begin = 0.0, end = 0.0;
+        for (const SuppleTiming& one : timings) {
+            begin = passes.empty() ? one.gpuBegin : std::min(begin, one.gpuBegin);
+            end = std::max(end, one.gpuEnd);
+            const auto known =
+                std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == one.pass; });
+            if (known == passes.end()) {
+                passes.emplace_back(one.pass, 1e-6 * (one.gpuEnd - one.gpuBegin));
+            } else {
+                known->second += 1e-6 * (one.gpuEnd - one.gpuBegin);
+            }
+        }
+        whole = 1e-6 * (end - begin);
+    }
+    [[nodiscard]] double of(const std::string& name) const {
+        const auto found = std::find_if(passes.begin(), passes.end(), [&](const auto& p) { return p.first == name; });
+        return found == passes.end() ? 0.0 : found->second;
+    }
+    [[nodiscard]] double aroundEvaluate() const {
+        return (of("level") + of("place") + of("attributes")) / of("evaluate");
+    }
+};
+
+double medianOf(const std::vector<FrameTimes>& frames, const std::function<double(const FrameTimes&)>& value) {
+    std::vector<double> values;
+    for (const FrameTimes& frame : frames) {
+        values.push_back(value(frame));
+    }
+    return tools::summarize(values).median;
+}
+
+/// A frame's times are known when the next one begins.
+Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& workbench, SuppleGroup group,
+                                           uint32_t count) {
+    std::vector<FrameTimes> frames;
+    for (uint32_t i = 0; i <= kWarmFrames + count; ++i) {
+        Status recorded = success();
+        const Status submitted = device.submitAndWait([&](VkCommandBuffer commands) {
+            recorded = workbench.recordFrame(group, commands, SUPPLE_RECORD_TIMINGS);
+        });
+        if (!recorded || !submitted) {
+            return (recorded ? submitted : recorded).error();
+        }
+        if (i > kWarmFrames) {
+            frames.emplace_back(workbench.timings());
+        }
+    }
+    return frames;
+}
+
+Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<FrameTimes>& frames) {
+    Json passes = Json::array();
+    for (const auto& [name, unused] : frames.front().passes) {
+        passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const FrameTimes& f) { return f.of(name); })}});
+    }
+    return {{"scheme", tools::schemeName(scheme)},
+            {"characters", desc.characters},
+            {"vertices", vertices},
+            {"frames", frames.size()},
+            {"frameMs", medianOf(frames, [](const FrameTimes& f) { return f.whole; })},
+            {"passes", passes},
+            {"aroundEvaluate", medianOf(frames, &FrameTimes::aroundEvaluate)}};
+}
+
+Result<Json> measureRow(host::Device& device, Workbench& workbench, const ViewsDesc& desc, SuppleAsset asset,
+                        SuppleScheme scheme) {
+    SuppleViewDesc viewDesc{};
+    viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
+    viewDesc.maxVertices = kMaxVertices;
+    const Result<SuppleView> view = workbench.createView(viewDesc);
+    if (!view) {
+        return view.error();
+    }
+    SuppleGroupDesc groupDesc{};
+    groupDesc.asset = asset;
+    groupDesc.scheme = scheme;
+    groupDesc.capacity = desc.characters;
+    groupDesc.view = *view;
+    groupDesc.poseSource = SUPPLE_POSES_PLAYBACK;
+    const Result<SuppleGroup> group = workbench.createGroup(groupDesc);
+    Result<Json> row = Json();
+    if (group) {
+        const Result<std::vector<FrameTimes>> frames = timeFrames(device, workbench, *group, desc.frames);
+        row = frames ? Result<Json>(rowOf(scheme, desc, workbench.verticesOf(*view), *frames)) : frames.error();
+        workbench.destroy(*group);
+    } else {
+        row = group.error();
+    }
+    workbench.destroy(*view);
+    return row;
+}
+
+} // namespace
+
+Result<Json> measureViews(host::Device& device, Workbench& workbench, const ViewsDesc& desc) {
+    Result<BenchCage> character = makeCrowdCharacter();
+    if (!character) {
+        return character.error();
+    }
+    const Result<SuppleAsset> asset = workbench.createAsset(std::move(character->character));
+    if (!asset) {
+        return asset.error();
+    }
+    Json rows = Json::array();
+    Status status = success();
+    for (const SuppleScheme scheme : desc.schemes) {
+        if (desc.progress) {
+            desc.progress(tools::schemeName(scheme));
+        }
+        Result<Json> row = status ? measureRow(device, workbench, desc, *asset, scheme) : Result<Json>(status.error());
+        status = row ? success() : Status(row.error());
+        rows.push_back(row ? std::move(*row) : Json());
+    }
+    workbench.destroy(*asset);
+    return status ? Result<Json>(std::move(rows)) : status.error();
+}
+
+} // namespace supple::bench
