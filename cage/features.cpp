@@ -105,9 +105,7 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
 }
 
 bool hasSemiSharpCreases(const Cage& cage) {
-    return std::any_of(cage.creases.begin(), cage.creases.end(), [](const Crease& crease) {
-        return crease.sharpness > 0.0f && crease.sharpness < kHardSharpness;
-    });
+    return std::any_of(cage.creases.begin(), cage.creases.end(), isSemiSharp);
 }
 
 std::string sharpRoundCorners(const Cage& cage) {

@@ -41,9 +41,14 @@ struct MapFrame {
     bool operator==(const MapFrame&) const = default;
 };
 
-/// Of every material of a character. Empty if all are the first UV set as it is: then nobody needs to turn anything.
-/// The frame of a map on a UV set that the cage lacks has no direction.
+/// One for every material of a character. Empty if all are the first UV set as it is: then nobody needs to turn
+/// anything. The frame of a map on a UV set that the cage lacks has no direction.
 [[nodiscard]] std::vector<MapFrame> mapFramesOf(const Character& character);
+
+/// That of a material; `frames`: mapFramesOf(). What is no material has the first UV set as it is.
+[[nodiscard]] inline MapFrame mapFrameOf(std::span<const MapFrame> frames, uint32_t material) {
+    return material < frames.size() ? frames[material] : MapFrame{};
+}
 
 /// The texture coordinates that tangents follow, one per corner; `frames`: mapFramesOf(). Empty if the cage has none.
 [[nodiscard]] std::vector<glm::vec2> mapUvs(const Cage& cage, std::span<const MapFrame> frames);

@@ -20,7 +20,7 @@ uint32_t pentagonSample(uint32_t rate, uint32_t sector, uint32_t i, uint32_t j) 
     return (onNextRay ? (sector + 1) % 5 : sector) * perSector + rowStart(rate, j) + (onNextRay ? 0 : i);
 }
 
-/// Of a triangle; `at` has the sample of (i, j).
+/// Adds the cells of a triangle. `at` tells the sample at (i, j).
 template <class At>
 void addTriangleCells(uint32_t segments, std::vector<uint16_t>& indices, At&& at) {
     const auto add = [&](uint32_t i, uint32_t j) { indices.push_back(static_cast<uint16_t>(at(i, j))); };

@@ -171,7 +171,7 @@ public:
     /// Groups with levels, before they are recorded: levels are chosen for a picture of this height from this camera,
     /// so that edges lie within `chordError` pixels of their curves.
     [[nodiscard]] Status setLevelCamera(const Camera& camera, uint32_t height, float chordError);
-    /// Of groups with levels: what was drawn last.
+    /// What was drawn last; only groups with levels know it.
     [[nodiscard]] std::optional<SuppleViewStatistics> levelStatistics() const;
     /// The most segments that a surface has along an edge of the cage.
     [[nodiscard]] uint32_t edgeRate() const;

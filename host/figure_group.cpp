@@ -1,6 +1,7 @@
 #include "host/figure.h"
 
 #include "host/coarse_grid.h"
+#include "host/patches.h"
 
 #include <algorithm>
 #include <cstring>
@@ -202,15 +203,12 @@ void FigureGroup::release() {
 Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
     Context& context = figure_.context();
     Device& device = context.device();
-    const GroupOutput& output = surface.output;
-    std::vector<SupplePatchInfo> patches(output.surface.patchCount);
-    uint32_t count = output.surface.patchCount;
-    const SuppleResult read = suppleGetPatches(context.handle(), group_, index, patches.data(), &count);
-    if (const Status status = context.check(read, "suppleGetPatches"); !status)
-        return status.error();
-    std::vector<uint32_t> classes(std::max<size_t>(count, 1));
-    for (uint32_t i = 0; i < count; ++i)
-        classes[i] = static_cast<uint32_t>(patches[i].patchClass);
+    const Result<std::vector<SupplePatchInfo>> patches = patchesOf(context, group_, index);
+    if (!patches)
+        return patches.error();
+    std::vector<uint32_t> classes(std::max<size_t>(patches->size(), 1));
+    for (size_t i = 0; i < patches->size(); ++i)
+        classes[i] = static_cast<uint32_t>((*patches)[i].patchClass);
     Result<Buffer> classBuffer =
         device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!classBuffer)

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] SuppleView handle() const { return view_; }
     /// See FigureGroup::setLevelCamera().
     [[nodiscard]] Status setCamera(const Camera& camera, uint32_t height, float chordError);
-    /// Of the newest completed frame.
+    /// Those of the newest completed frame.
     [[nodiscard]] std::optional<SuppleViewStatistics> statistics() const;
 
 private:

@@ -101,7 +101,7 @@ VkCullModeFlags culled(const Scene& scene, uint32_t material) {
                : VK_CULL_MODE_NONE;
 }
 
-/// Of the whole picture, y up, moved to the right by so many pixels.
+/// The viewport of the whole picture, with y up. `shift` moves the picture to the right, in pixels.
 VkViewport pictureViewport(VkExtent2D extent, float shift) {
     const auto height = static_cast<float>(extent.height);
     return {shift, height, static_cast<float>(extent.width), -height, 0.0f, 1.0f};

@@ -82,7 +82,7 @@ public:
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }
-    /// Of each of these: the surface, or SUPPLE_NO_SURFACE.
+    /// The surface of each of these, or SUPPLE_NO_SURFACE.
     [[nodiscard]] const std::vector<uint32_t>& latestSurfaces() const { return latestSurfaces_; }
     /// In ticks: the first timestamp. Nothing before that.
     [[nodiscard]] std::optional<uint64_t> origin() const { return origin_; }

@@ -1,6 +1,7 @@
 #include "surface/choice.h"
 
 #include "cage/corner_normals.h"
+#include "cage/features.h"
 #include "cage/parts.h"
 #include "cage/topology.h"
 
@@ -53,7 +54,7 @@ std::vector<glm::dvec3> faceNormals(const cage::Cage& cage) {
 void findSemiSharpCreases(const cage::Cage& cage, const std::vector<uint32_t>& groups, std::vector<Counts>& counts) {
     std::vector<bool> ends(cage.vertexCount(), false);
     for (const cage::Crease& crease : cage.creases) {
-        if (crease.sharpness > 0.0f && crease.sharpness < cage::kHardSharpness && crease.a < ends.size()) {
+        if (cage::isSemiSharp(crease) && crease.a < ends.size()) {
             ends[crease.a] = true;
         }
     }

@@ -48,7 +48,7 @@ struct Options {
 
 } // namespace blend
 
-/// Values of SuppleScheme; but for loopFragments, which draws what Loop patches do not take (Scheme::standIn).
+/// Values of SuppleScheme; but for loopFragments, which draws what Loop patches do not take (drawerOf()).
 enum class SchemeId : uint32_t {
     prep = 1,
     pm = 2,

@@ -21,7 +21,7 @@ public:
     uint32_t of(uint32_t corner, uint32_t material) {
         uint32_t& last = last_[alike_ ? 0 : cage_.faceVertices[corner]];
         const CornerWords words = cornerWords(cage_, corner);
-        const cage::MapFrame frame = mapFrameOf(recipe_, material);
+        const cage::MapFrame frame = cage::mapFrameOf(recipe_.mapFrames, material);
         uint32_t number = last;
         for (uint32_t tries = 0; number != cage::kNone && tries < kTries; ++tries, number = known_[number].before) {
             if (known_[number].words == words && known_[number].frame == frame) {
@@ -112,10 +112,6 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
     tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
     tables.faceUvs = !cage.cornerFaceUvs.empty();
     return tables.uvSets == 2 || tables.faceUvs ? 8 : 4;
-}
-
-cage::MapFrame mapFrameOf(const Recipe& recipe, uint32_t material) {
-    return material < recipe.mapFrames.size() ? recipe.mapFrames[material] : cage::MapFrame{};
 }
 
 bool Tables::hasTangents() const {

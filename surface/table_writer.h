@@ -88,8 +88,6 @@ using CornerWords = std::array<uint32_t, 8>;
 [[nodiscard]] CornerWords cornerWords(const cage::Cage& cage, uint32_t corner);
 /// Notes in `tables` what corners of the cage have. Returns how many of their words are written: whole elements.
 uint32_t noteAttributes(const cage::Cage& cage, Tables& tables);
-/// How the normal map of a material lies.
-[[nodiscard]] cage::MapFrame mapFrameOf(const Recipe& recipe, uint32_t material);
 
 /// Lists the patches and what is drawn. `patches` are in device order.
 void listPatches(const std::vector<DraftPatch>& patches, Tables& tables);

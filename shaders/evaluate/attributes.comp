@@ -226,7 +226,8 @@ void storeDirection(uint vertex, Corners c, Slopes slopes) {
     directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
 }
 
-// Of smooth texture coordinates, which have derivatives of their own. In the table of samples these are turned already.
+// The slopes of smooth texture coordinates, which have derivatives of their own, in the map's frame. In the table of samples
+// these are turned already.
 Slopes mapSlopes(Corners c, Slopes uv) {
 #ifdef SAMPLES
     const bool turn = false;

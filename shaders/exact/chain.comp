@@ -1,6 +1,6 @@
 // Limit points, normals and chains of vertices that are not plain (docs/catmull_clark.md; with TRIANGLES docs/loop.md). Limits: one
-// invocation a vertex and instance. Chains: one a spoke or centre and instance. Narrow mapping: of one level. Wide mapping: they go from level to level in
-// workgroup memory, unless a vertex has many faces.
+// invocation a vertex and instance. Chains: one a spoke or centre and instance. In the narrow mapping they make one level. In the
+// wide mapping they go from level to level in workgroup memory, unless a vertex has many faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface/tables.glsl"

@@ -126,7 +126,8 @@ struct LodDispatch {
 
 // Table elements.
 //   edges     pool indices (end, its tangent, the other end's tangent, other end); exact Catmull-Clark, where the border has two
-//             halves: (first element of an irregular quad's record, its side, 0, kHalvesEdge); blending surface: an element an
+//             halves: (first element of an irregular quad's record, its side, 0, kHalvesEdge); Loop: (first element of a triangle's
+//             record, its side, 1 if it is irregular, kHalvesEdge); blending surface: an element an
 //             end, (pool index of c_00 | kCreasedChart, direction of the edge in the chart, 4 / k)
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record,
 //             class | part << kLodPartShift)

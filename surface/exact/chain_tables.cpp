@@ -31,7 +31,7 @@ uint32_t ChainTables::chainLevels(uint32_t v) const {
     return needs_[v] == VertexNeeds::chain ? lastLevel_ - kFirstChainLevel + 1 : 0;
 }
 
-/// What of the chain kernel makes something.
+/// The variant of the chain kernel that makes limits, chains, or a level of chains.
 KindOfKernel ChainTables::kernelOf(uint32_t makes) const {
     constexpr const char* kNames[] = {"supple exact limits", "supple exact chains, first level",
                                       "supple exact chains, level", "supple exact chains"};
@@ -195,8 +195,8 @@ void ChainTables::write(const Places& places, Tables& tables) {
 bool ChainTables::fitsInBlock(uint32_t v) const {
     return wide_ && chainPoints(v) <= shared::kBlockPoints && mesh_.fragments[v].spokes() < shared::kBlockLanes;
 }
-/// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
 
+/// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
 void ChainTables::writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord, Tables& tables) {
     Construction work{Stage::assemble, kernelOf(shared::kMakesChains), {writer_.element(), 0}, 0};
     for (size_t i = 0; i < vertices.size();) {

@@ -519,7 +519,7 @@ private:
         const size_t samples = sets.front().size() / mesh_.cage.faceCount();
         writer_.reserve(4 * samples * sets.size() * patches_.size());
         for (const DraftPatch& patch : patches_) {
-            const cage::MapFrame frame = mapFrameOf(recipe_, patch.info.material);
+            const cage::MapFrame frame = cage::mapFrameOf(recipe_.mapFrames, patch.info.material);
             for (const std::vector<UvSample>& set : sets) {
                 for (size_t i = samples * patch.facet; i < samples * (patch.facet + 1); ++i) {
                     const UvSample& s = set[i];

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace supple::bench {
 
@@ -23,6 +24,9 @@ struct FrameTimes {
     explicit FrameTimes(const std::vector<SuppleTiming>& timings) {
         double begin = 0.0, end = 0.0;
         for (const SuppleTiming& one : timings) {
+            if (std::string_view(one.pass) == "shortfall") { // is no pass
+                continue;
+            }
             begin = passes.empty() ? one.gpuBegin : std::min(begin, one.gpuBegin);
             end = std::max(end, one.gpuEnd);
             const auto known =
@@ -124,18 +128,20 @@ Result<Json> measureViews(host::Device& device, Workbench& workbench, const View
     if (!asset) {
         return asset.error();
     }
-    Json rows = Json::array();
-    Status status = success();
-    for (const SuppleScheme scheme : desc.schemes) {
+    Result<Json> rows = Json::array();
+    for (size_t i = 0; i < desc.schemes.size() && rows; ++i) {
         if (desc.progress) {
-            desc.progress(tools::schemeName(scheme));
+            desc.progress(tools::schemeName(desc.schemes[i]));
         }
-        Result<Json> row = status ? measureRow(device, workbench, desc, *asset, scheme) : Result<Json>(status.error());
-        status = row ? success() : Status(row.error());
-        rows.push_back(row ? std::move(*row) : Json());
+        Result<Json> row = measureRow(device, workbench, desc, *asset, desc.schemes[i]);
+        if (row) {
+            rows->push_back(std::move(*row));
+        } else {
+            rows = row.error();
+        }
     }
     workbench.destroy(*asset);
-    return status ? Result<Json>(std::move(rows)) : status.error();
+    return rows;
 }
 
 } // namespace supple::bench

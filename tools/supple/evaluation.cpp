@@ -1,6 +1,7 @@
 #include "tools/supple/evaluation.h"
 
 #include "cage/limits.h"
+#include "host/patches.h"
 
 #include <string>
 #include <utility>
@@ -27,10 +28,9 @@ Result<EvaluatedSurface> readSurface(Session& session, SuppleGroup group, uint32
     Status status =
         context.check(host::getGroupOutput(context.handle(), group, surface.output, index), "suppleGetGroupInfo");
     if (status) {
-        uint32_t count = surface.output.surface.patchCount;
-        surface.patches.resize(count);
-        status = context.check(suppleGetPatches(context.handle(), group, index, surface.patches.data(), &count),
-                               "suppleGetPatches");
+        Result<std::vector<SupplePatchInfo>> patches = host::patchesOf(context, group, index);
+        status = patches ? success() : Status(patches.error());
+        surface.patches = patches ? std::move(*patches) : std::vector<SupplePatchInfo>();
     }
     const std::pair<const SuppleBufferRange*, std::vector<std::byte>*> buffers[] = {
         {&surface.output.streams.vertices, &surface.vertices},

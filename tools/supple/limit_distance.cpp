@@ -1,5 +1,6 @@
 #include "tools/supple/limit_distance.h"
 
+#include "host/patches.h"
 #include "tools/supple/limit_surface.h"
 #include "tools/supple/surface_batches.h"
 
@@ -19,14 +20,6 @@ float onScale(double fraction) {
     return static_cast<float>(std::clamp((power - kLeastPower) / (kMostPower - kLeastPower), 0.0, 1.0));
 }
 
-Result<std::vector<SupplePatchInfo>> patchesOf(const host::FigureGroup& group, uint32_t surface, uint32_t count) {
-    host::Context& context = group.figure().context();
-    std::vector<SupplePatchInfo> patches(count);
-    const SuppleResult result = suppleGetPatches(context.handle(), group.handle(), surface, patches.data(), &count);
-    const Status status = context.check(result, "suppleGetPatches");
-    return status ? Result<std::vector<SupplePatchInfo>>(std::move(patches)) : status.error();
-}
-
 } // namespace
 
 Result<PosedSurfaces> readPosed(const host::FigureGroup& group) {
@@ -43,7 +36,7 @@ Result<PosedSurfaces> readPosed(const host::FigureGroup& group) {
         if (ranges.empty() || ranges.front().domain == SUPPLE_DOMAIN_MESH)
             continue;
         surface.ranges.assign(ranges.begin(), ranges.end());
-        Result<std::vector<SupplePatchInfo>> patches = patchesOf(group, s, output.surface.patchCount);
+        Result<std::vector<SupplePatchInfo>> patches = host::patchesOf(group.figure().context(), group.handle(), s);
         if (!patches)
             return patches.error();
         surface.patches = std::move(*patches);

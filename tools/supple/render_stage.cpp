@@ -51,7 +51,7 @@ std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uin
     return times;
 }
 
-Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage) {
+Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage, bool beside) {
     Extent extent;
     const SuppleGroup groups[] = {group.handle()};
     for (const ClipTime& clipTime : poses) {
@@ -59,8 +59,8 @@ Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> 
             return status.error();
         if (const Status status = group.figure().context().evaluate(groups); !status)
             return status.error();
-        const Result<std::vector<glm::vec3>> cagePoints = group.readCage();
-        const Result<std::vector<glm::vec3>> points = cage ? cagePoints : group.readSurface();
+        const Result<std::vector<glm::vec3>> points = cage ? group.readCage() : group.readSurface();
+        const Result<std::vector<glm::vec3>> cagePoints = beside ? group.readCage() : std::vector<glm::vec3>();
         if (!points || !cagePoints)
             return !points ? points.error() : cagePoints.error();
         for (const glm::vec3& point : *points)

@@ -33,16 +33,18 @@ struct ClipTime {
 
 /// Where a figure is over a number of poses.
 struct Extent {
-    std::vector<glm::vec3> points; ///< of all poses; what a camera has to hold
-    std::vector<glm::vec3> cagePoints;
-    host::Bounds bounds; ///< of points
+    std::vector<glm::vec3> points;     ///< of all poses; what a camera has to hold
+    std::vector<glm::vec3> cagePoints; ///< if the cage may stand beside the surface
+    host::Bounds bounds;               ///< of points
 
     /// Also of the cage, if it is shown beside.
     [[nodiscard]] std::vector<glm::vec3> framed(bool split) const;
 };
 
-/// Evaluates every pose in turn and notes where the surface (or the cage) is. No frame may be pending.
-[[nodiscard]] Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage);
+/// Evaluates every pose in turn and notes where the surface (or the cage) is. `beside`: the cage as well, in
+/// Extent::cagePoints. No frame may be pending.
+[[nodiscard]] Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage,
+                                          bool beside);
 
 class Stage {
 public:
@@ -54,7 +56,7 @@ public:
     /// Poses the figure in every pose in turn.
     [[nodiscard]] Result<Extent> measure(std::span<const ClipTime> poses, bool cage) {
         pose_ = poses.back();
-        return measureGroup(*group_, poses, cage);
+        return measureGroup(*group_, poses, cage, options_.split);
     }
     [[nodiscard]] Status pose(const ClipTime& pose);
     /// Draws the figure as it was posed last; group and binding of the scene are filled in here.

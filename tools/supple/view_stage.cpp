@@ -87,7 +87,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     }
     if (poses.empty())
         poses.push_back({});
-    Result<Extent> extent = measureGroup(**group, poses, false);
+    Result<Extent> extent = measureGroup(**group, poses, false, true);
     if (!extent)
         return extent.error();
     Result<host::FigureBinding> binding = renderer_.bind(**group);

@@ -160,7 +160,7 @@ public:
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
         return filled(out, [&](SuppleTiming* to, uint32_t* count) { return suppleGetTimings(handle_, to, count); });
     }
-    /// Of each of the timings: the surface of its group, or SUPPLE_NO_SURFACE.
+    /// The surface of its group that each timing is of, or SUPPLE_NO_SURFACE.
     [[nodiscard]] SuppleResult timingSurfaces(std::vector<uint32_t>& out) const {
         return filled(out, [&](uint32_t* to, uint32_t* count) { return suppleGetTimingSurfaces(handle_, to, count); });
     }
