@@ -74,7 +74,7 @@ const server = createServer((request, response) => {
         request.on('data', part => { text += part; });
         request.on('end', () => {
             response.end();
-            text === 'done' ? finish() : answers.push(JSON.parse(text));
+            text === 'done' ? stopBrowser() : answers.push(JSON.parse(text));
         });
         return;
     }
@@ -94,14 +94,27 @@ const server = createServer((request, response) => {
 let browser;
 const profile = mkdtempSync(join(tmpdir(), 'supple_three_'));
 
-function finish() {
-    server.close();
-    browser.on('exit', report);
-    browser.kill();
+function stopBrowser() {
+    if (browser.exitCode === null && browser.signalCode === null) {
+        process.kill(-browser.pid, 'SIGKILL');
+    }
+}
+
+// Chromium's children outlive it for a moment and may still write into the profile.
+function removeProfile(triesLeft) {
+    try {
+        rmSync(profile, { recursive: true, force: true });
+    } catch (error) {
+        if (triesLeft > 0) {
+            setTimeout(() => removeProfile(triesLeft - 1), 100);
+            return;
+        }
+        console.log(`the browser's profile could not be removed: ${error}`);
+    }
+    report();
 }
 
 function report() {
-    rmSync(profile, { recursive: true, force: true, maxRetries: 20 });
     let failed = 0;
     files.forEach((file, i) => {
         const answer = answers.find(a => a.i === i) ?? { error: 'not opened' };
@@ -122,6 +135,10 @@ server.listen(0, '127.0.0.1', () => {
     browser = spawn(chromium, ['--headless', '--no-sandbox', '--no-first-run', '--disable-background-networking',
         '--disable-component-update', '--disable-sync', '--disable-gpu-sandbox', '--use-angle=swiftshader',
         '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', `--user-data-dir=${profile}`,
-        `http://127.0.0.1:${server.address().port}/`], { stdio: 'ignore', env: environment });
-    setTimeout(finish, secondsForAll * 1000).unref();
+        `http://127.0.0.1:${server.address().port}/`], { stdio: 'ignore', env: environment, detached: true });
+    browser.on('exit', () => {
+        server.close();
+        removeProfile(50);
+    });
+    setTimeout(stopBrowser, secondsForAll * 1000).unref();
 });
