@@ -51,7 +51,7 @@ void Program::setCamera(const shared::LodCamera& camera) {
 }
 
 std::vector<DispatchSize> Program::constructionSizes() const {
-    return sizesOf({&vertex, &assemble, &edgeLevels, &patchLevels});
+    return sizesOf({&vertex, &assemble, &edgeLevels, &patchLevels, &places});
 }
 
 std::vector<DispatchSize> Program::evaluationSizes() const {

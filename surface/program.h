@@ -99,7 +99,7 @@ struct Program {
     void setCamera(const shared::LodCamera& camera);
 
     /// The sizes of the steps of vertex, assemble, edgeLevels, patchLevels and places, indexed by Step::argument. They
-    /// are constructions in the order of the tables, then edges, then patches.
+    /// are constructions in the order of the tables, then edges and patches by kind, then all patches.
     [[nodiscard]] std::vector<DispatchSize> constructionSizes() const;
     /// The same of evaluate; motion has the same sizes. For groups whose instances have rates of their own.
     [[nodiscard]] std::vector<DispatchSize> evaluationSizes() const;

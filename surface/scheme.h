@@ -89,8 +89,15 @@ struct Fragments {
 /// What level of detail adds to the tables (surface/lod/tables.h). Empty unless the recipe asks for it.
 struct LodTables {
     Borders borders = Borders::cubics; ///< what any of its patches has
-    Section edges;                     ///< one element per edge, two if it lies between charts
-    Section patches;                   ///< two elements per patch, all classes, in device order
+    /// Edges of one kind follow each other.
+    struct Edges {
+        Borders borders = Borders::cubics;
+        uint32_t first = 0; ///< edge
+        Section section;    ///< one element per edge, two if it lies between charts
+    };
+    std::vector<Edges> edges;
+    uint32_t edgeCount = 0;
+    Section patches; ///< two elements per patch, all classes, in device order
     struct Run {
         PatchClass patchClass = PatchClass::regular;
         uint32_t material = cage::kNone;

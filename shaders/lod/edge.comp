@@ -65,7 +65,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     return quarteredCurve(vec3[5](c0[0], p1, p2, p3, c1[0]));
 }
 #elif defined(HALVES)
-// The border is a cubic, or two halves of an irregular quad (docs/catmull_clark.md, "Borders").
+// The border is two halves of an irregular quad (docs/catmull_clark.md, "Borders").
 #include "shaders/shared/exact.h"
 #include "shaders/surface/net.glsl"
 #include "shaders/evaluate/basis.glsl"
@@ -80,7 +80,6 @@ vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 
 EdgeCurve curveOf(uint base, uint edge) {
     uvec4 words = tableElement(push.edges + edge);
-    if (words.w != kHalvesEdge) return cubicCurve(base + words);
     PatchPlace at = PatchPlace(words.x, base);
     IrregularQuad quad = quadOf(at.record);
     uint side = words.y;
@@ -121,6 +120,7 @@ EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * push.poolStride;
     EdgeCurve curve = curveOf(base, edge);
+    edge += push.first;
     vec3 x0 = curve.x0, x1 = curve.x1;
     precise vec3 middle = (x0 + x1) * 0.5;
     precise float radius = 0.5 * curve.curveLength;

@@ -16,18 +16,18 @@
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
 
-// Macros: what a form does without need not be compiled for it.
-#ifdef CHARTS
-const bool kCharts = true; // patches of the blending surface
+// What is measured: bicubic nets or sectors, by a constant; or one of CHARTS, HALVES and TRIANGLES. One kernel never has two of
+// them: lavapipe goes through both sides of every `if`.
+layout(constant_id = kKindConstant) const uint kMeasures = kMeasuresNets;
+#if defined(CHARTS) || defined(HALVES) || defined(TRIANGLES)
+const bool kCubics = false;
 #else
-const bool kCharts = false;
+const bool kCubics = true;
 #endif
-#ifdef HALVES
-const bool kHalves = true; // exact Catmull-Clark: some are irregular quads
+const bool kNets = kCubics && kMeasures == kMeasuresNets;
+#ifdef HALVES // of exact Catmull-Clark
 #include "shaders/shared/exact.h"
 #include "shaders/exact/leaf.glsl"
-#else
-const bool kHalves = false;
 #endif
 #ifdef TRIANGLES // of Loop
 #include "shaders/shared/exact.h"
@@ -160,8 +160,6 @@ vec2 irregularLevels(uint record, uint base) {
     float pixels = pixelsPerUnit(x[4], 0.25 * (curveLength.x + curveLength.y));
     return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
 }
-#else
-vec2 irregularLevels(uint record, uint base) { return vec2(0.0); }
 #endif
 
 #ifdef TRIANGLES
@@ -324,7 +322,7 @@ bool mayShowBack(uint record, uint sides, uint base) {
 // turns triangles over however little it does.
 bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16], vec4 levels, float fifth, vec2 inside) {
     if (patchClass == kPolarPatch) return false;
-    if (patchClass == kP3Patch || patchClass == kP4Patch || patchClass == kP5Patch) {
+    if (!kNets) {
         vec2 ray = vec2(SUPPLE_PM_RAY_MIDDLE(sides), SUPPLE_PM_RAY_SIDE(sides));
         bool back = mayShowBack(record, sides, base);
         for (uint i = 0u; back && i < sides; ++i) {
@@ -378,7 +376,7 @@ bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool insid
 
 void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
-    uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
+    uint item = itemOfLane(), patchIndex = push.first + elementOf(item), listed = entryOf(item);
     uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
@@ -387,10 +385,8 @@ void main() {
     uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
     uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
-    bool irregular = kHalves && patchClass >= kIrregularPatch;
     vec3 g[16];
-    if (!kCharts && !irregular && form == kLodQuadForm && (push.levels == 0u || kBackFaces))
-        g = bicubicNet(more.z, base, patchClass == kPolarPatch);
+    if (kNets && (push.levels == 0u || kBackFaces)) g = bicubicNet(more.z, base, patchClass == kPolarPatch);
     float level = 0.0, fifth = 0.0;
     vec4 ofEdges;
     vec2 own;
@@ -401,17 +397,19 @@ void main() {
     } else {
         for (uint k = 0u; k < 4u; ++k) ofEdges[k] = k < sides ? uintBitsToFloat(levelWord(words + edges[k])) : 0.0;
         if (sides > 4u) fifth = uintBitsToFloat(levelWord(words + more.x));
-#ifdef TRIANGLES
+#if defined(TRIANGLES)
         own = vec2(triangleLevel(more.z, base, patchClass == kLoopIrregularPatch));
+#elif defined(CHARTS)
+        own = chartLevels(more.z, base);
+#elif defined(HALVES)
+        own = irregularLevels(more.z, base);
 #else
-        if (kCharts) own = chartLevels(more.z, base);
-        else if (irregular) own = irregularLevels(more.z, base);
-        else own = form == kLodQuadForm ? bicubicLevels(g) : vec2(sectorLevel(more.z, sides, base));
+        if (kNets) own = bicubicLevels(g);
+        else own = vec2(sectorLevel(more.z, sides, base));
 #endif
         level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
     }
-    // Nothing is known of where a blend of charts faces, nor an irregular quad.
-    if (kBackFaces && !kCharts && !irregular && counted) {
+    if (kBackFaces && counted) {
         bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
         vec2 across = form == kLodQuadForm ? own : vec2(level);
         if (!doubleSided && showsItsBack(patchClass, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;

@@ -125,22 +125,27 @@ struct LodDispatch {
 };
 
 // Table elements.
-//   edges     pool indices (end, its tangent, the other end's tangent, other end); exact Catmull-Clark, where the border has two
-//             halves: (first element of an irregular quad's record, its side, 0, kHalvesEdge); Loop: (first element of a triangle's
-//             record, its side, 1 if it is irregular, kHalvesEdge); blending surface: an element an
-//             end, (pool index of c_00 | kCreasedChart, direction of the edge in the chart, 4 / k)
+//   edges     cubics: pool indices (end, its tangent, the other end's tangent, other end); two halves, of exact Catmull-Clark:
+//             (first element of an irregular quad's record, its side, -, -); Loop: (first element of a triangle's record, its side, 1
+//             if it is irregular, -); blending surface: an element an end, (pool index of c_00 | kCreasedChart, direction of the edge
+//             in the chart, 4 / k)
+//   edges of one kind follow each other, by Borders (surface/patch_class.h)
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record,
 //             class | part << kLodPartShift)
-SUPPLE_SHARED_CONST kHalvesEdge = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kLodPartShift = 8u;
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
+
+// What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m.
+SUPPLE_SHARED_CONST kMeasuresNets = 0u;
+SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
 
 // What the passes before evaluation are told.
 struct LodPush {
     WindowPush window;
-    uint count; // edges or patches an instance
-    uint edges; // first table element of the edges
-    uint patches;       // and of the patches
+    uint count; // edges or patches of an instance that the pass takes
+    uint first; // one of them
+    uint edges; // table element of edge `first`
+    uint patches;       // and of patch 0
     uint edgeCount;
     uint poolStride;
     uint tangents;      // first in the pool

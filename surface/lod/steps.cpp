@@ -1,5 +1,7 @@
 #include "surface/lod/steps.h"
 
+#include "shaders/shared/specialization.h"
+
 #include <iterator>
 
 namespace supple::surface::lod {
@@ -10,27 +12,41 @@ namespace {
 
 constexpr uint32_t kScratchPadding = 16; ///< elements: instances start on 256 bytes
 
-/// What measures edges and patches, by Borders.
-struct MeasureKernels {
-    Kernel edge, patch, patchFacing; ///< patchFacing leaves out patches that show their backs
-};
-constexpr MeasureKernels kMeasureKernels[] = {
-    {Kernel::lodEdge, Kernel::lodPatch, Kernel::lodPatchBackFaces},
-    {Kernel::lodEdgeHalves, Kernel::lodPatchHalves, Kernel::lodPatchHalvesBackFaces},
-    // Nothing is known of where Loop patches and blends of charts face.
-    {Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles, Kernel::lodPatchTriangles},
-    {Kernel::lodEdgeCharts, Kernel::lodPatchCharts, Kernel::lodPatchCharts},
-};
-static_assert(std::size(kMeasureKernels) == static_cast<size_t>(Borders::charts) + 1);
+/// What measures edges, by Borders.
+constexpr Kernel kEdgeKernels[] = {Kernel::lodEdge, Kernel::lodEdgeHalves, Kernel::lodEdgeTriangles,
+                                   Kernel::lodEdgeCharts};
+static_assert(std::size(kEdgeKernels) == static_cast<size_t>(Borders::charts) + 1);
 
-/// Of edges where `count` is edgeCount, else of patches.
-shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t count) {
+/// What measures patches of a class, and leaves out those that show their backs where that is known.
+struct PatchKernel {
+    Kernel kernel = Kernel::lodPatch, facing = Kernel::lodPatchBackFaces;
+    uint32_t kind = shared::kMeasuresNets;
+
+    bool operator==(const PatchKernel&) const = default;
+};
+PatchKernel patchKernel(PatchClass patchClass) {
+    const PatchClassRow& row = rowOf(patchClass);
+    switch (row.borders) {
+    case Borders::cubics:
+        return {.kind = row.hasSectors() ? shared::kMeasuresSectors : shared::kMeasuresNets};
+    case Borders::halves:
+        return {Kernel::lodPatchHalves, Kernel::lodPatchHalves};
+    case Borders::splines:
+        return {Kernel::lodPatchTriangles, Kernel::lodPatchTriangles};
+    case Borders::charts:
+        break;
+    }
+    return {Kernel::lodPatchCharts, Kernel::lodPatchCharts};
+}
+
+/// Of `count` edges or patches from `first` on.
+shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t count) {
     const Tables& tables = builder.tables;
     shared::LodPush push{};
     push.count = count;
-    push.edges = tables.lod.edges.table;
+    push.first = first;
     push.patches = tables.lod.patches.table;
-    push.edgeCount = tables.lod.edges.count;
+    push.edgeCount = tables.lod.edgeCount;
     push.poolStride = tables.poolStride;
     push.tangents = tables.tangents;
     push.faces = tables.faces;
@@ -42,31 +58,54 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t count) {
     return push;
 }
 
+void addEdges(ProgramBuilder& builder, uint32_t& argument) {
+    Steps& steps = builder.program.edgeLevels;
+    for (const LodTables::Edges& edges : builder.tables.lod.edges) {
+        const gpu::Kernel kernel = builder.kernel(
+            SetKind::levels, kEdgeKernels[static_cast<size_t>(edges.borders)], {}, "supple levels of edges");
+        shared::LodPush push = pushFor(builder, edges.first, edges.section.count);
+        push.edges = edges.section.table;
+        builder.add(steps, SetKind::levels, kernel, builder.lanes(push.count), push, argument++,
+                    steps.empty() ? Order::free : Order::disjoint);
+    }
+}
+
+/// Neighbours that one kernel measures together. All count into one buffer, with atomics, and those of all windows too.
+void addPatches(ProgramBuilder& builder, uint32_t& argument) {
+    const std::vector<PatchRange>& ranges = builder.tables.ranges;
+    for (size_t r = 0; r < ranges.size();) {
+        const PatchKernel own = patchKernel(ranges[r].patchClass);
+        const uint32_t first = ranges[r].firstPatch;
+        uint32_t count = 0;
+        for (; r < ranges.size() && patchKernel(ranges[r].patchClass) == own; ++r) {
+            count += ranges[r].section.count;
+        }
+        const gpu::Kernel kernel = builder.kernel(SetKind::levels, builder.needs.backFaces ? own.facing : own.kernel,
+                                                  {{shared::kKindConstant, own.kind}}, "supple levels of patches");
+        builder.add(builder.program.patchLevels, SetKind::levels, kernel, builder.lanes(count),
+                    pushFor(builder, first, count), argument++, Order::disjoint);
+    }
+}
+
 } // namespace
 
 void addSteps(ProgramBuilder& builder) {
     const LodTables& tables = builder.tables.lod;
     Program& program = builder.program;
     // A float an edge, then the words of patches (shaders/shared/lod.h).
-    const uint32_t words = tables.edges.count + shared::kLodPatchLevelWords * tables.patches.count;
+    const uint32_t words = tables.edgeCount + shared::kLodPatchLevelWords * tables.patches.count;
     program.scratchStride = ((words + 3) / 4 + kScratchPadding - 1) / kScratchPadding * kScratchPadding;
 
-    const MeasureKernels& measure = kMeasureKernels[static_cast<size_t>(tables.borders)];
-    const auto edges = static_cast<uint32_t>(builder.tables.constructions.size()), patches = edges + 1;
+    auto argument = static_cast<uint32_t>(builder.tables.constructions.size());
     if (builder.needs.levelOffset == 0) {
-        const gpu::Kernel kernel = builder.kernel(SetKind::levels, measure.edge, {}, "supple levels of edges");
-        builder.add(program.edgeLevels, SetKind::levels, kernel, builder.lanes(tables.edges.count),
-                    pushFor(builder, tables.edges.count), edges);
+        addEdges(builder, argument);
     }
-    const Kernel patch = builder.needs.backFaces ? measure.patchFacing : measure.patch;
-    const shared::LodPush push = pushFor(builder, tables.patches.count);
-    // Patches of all windows count into one buffer, with atomics.
-    const gpu::Kernel level = builder.kernel(SetKind::levels, patch, {}, "supple levels of patches");
-    builder.add(program.patchLevels, SetKind::levels, level, builder.lanes(push.count), push, patches, Order::disjoint);
+    addPatches(builder, argument);
     // Behind the solver. Between windows places are taken with atomics, but to synchronization validation the view's
     // words are one resource.
+    const shared::LodPush push = pushFor(builder, 0, tables.patches.count);
     const gpu::Kernel place = builder.kernel(SetKind::levels, Kernel::lodPlace, {}, "supple level places");
-    builder.add(program.places, SetKind::levels, place, builder.lanes(push.count), push, patches, Order::after);
+    builder.add(program.places, SetKind::levels, place, builder.lanes(push.count), push, argument, Order::after);
 }
 
 } // namespace supple::surface::lod

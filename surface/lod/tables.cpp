@@ -17,12 +17,14 @@ using Words = std::vector<uint32_t>;
 
 /// A patch's border. Two patches have the same edge if they have the same key.
 struct Border {
+    Borders kind = Borders::cubics;
     Words key;
-    Words edge; ///< as tables have it
+    Words edge;          ///< as tables have it
+    uint32_t number = 0; ///< of the edge
 };
 /// The two patches write such a border from opposite ends. Its edge is the smaller of both, which is the same for them.
-Border borderOf(const Words& edge) {
-    return {edge, edge};
+Border borderOf(Borders kind, const Words& edge) {
+    return {kind, edge, edge};
 }
 
 /// Between charts, for either end: chart, direction in it, 4 / k.
@@ -36,19 +38,19 @@ Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* n
     const auto [first, second] = std::minmax(ends[0], ends[1]);
     Words border = first;
     border.insert(border.end(), second.begin(), second.end());
-    return borderOf(border);
+    return borderOf(Borders::charts, border);
 }
 
 /// A side of an irregular quad that has two halves. No other edge has the point of level 1 in its middle.
 Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
     const uint32_t* net = record + size_t{4} * shared::kExactNetElement + 1;
-    return {{net[SUPPLE_EXACT_SIDE_MIDDLE(side)], shared::kHalvesEdge}, {element, side, 0, shared::kHalvesEdge}};
+    return {Borders::halves, {net[SUPPLE_EXACT_SIDE_MIDDLE(side)]}, {element, side, 0, 0}};
 }
 
 /// A side of a triangle of Loop, by the limit points of its ends.
 Border splineBorder(const uint32_t* record, uint32_t element, uint32_t side, bool irregular) {
     const auto [first, second] = std::minmax(record[side], record[(side + 1) % 3]);
-    return {{first, second}, {element, side, irregular ? 1u : 0u, shared::kHalvesEdge}};
+    return {Borders::splines, {first, second}, {element, side, irregular ? 1u : 0u, 0}};
 }
 
 /// By side of the grid.
@@ -68,7 +70,8 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
         return all;
     }
     for (const BorderCurve& c : borderCurves(tables, record, patchClass)) {
-        all.push_back(borderOf(std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]})));
+        all.push_back(
+            borderOf(Borders::cubics, std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]})));
     }
     const uint32_t flags = rowOf(patchClass).borders == Borders::halves ? record[4 * shared::kExactNetElement] : ~0u;
     for (uint32_t side = 0; side < all.size(); ++side) {
@@ -79,14 +82,46 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
     return all;
 }
 
+/// Numbers edges kind by kind, in the order in which patches come to them, and appends their elements to the tables.
+void writeEdges(std::vector<std::vector<Border>>& ofPatches, Tables& tables) {
+    TableWriter writer(tables.words);
+    for (const Borders kind : {Borders::cubics, Borders::halves, Borders::splines, Borders::charts}) {
+        std::map<Words, uint32_t> numbers;
+        const uint32_t first = tables.lod.edgeCount, element = writer.element();
+        for (std::vector<Border>& borders : ofPatches) {
+            for (Border& border : borders) {
+                if (border.kind != kind) {
+                    continue;
+                }
+                const auto [found, isNew] = numbers.try_emplace(border.key, tables.lod.edgeCount);
+                border.number = found->second;
+                if (isNew) {
+                    writer.put(border.edge);
+                    ++tables.lod.edgeCount;
+                }
+            }
+        }
+        if (!numbers.empty()) {
+            tables.lod.edges.push_back({kind, first, {element, static_cast<uint32_t>(numbers.size())}});
+        }
+    }
+}
+
 } // namespace
 
 void appendTables(Tables& tables) {
-    std::map<Words, uint32_t> edges;
-    Words edgeWords, patches;
+    std::vector<std::vector<Border>> ofPatches;
     for (const PatchRange& range : tables.ranges) {
         const uint32_t elements = recordElements(tables, range.patchClass);
         tables.lod.borders = std::max(tables.lod.borders, rowOf(range.patchClass).borders);
+        for (uint32_t p = 0; p < range.section.count; ++p) {
+            ofPatches.push_back(borders(tables, range.section.table + p * elements, range.patchClass));
+        }
+    }
+    writeEdges(ofPatches, tables);
+    Words patches;
+    for (const PatchRange& range : tables.ranges) {
+        const uint32_t elements = recordElements(tables, range.patchClass);
         for (uint32_t p = 0; p < range.section.count; ++p) {
             const uint32_t patch = range.firstPatch + p, element = range.section.table + p * elements;
             const uint32_t material = tables.patches[patch].material;
@@ -96,14 +131,7 @@ void appendTables(Tables& tables) {
             }
             ++tables.lod.runs.back().patchCount;
             std::array<uint32_t, kMaxSides> own{};
-            uint32_t side = 0;
-            for (const Border& border : borders(tables, element, range.patchClass)) {
-                const auto [found, isNew] = edges.try_emplace(border.key, static_cast<uint32_t>(edges.size()));
-                if (isNew) {
-                    edgeWords.insert(edgeWords.end(), border.edge.begin(), border.edge.end());
-                }
-                own[side++] = found->second;
-            }
+            std::ranges::transform(ofPatches[patch], own.begin(), &Border::number);
             const auto run = static_cast<uint32_t>(tables.lod.runs.size() - 1);
             const uint32_t kind = static_cast<uint32_t>(range.patchClass) | tables.patches[patch].part
                                                                                 << shared::kLodPartShift;
@@ -111,8 +139,6 @@ void appendTables(Tables& tables) {
         }
     }
     TableWriter writer(tables.words);
-    tables.lod.edges = {writer.element(), static_cast<uint32_t>(edges.size())};
-    writer.put(edgeWords);
     tables.lod.patches = {writer.element(), static_cast<uint32_t>(tables.patches.size())};
     writer.put(patches);
 }
