@@ -262,6 +262,7 @@ constexpr Row kPasses[] = {
     {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
     {Pass::place, isInView, recordPlaces, Behind::places},
     {Pass::place, isInView, recordReadback, Behind::readback, false},
+    {Pass::assemble, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
     {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
     {Pass::evaluate, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},

@@ -81,7 +81,7 @@ void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<
             const Window& window);
 
 /// Between passes the caller records a barrier from compute writes to compute reads. The order is vertex, assemble,
-/// levels, evaluate, motion. `patch` may come at any time after assemble, and `attributes` at any time after places.
+/// levels, deepen, evaluate, motion. `patch` may come at any time after assemble, and `attributes` at any time after places.
 struct Program {
     Steps vertex;     ///< output: limit points, tangents, ...
     Steps assemble;   ///< coefficients that need the output of `vertex`
@@ -94,6 +94,9 @@ struct Program {
     // waits.
     Steps edgeLevels; ///< empty if an instance has one level (Needs::levelOffset)
     Steps patchLevels, places;
+    Steps deepen; ///< coefficients that the levels ask for. Sizes are in the scratch of a window's first instance, from
+                  ///< word firstDepthDispatch on, by Step::argument
+    uint32_t firstDepthDispatch = 0;
     uint32_t scratchStride = 0; ///< elements per instance in the scratch buffer; a multiple of 256 bytes
 
     void setCamera(const shared::LodCamera& camera);

@@ -28,11 +28,12 @@ struct Section {
     uint32_t count = 0; ///< records
 };
 
-/// The two passes that make coefficients from the deformed cage. A barrier separates them.
+/// The passes that make coefficients from the deformed cage. A barrier separates them.
 enum class Stage : uint32_t {
     vertex,  ///< one lane per cage vertex or sector. Subdivision: per vertex of the first step
-    assemble ///< needs the output of `vertex`. One lane per perturbed edge (p-rep), facet (P_m), vertex of the second
-             ///< step (subdivision) or chart (blending surface on a subdivided cage)
+    assemble, ///< needs the output of `vertex`. One lane per perturbed edge (p-rep), facet (P_m), vertex of the second
+              ///< step (subdivision) or chart (blending surface on a subdivided cage)
+    deepen    ///< at levels of detail, when these are known: levels of chains, for the instances that have samples there
 };
 
 /// A kernel and what it is specialized to. Only schemes know which kinds a construction kernel has.
@@ -104,6 +105,9 @@ struct LodTables {
         uint32_t patchCount = 0;
     };
     std::vector<Run> runs; ///< patches of the same class and material, in device order
+    /// Where patches have chains (surface/exact/chain_tables.h): what of an instance's pool tells their last level; 0:
+    /// there are none. And the element of the lanes that make each depth (shared::kDepths).
+    uint32_t depth = 0, depthLanes = 0;
 };
 
 /// What an indexed mesh adds to the tables (surface/indexed_mesh.h). Empty unless the recipe asks for it.

@@ -265,6 +265,9 @@ std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {
 void addConstructions(ProgramBuilder& builder) {
     for (uint32_t i = 0; i < builder.tables.constructions.size(); ++i) {
         const Construction& c = builder.tables.constructions[i];
+        if (c.stage == Stage::deepen) { // lod::addSteps()
+            continue;
+        }
         const gpu::Kernel kernel =
             builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}}, c.kernel.name);
         Steps& steps = c.stage == Stage::vertex ? builder.program.vertex : builder.program.assemble;
@@ -306,12 +309,14 @@ void addRanges(ProgramBuilder& builder) {
 }
 
 void addRangesAtLevels(ProgramBuilder& builder) {
-    for (uint32_t r = 0; r < builder.tables.ranges.size(); ++r) {
-        const PatchRange& range = builder.tables.ranges[r];
+    const Tables& tables = builder.tables;
+    for (uint32_t r = 0; r < tables.ranges.size(); ++r) {
+        const PatchRange& range = tables.ranges[r];
         const PatchClassRow& row = rowOf(range.patchClass);
         SurfacePush push = pushFor(builder, range.section);
         push.firstPatch = range.firstPatch;
         push.run = r;
+        push.pairs = tables.lod.depth;
         for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
             const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},

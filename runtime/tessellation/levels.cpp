@@ -36,6 +36,7 @@ public:
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const override;
     PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
     PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
+    PassCost recordDeepen(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool writesLevelAttributes() const override { return wanted_.has(Stream::attributes); }
     PassCost recordLevelAttributes(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
@@ -205,6 +206,21 @@ PassCost Levels::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 PassCost Levels::recordPlaces(VkCommandBuffer commandBuffer) const {
     windows().forEach([&](uint32_t w) { record(commandBuffer, program_.places, levelWindow(w)); });
     return visibility_->cost(patchesAtLevels(), 0);
+}
+
+PassCost Levels::recordDeepen(VkCommandBuffer commandBuffer) const {
+    if (!deepens()) {
+        return {};
+    }
+    windows().forEach([&](uint32_t w) {
+        surface::Window listed = levelWindow(w);
+        const VkDeviceSize scratch = windows().firstSlot(w) * VkDeviceSize{scratchStride()} * gpu::kVec4Bytes;
+        listed.arguments = scratch_.buffer();
+        listed.firstArgument = scratch + sizeof(uint32_t) * VkDeviceSize{program_.firstDepthDispatch};
+        listed.argumentStride = sizeof(VkDispatchIndirectCommand);
+        record(commandBuffer, program_.deepen, listed);
+    });
+    return {0, 0, windows().visible > 0};
 }
 
 PassCost Levels::recordLevelAttributes(VkCommandBuffer commandBuffer) const {

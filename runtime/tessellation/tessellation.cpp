@@ -71,7 +71,7 @@ std::vector<SetKind> setKindsOf(const surface::Program& program) {
     std::vector<SetKind> kinds;
     for (const surface::Steps* steps :
          {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
-          &program.patchLevels, &program.places, &program.evaluate, &program.motion}) {
+          &program.patchLevels, &program.places, &program.deepen, &program.evaluate, &program.motion}) {
         for (const surface::Step& step : *steps) {
             if (std::find(kinds.begin(), kinds.end(), step.sets) == kinds.end()) {
                 kinds.push_back(step.sets);
@@ -261,8 +261,9 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     patches_ = device.add({"supple patch coefficients",
                            patches ? n * tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0,
                            kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kCoefficients});
-    scratch_ =
-        device.add({"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch, gpu::MemoryPurpose::scratch});
+    const VkBufferUsageFlags sizes = program_.deepen.empty() ? 0 : VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+    scratch_ = device.add(
+        {"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch | sizes, gpu::MemoryPurpose::scratch});
     if (gathered_) {
         gathered_->plan(device, desc_.group.capacity);
     }
@@ -380,7 +381,7 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Pr
     };
     for (const surface::Steps* steps :
          {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
-          &program.patchLevels, &program.places, &program.evaluate}) {
+          &program.patchLevels, &program.places, &program.deepen, &program.evaluate}) {
         nothing(*steps, sets.at({0, 0, false}));
     }
     if (writesMotion()) {

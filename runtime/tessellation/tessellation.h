@@ -143,6 +143,8 @@ public:
     virtual PassCost recordEdgeLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordPatchLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordPlaces(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    [[nodiscard]] bool deepens() const { return !program_.deepen.empty(); }
+    virtual PassCost recordDeepen(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
     virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordEvaluate(VkCommandBuffer commandBuffer) const = 0;

@@ -1,13 +1,30 @@
 // Limit points, normals and chains of vertices that are not plain (docs/catmull_clark.md; with TRIANGLES docs/loop.md). Limits: one
 // invocation a vertex and instance. Chains: one a spoke or centre and instance. In the narrow mapping they make one level. In the
-// wide mapping they go from level to level in workgroup memory, unless a vertex has many faces.
+// wide mapping they go from level to level in workgroup memory, unless a vertex has many faces. With LEVELS a level is made for the
+// instances that lod/depth.comp has listed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#ifdef LEVELS
+#define PUSH_CONSTANTS LodPush
+#include "shaders/shared/lod.h"
+#endif
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
 #include "shaders/shared/exact.h"
 #include "shaders/shared/subdivision.h"
+
+#ifdef LEVELS
+#include "shaders/lod/levels.glsl"
+uint listedCount() { return levelWord(push.depths + kDepthCounts + push.first); }
+uint itemOfList() { return min(invocationIndex(), push.count * listedCount() - 1u); }
+uint slotOfItem(uint item) {
+    return levelWord(levelBase(item / push.count) + push.depths + kDepthEntries + push.first) & kInstanceSlotMask;
+}
+#else
+uint itemOfList() { return itemOfLane(); }
+uint slotOfItem(uint item) { return instanceOf(item); }
+#endif
 
 #ifdef TRIANGLES
 #define LOOP_RULES
@@ -245,8 +262,8 @@ void makeLevel(uvec4 block, uint lane) {
 }
 
 void main() {
-    uint item = itemOfLane(), lane = elementOf(item);
-    base = instanceOf(item) * push.poolStride;
+    uint item = itemOfList(), lane = elementOf(item);
+    base = slotOfItem(item) * push.poolStride;
     if (kMakes == kMakesLimits) {
         uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);

@@ -11,7 +11,9 @@
 const uint kRecordElements = kExactRecordElements;
 const uint kForm = kLodQuadForm;
 const uint kParts = kNetPoints;
-#ifndef LEVELS
+#ifdef LEVELS
+#define DEPTH_OF_INSTANCE
+#else
 #define OWN_WIDE
 #endif
 #include "shaders/evaluate/harness.glsl"

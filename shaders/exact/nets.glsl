@@ -245,7 +245,7 @@ struct Quarter {
 Quarter quarterOf(const PatchPlace at, IrregularQuad quad, uint corner, vec3 middleA, vec3 middleB) {
     Quarter own;
     own.place = quarterPlace(corner);
-    own.chain = chainOf(quad, corner);
+    own.chain = chainOf(at, quad, corner);
     own.origin = chainOrigin(at, own.chain);
     own.normal = poolPoint(at, componentOf(quad.normals, corner));
     own.limit = poolPoint(at, componentOf(quad.points, corner));
@@ -283,9 +283,9 @@ struct ChainLevel {
     uint firstA, endA, firstB, endB;
 };
 // The first sample along a pattern that is 2^-level or further from the corner; `before`: the first one of the level before.
-uint firstOfLevel(uint pattern, uint before, uint level, uint lastLevel) {
+uint firstOfLevel(uint pattern, uint before, uint level) {
 #ifdef LEVELS
-    float least = level == lastLevel ? 0.0 : powerOfTwo(-float(level));
+    float least = powerOfTwo(-float(level));
     bool more;
     do {
         more = before > 1u && pairOf(pattern, before - 1u).x >= least;
@@ -296,8 +296,8 @@ uint firstOfLevel(uint pattern, uint before, uint level, uint lastLevel) {
     return min(before, (last + (1u << level) - 1u) >> level);
 #endif
 }
-float parameterOf(Quarter q, ChainLevel l, float distance) {
-    precise float x = (kOwnBorders ? withinChain(distance, q.chain.lastLevel) : distance) * l.scale;
+float parameterOf(ChainLevel l, float distance) {
+    precise float x = distance * l.scale;
     return x;
 }
 
@@ -305,12 +305,6 @@ float parameterOf(Quarter q, ChainLevel l, float distance) {
 void storeOnBorder(const PatchPlace at, Quarter q, bool own, uint a, uint b, float distance, vec3 offset, vec3 middle, Frame frame) {
     precise vec3 p = q.origin + offset;
     p = distance == 0.5 ? middle : p;
-    if (kOwnBorders) { // segments may have no length
-        bool atCorner = distance == 0.0;
-        p = atCorner ? q.limit : p;
-        Frame stored = withNormal(frame, q.normal);
-        if (atCorner) frame = stored;
-    }
     uvec2 place = placeInQuad(q.place.corner, a, b);
     store(at, own, place.x, place.y, p, frame);
 }
@@ -318,7 +312,7 @@ void storeAlongA(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint 
     uint a = l.firstA;
     do {
         float distance = pairOf(pattern, a).x;
-        LeafWeights x = chainWeights(true, parameterOf(q, l, distance), 0.0);
+        LeafWeights x = chainWeights(true, parameterOf(l, distance), 0.0);
         Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
         vec3 offset = sum4(x.w, l.lineA.p[0], l.lineA.p[1], l.lineA.p[2], l.lineA.p[3]);
         storeOnBorder(at, q, a < l.endA, a, 0u, distance, offset, q.middleA, frame);
@@ -330,13 +324,12 @@ void storeOnB(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, bool own
     vec3 offset = sum4(y.w, l.lineB.p[0], l.lineB.p[1], l.lineB.p[2], l.lineB.p[3]);
     storeOnBorder(at, q, own, 0u, b, distance, offset, q.middleB, frame);
 }
-void storeChainRow(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint right, bool own, float fromA, uint b, uint a, uint end) {
+void storeChainRow(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint right, bool own, uint b, uint a, uint end) {
     do {
         float distance = pairOf(q.place.corner & 1u, a).x;
-        LeafWeights x = chainWeights(right != 0u, parameterOf(q, l, distance), l.sharpB);
+        LeafWeights x = chainWeights(right != 0u, parameterOf(l, distance), l.sharpB);
         vec3 position = placed(q.origin, l.net.p[kNetMiddle], rowPoint(row, right, x.w));
         Frame frame = turnedFrame(q.place.corner, rowAlongX(row, right, x.d), rowAlongY(row, right, x.w));
-        if (kOwnBorders) position = max(distance, fromA) == 0.0 ? q.limit : position;
         uvec2 place = placeInQuad(q.place.corner, a, b);
         store(at, own && a < end, place.x, place.y, position, frame);
     } while (++a < end);
@@ -347,18 +340,18 @@ void storeLevel(const PatchPlace at, Quarter q, ChainLevel l) {
     uint acrossA = 1u - (q.place.corner & 1u), b = 1u;
     do {
         float distance = pairOf(acrossA, b).x;
-        NetRow row = netRow(l.net, 0u, chainWeights(false, parameterOf(q, l, distance), l.sharpA));
-        storeChainRow(at, q, l, row, 1u, b < l.firstB, distance, b, l.firstA, l.endA);
+        NetRow row = netRow(l.net, 0u, chainWeights(false, parameterOf(l, distance), l.sharpA));
+        storeChainRow(at, q, l, row, 1u, b < l.firstB, b, l.firstA, l.endA);
     } while (++b < l.firstB);
     b = l.firstB;
     do {
         bool own = b < l.endB;
         float distance = pairOf(acrossA, b).x;
-        LeafWeights y = chainWeights(true, parameterOf(q, l, distance), 0.0);
+        LeafWeights y = chainWeights(true, parameterOf(l, distance), 0.0);
         NetRow row = netRow(l.net, 1u, y);
         if (!kOwnBorders && kSides) storeOnB(at, q, l, row, own, b, distance, y);
-        storeChainRow(at, q, l, row, 0u, own, distance, b, 1u, l.firstA);
-        storeChainRow(at, q, l, row, 1u, own, distance, b, l.firstA, l.endA);
+        storeChainRow(at, q, l, row, 0u, own, b, 1u, l.firstA);
+        storeChainRow(at, q, l, row, 1u, own, b, l.firstA, l.endA);
     } while (++b < l.endB);
 }
 
@@ -367,7 +360,7 @@ void storeAlongB(const PatchPlace at, Quarter q, ChainLevel l, uint pattern) {
     uint b = l.firstB;
     do {
         float distance = pairOf(pattern, b).x;
-        LeafWeights y = chainWeights(true, parameterOf(q, l, distance), 0.0);
+        LeafWeights y = chainWeights(true, parameterOf(l, distance), 0.0);
         storeOnB(at, q, l, netRow(l.net, 1u, y), b < l.endB, b, distance, y);
     } while (++b < l.endB);
 }
@@ -381,41 +374,115 @@ ChainLevel chainLevel(const PatchPlace at, IrregularQuad quad, Quarter q, uint l
     l.lineA = chainLine(l.net, 1u, kNetSide, besideLine(l.sharpA));
     l.lineB = chainLine(l.net, kNetSide, 1u, besideLine(l.sharpB));
     l.endA = endA, l.endB = endB;
-    l.firstA = firstOfLevel(corner & 1u, endA, level, q.chain.lastLevel);
-    l.firstB = firstOfLevel(1u - (corner & 1u), endB, level, q.chain.lastLevel);
+    l.firstA = firstOfLevel(corner & 1u, endA, level);
+    l.firstB = firstOfLevel(1u - (corner & 1u), endB, level);
     return l;
+}
+
+#ifdef LEVELS
+// The last cell at the corner (chain_level.glsl): its rim is where the net's parameters are 0..1 and one of them is 1. Full segments
+// are at least as long as the rim is far away. So at most one segment of a pattern ends in the cell, the first one, while it grows
+// from nothing; those that are not born have no length, and all samples of a pattern in the cell are in one place. Stores these, from
+// `first` to before `end`.
+void storeOnCone(const PatchPlace at, Quarter q, uvec2 first, uvec2 end, float share, vec3 rim, Frame frame) {
+    vec3 position = onCone(q.limit, rim, share);
+    Frame atCorner = withNormal(frame, q.normal);
+    if (share == 0.0) frame = atCorner;
+    uint b = first.y;
+    do {
+        uint a = first.x;
+        do {
+            uvec2 place = placeInQuad(q.place.corner, a, b);
+            store(at, a < end.x && b < end.y, place.x, place.y, position, frame);
+        } while (++a < end.x);
+    } while (++b < end.y);
+}
+
+// Weights of all five points of a net along a parameter.
+struct NetWeights {
+    float w[kNetSide], d[kNetSide];
+};
+NetWeights netWeights(bool second, LeafWeights l) {
+    NetWeights five;
+    [[unroll]] for (uint k = 0u; k < kNetSide; ++k) {
+        five.w[k] = second ? (k > 0u ? l.w[k - 1u] : 0.0) : k < 4u ? l.w[k] : 0.0;
+        five.d[k] = second ? (k > 0u ? l.d[k - 1u] : 0.0) : k < 4u ? l.d[k] : 0.0;
+    }
+    return five;
+}
+void storeInCone(const PatchPlace at, Quarter q, ChainLevel l, uvec2 end) {
+    float a = pairOf(q.place.corner & 1u, 1u).x, b = pairOf(1u - (q.place.corner & 1u), 1u).x, far = max(a, b);
+    float x = a >= b ? 1.0 : a / far, y = b >= a ? 1.0 : b / far;
+    NetWeights wx = netWeights(a >= b, chainWeights(a >= b, x, l.sharpB)), wy = netWeights(b >= a, chainWeights(b >= a, y, l.sharpA));
+    vec3 offset = vec3(0.0), alongX = vec3(0.0), alongY = vec3(0.0);
+    [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
+        vec3 point = vec3(0.0), slope = vec3(0.0);
+        [[unroll]] for (uint j = 0u; j < kNetSide; ++j) {
+            vec3 d = l.net.p[kNetSide * j + i] - l.net.p[kNetMiddle];
+            point += wy.w[j] * d;
+            slope += wy.d[j] * d;
+        }
+        offset += wx.w[i] * point;
+        alongX += wx.d[i] * point;
+        alongY += wx.w[i] * slope;
+    }
+    storeOnCone(at, q, uvec2(1u), end, parameterOf(l, far), placed(q.origin, l.net.p[kNetMiddle], offset),
+                turnedFrame(q.place.corner, alongX, alongY));
+}
+// `row`: of the first edge; `end`: of the samples on the two edges.
+void storeBordersOfCone(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uvec2 end) {
+    uint corner = q.place.corner, before = (corner + 3u) & 3u;
+    LeafWeights begin = chainWeights(true, 1.0, 0.0), across = leafWeights(0.0, l.sharpB);
+    precise vec3 rimA = q.origin + sum4(begin.w, l.lineA.p[0], l.lineA.p[1], l.lineA.p[2], l.lineA.p[3]);
+    precise vec3 rimB = q.origin + sum4(begin.w, l.lineB.p[0], l.lineB.p[1], l.lineB.p[2], l.lineB.p[3]);
+    storeOnCone(at, q, uvec2(1u, 0u), uvec2(end.x, 1u), parameterOf(l, pairOf(kSide + corner, 1u).x), rimA,
+                turnedFrame(corner, rowAlongX(row, 1u, begin.d), rowAlongY(row, 1u, begin.w)));
+    NetRow second = netRow(l.net, 1u, begin);
+    storeOnCone(at, q, uvec2(0u, 1u), uvec2(1u, end.y), parameterOf(l, pairOf(kSide + before, 1u).x), rimB,
+                turnedFrame(corner, rowAlongX(second, 0u, across.d), rowAlongY(second, 0u, across.w)));
+}
+#endif
+
+void storeCorner(const PatchPlace at, Quarter q, ChainLevel l, NetRow row) {
+    // The directions of the nearest leaves on its edges stand in.
+    LeafWeights begin = leafWeights(0.0, 0.0);
+    vec3 alongB = rowAlongY(row, 1u, begin.w);
+    if (kTangents) alongB = rowAlongY(netRow(l.net, 1u, begin), 0u, leafWeights(0.0, l.sharpB).w);
+    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 1u, begin.d), alongB);
+    uvec2 place = placeInQuad(q.place.corner, 0u, 0u);
+    store(at, true, place.x, place.y, q.limit, withNormal(frame, q.normal));
 }
 
 // `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
 void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, bool onB) {
     uint corner = q.place.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
     uvec2 first = uvec2(q.place.countA, q.place.countB), side = first; // the same of the borders
+    ChainLevel l;
+    NetRow row; // of the first edge
     bool more;
     do {
-        ChainLevel l = chainLevel(at, quad, q, level, first.x, first.y);
+        l = chainLevel(at, quad, q, level, first.x, first.y);
         first = uvec2(l.firstA, l.firstB);
         if (kInside) storeLevel(at, q, l);
         more = level < lastLevel;
         if (kOwnBorders) {
             l.endA = side.x, l.endB = side.y;
-            side = uvec2(firstOfLevel(kSide + corner, side.x, level, lastLevel), firstOfLevel(kSide + before, side.y, level, lastLevel));
+            side = uvec2(firstOfLevel(kSide + corner, side.x, level), firstOfLevel(kSide + before, side.y, level));
             l.firstA = side.x, l.firstB = side.y;
             more = more && max(max(first.x, first.y), max(side.x, side.y)) > 1u;
         }
         if (onB && (kOwnBorders || !kInside)) storeAlongB(at, q, l, kSide + before); // else with the rows inside
         if (onA) {
-            NetRow row = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
+            row = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
             storeAlongA(at, q, l, row, kSide + corner);
-            // At the corner the directions of the nearest leaves on its edges stand in.
-            LeafWeights begin = leafWeights(0.0, 0.0);
-            vec3 alongB = rowAlongY(row, 1u, begin.w);
-            if (kTangents) alongB = rowAlongY(netRow(l.net, 1u, begin), 0u, leafWeights(0.0, l.sharpB).w);
-            Frame frame = turnedFrame(corner, rowAlongX(row, 1u, begin.d), alongB);
-            uvec2 place = placeInQuad(corner, 0u, 0u);
-            store(at, !more, place.x, place.y, q.limit, withNormal(frame, q.normal));
         }
         ++level;
     } while (more);
+    if (onA) storeCorner(at, q, l, row);
+#ifdef LEVELS
+    storeInCone(at, q, l, first);
+    storeBordersOfCone(at, q, l, row, side);
+#endif
 }
 
 #ifndef WIDE

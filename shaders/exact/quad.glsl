@@ -2,6 +2,7 @@
 // frame.glsl, net.glsl and
 //   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
 //   const bool kSharp                                 whether sides may be creases
+//   DEPTH_OF_INSTANCE                                 a macro, if an instance's pool says how far its chains go (lod/depth.comp)
 #include "shaders/exact/leaf.glsl"
 
 struct IrregularQuad {
@@ -31,10 +32,12 @@ struct Chain {
     uint windows, points, size; // windows of its sector; pool index of the first point of level 2; points of a level
     uint lastLevel;
 };
-Chain chainOf(IrregularQuad quad, uint corner) {
-    uint size = componentOf(quad.sizes, corner);
-    return Chain(componentOf(quad.windows, corner), componentOf(quad.spokes, corner), size & ((1u << kChainLevelShift) - 1u),
-                 size >> kChainLevelShift);
+Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
+    uint size = componentOf(quad.sizes, corner), last = size >> kChainLevelShift;
+#ifdef DEPTH_OF_INSTANCE
+    last = uint(poolPoint(at, push.pairs).x);
+#endif
+    return Chain(componentOf(quad.windows, corner), componentOf(quad.spokes, corner), size & ((1u << kChainLevelShift) - 1u), last);
 }
 uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
 vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }

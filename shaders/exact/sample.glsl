@@ -22,7 +22,7 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     if (isCubic(quad, side)) return onCubic(sideCubic(at, quad, side), side, pair);
     bool far = pair.x > pair.y, alongU = (side & 1u) == 0u, rising = side < 2u;
     uint corner = far == rising ? (side + 1u) & 3u : side;
-    Chain chain = chainOf(quad, corner);
+    Chain chain = chainOf(at, quad, corner);
     bool middle = pair.x == pair.y, own = middle || chain.windows == 0u;
     bool onFirst = corner == side; // of the corner's two edges
     uint beside = onFirst ? (corner + 3u) & 3u : corner, step = onFirst ? 1u : kNetSide, across = onFirst ? kNetSide : 1u;
@@ -31,9 +31,15 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     uint begin = 0u, level = 1u;
     vec4 w = quarterWeights(distance, sharpnessOf(quad, beside, 1u)).w;
     vec3 origin = vec3(0.0);
+    float way = 1.0; // to the rim of the last cell
     if (!own) {
 #ifdef LEVELS
-        distance = withinChain(distance, chain.lastLevel);
+        float rim = powerOfTwo(-float(chain.lastLevel));
+        if (distance < rim) {
+            precise float of = distance * powerOfTwo(float(chain.lastLevel));
+            way = of;
+            distance = rim;
+        }
 #endif
         ChainPlace place = chainPlace(distance, chain.lastLevel);
         precise float x = distance * place.scale;
@@ -52,6 +58,9 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     }
     if (middle) return middleOfLine(e[1], e[2], e[3]);
     precise vec3 p = origin + sum4(w, e[0], e[1], e[2], e[3]);
+#ifdef LEVELS
+    if (way < 1.0) p = onCone(poolPoint(at, componentOf(quad.points, corner)), p, way);
+#endif
     return p;
 }
 
@@ -80,19 +89,25 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
     uint corner = up ? (right ? 2u : 3u) : (right ? 1u : 0u);
     float fromU = right ? u.y : u.x, fromV = up ? v.y : v.x;
     bool onU = fromU == 0.0, onV = fromV == 0.0; // on a side
-    Chain chain = chainOf(quad, corner);
+    Chain chain = chainOf(at, quad, corner);
 
     NetSource net = NetSource(0u, 0u, corner);
     bool secondX = false, secondY = false, turned = (corner & 1u) != 0u;
     float a = turned ? fromV : fromU, b = turned ? fromU : fromV;
     LeafWeights x, y;
     vec3 origin = vec3(0.0);
+    float way = 1.0;
     if (chain.windows == 0u) {
         x = quarterWeights(a, sharpnessOf(quad, (corner + 3u) & 3u, 1u));
         y = quarterWeights(b, sharpnessOf(quad, corner, 1u));
     } else {
 #ifdef LEVELS
-        a = withinChain(a, chain.lastLevel), b = withinChain(b, chain.lastLevel);
+        float far = max(a, b), rim = powerOfTwo(-float(chain.lastLevel));
+        if (far > 0.0 && far < rim) {
+            precise float back = rim / far;
+            way = far * powerOfTwo(float(chain.lastLevel));
+            a = a == far ? rim : a * back, b = b == far ? rim : b * back;
+        }
 #endif
         ChainPlace place = chainPlace(max(a, b), chain.lastLevel);
         precise float xx = a * place.scale, yy = b * place.scale;
@@ -117,6 +132,10 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
         frame = withStoredNormal(at, quad, corner, frame);
     } else if (onU || onV) {
         position = sidePoint(at, quad, onV ? (up ? 2u : 0u) : (right ? 1u : 3u), onV ? u : v);
+    } else if (way < 1.0) {
+#ifdef LEVELS
+        position = onCone(poolPoint(at, componentOf(quad.points, corner)), position, way);
+#endif
     }
 }
 

@@ -1,6 +1,7 @@
 // What a record says of a triangle of a Loop patch, and its leaves (docs/loop.md). Before the include: tables.glsl, frame.glsl,
 // net.glsl and
 //   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
+//   DEPTH_OF_INSTANCE                                 a macro, if an instance's pool says how far its chains go (lod/depth.comp)
 #include "shaders/exact/box_spline.glsl"
 #include "shaders/exact/chain_level.glsl"
 
@@ -43,10 +44,12 @@ struct Chain {
     uint windows, points, size; // windows of its sector, 0 where there is none; pool index of the first point of level 2
     uint lastLevel;
 };
-Chain chainOf(Triangle t, uint corner) {
-    uint size = componentOf(t.sizes, corner);
-    return Chain(componentOf(t.windows, corner), componentOf(t.chains, corner), size & ((1u << kChainLevelShift) - 1u),
-                 size >> kChainLevelShift);
+Chain chainOf(const PatchPlace at, Triangle t, uint corner) {
+    uint size = componentOf(t.sizes, corner), last = size >> kChainLevelShift;
+#ifdef DEPTH_OF_INSTANCE
+    last = uint(poolPoint(at, push.pairs).x);
+#endif
+    return Chain(componentOf(t.windows, corner), componentOf(t.chains, corner), size & ((1u << kChainLevelShift) - 1u), last);
 }
 vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
 vec3 cornerNormal(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.normals, corner)); }

@@ -71,10 +71,10 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
     bool onBorder = s.side != kInside, middle = onBorder && s.along.x == s.along.y;
     if (onBorder && isCorner == 3u && !middle) corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
     NetSource net = ownNet(at, t);
-    Chain chain = chainOf(t, corner == 3u ? 0u : corner);
+    Chain chain = chainOf(at, t, corner == 3u ? 0u : corner);
     bool own = corner == 3u || chain.windows == 0u;
     uint cell = corner, from = 0u;
-    float scale = 2.0, a = s.w.y, b = s.w.z;
+    float scale = 2.0, a = s.w.y, b = s.w.z, way = 1.0; // to the rim of the last cell
     float distance = onBorder ? min(s.along.x, s.along.y) : 0.0;
     if (!own) {
         a = corner == 0u ? s.w.y : corner == 1u ? s.w.z : s.w.x;
@@ -82,13 +82,17 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
         float nearest = s.distance;
 #ifdef LEVELS
         nearest = onBorder ? distance : a + b;
-        float moved = withinChain(nearest, chain.lastLevel);
-        if (moved > nearest) a *= moved / nearest, b *= moved / nearest;
-        if (onBorder) { // without rounding
-            distance = moved;
-            a = a > 0.0 ? moved : 0.0, b = b > 0.0 ? moved : 0.0;
+        float rim = powerOfTwo(-float(chain.lastLevel));
+        if (nearest > 0.0 && nearest < rim) {
+            precise float of = nearest * powerOfTwo(float(chain.lastLevel)), back = rim / nearest;
+            way = of;
+            a *= back, b *= back;
+            if (onBorder) { // without rounding
+                distance = rim;
+                a = a > 0.0 ? rim : 0.0, b = b > 0.0 ? rim : 0.0;
+            }
+            nearest = rim;
         }
-        nearest = moved;
 #endif
         ChainPlace place = chainPlace(nearest, chain.lastLevel);
         scale = place.scale;
@@ -121,6 +125,9 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
     } else {
         position = onHalfSide(net, points, own, cell, s, scale, distance);
     }
+#ifdef LEVELS
+    if (way < 1.0) position = onCone(cornerLimit(at, t, corner), position, way);
+#endif
 }
 
 void regularTriangle(const PatchPlace at, Triangle t, LeafPoints points, Leaf leaf, TrianglePoint s, uint to, out vec3 position,

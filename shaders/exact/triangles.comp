@@ -22,6 +22,9 @@ const uint kParts = kIrregular ? kTriangleNetPoints : kLeafPoints;
 #include "shaders/surface/net.glsl"
 
 vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at.isNew); }
+#ifdef LEVELS
+#define DEPTH_OF_INSTANCE
+#endif
 
 #ifdef WIDE
 shared vec4 localPoints[kMaxPatchesPerGroup * kParts];
@@ -284,7 +287,7 @@ void storeChains(const PatchPlace at, Triangle t) {
     uint chains = ~triangleFlags(t, kPlainTriangleCorner) & 7u, level = 2u;
     do {
         uint corner = uint(findLSB(chains));
-        Chain chain = chainOf(t, corner);
+        Chain chain = chainOf(at, t, corner);
         NetSource net = chainNet(at, t, chain, corner, level);
         uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
         NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)));

@@ -53,7 +53,7 @@ vec3 endShare(uvec4 end, vec3 c[9], float t) {
 }
 
 EdgeCurve curveOf(uint base, uint edge) {
-    uvec4 end0 = tableElement(push.edges + 2u * edge), end1 = tableElement(push.edges + 2u * edge + 1u);
+    uvec4 end0 = tableElement(push.table + 2u * edge), end1 = tableElement(push.table + 2u * edge + 1u);
     vec3 c0[9], c1[9];
     for (uint c = 0u; c < 9u; ++c) {
         c0[c] = poolVector(base + (end0.x & kPoolIndexMask) + c);
@@ -79,7 +79,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 #include "shaders/exact/sample.glsl"
 
 EdgeCurve curveOf(uint base, uint edge) {
-    uvec4 words = tableElement(push.edges + edge);
+    uvec4 words = tableElement(push.table + edge);
     PatchPlace at = PatchPlace(words.x, base);
     IrregularQuad quad = quadOf(at.record);
     uint side = words.y;
@@ -103,7 +103,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 #include "shaders/exact/triangle_sample.glsl"
 
 EdgeCurve curveOf(uint base, uint edge) {
-    uvec4 words = tableElement(push.edges + edge);
+    uvec4 words = tableElement(push.table + edge);
     PatchPlace at = PatchPlace(words.x, base);
     uint side = words.y;
     Triangle t = triangleOf(at.record, words.z != 0u);
@@ -114,7 +114,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     return quarteredCurve(p);
 }
 #else
-EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(push.edges + edge)); }
+EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(push.table + edge)); }
 #endif
 
 void main() {
@@ -126,4 +126,5 @@ void main() {
     precise float radius = 0.5 * curve.curveLength;
     float level = levelOf(curve.curveLength, curve.bend, pixelsPerUnit(middle, radius));
     scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);
+    if (edge == 0u && push.depths != 0u) scratchWords[levelBase(instance) + push.depths] = 0u; // what patches raise
 }

@@ -423,4 +423,6 @@ void main() {
         scratchWords[target + 2u] = floatBitsToUint(own.y);
     }
     countPatch(counted, run, form, priority, bin, weight);
+    bool chains = patchClass == kLoopIrregularPatch || patchClass == kIrregularPatch || patchClass == kIrregularSharpPatch;
+    if (!kCubics && counted && chains) atomicMax(scratchWords[words + push.depths], floatBitsToUint(level));
 }

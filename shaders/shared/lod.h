@@ -23,7 +23,9 @@
 //                 vertex; capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3;
 //                 rings inside, then edges 0..4
 //
-// In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel).
+// In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel); then, where
+// patches have chains (shared/exact.h), kDepthWords. In these stand the largest level of a patch with chains, before the budget,
+// and an entry of each depth's list of instances; in the first instance's also how many a list has, and the dispatch for them.
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
@@ -135,6 +137,14 @@ struct LodDispatch {
 SUPPLE_SHARED_CONST kLodPartShift = 8u;
 SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for along u and along v
 
+// Levels of chains from kFirstDepth on are made only for instances that have samples there (docs/catmull_clark.md).
+SUPPLE_SHARED_CONST kFirstDepth = 3u;
+SUPPLE_SHARED_CONST kDepths = 4u;
+SUPPLE_SHARED_CONST kDepthEntries = 1u;                       // behind the largest level
+SUPPLE_SHARED_CONST kDepthCounts = kDepthEntries + kDepths;   // in the first instance's
+SUPPLE_SHARED_CONST kDepthDispatches = kDepthCounts + kDepths; // x, y, z
+SUPPLE_SHARED_CONST kDepthWords = kDepthDispatches + 3u * kDepths;
+
 // What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m.
 SUPPLE_SHARED_CONST kMeasuresNets = 0u;
 SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
@@ -143,8 +153,8 @@ SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
 struct LodPush {
     WindowPush window;
     uint count; // edges or patches of an instance that the pass takes
-    uint first; // one of them
-    uint edges; // table element of edge `first`
+    uint first; // one of them; chains: number of the depth
+    uint table; // its first element: of edges; of what makes the depth; of the counts of lanes that make depths
     uint patches;       // and of patch 0
     uint edgeCount;
     uint poolStride;
@@ -155,6 +165,8 @@ struct LodPush {
     uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
     uint masks;         // of parts, first word in the list of instances (shared/bounds.h)
     uint maskWords;     // an instance; and kLodHiddenCounted
+    uint depths;        // in an instance's scratch, first of kDepthWords; 0: there are no chains
+    uint depth;         // in an instance's pool, the last level of its chains
     LodCamera
         camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };

@@ -195,7 +195,7 @@ struct SurfacePush {
     uint patchCount; // of all ranges
     uint verticesPerInstance;
     uint firstVertex;     // of this range in the instance's surface vertices
-    uint pairs;           // first parameter pair of the rate
+    uint pairs;           // first parameter pair of the rate; at levels, of patches with chains: LodPush::depth
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2
     uint faceUvs;         // 1 where corners have a place in their face's trim tile

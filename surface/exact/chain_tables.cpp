@@ -3,6 +3,7 @@
 #include "shaders/shared/subdivision.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
@@ -20,8 +21,8 @@ uint32_t lastChainLevel(uint32_t rate) {
 }
 
 ChainTables::ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer)
-    : mesh_(*desc.mesh), lastLevel_(desc.lastLevel), wide_(desc.wide), needs_(std::move(needs)), fans_(fans),
-      writer_(writer) {}
+    : mesh_(*desc.mesh), lastLevel_(desc.lastLevel), wide_(desc.wide), lod_(desc.lod), needs_(std::move(needs)),
+      fans_(fans), writer_(writer) {}
 
 Fan ChainTables::fanOf(uint32_t v) const {
     return {mesh_.subdivision, mesh_.fragments[v].sectors, mesh_.fragments[v].open};
@@ -32,11 +33,14 @@ uint32_t ChainTables::chainLevels(uint32_t v) const {
 }
 
 /// The variant of the chain kernel that makes limits, chains, or a level of chains.
-KindOfKernel ChainTables::kernelOf(uint32_t makes) const {
+KindOfKernel ChainTables::kernelOf(uint32_t makes, Stage stage) const {
     constexpr const char* kNames[] = {"supple exact limits", "supple exact chains, first level",
                                       "supple exact chains, level", "supple exact chains"};
-    const Kernel kernel = mesh_.subdivision == Subdivision::loop ? Kernel::exactChainTriangles : Kernel::exactChain;
-    return {kernel, makes, kNames[makes]};
+    const bool loop = mesh_.subdivision == Subdivision::loop;
+    if (stage == Stage::deepen) {
+        return {loop ? Kernel::exactChainLevelsTriangles : Kernel::exactChainLevels, makes, kNames[makes]};
+    }
+    return {loop ? Kernel::exactChainTriangles : Kernel::exactChain, makes, kNames[makes]};
 }
 
 Status ChainTables::checkSizes() const {
@@ -76,7 +80,11 @@ uint32_t ChainTables::layOut(uint32_t next) {
         if (chainLevels(v) > 0) {
             chains_[v] = next + 1; // behind the point that it is relative to
             next += 1 + chainLevels(v) * chainPoints(v);
+            depth_ = lod_ ? 1 : 0;
         }
+    }
+    if (depth_ > 0) {
+        depth_ = next++;
     }
     return next;
 }
@@ -185,8 +193,17 @@ void ChainTables::write(const Places& places, Tables& tables) {
     tables.constructions.push_back(
         {Stage::assemble, kernelOf(shared::kMakesLimits), {first, count}, limits, places.isStepped});
     writeChains(vertices, first, tables);
+    std::array<uint32_t, shared::kDepths> lanes{};
     for (uint32_t level = kFirstChainLevel; level <= lastLevel_; ++level) {
-        writeLevel(vertices, first, level, tables);
+        const uint32_t made = writeLevel(vertices, first, level, tables);
+        if (level >= shared::kFirstDepth && level < shared::kFirstDepth + shared::kDepths) {
+            lanes[level - shared::kFirstDepth] = made;
+        }
+    }
+    if (depth_ > 0) {
+        tables.lod.depth = depth_;
+        tables.lod.depthLanes = writer_.element();
+        writer_.put(lanes);
     }
 }
 
@@ -222,12 +239,13 @@ void ChainTables::writeChains(const std::vector<uint32_t>& vertices, uint32_t fi
     }
 }
 
-/// One level of the other chains: blocks of kBlockLanes lanes, of each fan's.
-void ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level,
-                             Tables& tables) {
+/// One level of the other chains: blocks of kBlockLanes lanes, of each fan's. Returns how many lanes.
+uint32_t ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level,
+                                 Tables& tables) {
     const bool isFirst = level == kFirstChainLevel;
+    const Stage stage = depth_ > 0 && level >= shared::kFirstDepth ? Stage::deepen : Stage::assemble;
     Construction work{
-        Stage::assemble, kernelOf(isFirst ? shared::kMakesFirstLevel : shared::kMakesLevel), {writer_.element(), 0}, 0};
+        stage, kernelOf(isFirst ? shared::kMakesFirstLevel : shared::kMakesLevel, stage), {writer_.element(), 0}, 0};
     work.readsPool = !isFirst;
     const auto add = [&](uint32_t fan, uint32_t record, uint32_t count, uint32_t items) {
         for (uint32_t item = 0; item < items; item += shared::kBlockLanes) {
@@ -252,6 +270,7 @@ void ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t fir
     if (work.section.count > 0) {
         tables.constructions.push_back(work);
     }
+    return work.section.count;
 }
 
 } // namespace supple::surface::exact

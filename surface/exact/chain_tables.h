@@ -26,7 +26,7 @@ public:
     struct Desc {
         const subdivision::Mesh* mesh = nullptr;
         uint32_t lastLevel = kLastChainLevel;
-        bool wide = false;
+        bool wide = false, lod = false;
     };
     /// `fans` and `writer` must outlive this, as the mesh. `needs`: by vertex.
     ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer);
@@ -43,7 +43,7 @@ public:
         std::function<uint32_t(uint32_t)> levelOne, limit;
         bool isStepped = false; ///< the stage before this one, assemble, writes points of level 1
     };
-    /// Behind layOut().
+    /// Behind layOut(). At levels of detail later levels are made for the instances that need them (Stage::deepen).
     void write(const Places& places, Tables& tables);
 
     /// What records of patches say of a sector of a vertex. Without a chain: 0; of a plain vertex no normal.
@@ -61,17 +61,18 @@ private:
     [[nodiscard]] subdivision::Fan fanOf(uint32_t v) const;
     [[nodiscard]] uint32_t chainPoints(uint32_t v) const { return pointCount(fanOf(v), 3); }
     [[nodiscard]] uint32_t chainLevels(uint32_t v) const;
-    [[nodiscard]] KindOfKernel kernelOf(uint32_t makes) const;
+    [[nodiscard]] KindOfKernel kernelOf(uint32_t makes, Stage stage = Stage::assemble) const;
     [[nodiscard]] bool fitsInBlock(uint32_t v) const;
     const ArrangementTable& arrangementOf(uint32_t v);
     ArrangementTable writeArrangement(const Arrangement& key);
     void writeRun(const subdivision::CentreMask& position, const LimitRun& run);
     void writeChains(const std::vector<uint32_t>& vertices, uint32_t firstRecord, Tables& tables);
-    void writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level, Tables& tables);
+    uint32_t writeLevel(const std::vector<uint32_t>& vertices, uint32_t firstRecord, uint32_t level, Tables& tables);
 
     const subdivision::Mesh& mesh_;
     uint32_t lastLevel_;
-    bool wide_;
+    bool wide_, lod_;
+    uint32_t depth_ = 0; ///< pool index; 0: chains are as long everywhere
     std::vector<VertexNeeds> needs_;
     FanTables& fans_;
     TableWriter& writer_;

@@ -23,7 +23,7 @@ public:
     Builder(const Isolation& isolation, const Recipe& recipe)
         : recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), triangles_(parent_), writer_(tables_.words), fans_(writer_),
-          chains_({&mesh_, exact::lastChainLevel(recipe.rate), recipe.wide}, vertexNeeds(), fans_, writer_),
+          chains_({&mesh_, exact::lastChainLevel(recipe.rate), recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           vertices_(cage_.vertexCount()), levelOne_(mesh_.stencils.back().rows()) {
         tables_.rate = recipe.rate;
         tables_.notes = mesh_.notes;

@@ -51,7 +51,7 @@ public:
         : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
           rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words), fans_(writer_),
-          chains_({&mesh_, lastLevel_, recipe.wide}, vertexNeeds(), fans_, writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           levelOne_(mesh_.stencils.back().rows()) {}
 
     Result<Tables> build() {

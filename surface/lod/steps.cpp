@@ -39,6 +39,11 @@ PatchKernel patchKernel(PatchClass patchClass) {
     return {Kernel::lodPatchCharts, Kernel::lodPatchCharts};
 }
 
+/// In an instance's scratch, behind a float an edge and the words of patches.
+uint32_t depthWords(const LodTables& tables) {
+    return tables.edgeCount + shared::kLodPatchLevelWords * tables.patches.count;
+}
+
 /// Of `count` edges or patches from `first` on.
 shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t count) {
     const Tables& tables = builder.tables;
@@ -55,16 +60,18 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t 
     push.levels = builder.needs.levelOffset;
     push.masks = builder.needs.firstMask;
     push.maskWords = builder.needs.maskWords;
+    push.depths = tables.lod.depth == 0 ? 0 : depthWords(tables.lod);
+    push.depth = tables.lod.depth;
     return push;
 }
 
 void addEdges(ProgramBuilder& builder, uint32_t& argument) {
     Steps& steps = builder.program.edgeLevels;
     for (const LodTables::Edges& edges : builder.tables.lod.edges) {
-        const gpu::Kernel kernel = builder.kernel(
-            SetKind::levels, kEdgeKernels[static_cast<size_t>(edges.borders)], {}, "supple levels of edges");
+        const gpu::Kernel kernel = builder.kernel(SetKind::levels, kEdgeKernels[static_cast<size_t>(edges.borders)], {},
+                                                  "supple levels of edges");
         shared::LodPush push = pushFor(builder, edges.first, edges.section.count);
-        push.edges = edges.section.table;
+        push.table = edges.section.table;
         builder.add(steps, SetKind::levels, kernel, builder.lanes(push.count), push, argument++,
                     steps.empty() ? Order::free : Order::disjoint);
     }
@@ -87,13 +94,40 @@ void addPatches(ProgramBuilder& builder, uint32_t& argument) {
     }
 }
 
+/// Lists instances by how far their chains go, and makes these levels.
+void addDepths(ProgramBuilder& builder, uint32_t& argument) {
+    constexpr uint32_t kAll = 0x7FFFFFFF; // one workgroup
+    const LodTables& tables = builder.tables.lod;
+    Program& program = builder.program;
+    if (tables.depth == 0) {
+        return;
+    }
+    shared::LodPush push = pushFor(builder, 0, 1);
+    push.table = tables.depthLanes;
+    const gpu::Kernel kernel = builder.kernel(SetKind::levels, Kernel::lodDepth, {}, "supple depths of chains");
+    builder.add(program.places, SetKind::levels, kernel, DispatchSize{1, kAll}, push, argument++, Order::after);
+    program.firstDepthDispatch = depthWords(tables) + shared::kDepthDispatches;
+    uint32_t depth = 0;
+    for (const Construction& c : builder.tables.constructions) {
+        if (c.stage != Stage::deepen) {
+            continue;
+        }
+        const gpu::Kernel own =
+            builder.kernel(SetKind::levels, c.kernel.kernel, {{shared::kKindConstant, c.kernel.kind}}, c.kernel.name);
+        push = pushFor(builder, depth, c.section.count);
+        push.table = c.section.table;
+        builder.add(program.deepen, SetKind::levels, own, builder.lanes(push.count), push, depth,
+                    depth == 0 ? Order::free : Order::after);
+        ++depth;
+    }
+}
+
 } // namespace
 
 void addSteps(ProgramBuilder& builder) {
     const LodTables& tables = builder.tables.lod;
     Program& program = builder.program;
-    // A float an edge, then the words of patches (shaders/shared/lod.h).
-    const uint32_t words = tables.edgeCount + shared::kLodPatchLevelWords * tables.patches.count;
+    const uint32_t words = depthWords(tables) + (tables.depth > 0 ? shared::kDepthWords : 0);
     program.scratchStride = ((words + 3) / 4 + kScratchPadding - 1) / kScratchPadding * kScratchPadding;
 
     auto argument = static_cast<uint32_t>(builder.tables.constructions.size());
@@ -101,6 +135,7 @@ void addSteps(ProgramBuilder& builder) {
         addEdges(builder, argument);
     }
     addPatches(builder, argument);
+    addDepths(builder, argument);
     // Behind the solver. Between windows places are taken with atomics, but to synchronization validation the view's
     // words are one resource.
     const shared::LodPush push = pushFor(builder, 0, tables.patches.count);

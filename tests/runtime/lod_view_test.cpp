@@ -148,16 +148,22 @@ public:
             }
         }
     }
-    [[nodiscard]] glm::dvec3 at(uint32_t patch, const At& at) const {
+    /// How far the chains of an instance go.
+    [[nodiscard]] uint32_t depth(const LodSurface& surface, uint32_t slot) const {
+        return chainDepth(surface.patches, slot,
+                          [&](uint32_t patch) { return static_cast<surface::PatchClass>(patches_[patch].patchClass); });
+    }
+    [[nodiscard]] glm::dvec3 at(uint32_t patch, const At& at, uint32_t depth) const {
         const glm::dvec2 u{at.uv.x, 1.0 - at.uv.x}, v{at.uv.y, 1.0 - at.uv.y};
         if (blend_) {
             return blend_->at(blendFaces_[patch], u, v).position;
         }
         if (exact_) {
             const uint32_t face = exactFaces_[patch];
-            const glm::dvec2 taken = quads_->atLevels(face, at.uv);
-            const glm::dvec2 inFace = ExactQuads::inFace(taken.x, taken.y, quads_->corners.firstCorner(face));
-            return exact_->at(face, inFace.x, inFace.y).position;
+            return quads_->atLevels(face, at.uv, depth).position([&](const glm::dvec2& uv) {
+                const glm::dvec2 inFace = ExactQuads::inFace(uv.x, uv.y, quads_->corners.firstCorner(face));
+                return exact_->at(face, inFace.x, inFace.y);
+            });
         }
         if (!pm_) {
             return surface::prep::evaluate<double>(prep_[patches_[patch].face], u, v).position;
@@ -206,6 +212,7 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
         const Reference reference(context, crowd.group(), cage, scheme);
         std::vector<SuppleInstance> instances{crowd.spawn(), crowd.spawn()};
         std::vector<glm::dvec3> before;
+        std::vector<uint32_t> depthsBefore;
         double largest = 0.0, largestPast = 0.0;
         size_t samples = 0;
         for (uint32_t frame = 0; frame < 5; ++frame) {
@@ -222,19 +229,27 @@ TEST_P(LodViews, SamplesLieOnTheSurfaceAndSoDoTheirPasts) {
             context.run(crowd.group());
             const LodSurface surface = readLodSurface(crowd);
             EXPECT_EQ(surface.patches.size(), instances.size() * crowd.output().surface.patchCount);
+            std::vector<uint32_t> depths;
+            for (uint32_t slot = 0; slot < instances.size(); ++slot) {
+                depths.push_back(reference.depth(surface, slot));
+            }
             for (const LodSurface::Patch& patch : surface.patches) {
                 const uint32_t count = surface::lod::sampleCount(static_cast<Form>(patch.grid), patch.capacity);
                 const bool past = patch.slot < before.size();
                 for (uint32_t s = 0; s < count; ++s, ++samples) {
-                    const glm::dvec3 wanted = reference.at(patch.patch, sampleAt(patch, s));
+                    const At at = sampleAt(patch, s);
+                    const glm::dvec3 wanted = reference.at(patch.patch, at, depths[patch.slot]);
+                    const glm::dvec3 wantedPast =
+                        past ? reference.at(patch.patch, at, depthsBefore[patch.slot]) : wanted;
                     const glm::dvec3 position = asPosition(surface.positions[patch.firstVertex + s]);
                     largest = std::max(largest, glm::length(position - now[patch.slot] - wanted));
                     const glm::dvec3 earlier = asPosition(surface.previous[patch.firstVertex + s]);
                     const glm::dvec3 placed = past ? before[patch.slot] : now[patch.slot];
-                    largestPast = std::max(largestPast, glm::length(earlier - placed - wanted));
+                    largestPast = std::max(largestPast, glm::length(earlier - placed - wantedPast));
                 }
             }
             before = now;
+            depthsBefore = depths;
         }
         std::printf("scheme %d: %zu samples, positions within %.1e, previous ones within %.1e\n", scheme, samples,
                     largest, largestPast);
@@ -432,7 +447,7 @@ void expectToMoveByItsMotion(CrowdContext& context, const Dolly& dolly) {
                 if (material.plane.empty()) {
                     for (const At& at : materialPoints(form == Form::quad ? 0 : surface::lod::sides(form))) {
                         material.plane.push_back(planeOf(at, polar));
-                        material.positions.push_back(reference.at(patch.patch, at));
+                        material.positions.push_back(reference.at(patch.patch, at, 6));
                     }
                 }
                 std::vector<uint16_t>& indices = grids[{patch.grid, patch.capacity}];

@@ -4,6 +4,7 @@
 #include "surface/exact/corners.h"
 #include "surface/scheme.h"
 #include "surface/subdivision/mesh.h"
+#include "tests/support/chain_depth.h"
 #include "tests/support/gpu_comparison.h"
 
 #include <algorithm>
@@ -50,19 +51,21 @@ struct ExactQuads {
         const glm::dvec2 turned[] = {{u, v}, {1.0 - v, u}, {1.0 - u, 1.0 - v}, {v, 1.0 - u}};
         return turned[firstCorner];
     }
-    /// (u, v) where the device takes a sample of a patch at levels: not within the last cell of a chain
-    /// (docs/catmull_clark.md).
-    [[nodiscard]] glm::dvec2 atLevels(uint32_t face, glm::dvec2 uv) const {
-        constexpr double kNearest = 1.0 / 64.0;
+    /// Where a view takes a sample of a patch, if chains go up to level `depth`.
+    [[nodiscard]] ConePlace<glm::dvec2> atLevels(uint32_t face, glm::dvec2 uv, uint32_t depth) const {
+        const double nearest = std::exp2(-static_cast<double>(depth));
         const bool right = uv.x > 0.5, up = uv.y > 0.5;
         const uint32_t corner = up ? (right ? 2 : 3) : right ? 1 : 0;
-        glm::dvec2 from(right ? 1.0 - uv.x : uv.x, up ? 1.0 - uv.y : uv.y);
-        if (corners.kind(vertex(face, (corner + corners.firstCorner(face)) % 4)) == surface::exact::VertexKind::chain) {
-            for (int k = 0; k < 2; ++k) {
-                from[k] = from[k] > 0.0 ? std::max(from[k], kNearest) : 0.0;
-            }
+        const auto outwards = [&](glm::dvec2 from) {
+            return glm::dvec2(right ? 1.0 - from.x : from.x, up ? 1.0 - from.y : from.y);
+        };
+        const glm::dvec2 from = outwards(uv);
+        const double far = std::max(from.x, from.y);
+        if (far == 0.0 || far >= nearest ||
+            corners.kind(vertex(face, (corner + corners.firstCorner(face)) % 4)) != surface::exact::VertexKind::chain) {
+            return {uv};
         }
-        return {right ? 1.0 - from.x : from.x, up ? 1.0 - from.y : from.y};
+        return {outwards(from * (nearest / far)), outwards({0.0, 0.0}), far / nearest};
     }
     /// A rate along a cage edge for this rate along a quad's.
     [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }

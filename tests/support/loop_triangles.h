@@ -4,6 +4,7 @@
 #include "surface/exact/triangles.h"
 #include "surface/scheme.h"
 #include "surface/subdivision/mesh.h"
+#include "tests/support/chain_depth.h"
 #include "tests/support/gpu_comparison.h"
 
 #include <utility>
@@ -35,23 +36,22 @@ struct LoopTriangles {
         return {weights[(3 - first) % 3], weights[(4 - first) % 3], weights[(5 - first) % 3]};
     }
 
-    /// Weights in a face where the device takes a sample at levels: not within the last cell of a chain.
-    [[nodiscard]] glm::dvec3 atLevels(uint32_t face, const glm::dvec3& weights) const {
-        constexpr double kNearest = 1.0 / 64.0;
+    /// Where a view takes a sample of a patch, if chains go up to level `depth`.
+    [[nodiscard]] ConePlace<glm::dvec3> atLevels(uint32_t face, const glm::dvec3& weights, uint32_t depth) const {
+        const double nearest = std::exp2(-static_cast<double>(depth));
         for (int corner = 0; corner < 3; ++corner) {
             const surface::RefinedMesh& mesh = isolation.parent;
             const uint32_t first = mesh.cage.faceStarts[face] + static_cast<uint32_t>(corner);
-            if (weights[corner] <= 0.5 || triangles.isPlain(mesh.cage.faceVertices[first])) {
-                continue;
-            }
             const double distance = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
-            if (distance > 0.0 && distance < kNearest) {
-                glm::dvec3 moved = weights * (kNearest / distance);
-                moved[corner] = 1.0 - kNearest;
-                return moved;
+            if (weights[corner] > 0.5 && distance > 0.0 && distance < nearest &&
+                !triangles.isPlain(mesh.cage.faceVertices[first])) {
+                glm::dvec3 rim = weights * (nearest / distance), tip(0.0);
+                rim[corner] = 1.0 - nearest;
+                tip[corner] = 1.0;
+                return {rim, tip, distance / nearest};
             }
         }
-        return weights;
+        return {weights};
     }
 
     surface::subdivision::Isolation isolation;

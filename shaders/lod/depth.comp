@@ -1,0 +1,62 @@
+// How far the chains of exact patches go in each instance of a window: as far as its finest patch has samples. Instances are listed by
+// depth, for what makes it (exact/chain.comp). One workgroup, of which every lane takes a run of entries, so that lists are the same
+// every time. Behind the solver.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define POOL_WRITE_ONLY
+#define PUSH_CONSTANTS LodPush
+#include "shaders/shared/lod.h"
+#include "shaders/shared/exact.h"
+#include "shaders/surface/tables.glsl"
+#include "shaders/surface/pool.glsl"
+#include "shaders/lod/lod.glsl"
+#include "shaders/lod/levels.glsl"
+
+const uint kMostGroups = 65535u; // of a dispatch in x, on any device
+
+shared uvec4 countsOf[kMaxLanes];
+
+// A segment is 1 / level long, or more; but one that grows from nothing lies in the cone of the last cell (exact/chain_level.glsl).
+uint depthOf(uint i, uint entry) {
+    uint instance = entry & kInstanceSlotMask;
+    float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + push.depths));
+    level = clamp(level * uintBitsToFloat(lodWord(kLodSolution + 4u + SUPPLE_INSTANCE_PRIORITY(entry))), 1.0, 63.0);
+    // Of a level in (2^(n - 1), 2^n]: n.
+    return max((floatBitsToUint(level) - 1u >> 23u) - 126u, kFirstDepth - 1u);
+}
+uvec4 depthsOf(uint depth) {
+    return uvec4(greaterThanEqual(uvec4(depth), kFirstDepth + uvec4(0u, 1u, 2u, 3u)));
+}
+
+void storeDispatch(uint at, uint lanes) {
+    uint groups = (lanes + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, rows = max((groups + kMostGroups - 1u) / kMostGroups, 1u);
+    scratchWords[at] = (groups + rows - 1u) / rows;
+    scratchWords[at + 1u] = rows;
+    scratchWords[at + 2u] = 1u;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, entries = instanceCount(), each = (entries + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    uint begin = min(lane * each, entries), end = min(begin + each, entries);
+    uvec4 own = uvec4(0u);
+    for (uint i = begin; i < end; ++i) own += depthsOf(depthOf(i, instanceEntry(i)));
+    countsOf[lane] = own;
+    barrier();
+    uvec4 places = uvec4(0u), counts = uvec4(0u);
+    for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
+        if (l == lane) places = counts;
+        counts += countsOf[l];
+    }
+    for (uint i = begin; i < end; ++i) {
+        uint entry = instanceEntry(i), instance = entry & kInstanceSlotMask, depth = depthOf(i, entry);
+        pool[instance * push.poolStride + push.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
+        uvec4 listed = depthsOf(depth);
+        for (uint d = 0u; d < kDepths; ++d) {
+            if (listed[d] != 0u) scratchWords[levelBase(places[d]) + push.depths + kDepthEntries + d] = entry;
+        }
+        places += listed;
+    }
+    if (lane >= kDepths) return;
+    scratchWords[push.depths + kDepthCounts + lane] = counts[lane];
+    storeDispatch(push.depths + kDepthDispatches + 3u * lane, tableElement(push.table)[lane] * counts[lane]);
+}
