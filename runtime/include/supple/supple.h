@@ -1239,10 +1239,11 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 typedef struct SuppleTiming {
     /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
      * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
-     * it as well), list, level (twice), solve (once per view) and place. If a group has several surfaces, passes that
-     * work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each. An entry
-     * `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was not
-     * enough (SuppleViewStatistics.shortfall). */
+     * it as well), list, level (twice), solve (once per view) and place; and assemble once more, with the levels of
+     * chains that views ask for, if patches of catmull-clark or loop have chains. If a group has several surfaces,
+     * passes that work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each.
+     * An entry `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was
+     * not enough (SuppleViewStatistics.shortfall). */
     const char* pass;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
