@@ -5,7 +5,7 @@
 #include "tests/support/host_memory.h"
 #include "tests/support/shared_assets.h"
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -20,17 +20,31 @@ namespace {
 struct Reading {
     Result<cage::Character> character;
     HostMemory memory;
-    double seconds = 0.0;
+    double seconds = 0.0; ///< the process's own, so that a busy machine finds nothing
 };
+
+#if defined(__has_feature) // clang
+#if __has_feature(address_sanitizer)
+#define SUPPLE_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) // GCC
+#define SUPPLE_SANITIZED
+#endif
+
+#ifdef SUPPLE_SANITIZED
+constexpr double kMostSeconds = 10.0;
+#else
+constexpr double kMostSeconds = 1.0;
+#endif
 
 Reading readCounted(const std::vector<std::byte>& bytes, const std::string& name, const std::string& folder = "",
                     const cage::GltfOptions& options = {}) {
     resetHostMemory();
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     Result<cage::Character> character = cage::readCharacter(bytes, name, folder, options);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    const std::clock_t spent = std::clock() - begin;
     const HostMemory memory = hostMemory();
-    return {std::move(character), memory, spent.count()};
+    return {std::move(character), memory, static_cast<double>(spent) / CLOCKS_PER_SEC};
 }
 
 uint64_t allowed(uint64_t fileBytes) {
@@ -55,7 +69,7 @@ std::string readWithin(const char* what, const std::vector<std::byte>& bytes, co
                 static_cast<double>(reading.memory.peak) / 1e6, static_cast<double>(reading.memory.bytes) / 1e6,
                 reading.seconds, why.substr(0, 150).c_str());
     EXPECT_LE(reading.memory.peak, allowed(bytes.size())) << what;
-    EXPECT_LT(reading.seconds, 1.0) << what;
+    EXPECT_LT(reading.seconds, kMostSeconds) << what;
     return why;
 }
 
@@ -228,7 +242,8 @@ TEST(ReadingMemory, LinesOfAnObjAreCounted) {
     };
     for (const char* line : {"f 1 2 3\n", "f 1 2 3 4\n", "f 1 1 1\n", "v 0 0 0\n", "vn 0 0 1\n", "vt 0 0\n", "l 1 2\n",
                              "usemtl a\n", "g a\n", "o a\n", "s 1\n", "\n", "#\n", "?\n", "p 1\n"}) {
-        readWithin(("100,000 lines of " + std::string(line, 3)).c_str(), toBytes(lines(100000, line)), "hostile.obj");
+        readWithin(("100,000 lines of " + std::string(line).substr(0, 3)).c_str(), toBytes(lines(100000, line)),
+                   "hostile.obj");
     }
     std::string fans; // vertices of their own, and as few bytes as can be
     for (int i = 0; i < 100000; ++i) {

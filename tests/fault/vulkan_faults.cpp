@@ -10,6 +10,7 @@
 namespace supple::test {
 namespace {
 
+PFN_vkGetInstanceProcAddr driver = &vkGetInstanceProcAddr;
 gpu::Functions real;
 
 constexpr int64_t kNever = -1;
@@ -83,12 +84,16 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL faultyGetDeviceProcAddr(VkDevice device
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL faultyGetInstanceProcAddr(VkInstance instance, const char* name) {
     const HostMemoryPause pause;
-    const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
+    const PFN_vkVoidFunction function = driver(instance, name);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         realDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(function);
         return reinterpret_cast<PFN_vkVoidFunction>(&faultyGetDeviceProcAddr);
     }
     return wrap(name, function);
+}
+
+void setVulkanBelow(PFN_vkGetInstanceProcAddr below) {
+    driver = below;
 }
 
 void failVulkan(uint64_t n, VkResult result) {

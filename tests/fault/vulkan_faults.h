@@ -10,6 +10,8 @@ namespace supple::test {
 
 /// What goes into DeviceOptions::suppleGetInstanceProcAddr.
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL faultyGetInstanceProcAddr(VkInstance instance, const char* name);
+/// Where it takes the driver's functions from, before a device is made; by default from the loader.
+void setVulkanBelow(PFN_vkGetInstanceProcAddr below);
 
 /// The n-th call from now on returns `result` and does nothing; 0 is the next one. Only calls that return a VkResult
 /// count, and not those that name objects, whose failures change nothing.

@@ -5,6 +5,7 @@
 #include "host/context.h"
 #include "host/device.h"
 #include "tests/fault/vulkan_faults.h"
+#include "tests/fuzz/kept_pipelines.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/rigged_tube.h"
 
@@ -34,13 +35,21 @@ const std::vector<std::byte>& tube() {
     return bytes;
 }
 
+struct EndDevice {
+    void operator()(host::Device* device) const {
+        destroyKeptPipelines(device->handle());
+        delete device;
+    }
+};
+
 host::Device& device() {
-    static const std::unique_ptr<host::Device> made = [] {
+    static const std::unique_ptr<host::Device, EndDevice> made = [] {
+        test::setVulkanBelow(&keepingGetInstanceProcAddr);
         host::DeviceOptions options;
         options.suppleGetInstanceProcAddr = &test::faultyGetInstanceProcAddr;
         Result<std::unique_ptr<host::Device>> result = host::Device::create(options);
         demand(result.ok(), "no device");
-        return std::move(*result);
+        return std::unique_ptr<host::Device, EndDevice>(result->release());
     }();
     return *made;
 }
