@@ -1,9 +1,8 @@
 // What a record says of an irregular quad, and its sides (docs/catmull_clark.md, "Borders"). Before the include: tables.glsl, basis.glsl,
-// frame.glsl, net.glsl and
-//   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
+// frame.glsl, net.glsl, what chain_place.glsl needs, and
 //   const bool kSharp                                 whether sides may be creases
-//   DEPTH_OF_INSTANCE                                 a macro, if an instance's pool says how far its chains go (lod/depth.comp)
 #include "shaders/exact/leaf.glsl"
+#include "shaders/exact/chain_place.glsl"
 
 struct IrregularQuad {
     uvec4 points, spokes, windows, sizes;
@@ -27,20 +26,9 @@ float sharpnessOf(IrregularQuad quad, uint side, uint level) {
 bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide + side) & 1u) != 0u; }
 bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.windows, corner) != 0u; }
 
-// The chain of a corner.
-struct Chain {
-    uint windows, points, size; // windows of its sector; pool index of the first point of level 2; points of a level
-    uint lastLevel;
-};
 Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
-    uint size = componentOf(quad.sizes, corner), last = size >> kChainLevelShift;
-#ifdef DEPTH_OF_INSTANCE
-    last = uint(poolPoint(at, push.pairs).x);
-#endif
-    return Chain(componentOf(quad.windows, corner), componentOf(quad.spokes, corner), size & ((1u << kChainLevelShift) - 1u), last);
+    return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), componentOf(quad.sizes, corner));
 }
-uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
-vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }
 
 // The frame of the quad, of derivatives along a corner's two edges.
 Frame turnedFrame(uint corner, vec3 da, vec3 db) {

@@ -1,9 +1,8 @@
 // What a record says of a triangle of a Loop patch, and its leaves (docs/loop.md). Before the include: tables.glsl, frame.glsl,
-// net.glsl and
-//   vec3 poolPoint(const PatchPlace at, uint i)       of the pool, as motion wants it
-//   DEPTH_OF_INSTANCE                                 a macro, if an instance's pool says how far its chains go (lod/depth.comp)
+// net.glsl and what chain_place.glsl needs.
 #include "shaders/exact/box_spline.glsl"
 #include "shaders/exact/chain_level.glsl"
+#include "shaders/exact/chain_place.glsl"
 
 struct Triangle {
     uvec4 corners; // limit points; then flags
@@ -39,17 +38,8 @@ LeafPoints cageLeaf(const PatchPlace at, Triangle t) {
     return leaf;
 }
 
-// The chain of a corner.
-struct Chain {
-    uint windows, points, size; // windows of its sector, 0 where there is none; pool index of the first point of level 2
-    uint lastLevel;
-};
 Chain chainOf(const PatchPlace at, Triangle t, uint corner) {
-    uint size = componentOf(t.sizes, corner), last = size >> kChainLevelShift;
-#ifdef DEPTH_OF_INSTANCE
-    last = uint(poolPoint(at, push.pairs).x);
-#endif
-    return Chain(componentOf(t.windows, corner), componentOf(t.chains, corner), size & ((1u << kChainLevelShift) - 1u), last);
+    return chainOf(at, componentOf(t.windows, corner), componentOf(t.chains, corner), componentOf(t.sizes, corner));
 }
 vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
 vec3 cornerNormal(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.normals, corner)); }
@@ -67,7 +57,7 @@ NetSource ownNet(const PatchPlace at, Triangle t) {
 }
 NetSource chainNet(const PatchPlace at, Triangle t, Chain chain, uint corner, uint level) {
     uint sides = (hasFlag(t, kSharpTriangleSide, corner) ? 1u : 0u) | (hasFlag(t, kSharpTriangleSide, lastOf(corner)) ? 4u : 0u);
-    return NetSource(chain.windows, chain.points + (level - 2u) * chain.size, sides, 0u, poolPoint(at, chain.points - 1u));
+    return NetSource(chain.windows, levelPoints(chain, level), sides, 0u, chainOrigin(at, chain));
 }
 // The points of the leaf in a cell, by their numbers in the net.
 const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),

@@ -12,7 +12,7 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 
-const uint kMostGroups = 65535u; // of a dispatch in x, on any device
+const uint kMostGroups = 65535u; // in x: every device takes so many
 
 shared uvec4 countsOf[kMaxLanes];
 
@@ -56,7 +56,8 @@ void main() {
         }
         places += listed;
     }
-    if (lane >= kDepths) return;
-    scratchWords[push.depths + kDepthCounts + lane] = counts[lane];
-    storeDispatch(push.depths + kDepthDispatches + 3u * lane, tableElement(push.table)[lane] * counts[lane]);
+    for (uint d = lane; d < kDepths; d += gl_WorkGroupSize.x) {
+        scratchWords[push.depths + kDepthCounts + d] = counts[d];
+        storeDispatch(push.depths + kDepthDispatches + 3u * d, tableElement(push.table)[d] * counts[d]);
+    }
 }
