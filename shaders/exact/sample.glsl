@@ -17,9 +17,8 @@ vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
     return poolPoint(at, net.first + ((k & 1u) == 0u ? halves & 0xFFFFu : halves >> 16u));
 }
 
-// A point of a side, at a pair of the quad's own parameter.
-vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
-    if (isCubic(quad, side)) return onCubic(sideCubic(at, quad, side), side, pair);
+// A point of a side that has two halves, at a pair of the quad's own parameter.
+vec3 pointOnHalves(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     bool far = pair.x > pair.y, alongU = (side & 1u) == 0u, rising = side < 2u;
     uint corner = far == rising ? (side + 1u) & 3u : side;
     Chain chain = chainOf(at, quad, corner);
@@ -62,6 +61,10 @@ vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
     if (way < 1.0) p = onCone(poolPoint(at, componentOf(quad.points, corner)), p, way);
 #endif
     return p;
+}
+vec3 sidePoint(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair) {
+    if (isCubic(quad, side)) return onCubic(sideCubic(at, quad, side), side, pair);
+    return pointOnHalves(at, quad, side, pair);
 }
 
 // The leaf in a cell, from the net's middle.

@@ -86,7 +86,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     vec3 p[5];
     p[0] = poolPoint(at, componentOf(quad.points, side < 2u ? side : (side + 1u) & 3u));
     p[4] = poolPoint(at, componentOf(quad.points, side < 2u ? side + 1u : side));
-    for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)));
+    [[unroll]] for (uint k = 1u; k < 4u; ++k) p[k] = pointOnHalves(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)));
     return quarteredCurve(p);
 }
 #elif defined(TRIANGLES)
@@ -110,7 +110,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     vec3 p[5];
     p[0] = cornerLimit(at, t, side);
     p[4] = cornerLimit(at, t, nextOf(side));
-    for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k))));
+    [[unroll]] for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k))));
     return quarteredCurve(p);
 }
 #else
