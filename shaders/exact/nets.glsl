@@ -412,13 +412,15 @@ NetWeights netWeights(bool second, LeafWeights l) {
 }
 void storeInCone(const PatchPlace at, Quarter q, ChainLevel l, uvec2 end) {
     float a = pairOf(q.place.corner & 1u, 1u).x, b = pairOf(1u - (q.place.corner & 1u), 1u).x, far = max(a, b);
-    float x = a >= b ? 1.0 : a / far, y = b >= a ? 1.0 : b / far;
+    precise float x = a >= b ? 1.0 : a / far, y = b >= a ? 1.0 : b / far;
     NetWeights wx = netWeights(a >= b, chainWeights(a >= b, x, l.sharpB)), wy = netWeights(b >= a, chainWeights(b >= a, y, l.sharpA));
-    vec3 offset = vec3(0.0), alongX = vec3(0.0), alongY = vec3(0.0);
+    precise vec3 offset = vec3(0.0);
+    vec3 alongX = vec3(0.0), alongY = vec3(0.0);
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
-        vec3 point = vec3(0.0), slope = vec3(0.0);
+        precise vec3 point = vec3(0.0);
+        vec3 slope = vec3(0.0);
         [[unroll]] for (uint j = 0u; j < kNetSide; ++j) {
-            vec3 d = l.net.p[kNetSide * j + i] - l.net.p[kNetMiddle];
+            precise vec3 d = l.net.p[kNetSide * j + i] - l.net.p[kNetMiddle];
             point += wy.w[j] * d;
             slope += wy.d[j] * d;
         }

@@ -107,8 +107,8 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 #ifdef LEVELS
         float far = max(a, b), rim = powerOfTwo(-float(chain.lastLevel));
         if (far > 0.0 && far < rim) {
-            precise float back = rim / far;
-            way = far * powerOfTwo(float(chain.lastLevel));
+            precise float back = rim / far, of = far * powerOfTwo(float(chain.lastLevel));
+            way = of;
             a = a == far ? rim : a * back, b = b == far ? rim : b * back;
         }
 #endif

@@ -50,9 +50,11 @@ const bool kSharp = true;
 vec3 coefficient(uint i, bool today) { return poolVector(i); }
 #include "shaders/pm/load.glsl"
 
+// Levels are the same to the bit whether or not back faces are looked for: all that leads to them is precise.
+
 // The net of a bicubic patch, row by row.
 vec3[16] bicubicNet(uint record, uint base, bool polar) {
-    vec3 g[16];
+    precise vec3 g[16];
     NetRecord net = netRecord(record);
     for (uint k = 0u; k < 16u; ++k) g[k] = poolVector(base + netIndex(net, polar, k));
     // Offsets from their corners (shared/surface.h); the rows of corners last. A polar patch has its apex all along row 3.
@@ -67,34 +69,42 @@ vec3[16] bicubicNet(uint record, uint base, bool polar) {
     return g;
 }
 
+// Of a row of a net: its larger second difference, and its length.
+vec2 measureOfRow(vec3 a, vec3 b, vec3 c, vec3 d) {
+    precise vec3 first = (a + c) - 2.0 * b, second = (b + d) - 2.0 * c, ab = b - a, bc = c - b, cd = d - c;
+    precise float rowLength = lengthOf(ab) + lengthOf(bc) + lengthOf(cd);
+    return vec2(max(lengthOf(first), lengthOf(second)), rowLength);
+}
 // What the inside of a bicubic patch asks for along u and along v: its net's largest second differences.
 vec2 bicubicLevels(vec3 g[16]) {
-    vec2 bend = vec2(0.0), curveLength = vec2(0.0);
+    vec2 alongU = vec2(0.0), alongV = vec2(0.0);
     for (uint k = 0u; k < 4u; ++k) {
-        vec3 a = g[4u * k], b = g[4u * k + 1u], c = g[4u * k + 2u], d = g[4u * k + 3u];
-        bend.x = max(bend.x, max(lengthOf(a - 2.0 * b + c), lengthOf(b - 2.0 * c + d)));
-        curveLength.x = max(curveLength.x, lengthOf(b - a) + lengthOf(c - b) + lengthOf(d - c));
-        a = g[k], b = g[4u + k], c = g[8u + k], d = g[12u + k];
-        bend.y = max(bend.y, max(lengthOf(a - 2.0 * b + c), lengthOf(b - 2.0 * c + d)));
-        curveLength.y = max(curveLength.y, lengthOf(b - a) + lengthOf(c - b) + lengthOf(d - c));
+        alongU = max(alongU, measureOfRow(g[4u * k], g[4u * k + 1u], g[4u * k + 2u], g[4u * k + 3u]));
+        alongV = max(alongV, measureOfRow(g[k], g[4u + k], g[8u + k], g[12u + k]));
     }
-    vec3 centre = 0.25 * ((g[0] + g[15]) + (g[3] + g[12]));
-    float pixels = pixelsPerUnit(centre, 0.25 * (curveLength.x + curveLength.y));
-    return vec2(levelOf(curveLength.x, bend.x, pixels), levelOf(curveLength.y, bend.y, pixels));
+    precise vec3 centre = 0.25 * ((g[0] + g[15]) + (g[3] + g[12]));
+    precise float radius = 0.25 * (alongU.y + alongV.y);
+    float pixels = pixelsPerUnit(centre, radius);
+    return vec2(levelOf(alongU.y, alongU.x, pixels), levelOf(alongV.y, alongV.x, pixels));
 }
 
 // And of a patch of sectors: how far its centre lies from the mean of its corners.
 float sectorLevel(uint record, uint sides, uint base) {
-    vec3 corners[5], mean = vec3(0.0);
+    vec3 corners[5];
+    precise vec3 mean = vec3(0.0);
     for (uint i = 0u; i < sides; ++i) {
         corners[i] = poolVector(base + pointIndex(record, i));
         mean += corners[i] / float(sides);
     }
     vec3 centre = poolVector(base + centreIndex(record, sides));
     float reach = 0.0;
-    for (uint i = 0u; i < sides; ++i) reach = max(reach, lengthOf(corners[i] - centre));
+    for (uint i = 0u; i < sides; ++i) {
+        precise vec3 away = corners[i] - centre;
+        reach = max(reach, lengthOf(away));
+    }
+    precise vec3 sag = mean - centre;
     // A cubic's second differences b make a sag of 3/4 b.
-    return levelOf(2.0 * reach, lengthOf(mean - centre) * (4.0 / 3.0), pixelsPerUnit(centre, reach));
+    return levelOf(2.0 * reach, lengthOf(sag) * (4.0 / 3.0), pixelsPerUnit(centre, reach));
 }
 
 // And of a blend of charts: along the middle, by quarters.
@@ -424,5 +434,6 @@ void main() {
     }
     countPatch(counted, run, form, priority, bin, weight);
     bool chains = patchClass == kLoopIrregularPatch || patchClass == kIrregularPatch || patchClass == kIrregularSharpPatch;
-    if (!kCubics && counted && chains) atomicMax(scratchWords[words + push.depths], floatBitsToUint(level));
+    // Of hidden parts too: what is drawn is the same with and without them.
+    if (!kCubics && inside && chains) atomicMax(scratchWords[words + push.depths], floatBitsToUint(level));
 }

@@ -321,8 +321,8 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
         end = timing.gpuEnd;
     }
     const std::vector<std::string> expected = {
-        "upload", "attributes", "pose",  "pose",  "pose",  "deform", "deform",     "bounds",   "bounds", "list",
-        "vertex", "assemble",   "level", "level", "solve", "place",  "attributes", "evaluate", "motion"};
+        "upload", "attributes", "pose",  "pose",  "pose",  "deform", "deform",   "bounds",     "bounds",   "list",
+        "vertex", "assemble",   "level", "level", "solve", "place",  "assemble", "attributes", "evaluate", "motion"};
     EXPECT_EQ(passes, expected);
     EXPECT_EQ(surfacesOf["evaluate"], (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(surfacesOf["deform"], (std::vector<uint32_t>{SUPPLE_NO_SURFACE, 0, 1, 2, 3, 4, 5, 6}));
