@@ -81,7 +81,8 @@ void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<
             const Window& window);
 
 /// Between passes the caller records a barrier from compute writes to compute reads. The order is vertex, assemble,
-/// levels, deepen, evaluate, motion. `patch` may come at any time after assemble, and `attributes` at any time after places.
+/// levels, deepen, evaluate, motion. `patch` may come at any time after assemble, and `attributes` at any time after
+/// places.
 struct Program {
     Steps vertex;     ///< output: limit points, tangents, ...
     Steps assemble;   ///< coefficients that need the output of `vertex`

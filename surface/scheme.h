@@ -30,10 +30,10 @@ struct Section {
 
 /// The passes that make coefficients from the deformed cage. A barrier separates them.
 enum class Stage : uint32_t {
-    vertex,  ///< one lane per cage vertex or sector. Subdivision: per vertex of the first step
+    vertex,   ///< one lane per cage vertex or sector. Subdivision: per vertex of the first step
     assemble, ///< needs the output of `vertex`. One lane per perturbed edge (p-rep), facet (P_m), vertex of the second
               ///< step (subdivision) or chart (blending surface on a subdivided cage)
-    deepen    ///< at levels of detail, when these are known: levels of chains, for the instances that have samples there
+    deepen ///< at levels of detail, when these are known: levels of chains, for the instances that have samples there
 };
 
 /// A kernel and what it is specialized to. Only schemes know which kinds a construction kernel has.

@@ -4,7 +4,7 @@
 float powerOfTwo(float n) { return uintBitsToFloat(uint(127 + int(n)) << 23u); }
 
 // At levels of detail samples come as near to a vertex as they like, but chains end. In the last cell at the vertex the surface is
-// a cone: a share of the way from the limit point to the cell's rim. On a border both patches do the same, for they have the same
+// a cone (docs/catmull_clark.md, (5)): a share of the way from the limit point to the cell's rim. On a border both patches do the same, for they have the same
 // vertex, and an instance has one last level.
 vec3 onCone(vec3 limit, vec3 rim, float share) {
     precise vec3 p = limit + share * (rim - limit);

@@ -21,7 +21,7 @@ uint depthOf(uint i, uint entry) {
     uint instance = entry & kInstanceSlotMask;
     float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + push.depths));
     level = clamp(level * uintBitsToFloat(lodWord(kLodSolution + 4u + SUPPLE_INSTANCE_PRIORITY(entry))), 1.0, 63.0);
-    // Of a level in (2^(n - 1), 2^n]: n.
+    // A level above 2^(n - 1), up to 2^n, gives n.
     return max((floatBitsToUint(level) - 1u >> 23u) - 126u, kFirstDepth - 1u);
 }
 uvec4 depthsOf(uint depth) {

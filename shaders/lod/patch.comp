@@ -69,7 +69,7 @@ vec3[16] bicubicNet(uint record, uint base, bool polar) {
     return g;
 }
 
-// Of a row of a net: its larger second difference, and its length.
+// The larger second difference of a row of a net, and its length.
 vec2 measureOfRow(vec3 a, vec3 b, vec3 c, vec3 d) {
     precise vec3 first = (a + c) - 2.0 * b, second = (b + d) - 2.0 * c, ab = b - a, bc = c - b, cd = d - c;
     precise float rowLength = lengthOf(ab) + lengthOf(bc) + lengthOf(cd);
@@ -434,6 +434,6 @@ void main() {
     }
     countPatch(counted, run, form, priority, bin, weight);
     bool chains = patchClass == kLoopIrregularPatch || patchClass == kIrregularPatch || patchClass == kIrregularSharpPatch;
-    // Of hidden parts too: what is drawn is the same with and without them.
+    // Patches of hidden parts count too, so that hiding a part changes no other one.
     if (!kCubics && inside && chains) atomicMax(scratchWords[words + push.depths], floatBitsToUint(level));
 }
