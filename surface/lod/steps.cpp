@@ -39,12 +39,12 @@ PatchKernel patchKernel(PatchClass patchClass) {
     return {Kernel::lodPatchCharts, Kernel::lodPatchCharts};
 }
 
-/// In an instance's scratch, behind a float an edge and the words of patches.
+/// Where the words of depths begin in an instance's scratch: behind a float an edge and the words of patches.
 uint32_t depthWords(const LodTables& tables) {
     return tables.edgeCount + shared::kLodPatchLevelWords * tables.patches.count;
 }
 
-/// Of `count` edges or patches from `first` on.
+/// The push constants for `count` edges or patches from `first` on.
 shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t count) {
     const Tables& tables = builder.tables;
     shared::LodPush push{};
