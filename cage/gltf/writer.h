@@ -21,7 +21,8 @@ struct GlbFile {
 
 /// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.
 ///
-/// Polygons, creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles
+/// A part has one primitive per material, in the order of their first faces; faces keep their order in it. Polygons,
+/// creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles
 /// that other viewers show follow FB_ngon_encoding. Materials are those of glTF 2.0's core, with emissive strength,
 /// unlit and texture transforms; extensions that Supple does not read are not written. Images that no material uses are
 /// left out. So are images in a format that glTF does not know, and clips without channels, which glTF forbids; a
