@@ -1,9 +1,14 @@
 #include "cage/gltf/bind_space.h"
 
+#include "cage/limits.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace supple::cage::gltf {
 namespace {
@@ -21,6 +26,22 @@ glm::dmat4 localOf(const Node& node) {
 bool isUsable(const glm::dmat4& matrix) {
     const double determinant = glm::determinant(glm::dmat3(matrix));
     return std::isfinite(determinant) && std::abs(determinant) > 1e-30;
+}
+
+bool areCoordinates(const glm::mat4& matrix) {
+    return faultOfCoordinates(&matrix[0][0], 16) == nullptr;
+}
+/// Points (w = 1) or displacements (w = 0) at their place; nothing if one is too far to be read again.
+std::optional<std::vector<glm::vec3>> taken(const std::vector<glm::vec3>& from, const glm::dmat4& place, double w) {
+    std::vector<glm::vec3> to;
+    to.reserve(from.size());
+    for (const glm::vec3& vector : from) {
+        to.emplace_back(place * glm::dvec4(vector, w));
+        if (faultOfCoordinates(&to.back().x, 3) != nullptr) {
+            return std::nullopt;
+        }
+    }
+    return to;
 }
 
 } // namespace
@@ -59,8 +80,22 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
     if (!isUsable(place) || (alone_ && !mirrored)) {
         return;
     }
-    for (glm::vec3& position : part.cage.positions) {
-        position = glm::vec3(place * glm::dvec4(position, 1.0));
+    const glm::mat4 bind(glm::inverse(place));
+    std::optional<std::vector<glm::vec3>> positions = taken(part.cage.positions, place, 1.0);
+    std::vector<std::vector<glm::vec3>> deltas;
+    for (const MorphTarget& target : part.morphs.targets) {
+        std::optional<std::vector<glm::vec3>> of = taken(target.deltas, place, 0.0);
+        if (!of) {
+            return;
+        }
+        deltas.push_back(std::move(*of));
+    }
+    if (!positions || !areCoordinates(bind)) {
+        return;
+    }
+    part.cage.positions = std::move(*positions);
+    for (size_t i = 0; i < deltas.size(); ++i) {
+        part.morphs.targets[i].deltas = std::move(deltas[i]);
     }
     const glm::dmat3 normals = glm::transpose(glm::inverse(glm::dmat3(place)));
     for (glm::vec3& normal : part.cage.cornerNormals) {
@@ -72,15 +107,10 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
         const bool none = glm::vec3(tangent) == glm::vec3(0.0f);
         tangent = none ? tangent : glm::vec4(glm::normalize(placed), mirrored ? -tangent.w : tangent.w);
     }
-    for (MorphTarget& target : part.morphs.targets) {
-        for (glm::vec3& delta : target.deltas) {
-            delta = glm::vec3(glm::dmat3(place) * glm::dvec3(delta));
-        }
-    }
     if (mirrored) {
         reverseFaces(part.cage);
     }
-    skin.inverseBinds[0] = glm::mat4(glm::inverse(place));
+    skin.inverseBinds[0] = bind;
 }
 
 } // namespace supple::cage::gltf

@@ -23,7 +23,8 @@ public:
               std::span<const Skin> skins);
 
     /// Takes a part without a skin to its place: positions, displacements, faces where the place is mirrored, and the
-    /// inverse bind matrix. Does nothing to parts with a skin, and to a mesh that is alone and not mirrored.
+    /// inverse bind matrix. Does nothing to parts with a skin, to a mesh that is alone and not mirrored,
+    /// and where numbers would not be coordinates any more (kMaxCoordinate).
     void place(PartCage& part, Skin& skin) const;
 
 private:

@@ -44,7 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     options.creasesFromNormals = choice / 12 % 2 == 0;
     options.sewParts = choice / 24 % 2 == 0;
     options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
-        fuzz::demand(!path.empty() && path.front() != '/' && path.find("..") != 0, "a path that leaves the folder");
+        fuzz::demand(!path.empty() && path.front() != '/' && ("/" + path + "/").find("/../") == std::string::npos,
+                     "a path that leaves the folder");
         return std::vector<std::byte>(100);
     };
     const Result<cage::Character> character = cage::readGltf(fuzz::bytesOf(data, size), "fuzz.glb", "", options);

@@ -77,7 +77,8 @@ Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& work
 
 Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<FrameTimes>& frames) {
     Json passes = Json::array();
-    for (const auto& [name, unused] : frames.front().passes) {
+    for (const auto& pass : frames.front().passes) {
+        const std::string& name = pass.first;
         passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const FrameTimes& f) { return f.of(name); })}});
     }
     return {{"scheme", tools::schemeName(scheme)},

@@ -91,6 +91,23 @@ TEST(GltfParts, AMirroredNodeTurnsItsFaces) {
     EXPECT_EQ(face(c.cage, 6), (std::vector<uint32_t>{12, 13, 14}));
 }
 
+TEST(GltfParts, APlaceThatIsTooFarIsNotTaken) {
+    const auto plate = [](const std::string& matrix) {
+        GltfBuilder b = fourParts();
+        b.nodes = replaced(b.nodes, R"("name":"twin",)", R"("matrix":)" + matrix + ",");
+        const Character c = readWell(b.glb(), {.sewParts = false, .pairing = Pairing::never});
+        const Result<GlbFile> written = writeGlb(c);
+        EXPECT_TRUE(written.ok() && readGltf(written->bytes, "again.glb", "").ok()) << matrix;
+        return c;
+    };
+    EXPECT_EQ(plate("[1,0,0,0,0,1,0,0,0,0,1,0,2,0,0,1]").cage.positions[12], glm::vec3(2, 0, 0));
+    for (const char* matrix : {"[6e8,0,0,0,0,1,0,0,0,0,1,0,6e8,0,0,1]", "[1,1e6,0,0,0,1,1e6,0,0,0,1,0,0,0,0,1]"}) {
+        const Character c = plate(matrix);
+        EXPECT_EQ(c.cage.positions[12], glm::vec3(0, 0, 0)) << matrix;
+        EXPECT_EQ(c.skin.inverseBinds[3], glm::mat4(1.0f)) << matrix;
+    }
+}
+
 TEST(GltfParts, PartsWithoutTrianglesAreNamed) {
     GltfBuilder b = fourParts();
     b.meshes = replaced(b.meshes, R"("name":"plate","primitives":[{)", R"("name":"plate","primitives":[{"mode":0,)");
