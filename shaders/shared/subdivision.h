@@ -8,9 +8,11 @@
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
 //
 // Tables
-//   stencil records    (cage vertex, first element of the entries, entries, pool index), by number of entries; the blending
-//                      surface has them, too, where its cage takes a step of subdivision first
-//   stencil entries    two an element: (cage vertex, weight, cage vertex, weight)
+//   stencil records    (first vertex, element of the other vertices, how many these are, pool index), by number of vertices; then
+//                      a word for each record, the element of its weights; the blending surface has them, too, where its cage
+//                      takes a step of subdivision first
+//   stencil vertices   four an element
+//   stencil weights    four an element; rows with the same weights share them
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
 //   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | turns from the first

@@ -8,14 +8,20 @@
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item);
-    uvec4 record = tableElement(push.table + elementOf(item));
+    uint row = elementOf(item);
+    uvec4 record = tableElement(push.table + row);
+    uint weightList = tableWord(4u * (push.table + push.count) + row);
     vec3 first = vertexAt(instance, record.x);
     precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < record.z; i += 2u) {
-        uvec4 entries = tableElement(record.y + i / 2u);
-        precise vec3 a = vertexAt(instance, entries.x) - first, b = vertexAt(instance, entries.z) - first;
-        sum = sum + uintBitsToFloat(entries.y) * a;
-        sum = sum + uintBitsToFloat(entries.w) * b;
+    for (uint i = 0u; i < record.z; i += 2u) { // two at a time: most lists have 3, 5, or 8
+        uvec4 four = tableElement(record.y + i / 4u);
+        vec4 weights = uintBitsToFloat(tableElement(weightList + i / 4u));
+        bool later = (i & 2u) != 0u;
+        uvec2 vertices = later ? four.zw : four.xy;
+        vec2 w = later ? weights.zw : weights.xy;
+        precise vec3 a = vertexAt(instance, vertices.x) - first, b = vertexAt(instance, vertices.y) - first;
+        sum = sum + w.x * a;
+        sum = sum + w.y * b;
     }
     precise vec3 p = first + sum;
     storePool(instance * push.poolStride + record.w, p);
