@@ -19,6 +19,11 @@ thread_local uint64_t counted = 0;
     }
     throw std::bad_alloc();
 }
+// std::stable_sort takes this one.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    counted += counting ? 1 : 0;
+    return std::malloc(size == 0 ? 1 : size);
+}
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
     counted += counting ? 1 : 0;
     const auto a = static_cast<std::size_t>(alignment);

@@ -80,8 +80,9 @@ std::string byRate(const std::vector<const Json*>& rows, const char* list, const
     for (const Json* row : rows) {
         first.push_back("rate " + row->at("rate").dump());
         for (const Json& entry : row->at(list)) {
-            if (std::find(names.begin(), names.end(), entry["name"]) == names.end()) {
-                names.push_back(entry["name"]);
+            const auto name = entry["name"].get<std::string>();
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                names.push_back(name);
             }
         }
     }
