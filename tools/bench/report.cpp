@@ -323,8 +323,9 @@ std::string toTables(const Json& result) {
     out += "\n";
     std::vector<std::string> cages;
     for (const Json& row : result["rows"]) {
-        if (std::find(cages.begin(), cages.end(), row["cage"]) == cages.end()) {
-            cages.push_back(row["cage"]);
+        const auto cage = row["cage"].get<std::string>();
+        if (std::find(cages.begin(), cages.end(), cage) == cages.end()) {
+            cages.push_back(cage);
             out += cageTables(result, cages.back());
         }
     }
