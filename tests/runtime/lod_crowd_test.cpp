@@ -569,7 +569,8 @@ void comeCloser(CrowdContext& context, uint32_t heroes) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> depth(32.0f, 230.0f), aside(-60.0f, 60.0f);
     for (uint32_t i = 0; i < kInstances; ++i) {
-        glm::vec3 at(aside(random), 0.0f, -depth(random));
+        const float z = -depth(random), x = aside(random); // one by one: compilers differ in the order of arguments
+        glm::vec3 at(x, 0.0f, z);
         const SuppleInstance instance = crowd.spawn();
         if (i < heroes) {
             at = {8.0f * (static_cast<float>(i) - 2.0f), 0.0f, -45.0f};
