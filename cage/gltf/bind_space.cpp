@@ -28,9 +28,6 @@ bool isUsable(const glm::dmat4& matrix) {
     return std::isfinite(determinant) && std::abs(determinant) > 1e-30;
 }
 
-bool areCoordinates(const glm::mat4& matrix) {
-    return faultOfCoordinates(&matrix[0][0], 16) == nullptr;
-}
 /// Points (w = 1) or displacements (w = 0) at their place; nothing if one is too far to be read again.
 std::optional<std::vector<glm::vec3>> taken(const std::vector<glm::vec3>& from, const glm::dmat4& place, double w) {
     std::vector<glm::vec3> to;
@@ -71,14 +68,14 @@ glm::dmat4 BindSpace::placeOf(uint32_t node) const {
     return place;
 }
 
-void BindSpace::place(PartCage& part, Skin& skin) const {
+bool BindSpace::place(PartCage& part, Skin& skin) const {
     if (document_.model.nodes[part.part.node].skin >= 0) {
-        return;
+        return true;
     }
     const glm::dmat4 place = placeOf(part.part.node);
     const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
     if (!isUsable(place) || (alone_ && !mirrored)) {
-        return;
+        return true;
     }
     const glm::mat4 bind(glm::inverse(place));
     std::optional<std::vector<glm::vec3>> positions = taken(part.cage.positions, place, 1.0);
@@ -86,12 +83,12 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
     for (const MorphTarget& target : part.morphs.targets) {
         std::optional<std::vector<glm::vec3>> of = taken(target.deltas, place, 0.0);
         if (!of) {
-            return;
+            return false;
         }
         deltas.push_back(std::move(*of));
     }
-    if (!positions || !areCoordinates(bind)) {
-        return;
+    if (!positions || faultOfCoordinates(&bind[0][0], 16) != nullptr) {
+        return false;
     }
     part.cage.positions = std::move(*positions);
     for (size_t i = 0; i < deltas.size(); ++i) {
@@ -111,6 +108,7 @@ void BindSpace::place(PartCage& part, Skin& skin) const {
         reverseFaces(part.cage);
     }
     skin.inverseBinds[0] = bind;
+    return true;
 }
 
 } // namespace supple::cage::gltf

@@ -23,9 +23,9 @@ public:
               std::span<const Skin> skins);
 
     /// Takes a part without a skin to its place: positions, displacements, faces where the place is mirrored, and the
-    /// inverse bind matrix. Does nothing to parts with a skin, to a mesh that is alone and not mirrored,
-    /// and where numbers would not be coordinates any more (kMaxCoordinate).
-    void place(PartCage& part, Skin& skin) const;
+    /// inverse bind matrix. Does nothing to parts with a skin, and to a mesh that is alone and not mirrored.
+    /// Returns false, and does nothing, if numbers would not be coordinates any more (kMaxCoordinate).
+    [[nodiscard]] bool place(PartCage& part, Skin& skin) const;
 
 private:
     [[nodiscard]] glm::dmat4 placeOf(uint32_t node) const;

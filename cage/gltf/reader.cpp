@@ -123,7 +123,10 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
             whyEmpty.insert(part.whyEmpty);
             continue;
         }
-        bindSpace.place(part, skins[i]);
+        if (!bindSpace.place(part, skins[i])) {
+            warn(character.warnings, at("node", nodes[i]),
+                 "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
+        }
         part.part.joints = palette.add(skins[i]);
         parts.push_back(std::move(part));
     }
