@@ -1,17 +1,21 @@
-// Calls of the public API in any order, most of them right: the input chooses which, of what and when, and whether the
-// device is lost on the way. Every call comes back with a result that it may have, and what is destroyed leaves no
-// memory on the device.
+// Calls of the public API in any order, most of them right: the input chooses which, of what and when, whether groups
+// have threads of their own in a frame, and whether the device is lost on the way. Every call comes back with a result
+// that it may have, and what is destroyed leaves no memory on the device.
 #include "cage/gltf/writer.h"
 #include "host/context.h"
 #include "host/device.h"
 #include "tests/fault/vulkan_faults.h"
 #include "tests/fuzz/kept_pipelines.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/recorder.h"
 #include "tests/support/rigged_tube.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace supple::fuzz {
@@ -70,6 +74,14 @@ public:
     T& of(std::vector<T>& values) {
         return values[below(static_cast<uint32_t>(values.size()))];
     }
+    /// The next `count` choices, for somebody else.
+    Choices take(size_t count) {
+        const size_t taken = std::min(count, left_);
+        const Choices theirs(data_, taken);
+        data_ += taken;
+        left_ -= taken;
+        return theirs;
+    }
 
 private:
     const uint8_t* data_;
@@ -102,8 +114,8 @@ public:
         for (uint32_t step = 0; step < 96 && choose_.any(); ++step) {
             act();
         }
-        for (const SuppleGroup group : groups_) {
-            check(suppleDestroyGroup(context_, group));
+        for (const Group& group : groups_) {
+            check(suppleDestroyGroup(context_, group.handle));
         }
         for (const SuppleAsset asset : assets_) {
             check(suppleDestroyAsset(context_, asset));
@@ -114,9 +126,20 @@ public:
     }
 
 private:
+    /// A group and those that follow it are one family: one thread at a time may use them.
+    struct Group {
+        SuppleGroup handle;
+        uint32_t family;
+    };
     struct Instance {
         SuppleInstance handle;
-        SupplePoseSource source;
+        uint32_t family;
+    };
+    /// What a thread works on.
+    struct Family {
+        Choices choose;
+        std::vector<SuppleGroup> groups;
+        std::vector<SuppleInstance> instances, created;
     };
 
     [[nodiscard]] uint64_t memory() const {
@@ -167,14 +190,18 @@ private:
         desc.flags = choose_.below(64);
         desc.poseSource = static_cast<SupplePoseSource>(choose_.below(4));
         desc.skinning = static_cast<SuppleSkinning>(choose_.below(2));
+        uint32_t family = families_;
         if (!groups_.empty() && choose_.below(8) == 1) {
-            desc.instancesOf = choose_.of(groups_);
+            const Group& followed = choose_.of(groups_);
+            desc.instancesOf = followed.handle;
             desc.capacity = 0;
+            family = followed.family;
         }
         SuppleGroup group{};
         check(suppleCreateGroup(context_, &desc, &group));
         if (group.id != 0) {
-            groups_.push_back(group);
+            groups_.push_back({group, family});
+            families_ = std::max(families_, family + 1);
         }
     }
 
@@ -183,35 +210,120 @@ private:
         const uint64_t behind = 1 + choose_.below(framesInFlight_);
         check(suppleBeginFrame(context_, frame_, std::max(completed_, frame_ - std::min(frame_, behind))));
         completed_ = std::max(completed_, frame_ - std::min(frame_, behind));
-        if (choose_.below(8) == 1) {
+        switch (choose_.below(8)) {
+        case 1:
             check(suppleCancelFrame(context_));
-            return;
+            break;
+        case 2:
+            recordOnThreads();
+            break;
+        default:
+            recordAlone();
+            break;
         }
+    }
+
+    void record(VkCommandBuffer commands, std::span<const SuppleGroup> groups, Choices& choose) {
         SuppleRecordDesc desc{};
         desc.structSize = sizeof(desc);
-        desc.groups = groups_.data();
-        desc.groupCount = static_cast<uint32_t>(groups_.size());
-        desc.flags = choose_.below(2) == 1 ? SUPPLE_RECORD_TIMINGS : 0;
+        desc.groups = groups.data();
+        desc.groupCount = static_cast<uint32_t>(groups.size());
+        desc.flags = choose.below(2) == 1 ? SUPPLE_RECORD_TIMINGS : 0;
         desc.before = desc.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                     VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+        check(suppleRecord(context_, commands, &desc));
+    }
+
+    void recordAlone() {
+        std::vector<SuppleGroup> groups;
+        for (const Group& group : groups_) {
+            groups.push_back(group.handle);
+        }
         const Status submitted = device().submitAndWait([&](VkCommandBuffer commands) {
             if (choose_.below(3) == 1) {
                 check(suppleRecordUploads(context_, commands));
             }
-            check(suppleRecord(context_, commands, &desc));
+            record(commands, groups, choose_);
         });
         demand(submitted.ok(), "a frame cannot be submitted");
     }
 
-    void actOnInstance() {
-        const SuppleInstance instance = choose_.of(instances_);
+    /// Every family changes its instances and records its groups on a thread of its own.
+    void recordOnThreads() {
+        std::map<uint32_t, Family> families;
+        for (const Group& group : groups_) {
+            const auto [family, isNew] = families.try_emplace(group.family, Family{Choices(nullptr, 0), {}, {}, {}});
+            if (isNew) {
+                family->second.choose = choose_.take(16);
+            }
+            family->second.groups.push_back(group.handle);
+        }
+        for (const Instance& instance : instances_) {
+            if (const auto family = families.find(instance.family); family != families.end()) {
+                family->second.instances.push_back(instance.handle);
+            }
+        }
+        std::vector<std::unique_ptr<test::Recorder>> recorders;
+        recorders.push_back(std::make_unique<test::Recorder>(device()));
+        check(suppleRecordUploads(context_, recorders[0]->begin()));
+        recorders[0]->end();
+        {
+            std::vector<std::jthread> threads;
+            for (auto& [number, family] : families) {
+                recorders.push_back(std::make_unique<test::Recorder>(device()));
+                threads.emplace_back([this, &mine = family, &recorder = *recorders.back()] { work(mine, recorder); });
+            }
+        }
+        for (const auto& [number, family] : families) {
+            for (const SuppleInstance instance : family.created) {
+                instances_.push_back({instance, number});
+            }
+        }
+        submit(recorders);
+    }
+
+    /// On a thread of its own.
+    void work(Family& family, test::Recorder& recorder) {
+        for (uint32_t step = 0; step < 4; ++step) {
+            if (family.instances.empty() || family.choose.below(4) == 1) {
+                family.created.push_back(createInstance(family.choose.of(family.groups)));
+                family.instances.push_back(family.created.back());
+            } else {
+                actOnInstance(family.choose, family.choose.of(family.instances));
+            }
+        }
+        record(recorder.begin(), family.groups, family.choose);
+        recorder.end();
+    }
+
+    static void submit(const std::vector<std::unique_ptr<test::Recorder>>& recorders) {
+        std::vector<VkCommandBuffer> commands;
+        for (const std::unique_ptr<test::Recorder>& recorder : recorders) {
+            commands.push_back(recorder->handle());
+        }
+        VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        submit.commandBufferCount = static_cast<uint32_t>(commands.size());
+        submit.pCommandBuffers = commands.data();
+        demand(vkQueueSubmit(device().queue(), 1, &submit, VK_NULL_HANDLE) == VK_SUCCESS &&
+                   vkQueueWaitIdle(device().queue()) == VK_SUCCESS,
+               "a frame of several threads cannot be submitted");
+    }
+
+    SuppleInstance createInstance(SuppleGroup group) {
+        SuppleInstance instance{};
+        check(suppleCreateInstance(context_, group, &instance));
+        return instance;
+    }
+
+    void actOnInstance(Choices& choose, SuppleInstance instance) {
+        float pose[16];
         const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        switch (choose_.below(10)) {
+        switch (choose.below(10)) {
         case 0:
-            check(suppleSetClipPose(context_, instance, choose_.below(2) == 1 ? SUPPLE_BIND_POSE : 0, 0.5));
+            check(suppleSetClipPose(context_, instance, choose.below(2) == 1 ? SUPPLE_BIND_POSE : 0, 0.5));
             break;
         case 8:
-            play(instance);
+            play(choose, instance);
             break;
         case 9: {
             const float weights[] = {0.5f, 1.0f};
@@ -222,13 +334,14 @@ private:
             check(suppleSetTransform(context_, instance, matrix));
             break;
         case 2:
-            check(suppleSetVisible(context_, instance, choose_.below(2)));
+            check(suppleSetVisible(context_, instance, choose.below(2)));
             break;
         case 3:
-            check(suppleSetPartVisible(context_, instance, 0, choose_.below(2)));
+            check(suppleSetPartVisible(context_, instance, 0, choose.below(2)));
             break;
         case 4:
             check(suppleTeleport(context_, instance));
+            check(suppleGetJointTransform(context_, instance, choose.below(kTubeJoints), pose));
             break;
         case 5:
             check(suppleSetMatrixPose(context_, instance, matrix, 1));
@@ -242,20 +355,17 @@ private:
         }
     }
 
-    void play(SuppleInstance instance) {
+    void play(Choices& choose, SuppleInstance instance) {
         SupplePlaybackLayer layers[2]{};
         for (SupplePlaybackLayer& layer : layers) {
             layer.weight = layer.speed = 1.0f;
-            layer.offset = choose_.below(4);
+            layer.offset = choose.below(4);
         }
         SupplePlaybackDesc desc{};
         desc.structSize = sizeof(desc);
         desc.layers = layers;
-        desc.layerCount = 1 + choose_.below(2);
+        desc.layerCount = 1 + choose.below(2);
         check(suppleSetPlayback(context_, instance, &desc));
-        if (!groups_.empty()) {
-            check(suppleSetTime(context_, choose_.of(groups_), choose_.below(8)));
-        }
     }
 
     void act() {
@@ -272,25 +382,24 @@ private:
             break;
         case 2:
             if (!groups_.empty()) {
-                SuppleInstance instance{};
-                check(suppleCreateInstance(context_, choose_.of(groups_), &instance));
-                instances_.push_back(instance);
+                const Group& group = choose_.of(groups_);
+                instances_.push_back({createInstance(group.handle), group.family});
             }
             break;
         case 3:
             if (!groups_.empty()) {
-                check(suppleSetCapacity(context_, choose_.of(groups_), 1 + choose_.below(4)));
+                check(suppleSetCapacity(context_, choose_.of(groups_).handle, 1 + choose_.below(4)));
             }
             break;
         case 4:
             if (!groups_.empty()) {
-                check(suppleSetRate(context_, choose_.of(groups_), 1 + choose_.below(4)));
+                check(suppleSetRate(context_, choose_.of(groups_).handle, 1 + choose_.below(4)));
             }
             break;
         case 5:
             if (!groups_.empty() && choose_.below(3) == 1) {
-                SuppleGroup& group = choose_.of(groups_);
-                check(suppleDestroyGroup(context_, group));
+                Group& group = choose_.of(groups_);
+                check(suppleDestroyGroup(context_, group.handle));
                 std::swap(group, groups_.back());
                 groups_.pop_back();
             }
@@ -299,9 +408,14 @@ private:
         case 7:
             frame();
             break;
+        case 8:
+            if (!groups_.empty()) {
+                check(suppleSetTime(context_, choose_.of(groups_).handle, choose_.below(8)));
+            }
+            [[fallthrough]];
         default:
             if (!instances_.empty()) {
-                actOnInstance();
+                actOnInstance(choose_, choose_.of(instances_).handle);
             }
             break;
         }
@@ -313,8 +427,9 @@ private:
     uint64_t frame_ = 0, completed_ = 0;
     bool mayBeLost_ = false;
     std::vector<SuppleAsset> assets_;
-    std::vector<SuppleGroup> groups_;
-    std::vector<SuppleInstance> instances_;
+    uint32_t families_ = 0;
+    std::vector<Group> groups_;
+    std::vector<Instance> instances_;
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 // Groups recorded and posed on several threads at the same time: the bits of one thread.
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
+#include "tests/support/recorder.h"
 
 #include <algorithm>
 #include <barrier>
@@ -14,39 +15,6 @@ namespace {
 
 constexpr uint32_t kFrames = 24;
 constexpr uint32_t kCapacity = 3;
-
-/// A command buffer of a thread's own.
-class Recorder {
-public:
-    explicit Recorder(const host::Device& device) : device_(device.handle()) {
-        const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
-                                               device.queueFamily()};
-        EXPECT_EQ(vkCreateCommandPool(device_, &poolInfo, nullptr, &pool_), VK_SUCCESS);
-        VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-        info.commandPool = pool_;
-        info.commandBufferCount = 1;
-        EXPECT_EQ(vkAllocateCommandBuffers(device_, &info, &commands_), VK_SUCCESS);
-    }
-    ~Recorder() { vkDestroyCommandPool(device_, pool_, nullptr); }
-    Recorder(const Recorder&) = delete;
-    Recorder& operator=(const Recorder&) = delete;
-
-    /// Nothing recorded before may be pending.
-    VkCommandBuffer begin() {
-        vkResetCommandPool(device_, pool_, 0);
-        VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        vkBeginCommandBuffer(commands_, &info);
-        return commands_;
-    }
-    void end() { vkEndCommandBuffer(commands_); }
-    [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
-
-private:
-    VkDevice device_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-};
 
 /// What a frame does to a group's instances: poses, transforms, who is there and who is seen.
 void change(SuppleContext context, uint32_t g, uint32_t frame, SmallGroup& group) {
