@@ -187,7 +187,7 @@ private:
         std::vector<uint32_t> curves; // elements
         for (size_t i = 0; i < order.size() && tables_.uvMode != cage::UvMode::all; ++i) {
             const Side& side = edges_[order[i]].sides[edges_[order[i]].taken];
-            if (tables_.uvQuads) {
+            if (tables_.uvLeaves) {
                 curves.push_back(uvElement(side.patch, 0));
                 continue;
             }
@@ -210,7 +210,7 @@ private:
     /// The first table element of a patch's smooth texture coordinates.
     [[nodiscard]] uint32_t uvElement(uint32_t patch, uint32_t set) const {
         const PatchRange& range = rangeOf(tables_, patch);
-        const uint32_t each = tables_.uvQuads ? shared::kExactRecordElements : uvElements(range.patchClass);
+        const uint32_t each = tables_.uvLeaves ? shared::kExactRecordElements : uvElements(range.patchClass);
         return range.smoothUvs + each * (tables_.uvSets * (patch - range.firstPatch) + set);
     }
 

@@ -151,8 +151,9 @@ struct Tables {
     uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the edge classes
     uint32_t uvSets = 1;
     cage::UvMode uvMode =
-        cage::UvMode::all;   ///< all: texture coordinates are linear, and the tables have no smooth ones
-    bool uvQuads = false;    ///< smooth texture coordinates are quads of leaves, whatever the classes of patches
+        cage::UvMode::all; ///< all: texture coordinates are linear, and the tables have no smooth ones
+    /// Smooth texture coordinates are quads or triangles of leaves, whatever the classes of patches.
+    bool uvLeaves = false;
     bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
     bool mapFrames = false;  ///< corners have the frame of their material's normal map (cage::MapFrame)
     uint32_t attributes = 0; ///< first element of the corner attributes, which come last

@@ -23,7 +23,7 @@ constexpr Scheme kSchemes[] = {
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kLinearUvs, false,
+    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
@@ -104,14 +104,11 @@ const Scheme& schemeOf(SchemeId id) {
     return found != std::end(kSchemes) ? *found : kLoopFragments;
 }
 
-Drawer drawerOf(SchemeId asked, const cage::Cage& cage, bool smoothUvs) {
-    if (asked != SchemeId::loop) {
-        return {asked, ""};
-    }
-    if (cage::hasSemiSharpCreases(cage)) {
+Drawer drawerOf(SchemeId asked, const cage::Cage& cage) {
+    if (asked == SchemeId::loop && cage::hasSemiSharpCreases(cage)) {
         return {SchemeId::loopFragments, "creases are semi-sharp"};
     }
-    return smoothUvs ? Drawer{SchemeId::loopFragments, "texture coordinates are smooth"} : Drawer{asked, ""};
+    return {asked, ""};
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

@@ -119,7 +119,11 @@ struct AttributeKernel {
 };
 AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, bool levels) {
     const PatchClassRow& row = rowOf(patchClass);
-    if (tables.uvQuads) {
+    if (tables.uvLeaves) {
+        if (row.domain == Domain::triangle) {
+            return {levels ? Kernel::evaluateAttributesLevelsRingsTriangles : Kernel::evaluateAttributesTriangles,
+                    static_cast<uint32_t>(row.domain)};
+        }
         return {levels ? Kernel::evaluateAttributesLevelsQuads : Kernel::evaluateAttributesQuads,
                 static_cast<uint32_t>(row.domain)};
     }
@@ -193,7 +197,7 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
 
 void addEdgeAttributes(ProgramBuilder& builder) {
     const MeshTables& mesh = builder.tables.mesh;
-    const Kernel which = builder.tables.uvQuads ? Kernel::evaluateAttributesQuads : Kernel::evaluateAttributes;
+    const Kernel which = builder.tables.uvLeaves ? Kernel::evaluateAttributesQuads : Kernel::evaluateAttributes;
     const gpu::Kernel kernel = builder.kernel(SetKind::attributes, which,
                                               {{kKindConstant, kEdgeDomain}, {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of edges");

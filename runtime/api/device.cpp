@@ -35,6 +35,8 @@ const char* suppleResultString(SuppleResult result) {
         return "SUPPLE_ERROR_DEVICE_LOST";
     case SUPPLE_ERROR_VULKAN:
         return "SUPPLE_ERROR_VULKAN";
+    case SUPPLE_RESULT_MAX_ENUM:
+        break;
     }
     return "unknown SuppleResult";
 }

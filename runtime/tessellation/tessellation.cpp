@@ -89,9 +89,7 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
     }
     TessellationDesc desc = asked;
     const cage::Cage& cage = desc.asset->cageOf(desc.piece);
-    const bool smoothUvs = wantsAttributes(desc.group, desc.view.get()) && !cage.cornerUvs.empty() &&
-                           uvModeOf(desc, wantedBy(desc)) != cage::UvMode::all;
-    desc.drawer = surface::drawerOf(static_cast<surface::SchemeId>(desc.group.scheme), cage, smoothUvs);
+    desc.drawer = surface::drawerOf(static_cast<surface::SchemeId>(desc.group.scheme), cage);
     const surface::Scheme& row = surface::schemeOf(desc.drawer.scheme);
     if (desc.view != nullptr && !row.hasLevels && !row.hasRates()) {
         return Error{ErrorCode::argument,

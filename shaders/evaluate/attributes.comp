@@ -5,6 +5,7 @@
 // With a macro of smooth_uvs.glsl texture coordinates are smooth; colors and face UVs stay linear.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/pm.h"
 #include "shaders/evaluate/pairs.glsl"
@@ -14,7 +15,7 @@
 #include "shaders/evaluate/pentagon.glsl"
 #include "shaders/lod/record.glsl"
 
-#if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES) || defined(QUADS)
+#if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES) || defined(QUADS) || defined(TRIANGLES)
 #define SMOOTH
 #include "shaders/evaluate/smooth_uvs.glsl"
 #else

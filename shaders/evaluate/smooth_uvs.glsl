@@ -3,8 +3,9 @@
 //   BICUBIC   regular, perturbed and polar patches
 //   SECTORS   P_3, P_4 and P_5
 //   BLEND     the blending surface
-//   SAMPLES   Catmull-Clark and Loop: the samples of a rate themselves
-//   QUADS     exact patches: quads of leaves, all of the form of irregular ones
+//   SAMPLES   fragments of Catmull-Clark and Loop: the samples of a rate themselves
+//   QUADS     exact Catmull-Clark patches: quads of leaves, all of the form of irregular ones
+//   TRIANGLES Loop patches: likewise, triangles
 // For each there are SmoothPatch, which a lane loads once, SmoothPlace, where a sample lies in it, and smoothAt().
 
 const bool kTangents = true;
@@ -223,4 +224,46 @@ SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
     sampleOnSide(PatchPlace(first), side, t, position, frame);
     return smoothUv(position, frame);
 }
+#endif
+
+#ifdef TRIANGLES
+#include "shaders/shared/exact.h"
+#include "shaders/surface/net.glsl"
+const uint kDomain = kTriangleDomain;
+
+struct PatchPlace {
+    uint record;
+};
+vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
+#include "shaders/exact/triangle_sample.glsl"
+#include "shaders/exact/triangle_place.glsl"
+
+// Records begin with the corners: no side is whole, so that none asks for the vertices round the triangle.
+const uint kSmoothElements = kIrregularTriangleElements - kTriangleCornerElement;
+struct SmoothPatch {
+    uint record;
+};
+struct SmoothPlace {
+    uint sector; // from whose corner derivatives are seen
+    TrianglePoint point;
+};
+SmoothPatch loadSmooth(uint first) { return SmoothPatch(first - kTriangleCornerElement); }
+SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
+    vec3 position;
+    Frame frame;
+    irregularTriangle(PatchPlace(c.record), triangleOf(c.record, true), at.point, at.sector, position, frame);
+#ifdef RINGS
+    frame = ofSector(frame);
+#endif
+    return smoothUv(position, frame);
+}
+#ifdef RINGS
+SmoothPlace ringPlace(uint sector, vec3 weights, vec2 along, bool border, bool corner) {
+    return SmoothPlace(sector, ringPoint(sector, border, along, weights));
+}
+#else
+SmoothPlace placeAtRate(uint index) {
+    return SmoothPlace(0u, gridPoint(gridSample(kDomain, push.rate, index).xy, push.rate));
+}
+#endif
 #endif

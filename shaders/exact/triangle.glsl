@@ -11,7 +11,7 @@ struct Triangle {
 };
 Triangle triangleOf(uint record, bool irregular) {
     Triangle t;
-    t.corners = tableElement(record);
+    t.corners = tableElement(record + kTriangleCornerElement);
     t.irregular = irregular;
     t.chains = t.windows = t.sizes = t.normals = uvec4(0u);
     if (irregular) {
@@ -42,7 +42,11 @@ Chain chainOf(const PatchPlace at, Triangle t, uint corner) {
     return chainOf(at, componentOf(t.windows, corner), componentOf(t.chains, corner), componentOf(t.sizes, corner));
 }
 vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
-vec3 cornerNormal(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.normals, corner)); }
+Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame) {
+    uint normal = componentOf(t.normals, corner);
+    if (normal == kNoNormal) return frame;
+    return withNormal(frame, poolPoint(at, normal));
+}
 
 // A net: the triangle's own, of points of level 1, or that of a level of a chain. Words at `element` from `first` on in the pool.
 // A bit a side that is a crease, and a corner that one passes.

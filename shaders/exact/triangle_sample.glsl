@@ -111,7 +111,7 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
         position = cornerLimit(at, t, isCorner);
         if (!own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
         frame = seenFrom(from, to, da, db);
-        if (!own) frame = withNormal(frame, cornerNormal(at, t, corner));
+        if (!own) frame = withCornerNormal(at, t, corner, frame);
         return;
     }
     frame = seenFrom(from, to, reversed ? -da : da, reversed ? -db : db);

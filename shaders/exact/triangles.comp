@@ -37,28 +37,7 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #endif
 #include "shaders/exact/triangle_sample.glsl"
 
-#ifdef LEVELS
-// Where a sample of a ring lies, and its derivatives as those of a sector: along the side and towards the centre.
-TrianglePoint ringPoint(RingSample ring, vec2 along, vec3 w) {
-    if (ring.ring == 0u) return pointOnSide(ring.side, along);
-    float third = w.z / 3.0;
-    vec3 own = vec3(w.x + third, w.y + third, third);
-    vec3 weights = ring.side == 0u ? own : ring.side == 1u ? own.zxy : own.yzx;
-    return TrianglePoint(weights, 0.0, kInside, vec2(0.0));
-}
-Frame ofSector(Frame f) { return Frame(f.du, (f.du + f.dv) / 3.0, f.normal); }
-#else
-TrianglePoint gridPoint(uvec2 at) {
-    uint rate = fixedRate(), rest = rate - at.x - at.y;
-    uint side = at.y == 0u ? 0u : rest == 0u ? 1u : at.x == 0u ? 2u : kInside;
-    if (side == 0u) return pointOnSide(0u, parameterPair(at.x, rate, push.pairs));
-    if (side == 1u) return pointOnSide(1u, parameterPair(at.y, rate, push.pairs));
-    if (side == 2u) return pointOnSide(2u, parameterPair(rest, rate, push.pairs));
-    vec3 w = vec3(parameterPair(rest, rate, push.pairs).x, parameterPair(at.x, rate, push.pairs).x,
-                  parameterPair(at.y, rate, push.pairs).x);
-    return TrianglePoint(w, parameterPair(rate - max(max(at.x, at.y), rest), rate, push.pairs).x, kInside, vec2(0.0));
-}
-#endif
+#include "shaders/exact/triangle_place.glsl"
 
 #ifdef WIDE
 void loadPart(uint to, const PatchPlace at, uint k) {
@@ -72,10 +51,10 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     RingSample ring = ringSample(3u, at.capacity, index);
     vec2 along;
     vec3 w = ringWeights(place, at.capacity, ring, along);
-    TrianglePoint s = ringPoint(ring, along, w);
+    TrianglePoint s = ringPoint(ring.side, ring.ring == 0u, along, w);
     uint to = ring.side;
 #else
-    TrianglePoint s = gridPoint(gridSample(kTriangleDomain, fixedRate(), index).xy);
+    TrianglePoint s = gridPoint(gridSample(kTriangleDomain, fixedRate(), index).xy, fixedRate());
     const uint to = 0u;
 #endif
     if (kIrregular) {
@@ -107,7 +86,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
             uint vertex = at.vertex + ringSideStart(3u, ring, sector, last), k = ring;
             do {
                 vec2 along = lodPair(side, k, last);
-                TrianglePoint s = ringPoint(RingSample(ring, sector, k), along, ringWeights(along, across));
+                TrianglePoint s = ringPoint(sector, ring == 0u, along, ringWeights(along, across));
                 vec3 position;
                 Frame frame;
                 if (kIrregular) irregularTriangle(at, t, s, sector, position, frame);
@@ -302,7 +281,7 @@ void storeChains(const PatchPlace at, Triangle t) {
         // At the corner the chords of the last level stand in for directions.
         bool isLast = level == chain.lastLevel;
         Frame frame = seenFrom(corner, 0u, all.p[3] - all.p[0], all.p[5] - all.p[0]);
-        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withNormal(frame, cornerNormal(at, t, corner)));
+        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withCornerNormal(at, t, corner, frame));
         chains &= isLast ? chains - 1u : 7u;
         level = isLast ? 2u : level + 1u;
     } while (chains != 0u);

@@ -63,7 +63,7 @@ SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 // Flags of a record, a bit a side.
 SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
 
-// Loop (docs/loop.md). Triangles: limit points of the corners, flags; kLeafPoints pool indices of vertices. Irregular ones
+// Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular ones
 // then have, an element each: pool index of the chains of the corners or 0; windows of their sector; points of a level and last
 // level, as quads; normals or kNoNormal; then kTriangleNetPoints pool indices of points of level 1. Windows have one word a point.
 SUPPLE_SHARED_CONST kLeafPoints = 12u;
@@ -71,7 +71,8 @@ SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
 SUPPLE_SHARED_CONST kTriangleWindowElements = 5u;
 SUPPLE_SHARED_CONST kTriangleElements = 4u;
 SUPPLE_SHARED_CONST kIrregularTriangleElements = 13u;
-SUPPLE_SHARED_CONST kTriangleCageElement = 1u;
+SUPPLE_SHARED_CONST kTriangleCageElement = 0u;
+SUPPLE_SHARED_CONST kTriangleCornerElement = 3u;
 SUPPLE_SHARED_CONST kTriangleChainElement = 4u;
 SUPPLE_SHARED_CONST kTriangleNetElement = 8u;
 // Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both ends of a

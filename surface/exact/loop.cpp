@@ -3,6 +3,7 @@
 #include "surface/build.h"
 #include "surface/exact/chain_tables.h"
 #include "surface/exact/needed_rows.h"
+#include "surface/exact/smooth_uvs.h"
 #include "surface/exact/triangles.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
@@ -20,10 +21,11 @@ using subdivision::Isolation;
 
 class Builder {
 public:
-    Builder(const Isolation& isolation, const Recipe& recipe)
-        : recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
-          topology_(parent_.topology), triangles_(parent_), writer_(tables_.words), fans_(writer_),
-          chains_({&mesh_, exact::lastChainLevel(recipe.rate), recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
+    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
+        : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
+          topology_(parent_.topology), triangles_(parent_), lastLevel_(exact::lastChainLevel(recipe.rate)),
+          writer_(tables_.words), fans_(writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           vertices_(cage_.vertexCount()), levelOne_(mesh_.stencils.back().rows()) {
         tables_.rate = recipe.rate;
         tables_.notes = mesh_.notes;
@@ -52,6 +54,11 @@ public:
             writePatch(patches[p]);
         }
         finishTables(recipe_, cage_, patches, writer_, tables_);
+        if (const Status smooth = exact::writeUvLeaves(recipe_, host_, {Subdivision::loop, false, lastLevel_}, patches,
+                                                       fans_, writer_, tables_);
+            !smooth) {
+            return smooth.error();
+        }
         return std::move(tables_);
     }
 
@@ -128,26 +135,21 @@ private:
     }
 
     [[nodiscard]] uint32_t flagsOf(const DraftPatch& patch) const {
-        uint32_t flags = 0;
+        uint32_t flags = triangles_.flagsOf(patch.cageCorners);
         for (uint32_t i = 0; i < 3; ++i) {
-            const uint32_t corner = patch.cageCorners[i];
-            const CornerKind kind = triangles_.kindOf(corner);
-            flags |= triangles_.isSharp(corner) ? 1u << (shared::kSharpTriangleSide + i) : 0u;
-            flags |= kind == CornerKind::creased ? 1u << (shared::kCreasedTriangleCorner + i) : 0u;
             flags |= isWhole(patch, i) ? 1u << (shared::kWholeTriangleSide + i) : 0u;
-            flags |= kind != CornerKind::chain ? 1u << (shared::kPlainTriangleCorner + i) : 0u;
         }
         return flags;
     }
 
     void writePatch(const DraftPatch& patch) {
+        for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
+            writer_.put({firstVertex_ + vertices_.number(vertex)});
+        }
         for (uint32_t i = 0; i < 3; ++i) {
             writer_.put({limits_[cage_.faceVertices[patch.cageCorners[i]]]});
         }
         writer_.put({flagsOf(patch)});
-        for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
-            writer_.put({firstVertex_ + vertices_.number(vertex)});
-        }
         if (patch.info.patchClass == PatchClass::loopRegular) {
             return;
         }
@@ -170,12 +172,14 @@ private:
         (void)writer_.element();
     }
 
+    const cage::Cage& host_;
     const Recipe& recipe_;
     const subdivision::Mesh& mesh_;
     const RefinedMesh& parent_;
     const cage::Cage& cage_;
     const cage::Topology& topology_;
     Triangles triangles_;
+    uint32_t lastLevel_;
     Tables tables_;
     TableWriter writer_;
     exact::FanTables fans_;
@@ -196,7 +200,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!isolation) {
         return isolation.error();
     }
-    return Builder(*isolation, recipe).build();
+    return Builder(cage, *isolation, recipe).build();
 }
 
 } // namespace supple::surface::loop

@@ -8,16 +8,13 @@
 #include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
 #include "surface/fans.h"
-#include "surface/smooth_uvs.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
 
 #include <algorithm>
 #include <bit>
-#include <memory>
 #include <numeric>
-#include <string>
 
 namespace supple::surface::exact {
 namespace {
@@ -85,7 +82,9 @@ public:
         }
         tables_.ring = ring.write();
         finishTables(recipe_, cage_, patches_, writer_, tables_);
-        if (const Status smooth = writeSmoothUvs(); !smooth) {
+        if (const Status smooth = writeUvLeaves(recipe_, host_, {Subdivision::catmullClark, steps(), lastLevel_},
+                                                patches_, fans_, writer_, tables_);
+            !smooth) {
             return smooth.error();
         }
         return std::move(tables_);
@@ -279,39 +278,6 @@ private:
             writer_.put({firstLevelOne_ + levelOne_.number(point)});
         }
         (void)writer_.element();
-    }
-
-    Status writeSmoothUvs() {
-        const std::vector<const std::vector<glm::vec2>*> uvs = uvSetsOf(host_);
-        if (recipe_.uvMode == cage::UvMode::all || !recipe_.attributes || uvs.empty()) {
-            return success();
-        }
-        std::vector<std::string> notes; // known
-        const Result<RefinedMesh> begin = subdivision::beginSteps(host_, Subdivision::catmullClark, notes);
-        if (!begin) {
-            return begin.error();
-        }
-        std::vector<std::unique_ptr<UvQuads>> sets;
-        for (const std::vector<glm::vec2>* set : uvSetsOf(begin->cage)) {
-            Result<ChannelLevel> level = channelOfQuads(*begin, *set, recipe_.uvMode, steps());
-            if (!level) {
-                return level.error();
-            }
-            sets.push_back(std::make_unique<UvQuads>(std::move(*level), lastLevel_));
-            sets.back()->addFans(fans_);
-            sets.back()->writePoints(writer_);
-        }
-        tables_.uvMode = recipe_.uvMode;
-        tables_.uvQuads = true;
-        for (PatchRange& range : tables_.ranges) {
-            range.smoothUvs = writer_.element();
-            for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {
-                for (const std::unique_ptr<UvQuads>& set : sets) {
-                    set->writePatch(patches_[p], fans_, writer_);
-                }
-            }
-        }
-        return success();
     }
 
     const cage::Cage& host_;

@@ -58,6 +58,17 @@ CornerKind Triangles::kindOf(uint32_t corner) const {
     return passes ? CornerKind::creased : CornerKind::plain;
 }
 
+uint32_t Triangles::flagsOf(std::span<const uint32_t> corners) const {
+    uint32_t flags = 0;
+    for (uint32_t i = 0; i < 3; ++i) {
+        const CornerKind kind = kindOf(corners[i]);
+        flags |= isSharp(corners[i]) ? 1u << (shared::kSharpTriangleSide + i) : 0u;
+        flags |= kind == CornerKind::creased ? 1u << (shared::kCreasedTriangleCorner + i) : 0u;
+        flags |= kind != CornerKind::chain ? 1u << (shared::kPlainTriangleCorner + i) : 0u;
+    }
+    return flags;
+}
+
 uint32_t Triangles::chainsFrom(uint32_t face, uint32_t first) const {
     uint32_t chains = 0;
     for (uint32_t i = 0; i < 3; ++i) {

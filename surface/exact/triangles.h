@@ -5,6 +5,7 @@
 #include "surface/refinement.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace supple::surface::loop {
@@ -57,6 +58,9 @@ public:
     [[nodiscard]] bool isSharp(uint32_t corner) const {
         return mesh_.edgeSharpness[mesh_.topology.cornerEdges[corner]] > 0.0f;
     }
+    /// Flags of a record (shaders/shared/exact.h) but for whole sides. `corners`: of the mesh, from the patch's first
+    /// on.
+    [[nodiscard]] uint32_t flagsOf(std::span<const uint32_t> corners) const;
     /// The limit at a plain vertex, as weights of vertices of the mesh.
     void addLimit(uint32_t vertex, Stencils& rows) const;
 

@@ -115,17 +115,9 @@ cage::Cage inPieces(cage::Cage cage, uint32_t seed) {
 /// Where a sample of a patch lies in the faces of the cage.
 using PlaceOf = std::function<QuadsOfFaces::Place(uint32_t patch, glm::dvec2 uv)>;
 
-/// Patches of fragments are quarters of the cage's faces: three at the corners of a triangle, then the one in its
-/// middle.
-QuadsOfFaces::Place quarterOf(bool quads, uint32_t patch, glm::dvec2 uv) {
-    const uint32_t part = patch % 4;
-    const glm::dvec2 half = 0.5 * uv;
-    if (quads) {
-        return {patch / 4, 0, ExactQuads::inFace(half.x, half.y, part)};
-    }
-    const double rest = 0.5 - half.x - half.y;
-    const glm::dvec2 within[] = {half, {0.5 + rest, half.x}, {half.y, 0.5 + rest}, {0.5 - half.y, half.x + half.y}};
-    return {patch / 4, 0, within[part]};
+/// Patches of fragments are quarters of the cage's quads.
+QuadsOfFaces::Place quarterOf(uint32_t patch, glm::dvec2 uv) {
+    return {patch / 4, 0, ExactQuads::inFace(0.5 * uv.x, 0.5 * uv.y, patch % 4)};
 }
 
 struct UvFigures {
@@ -177,7 +169,7 @@ void compareAll(const char* name, const cage::Cage& cage, SuppleScheme scheme) {
                     const uint32_t face = found.faces[p];
                     return named.at(face, ExactQuads::inFace(uv.x, uv.y, found.firstCorners[face]));
                 });
-            } else if (loop && mode == cage::UvMode::all) { // patches
+            } else if (loop) {
                 const LoopTriangles triangles(cage);
                 const PatchFaces found = triangles.patches(gpu.patches());
                 compare(figures, gpu, attributes, limit, [&](uint32_t p, glm::dvec2 uv) {
@@ -187,8 +179,7 @@ void compareAll(const char* name, const cage::Cage& cage, SuppleScheme scheme) {
                     return QuadsOfFaces::Place{face, 0, {at.y, at.z}};
                 });
             } else {
-                compare(figures, gpu, attributes, limit,
-                        [&](uint32_t p, glm::dvec2 uv) { return quarterOf(!loop, p, uv); });
+                compare(figures, gpu, attributes, limit, [](uint32_t p, glm::dvec2 uv) { return quarterOf(p, uv); });
             }
         }
         std::printf("%s, %s: %llu samples, at most %.1e off\n", name, cage::uvModeName(mode),

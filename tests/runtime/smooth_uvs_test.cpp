@@ -9,9 +9,11 @@
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/json_vectors.h"
+#include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
+#include "tools/reference/grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +102,11 @@ cage::Cage roughGrid() {
     return perturbed(grid(5, 4), 0.1f, 4);
 }
 
+/// Closed.
+cage::Cage roughTriangleBiped() {
+    return perturbed(withCutQuads(biped(), 1.0, 5), 0.05f, 3);
+}
+
 SuppleGroupDesc smoothDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t rate, UvMode mode, uint32_t flags = 0) {
     SuppleGroupDesc desc{};
     desc.asset = asset;
@@ -146,7 +153,7 @@ struct Written {
 /// Where the patches of a group's grids have their samples, in the order of the tables.
 struct Grids {
     Grids(const Crowd& crowd, SuppleScheme scheme, const cage::Cage& cage, uint32_t rate) {
-        const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage, true);
+        const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage);
         surface::Recipe recipe{.scheme = drawer.scheme};
         recipe.rate = surface::schemeOf(recipe.scheme).tableRate(rate, false);
         tables = std::move(*surface::buildTables(recipe, cage));
@@ -240,6 +247,8 @@ const UvCase kUvCases[] = {
     {"blendOpen", SUPPLE_SCHEME_BLEND, roughGrid},
     {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
     {"catmullClarkOpen", SUPPLE_SCHEME_CATMULL_CLARK, roughGrid},
+    {"loop", SUPPLE_SCHEME_LOOP, roughTriangleBiped},
+    {"loopOpen", SUPPLE_SCHEME_LOOP, roughTriangles},
 };
 class SmoothUvsOf : public SmoothUvs, public testing::WithParamInterface<UvCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, SmoothUvsOf, testing::ValuesIn(kUvCases),
@@ -331,9 +340,11 @@ TEST_F(SmoothUvs, OfSubdivisionAreTheLimits) {
         cage::Cage cage;
     };
     using surface::Subdivision;
+    cage::Cage creased = withSeams(roughTriangles()); // semi-sharp ones: Loop is refined
+    creased.creases.push_back({creased.faceVertices[0], creased.faceVertices[1], 1.7f});
     const Case cases[] = {{SUPPLE_SCHEME_FRAGMENTS, Subdivision::catmullClark, withSeams(roughQuads())},
                           {SUPPLE_SCHEME_FRAGMENTS, Subdivision::catmullClark, withSeams(roughOpen())},
-                          {SUPPLE_SCHEME_LOOP, Subdivision::loop, withSeams(roughTriangles())}};
+                          {SUPPLE_SCHEME_LOOP, Subdivision::loop, creased}};
     for (const Case& c : cases) {
         for (const SuppleMapping mapping : kMappings) {
             SCOPED_TRACE(mappingName(mapping));
@@ -357,6 +368,80 @@ TEST_F(SmoothUvs, OfSubdivisionAreTheLimits) {
                 ASSERT_EQ(limits->size(), samples * grids.firstVertices.size());
                 for (size_t i = 0; i < limits->size(); ++i) {
                     worst = std::max(worst, glm::distance(written.uv(grids.firstVertices[0] + i), (*limits)[i].value));
+                }
+                EXPECT_LT(worst, 1e-6) << cage::uvModeName(mode);
+            }
+            (void)own.takeLines();
+        }
+    }
+}
+
+/// Rate 8 in the four quarters of triangles: a sample of a face, by how far it is from corner 0 along the two edges.
+class QuarterSamples {
+public:
+    explicit QuarterSamples(std::vector<surface::subdivision::UvSample> limits) : limits_(std::move(limits)) {
+        constexpr int kHalf = kRate / 2;
+        for (uint32_t index = 0; index < surface::sampleCount(surface::Domain::triangle, kHalf); ++index) {
+            const surface::GridSample at = surface::gridSample(surface::Domain::triangle, kHalf, index);
+            const int i = static_cast<int>(at.i), j = static_cast<int>(at.j), rest = kHalf - i - j;
+            const std::array<std::array<int, 2>, 4> places = {
+                {{i, j}, {kHalf + rest, i}, {j, kHalf + rest}, {kHalf - j, i + j}}};
+            for (uint32_t part = 0; part < 4; ++part) {
+                found_[places[part]] = {part, index};
+            }
+        }
+    }
+    [[nodiscard]] glm::dvec2 at(uint32_t face, int i, int j) const {
+        const auto [part, index] = found_.at({i, j});
+        return limits_[(4 * face + part) * surface::sampleCount(surface::Domain::triangle, kRate / 2) + index].value;
+    }
+    static constexpr uint32_t kRate = 8;
+
+private:
+    std::vector<surface::subdivision::UvSample> limits_;
+    std::map<std::array<int, 2>, std::array<uint32_t, 2>> found_;
+};
+
+/// Loop patches have the limits of Loop, with hard creases, on a border and where larger faces are cut.
+TEST_F(SmoothUvs, OfLoopPatchesAreTheLimits) {
+    const ValidationGuard guard;
+    cage::Cage creased = withSeams(roughTriangles());
+    for (uint32_t c = 0; c < 3; ++c) { // a ring: at tips of darts the masks of limitUvs() are not the limit
+        creased.creases.push_back({creased.faceVertices[c], creased.faceVertices[(c + 1) % 3], cage::kHardSharpness});
+    }
+    for (const cage::Cage& cage : {withSeams(roughTriangles()), creased, withSeams(roughOpen())}) {
+        std::vector<std::string> notes;
+        const auto begin = surface::subdivision::beginSteps(cage, surface::Subdivision::loop, notes);
+        ASSERT_TRUE(begin);
+        const LoopTriangles triangles(cage);
+        for (const SuppleMapping mapping : kMappings) {
+            SCOPED_TRACE(mappingName(mapping));
+            CrowdContext& own = context(mapping);
+            ASSERT_TRUE(own.valid());
+            const SuppleAsset asset = own.createAsset(cage);
+            for (const UvMode mode :
+                 {UvMode::none, UvMode::cornersOnly, UvMode::cornersPlus1, UvMode::cornersPlus2, UvMode::boundaries}) {
+                Crowd crowd(own, smoothDesc(asset, SUPPLE_SCHEME_LOOP, QuarterSamples::kRate, mode));
+                ASSERT_TRUE(crowd.valid());
+                const Written written(crowd);
+                const Grids grids(crowd, SUPPLE_SCHEME_LOOP, cage, QuarterSamples::kRate);
+                const auto limits = surface::subdivision::limitUvs(*begin, begin->cage.cornerUvs,
+                                                                   {surface::Subdivision::loop, 1, 2, mode, true});
+                ASSERT_TRUE(limits);
+                const QuarterSamples expected(*limits);
+                ASSERT_EQ(grids.tables.patches.size(), begin->cage.faceCount());
+                const PatchFaces found = triangles.patches(grids.tables.patches);
+                double worst = 0.0;
+                for (uint32_t p = 0; p < grids.firstVertices.size(); ++p) {
+                    const uint32_t face = found.faces[p];
+                    for (uint32_t s = 0; s < surface::sampleCount(grids.domains[p], grids.segments); ++s) {
+                        const surface::GridSample at = surface::gridSample(grids.domains[p], grids.segments, s);
+                        const glm::dvec3 weights =
+                            LoopTriangles::inFace({grids.segments - at.i - at.j, at.i, at.j}, found.firstCorners[face]);
+                        const glm::dvec2 limit =
+                            expected.at(face, static_cast<int>(weights.y), static_cast<int>(weights.z));
+                        worst = std::max(worst, glm::distance(written.uv(grids.firstVertices[p] + s), limit));
+                    }
                 }
                 EXPECT_LT(worst, 1e-6) << cage::uvModeName(mode);
             }
@@ -467,7 +552,7 @@ class SmoothUvsAtLevels : public SmoothUvs, public testing::WithParamInterface<U
 INSTANTIATE_TEST_SUITE_P(Schemes, SmoothUvsAtLevels,
                          testing::Values(kUvCases[0], kUvCases[1], kUvCases[2], kUvCases[3], kUvCases[4], kUvCases[5],
                                          kUvCases[7], // blend's charts do not agree where a map folds
-                                         kUvCases[8], kUvCases[9]),
+                                         kUvCases[8], kUvCases[9], kUvCases[10], kUvCases[11]),
                          [](const auto& param) { return std::string(param.param.name); });
 
 TEST_P(SmoothUvsAtLevels, AgreeInEveryBit) {
@@ -512,7 +597,8 @@ TEST_P(SmoothUvsAtLevels, AgreeInEveryBit) {
         EXPECT_GT(shared, 100u);
         EXPECT_LT(worst, 1e-6) << "of " << shared;
         // Where a map folds, each side of an exact patch's edge rounds by itself, unless the fold halves its vertices.
-        if (c.scheme != SUPPLE_SCHEME_CATMULL_CLARK || c.cage == &roughGrid) {
+        const bool exact = c.scheme == SUPPLE_SCHEME_CATMULL_CLARK || c.scheme == SUPPLE_SCHEME_LOOP;
+        if (!exact || c.cage == &roughGrid || c.cage == &roughTriangles) {
             EXPECT_EQ(different, 0u) << "of " << shared;
         }
         (void)own.takeLines();

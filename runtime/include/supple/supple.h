@@ -25,6 +25,8 @@
  *   - Functions that fill an array take `out` and `count`. Before the call, *count is how many entries out has room
  *     for. After it, *count is how many there are. If that is more, the result is SUPPLE_INCOMPLETE. If out is null,
  *     only *count is set, and the result is SUPPLE_OK. count must not be null.
+ *   - ..._MAX_ENUM is no value, and is refused like any other number that is none. It makes every number one of the
+ *     enum's, so that compilers may not take hosts at their word.
  *
  * Handles
  *   - Assets, groups, views and instances are checked in every call. A handle that is destroyed, or of another context,
@@ -130,7 +132,8 @@ typedef enum SuppleResult {
     SUPPLE_ERROR_HOST_MEMORY = -5,
     SUPPLE_ERROR_DEVICE_MEMORY = -6,
     SUPPLE_ERROR_DEVICE_LOST = -7,
-    SUPPLE_ERROR_VULKAN = -8 /**< a Vulkan call failed for another reason, which the log names */
+    SUPPLE_ERROR_VULKAN = -8, /**< a Vulkan call failed for another reason, which the log names */
+    SUPPLE_RESULT_MAX_ENUM = 0x7FFFFFFF
 } SuppleResult;
 
 /** SUPPLE_VERSION of the library that is running. */
@@ -206,7 +209,8 @@ SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalD
 typedef enum SuppleMapping {
     SUPPLE_MAPPING_AUTO = 0,
     SUPPLE_MAPPING_NARROW = 1,
-    SUPPLE_MAPPING_WIDE = 2
+    SUPPLE_MAPPING_WIDE = 2,
+    SUPPLE_MAPPING_MAX_ENUM = 0x7FFFFFFF
 } SuppleMapping;
 
 /** Options of a context. */
@@ -440,7 +444,8 @@ typedef enum SuppleScheme {
     /** The limit of Catmull-Clark too, but by refinement (docs/subdivision.md): rates are powers of two, views draw an
      * instance at one of several rates, and evaluation costs several times as much. For comparisons. */
     SUPPLE_SCHEME_FRAGMENTS = 7,
-    SUPPLE_SCHEME_CAGE = 100 /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
+    SUPPLE_SCHEME_CAGE = 100, /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
+    SUPPLE_SCHEME_MAX_ENUM = 0x7FFFFFFF
 } SuppleScheme;
 
 /** A part of a character: what one node of a file carries as its mesh. OBJ files and arrays have one part. All parts
@@ -650,9 +655,17 @@ SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset as
 
 /** How SUPPLE_SCHEME_PREP scales the tangents at irregular vertices (of a valence other than 4). DEFAULT: as
  * docs/prep.md derives it. PRINTED: as the paper prints it. */
-typedef enum SuppleTangentMode { SUPPLE_TANGENTS_DEFAULT = 0, SUPPLE_TANGENTS_PRINTED = 1 } SuppleTangentMode;
+typedef enum SuppleTangentMode {
+    SUPPLE_TANGENTS_DEFAULT = 0,
+    SUPPLE_TANGENTS_PRINTED = 1,
+    SUPPLE_TANGENTS_MAX_ENUM = 0x7FFFFFFF
+} SuppleTangentMode;
 /** At a boundary vertex that has one face, the surface passes through the vertex (SHARP) or is rounded (SMOOTH). */
-typedef enum SuppleCornerRule { SUPPLE_CORNERS_SHARP = 0, SUPPLE_CORNERS_SMOOTH = 1 } SuppleCornerRule;
+typedef enum SuppleCornerRule {
+    SUPPLE_CORNERS_SHARP = 0,
+    SUPPLE_CORNERS_SMOOTH = 1,
+    SUPPLE_CORNERS_MAX_ENUM = 0x7FFFFFFF
+} SuppleCornerRule;
 /** Options of SUPPLE_SCHEME_PREP. */
 typedef struct SupplePrepOptions {
     uint32_t structSize;
@@ -662,7 +675,11 @@ typedef struct SupplePrepOptions {
 
 /** What SUPPLE_SCHEME_BLEND makes of a sharp edge. CUT: a line in which two sheets meet. CURVE: a narrow ridge, as in
  * the paper. */
-typedef enum SuppleCreaseMode { SUPPLE_CREASES_CUT = 0, SUPPLE_CREASES_CURVE = 1 } SuppleCreaseMode;
+typedef enum SuppleCreaseMode {
+    SUPPLE_CREASES_CUT = 0,
+    SUPPLE_CREASES_CURVE = 1,
+    SUPPLE_CREASES_MAX_ENUM = 0x7FFFFFFF
+} SuppleCreaseMode;
 /** Options of SUPPLE_SCHEME_BLEND. */
 typedef struct SuppleBlendOptions {
     uint32_t structSize;
@@ -673,12 +690,17 @@ typedef struct SuppleBlendOptions {
 /** Layout of a surface vertex. Positions have the same bits in both. */
 typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
-    SUPPLE_VERTEX_24 = 1  /**< float3 position, float3 normal */
+    SUPPLE_VERTEX_24 = 1, /**< float3 position, float3 normal */
+    SUPPLE_VERTEX_MAX_ENUM = 0x7FFFFFFF
 } SuppleVertexFormat;
 
 /** How several joints move one vertex. DUAL_QUATERNION keeps the girth of a limb that twists or bends. Joints may scale
  * and shear with both. A vertex that follows one joint alone moves the same with both. */
-typedef enum SuppleSkinning { SUPPLE_SKINNING_LINEAR = 0, SUPPLE_SKINNING_DUAL_QUATERNION = 1 } SuppleSkinning;
+typedef enum SuppleSkinning {
+    SUPPLE_SKINNING_LINEAR = 0,
+    SUPPLE_SKINNING_DUAL_QUATERNION = 1,
+    SUPPLE_SKINNING_MAX_ENUM = 0x7FFFFFFF
+} SuppleSkinning;
 
 /** Who deforms the instances. With PALETTE_BUFFER and CAGE_BUFFER, the host writes a buffer on the device, for all
  * visible instances, in any frame it likes. `before` of suppleRecord must then name these writes, and the host's next
@@ -689,7 +711,8 @@ typedef enum SupplePoseSource {
     SUPPLE_POSES_SET = 0,            /**< suppleSetClipPose, suppleSetPose, suppleSetMatrixPose, ... */
     SUPPLE_POSES_PALETTE_BUFFER = 1, /**< SuppleGroupInfo.poses: joint palettes and morph weights */
     SUPPLE_POSES_CAGE_BUFFER = 2,    /**< SuppleGroupInfo.deformedCage: cage vertices, for example of a cloth solver */
-    SUPPLE_POSES_PLAYBACK = 3        /**< suppleSetPlayback: clips that the device plays by the group's time */
+    SUPPLE_POSES_PLAYBACK = 3,       /**< suppleSetPlayback: clips that the device plays by the group's time */
+    SUPPLE_POSES_MAX_ENUM = 0x7FFFFFFF
 } SupplePoseSource;
 
 /** How texture coordinates are interpolated over the surface. LINEAR_ALL: linearly in every face. Otherwise they are
@@ -705,7 +728,8 @@ typedef enum SuppleUvInterpolation {
     SUPPLE_UV_LINEAR_CORNERS_PLUS1 = 3, /**< and where three charts and more meet */
     SUPPLE_UV_LINEAR_CORNERS_PLUS2 = 4, /**< and where seams end */
     SUPPLE_UV_LINEAR_BOUNDARIES = 5,    /**< all vertices on seams and borders */
-    SUPPLE_UV_LINEAR_ALL = 6
+    SUPPLE_UV_LINEAR_ALL = 6,
+    SUPPLE_UV_MAX_ENUM = 0x7FFFFFFF
 } SuppleUvInterpolation;
 
 /** What a group writes besides surface vertices, and how. */

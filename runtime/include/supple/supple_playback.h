@@ -24,7 +24,11 @@ extern "C" {
  * ADDITIVE: adds w times the difference between the clip's pose and its own pose at referenceTime. The weight w may
  * have any size and sign. Rotations: pose * (reference^-1 * clip)^w, in the joint's own frame. Scales are multiplied,
  * translations and morph weights are added. */
-typedef enum SuppleLayerMode { SUPPLE_LAYER_BLEND = 0, SUPPLE_LAYER_ADDITIVE = 1 } SuppleLayerMode;
+typedef enum SuppleLayerMode {
+    SUPPLE_LAYER_BLEND = 0,
+    SUPPLE_LAYER_ADDITIVE = 1,
+    SUPPLE_LAYER_MAX_ENUM = 0x7FFFFFFF
+} SuppleLayerMode;
 
 /** Options of a layer. */
 typedef enum SuppleLayerFlags {
