@@ -182,6 +182,16 @@ cage::Cage withUvs(cage::Cage cage, bool mirrored = false) {
     return cage;
 }
 
+/// Texture coordinates that go on from face to face.
+cage::Cage withMapOver(cage::Cage cage) {
+    cage.cornerUvs.clear();
+    for (const uint32_t v : cage.faceVertices) {
+        const glm::vec3& p = cage.positions[v];
+        cage.cornerUvs.emplace_back(p.x + 0.37f * p.z + 0.1f * p.y * p.y, p.y - 0.21f * p.z);
+    }
+    return cage;
+}
+
 struct TangentCase {
     const char* name;
     SuppleScheme scheme;
@@ -398,40 +408,44 @@ TEST_P(TangentsOfPatches, PointThereAtLevelsToo) {
     }
 }
 
-/// With linear and with smooth texture coordinates.
-TEST_F(Tangents, OfLoopPatches) {
+class TangentsOfLoopPatches : public Tangents, public testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Uvs, TangentsOfLoopPatches, testing::Bool(),
+                         [](const auto& param) { return std::string(param.param ? "Smooth" : "Linear"); });
+
+TEST_P(TangentsOfLoopPatches, FollowTheMap) {
     const ValidationGuard guard;
-    const auto kinds = {std::pair(SUPPLE_UV_LINEAR_ALL, "linear"), std::pair(SUPPLE_UV_LINEAR_CORNERS_PLUS1, "smooth")};
-    for (const SuppleMapping mapping : kMappings)
-        for (const auto& [uvs, kind] : kinds) {
-            SCOPED_TRACE(std::string(mappingName(mapping)) + ", " + kind);
-            CrowdContext& own = context(mapping);
-            TestView view(own, 400000, SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS);
-            SuppleGroupDesc desc =
-                tangentDesc(own.createAsset(withUvs(inTriangles(roughBiped()))), SUPPLE_SCHEME_LOOP, 15);
-            desc.uvInterpolation = uvs;
-            Crowd atRate(own, desc);
-            desc.flags = 0;
-            desc.view = view.handle();
-            Crowd atLevels(own, desc);
-            ASSERT_TRUE(atRate.valid() && atLevels.valid());
-            view.look({0.0f, 0.0f, 4.0f});
-            pose(atRate);
-            pose(atLevels);
-            const Measured rate = measureGrids(atRate), levels = measureLevels(atLevels);
-            rate.print(std::string("Loop patches, ") + kind + ", " + mappingName(mapping));
-            levels.print(std::string("Loop patches at levels, ") + kind + ", " + mappingName(mapping));
-            EXPECT_LT(rate.mean(), 0.4);
-            EXPECT_GT(rate.share(5.0), 0.99);
-            EXPECT_GT(levels.degrees.size(), 2000u);
-            EXPECT_LT(levels.mean(), 4.0); // of differences of first order
-            EXPECT_GT(levels.share(20.0), 0.97);
-            for (const Measured* measured : {&rate, &levels}) {
-                EXPECT_LT(measured->fromPlane, 0.02);
-                EXPECT_LT(measured->wrongSigns, measured->samples / 200 + 1);
-            }
-            (void)own.takeLines();
+    const bool smooth = GetParam();
+    const cage::Cage triangles = inTriangles(roughBiped());
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext& own = context(mapping);
+        TestView view(own, 400000, SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS);
+        const SuppleAsset asset = own.createAsset(smooth ? withMapOver(triangles) : withUvs(triangles));
+        SuppleGroupDesc desc = tangentDesc(asset, SUPPLE_SCHEME_LOOP, 15);
+        desc.uvInterpolation = smooth ? SUPPLE_UV_LINEAR_CORNERS_PLUS1 : SUPPLE_UV_LINEAR_ALL;
+        Crowd atRate(own, desc);
+        desc.flags = 0;
+        desc.view = view.handle();
+        Crowd atLevels(own, desc);
+        ASSERT_TRUE(atRate.valid() && atLevels.valid());
+        view.look({0.0f, 0.0f, 4.0f});
+        pose(atRate);
+        pose(atLevels);
+        const Measured rate = measureGrids(atRate), levels = measureLevels(atLevels);
+        rate.print(std::string("Loop patches, ") + mappingName(mapping));
+        levels.print(std::string("Loop patches at levels, ") + mappingName(mapping));
+        EXPECT_LT(rate.mean(), 0.4);
+        EXPECT_GT(rate.share(5.0), 0.99);
+        EXPECT_GT(levels.degrees.size(), 2000u);
+        EXPECT_LT(levels.mean(), 4.0); // of differences of first order
+        EXPECT_GT(levels.share(20.0), 0.97);
+        for (const Measured* measured : {&rate, &levels}) {
+            EXPECT_LT(measured->fromPlane, 0.02);
+            // A smooth map may turn over inside a face that is seen from its side, whose sign is that of its corners.
+            EXPECT_LT(measured->wrongSigns, measured->samples / (smooth ? 100 : 200) + 1);
         }
+        (void)own.takeLines();
+    }
 }
 
 /// For every vertex of a mesh the samples of the grid that it stands for: its triangles come patch by patch. None at
