@@ -235,7 +235,6 @@ struct PatchPlace {
     uint record;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
-#include "shaders/exact/triangle_sample.glsl"
 #include "shaders/exact/triangle_place.glsl"
 
 // Records begin with the corners: no side is whole, so that none asks for the vertices round the triangle.

@@ -1,4 +1,7 @@
-// Where the samples of a Loop patch lie: of a grid, or with LEVELS of rings. Before the include: triangle_sample.glsl, pairs.glsl.
+// Where the samples of a Loop patch lie: of a grid, or with LEVELS of rings. Before the
+// include: pairs.glsl, and what triangle_sample.glsl needs.
+#include "shaders/exact/triangle_sample.glsl"
+
 #ifdef LEVELS
 // Where a sample of a ring lies, and its derivatives as those of a sector: along the side and towards the centre.
 TrianglePoint ringPoint(uint side, bool border, vec2 along, vec3 w) {

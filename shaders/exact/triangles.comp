@@ -35,8 +35,6 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #elif defined(LEVELS)
 #define ONE_TRIANGLE
 #endif
-#include "shaders/exact/triangle_sample.glsl"
-
 #include "shaders/exact/triangle_place.glsl"
 
 #ifdef WIDE

@@ -76,6 +76,7 @@ EXCEPTIONS = {
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/point.glsl"): "smooth UVs are patches of the surface's own classes",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/blend/sample.glsl"): "smooth UVs are charts of the surface's own kind",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/exact/sample.glsl"): "smooth UVs are quads of leaves, as irregular ones",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/exact/triangle_place.glsl"): "smooth UVs are triangles of leaves, too",
     ("shaders/evaluate/edge.comp", "shaders/pm/border.glsl"): "an edge of shared samples may border a sector",
 }
 

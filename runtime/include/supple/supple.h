@@ -432,8 +432,8 @@ typedef enum SuppleScheme {
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
     /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which
-     * larger faces are split, and hard creases. With semi-sharp creases, or smooth texture coordinates, it is refined,
-     * and what is said of FRAGMENTS holds for it: SUPPLE_MESSAGE_SCHEME_NOTE tells. */
+     * larger faces are split, and hard creases. With semi-sharp creases it is refined, and what is said of FRAGMENTS
+     * holds for it: SUPPLE_MESSAGE_SCHEME_NOTE tells. */
     SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
