@@ -122,7 +122,7 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                         crowd.pose(instance, frame % crowd.clipCount(), unit(random), glm::mat4(1.0f));
                     }
                     // Inside the box twice, then round it; one frame that its budget scales down.
-                    const glm::vec3 inside = low + (high - low) * glm::vec3(unit(random), unit(random), unit(random));
+                    const glm::vec3 inside = low + (high - low) * glm::vec3{unit(random), unit(random), unit(random)};
                     const glm::vec3 from = frame < 2 ? inside : inside + size * (frame == 2 ? 0.3f : 2.0f);
                     SuppleCameraDesc camera{};
                     camera.structSize = sizeof(camera);
