@@ -38,7 +38,8 @@ struct EdgeSource {
     uint32_t extra = 0;
     uint32_t kind = kPlainEdges;
 };
-static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges && kMixedEdges < kHalvesEdges);
+static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges && kMixedEdges < kHalvesEdges &&
+              kHalvesEdges < kTriangleEdges && kTriangleEdges < kIrregularTriangleEdges);
 
 const PatchRange& rangeOf(const Tables& tables, uint32_t patch) {
     return *std::find_if(tables.ranges.begin(), tables.ranges.end(),
@@ -201,7 +202,7 @@ private:
             const uint32_t corners = cornerCount(domainOf(range.patchClass));
             const uint32_t place = corners * (patch - range.firstPatch), halves = tables_.attributeHalves ? 1 : 0;
             const uint32_t form = side | corners << kPatchCornersShift |
-                                  (rowOf(range.patchClass).hasSectors() ? kPatchHasSectors : 0) |
+                                  (hasSectorFrames(range.patchClass) ? kPatchHasSectors : 0) |
                                   (place & halves) << kPatchHalfShift;
             writer.put({range.attributes + (place >> halves), form, curves.empty() ? 0u : curves[i], 0u});
         }
@@ -210,7 +211,10 @@ private:
     /// The first table element of a patch's smooth texture coordinates.
     [[nodiscard]] uint32_t uvElement(uint32_t patch, uint32_t set) const {
         const PatchRange& range = rangeOf(tables_, patch);
-        const uint32_t each = tables_.uvLeaves ? shared::kExactRecordElements : uvElements(range.patchClass);
+        const uint32_t leaves = domainOf(range.patchClass) == Domain::triangle
+                                    ? kIrregularTriangleElements - kTriangleCornerElement
+                                    : kExactRecordElements;
+        const uint32_t each = tables_.uvLeaves ? leaves : uvElements(range.patchClass);
         return range.smoothUvs + each * (tables_.uvSets * (patch - range.firstPatch) + set);
     }
 
@@ -286,6 +290,9 @@ private:
     /// The border curves of its edges; a polar patch's apex is none.
     [[nodiscard]] std::vector<BorderCurve> curvesOf(const PatchRange& range, uint32_t patch) const {
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, patch)];
+        if (rowOf(range.patchClass).borders == Borders::splines) {
+            return splineNames(record);
+        }
         std::vector<BorderCurve> curves = borderCurves(tables_, record, range.patchClass);
         if (range.patchClass == PatchClass::polar) {
             curves.erase(curves.begin() + 2);
@@ -314,6 +321,59 @@ private:
         }
     }
 
+    /// The border curves of a Loop patch are no cubics. This names their ends and middles so that the two sides of an
+    /// edge have the same, but for creases.
+    static std::vector<BorderCurve> splineNames(const uint32_t* record) {
+        const uint32_t* cage = record + size_t{4} * kTriangleCageElement;
+        const uint32_t* net = record + size_t{4} * kTriangleNetElement;
+        const uint32_t flags = record[4 * kTriangleCornerElement + 3];
+        std::vector<BorderCurve> curves(3);
+        for (uint32_t i = 0; i < 3; ++i) {
+            const uint32_t last = (i + 2) % 3;
+            const bool sharp = (flags >> (kSharpTriangleSide + i) & 1u) != 0;
+            BorderCurve& curve = curves[i];
+            curve[0] = curves[last][3] = triangleCornerName(record, i);
+            if ((flags >> (kWholeTriangleSide + i) & 1u) == 0) {
+                curve[1] = net[3 + i]; // its middle, of level 1
+                curve[2] = sharp ? net[3 + last] : curve[1];
+            } else { // of two plain vertices: the vertices opposite
+                curve[1] = curve[2] = sharp ? cage[last] : std::min(cage[last], cage[6 + i]);
+            }
+        }
+        return curves;
+    }
+    /// Faces between creases have normals of their own. Where the vertex is plain, those on one side of a crease have
+    /// the limit point's name, those on the other side another one.
+    static uint32_t triangleCornerName(const uint32_t* record, uint32_t i) {
+        const uint32_t* cage = record + size_t{4} * kTriangleCageElement;
+        const uint32_t* corners = record + size_t{4} * kTriangleCornerElement;
+        const uint32_t flags = corners[3], last = (i + 2) % 3;
+        if ((flags >> (kPlainTriangleCorner + i) & 1u) == 0) {
+            return record[4 * (kTriangleChainElement + 3) + i];
+        }
+        // Counter-clockwise, from the patch's own two edges on (loop::Triangles::cageOf()).
+        const std::array<uint32_t, 6> around = {cage[(i + 1) % 3], cage[last],  cage[6 + last],
+                                                cage[9 + last],    cage[3 + i], cage[6 + i]};
+        // The crease runs along an edge and the opposite one. Inside the patch's side of it are the two that follow.
+        const bool along = (flags >> (kSharpTriangleSide + i) & 1u) != 0;
+        const bool back = (flags >> (kSharpTriangleSide + last) & 1u) != 0;
+        const bool passes = (flags >> (kCreasedTriangleCorner + i) & 1u) != 0;
+        if (!along && !back && !passes) {
+            return corners[i];
+        }
+        const uint32_t crease = along ? 0 : back ? 4 : 5;
+        const auto neighbour = [&](uint32_t steps) { return around[(crease + steps) % 6]; };
+        const bool border =
+            neighbour(4) == cage[0] || neighbour(5) == cage[0]; // cageOf() fills what is missing with it
+        const bool other = !border && std::min(neighbour(1), neighbour(2)) > std::min(neighbour(4), neighbour(5));
+        return corners[i] | (other ? 1u << 31 : 0u);
+    }
+
+    /// Derivatives on edges are those along it and towards the centre.
+    static bool hasSectorFrames(PatchClass patchClass) {
+        return rowOf(patchClass).hasSectors() || rowOf(patchClass).borders == Borders::splines;
+    }
+
     [[nodiscard]] EdgeSource sourceOf(const Side& at) const {
         const PatchRange& range = rangeOf(tables_, at.patch);
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, at.patch)];
@@ -321,6 +381,11 @@ private:
         if (rowOf(range.patchClass).borders == Borders::halves) {
             source.border = {recordOf(range, at.patch), at.side, 0, 0};
             source.kind = kHalvesEdges;
+            return source;
+        }
+        if (rowOf(range.patchClass).borders == Borders::splines) {
+            source.border = {recordOf(range, at.patch), at.side, 0, 0};
+            source.kind = range.patchClass == PatchClass::loopRegular ? kTriangleEdges : kIrregularTriangleEdges;
             return source;
         }
         source.border = curvesOf(range, at.patch)[at.side];

@@ -23,7 +23,7 @@ constexpr Scheme kSchemes[] = {
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
-    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, false,
+    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},

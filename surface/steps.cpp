@@ -173,10 +173,13 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
 }
 
 void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
-    constexpr std::pair<Kernel, const char*> kKinds[] = {{Kernel::evaluateEdge, "supple evaluate edges"},
-                                                         {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
-                                                         {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
-                                                         {Kernel::exactEdge, "supple evaluate edges, irregular"}};
+    constexpr std::pair<Kernel, const char*> kKinds[] = {
+        {Kernel::evaluateEdge, "supple evaluate edges"},
+        {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
+        {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
+        {Kernel::exactEdge, "supple evaluate edges, irregular"},
+        {Kernel::exactTriangleEdge, "supple evaluate edges, Loop"},
+        {Kernel::exactTriangleEdge, "supple evaluate edges, irregular Loop"}};
     static_assert(std::size(kKinds) == kEdgeKinds);
     const uint32_t rate = ownRatePays(builder) ? builder.needs.rate : 0;
     for (const MeshTables::Edges& edges : builder.tables.mesh.edges) {
@@ -197,7 +200,9 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
 
 void addEdgeAttributes(ProgramBuilder& builder) {
     const MeshTables& mesh = builder.tables.mesh;
-    const Kernel which = builder.tables.uvLeaves ? Kernel::evaluateAttributesQuads : Kernel::evaluateAttributes;
+    const bool triangles = domainOf(builder.tables.ranges.front().patchClass) == Domain::triangle;
+    const Kernel leaves = triangles ? Kernel::evaluateAttributesTriangles : Kernel::evaluateAttributesQuads;
+    const Kernel which = builder.tables.uvLeaves ? leaves : Kernel::evaluateAttributes;
     const gpu::Kernel kernel = builder.kernel(SetKind::attributes, which,
                                               {{kKindConstant, kEdgeDomain}, {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of edges");

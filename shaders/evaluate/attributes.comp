@@ -470,7 +470,7 @@ void storeOnEdge(uint id) {
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
     s = blended(1.0, s, t.y, atCorner(c, side));
     s = blended(1.0, s, t.x, atCorner(c, next));
-#ifdef QUADS
+#if defined(QUADS) || defined(TRIANGLES)
     SmoothUv onSide = smoothOnSide(patchOfEdge.z, side, t);
     s.uv = onSide.uv;
     if (push.uvSets == 2u) {
@@ -489,7 +489,7 @@ void storeOnEdge(uint id) {
     store(vertex, s);
     if (kDirections) {
         findSide(c, corners);
-#ifndef QUADS
+#if !defined(QUADS) && !defined(TRIANGLES)
         if (k == 0u && (own.z & kSingularEdge) != 0u) t = vec2(SUPPLE_PM_SINGULAR_STEP, 1.0 - SUPPLE_PM_SINGULAR_STEP);
         Slopes slopes = slopesOnEdge(c, side, corners, sectors, t);
         uint curves = patchOfEdge.z + (kMapFrames && c.second ? kUvCurveElements : 0u);

@@ -229,7 +229,7 @@ SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
 #ifdef TRIANGLES
 #include "shaders/shared/exact.h"
 #include "shaders/surface/net.glsl"
-const uint kDomain = kTriangleDomain;
+layout(constant_id = kKindConstant) const uint kDomain = kTriangleDomain;
 
 struct PatchPlace {
     uint record;
@@ -255,6 +255,14 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     frame = ofSector(frame);
 #endif
     return smoothUv(position, frame);
+}
+// On a side, with its derivatives along it and towards the centre.
+SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
+    vec3 position;
+    Frame frame;
+    SmoothPatch c = loadSmooth(first);
+    irregularTriangle(PatchPlace(c.record), triangleOf(c.record, true), pointOnSide(side, t), side, position, frame);
+    return smoothUv(position, ofSector(frame));
 }
 #ifdef RINGS
 SmoothPlace ringPlace(uint sector, vec3 weights, vec2 along, bool border, bool corner) {

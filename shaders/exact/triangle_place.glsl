@@ -2,8 +2,11 @@
 // include: pairs.glsl, and what triangle_sample.glsl needs.
 #include "shaders/exact/triangle_sample.glsl"
 
+// Derivatives along two edges as those of a sector: along the side and towards the centre.
+Frame ofSector(Frame f) { return Frame(f.du, (f.du + f.dv) / 3.0, f.normal); }
+
 #ifdef LEVELS
-// Where a sample of a ring lies, and its derivatives as those of a sector: along the side and towards the centre.
+// Where a sample of a ring lies.
 TrianglePoint ringPoint(uint side, bool border, vec2 along, vec3 w) {
     if (border) return pointOnSide(side, along);
     float third = w.z / 3.0;
@@ -11,7 +14,6 @@ TrianglePoint ringPoint(uint side, bool border, vec2 along, vec3 w) {
     vec3 weights = side == 0u ? own : side == 1u ? own.zxy : own.yzx;
     return TrianglePoint(weights, 0.0, kInside, vec2(0.0));
 }
-Frame ofSector(Frame f) { return Frame(f.du, (f.du + f.dv) / 3.0, f.normal); }
 #else
 TrianglePoint gridPoint(uvec2 at, uint rate) {
     uint rest = rate - at.x - at.y;

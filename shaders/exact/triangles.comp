@@ -103,7 +103,7 @@ vec2 pairOf(uint k) { return parameterPair(k, last, push.pairs); }
 // `counts`: of the weights of corners 1 and 2.
 void store(const PatchPlace at, bool own, uvec2 counts, vec3 position, Frame frame) {
     if (!own) return;
-    uint to = rowStart(last + 1u, counts.y) + counts.x;
+    uint to = kInterior ? rowStart(last - 2u, counts.y - 1u) + counts.x - 1u : rowStart(last + 1u, counts.y) + counts.x;
     storeSurfaceVertex(at.vertex + to, at.own + to, position, frame);
 }
 // So many steps from a corner along its two edges.
@@ -125,6 +125,7 @@ void storeRegular(const PatchPlace at, Triangle t) {
             store(at, i + j < last, uvec2(i, j), p, seenFrom(0u, 0u, rowAlongX(row, x), rowAlongY(row, x)));
         } while (++i + j < last);
     } while (++j + 1u < last);
+    if (kInterior) return;
     uint side = 0u;
     do {
         LeafSide own = leafSide(points, side, false, hasFlag(t, kSharpTriangleSide, side));
@@ -180,6 +181,7 @@ Frame leafFrame(Leaf leaf, vec2 w) {
 // Of a plain corner, half of a side: of its first edge or, with `back`, of its second.
 void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, LeafPoints points, Leaf leaf,
                    LeafPoints cage, bool back) {
+    if (kInterior) return;
     uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
     bool whole = hasFlag(t, kWholeTriangleSide, side);
     LeafPoints from;
@@ -196,6 +198,7 @@ void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, Lea
 }
 // The middles of the sides, at even rates: the corners of the leaf in the middle.
 void storeMiddles(const PatchPlace at, Triangle t, NetSource net, LeafPoints points, Leaf leaf, LeafPoints cage) {
+    if (kInterior) return;
     uint side = 0u;
     do {
         uint v = lastOf(side);
@@ -237,7 +240,7 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
         storeInside(at, net, s, cell, leaf);
         storeHalfSide(at, t, s, cell, points, leaf, cage, false);
         storeHalfSide(at, t, s, cell, points, leaf, cage, true);
-        store(at, cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
+        store(at, !kInterior && cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
               leafFrame(leaf, vec2(cell == 1u, cell == 2u)));
         cells &= cells - 1u;
     } while (cells != 0u);
@@ -246,6 +249,7 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
 
 // What a level has of the corner's two edges: the first has samples in cell 1, the second in cell 2.
 void storeOnEdge(const PatchPlace at, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf) {
+    if (kInterior) return;
     bool back = cell == 2u;
     LeafSide line = leafSide(points, 0u, back, (net.sides >> (back ? 2u : 0u) & 1u) != 0u);
     vec3 first = back ? leaf.c01 : leaf.c10, second = 2.0 * (back ? leaf.c02 : leaf.c20), third = 3.0 * (back ? leaf.c03 : leaf.c30);
@@ -279,7 +283,7 @@ void storeChains(const PatchPlace at, Triangle t) {
         // At the corner the chords of the last level stand in for directions.
         bool isLast = level == chain.lastLevel;
         Frame frame = seenFrom(corner, 0u, all.p[3] - all.p[0], all.p[5] - all.p[0]);
-        store(at, isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withCornerNormal(at, t, corner, frame));
+        store(at, !kInterior && isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withCornerNormal(at, t, corner, frame));
         chains &= isLast ? chains - 1u : 7u;
         level = isLast ? 2u : level + 1u;
     } while (chains != 0u);

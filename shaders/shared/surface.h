@@ -30,7 +30,7 @@
 //                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
 //                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
 //                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before. Sides of
-//                    irregular quads instead of the first eight words: (element of the quad's record, side)
+//                    irregular quads and of Loop patches instead of the first eight words: (element of the record, side)
 //   edge attributes  one element a record: (the word with the first of its patch's corner numbers; the edge's side of the patch,
 //                    kPatchCornersShift: the patch's corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is the high half
 //                    of the word; element of the smooth UV curves or 0, -). The curves: six elements a UV set, the four
@@ -151,7 +151,9 @@ SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches
 SUPPLE_SHARED_CONST kPerturbedEdges = 1u; // of p-rep's perturbed patches, where the perturbation is
 SUPPLE_SHARED_CONST kMixedEdges = 2u;     // of all of P_m's patches
 SUPPLE_SHARED_CONST kHalvesEdges = 3u;    // of irregular quads of exact patches
-SUPPLE_SHARED_CONST kEdgeKinds = 4u;
+SUPPLE_SHARED_CONST kTriangleEdges = 4u;   // of regular Loop patches
+SUPPLE_SHARED_CONST kIrregularTriangleEdges = 5u;
+SUPPLE_SHARED_CONST kEdgeKinds = 6u;
 
 SUPPLE_SHARED_CONST kEdgeElements = 3u;
 SUPPLE_SHARED_CONST kNoEdgeSample = 0xFFFFFFFFu;

@@ -1,7 +1,9 @@
 // SUPPLE_GROUP_INDEXED_MESH against the same group without: every sample of every patch by the index buffer, its
 // position to the bit, its normal, its attributes; and the mesh: closed where the cage's surface is.
+#include "cage/features.h"
 #include "cage/procedural.h"
 #include "surface/grid.h"
+#include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_gpu.h"
 #include "tests/support/pm_surface.h"
@@ -284,6 +286,40 @@ TEST_P(IndexedMesh, ExactHasTheGridsBits) {
     EXPECT_EQ(all.above, 0u) << all.border;
 }
 
+TEST_P(IndexedMesh, LoopHasTheGridsBits) {
+    const ValidationGuard guard;
+    ComparedMesh all;
+    for (const SubdivisionCage& zoo : subdivisionZoo()) {
+        if (cage::hasSemiSharpCreases(zoo.cage)) {
+            continue; // refined
+        }
+        const surface::RefinedMesh mesh = LoopTriangles(zoo.cage).isolation.parent;
+        uint64_t sides = 0; // that nothing is shared across: borders and creases
+        for (uint32_t e = 0; e < mesh.topology.edges.size(); ++e) {
+            sides += mesh.topology.edges[e].twin == cage::kNone ? 1 : mesh.edgeSharpness[e] > 0.0f ? 2 : 0;
+        }
+        for (const uint32_t rate : {1u, 2u, 3u, 8u}) {
+            SCOPED_TRACE(zoo.name + " at rate " + std::to_string(rate));
+            GpuOptions options;
+            options.scheme = SUPPLE_SCHEME_LOOP;
+            options.mapping = GetParam();
+            options.rate = rate;
+            GpuSurface gridded(*testDevice(), zoo.cage, withFlags(options, 0));
+            GpuSurface shared(*testDevice(), zoo.cage, withFlags(options, kShared));
+            ASSERT_TRUE(evaluated(gridded) && evaluated(shared));
+            compareSamples(gridded, shared, all);
+            if (zoo.cage.holes.empty() &&
+                rate > 1) { // at 1 a crease between two tips of darts has no sample of its own
+                EXPECT_EQ(openSegments(readIndices(shared)), sides * rate);
+            }
+        }
+    }
+    all.print("zoo of Loop patches");
+    EXPECT_EQ(all.positions.different, 0u);
+    EXPECT_LE(all.inside, 1e-3);
+    EXPECT_EQ(all.above, 0u) << all.border;
+}
+
 /// Attributes of the samples, where two have one vertex and where seams keep them apart.
 void compareAttributes(const GpuSurface& grid, const GpuSurface& shared) {
     const std::vector<std::vector<uint32_t>> vertices = sharedVertices(grid, shared, readIndices(shared));
@@ -322,12 +358,16 @@ TEST_P(IndexedMesh, CharactersInAPose) {
     const ValidationGuard guard;
     const std::string samples = std::string(SUPPLE_SOURCE_DIR) + "/samples/assets/";
     std::vector<std::string> paths{samples + "pip.glb", samples + "pip_quads.glb", samples + "helmet.glb"};
-    for (const std::string& path : sharedAssets({"characters/man_casual_quads.glb", "characters/pawn_creased.glb"})) {
+    for (const std::string& path :
+         sharedAssets({"characters/man_casual_quads.glb", "characters/pawn_creased.glb", "khronos/Fox.glb"})) {
         paths.push_back(path);
     }
     forEachCharacter(paths, [&](const std::string& path, const cage::Character& character) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
-            if (scheme == SUPPLE_SCHEME_PREP && !allQuads(character.cage)) {
+        for (const SuppleScheme scheme :
+             {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+            if (scheme == SUPPLE_SCHEME_PREP
+                    ? !allQuads(character.cage)
+                    : scheme == SUPPLE_SCHEME_LOOP && cage::hasSemiSharpCreases(character.cage)) {
                 continue;
             }
             uint32_t vertices[2]{};

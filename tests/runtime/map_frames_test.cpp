@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, MapFrames,
                          testing::Values(Row{"prep", SUPPLE_SCHEME_PREP, true}, Row{"pm", SUPPLE_SCHEME_PM},
                                          Row{"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK},
                                          Row{"fragments", SUPPLE_SCHEME_FRAGMENTS, false, false, false},
-                                         Row{"loop", SUPPLE_SCHEME_LOOP, false, true, false},
+                                         Row{"loop", SUPPLE_SCHEME_LOOP},
                                          Row{"blend", SUPPLE_SCHEME_BLEND, false, true, false},
                                          Row{"polygons", SUPPLE_SCHEME_POLYGONS, false, false, false}),
                          [](const auto& param) { return std::string(param.param.name); });

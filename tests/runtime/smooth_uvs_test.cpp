@@ -663,7 +663,9 @@ TEST_F(SmoothUvs, OfIndexedMeshesAreThoseOfGrids) {
     for (const UvCase& c : {UvCase{"prep", SUPPLE_SCHEME_PREP, roughQuads}, UvCase{"pm", SUPPLE_SCHEME_PM, roughMixed},
                             UvCase{"polar", SUPPLE_SCHEME_PM, [] { return cappedCylinder(7, 4); }},
                             UvCase{"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, roughQuads},
-                            UvCase{"catmullClarkMixed", SUPPLE_SCHEME_CATMULL_CLARK, roughMixed}}) {
+                            UvCase{"catmullClarkMixed", SUPPLE_SCHEME_CATMULL_CLARK, roughMixed},
+                            UvCase{"loop", SUPPLE_SCHEME_LOOP, roughTriangleBiped},
+                            UvCase{"loopOpen", SUPPLE_SCHEME_LOOP, roughTriangles}}) {
         cage::Cage cage = withSeams(c.cage());
         cage.cornerUvs1 = cutAtRandom(cage, 29);
         for (const SuppleMapping mapping : kMappings) {
