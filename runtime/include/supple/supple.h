@@ -737,8 +737,8 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_PATCHES = 1,    /**< also write the patch coefficients, for inspection */
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
-    /** PREP, PM and CATMULL_CLARK without a view (POLYGONS has it in any case): an instance is one indexed mesh, which
-     * stores samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
+    /** PREP, PM, CATMULL_CLARK and LOOP without a view (POLYGONS has it in any case): an instance is one indexed mesh,
+     * which stores samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
      * boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
