@@ -14,15 +14,17 @@ Result<TessellationDesc> describe(const TessellationDesc& group, const SchemePar
     desc.group.scheme = parts.scheme;
     desc.parts = parts.parts;
     desc.schemeChosen = parts.chosen;
-    if (parts.chosen && !surface::schemeOf(static_cast<surface::SchemeId>(parts.scheme)).hasIndexedMesh) {
-        desc.group.flags &= ~uint32_t{SUPPLE_GROUP_INDEXED_MESH};
-    }
     if (parts.parts.size() < group.asset->character.parts.size()) {
         Result<std::shared_ptr<AssetPiece>> piece = group.asset->pieceOf(*group.device, parts.parts);
         if (!piece) {
             return piece.error();
         }
         desc.piece = std::move(*piece);
+    }
+    const surface::Drawer drawer =
+        surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), desc.asset->cageOf(desc.piece));
+    if (parts.chosen && !surface::schemeOf(drawer.scheme).hasIndexedMesh) {
+        desc.group.flags &= ~uint32_t{SUPPLE_GROUP_INDEXED_MESH};
     }
     return desc;
 }

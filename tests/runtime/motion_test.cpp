@@ -149,7 +149,9 @@ std::vector<MotionCase> motionCases() {
                                       {"PrepShared", SUPPLE_SCHEME_PREP, 3},
                                       {"PmShared", SUPPLE_SCHEME_PM, 3},
                                       {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, 5},
-                                      {"CatmullClarkShared", SUPPLE_SCHEME_CATMULL_CLARK, 5}};
+                                      {"CatmullClarkShared", SUPPLE_SCHEME_CATMULL_CLARK, 5},
+                                      {"LoopShared", SUPPLE_SCHEME_LOOP, 4},
+                                      {"LoopShared", SUPPLE_SCHEME_LOOP, 4}}; // in both formats
             for (MotionCase c : own) {
                 c.flags = c.name.find("Shared") != std::string::npos ? SUPPLE_GROUP_INDEXED_MESH : 0;
                 c.name = mappingName(mapping) + c.name + suffix;

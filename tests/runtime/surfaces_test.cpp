@@ -413,5 +413,41 @@ TEST_F(SurfacesOnce, OfAuto) {
     EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_CONFLICT);
 }
 
+/// AUTO takes Loop for smooth triangles. Patches share samples; where a semi-sharp crease asks for fragments, it does
+/// without.
+TEST_F(SurfacesOnce, OfAutoShareSamplesWhereTheirPatchesCan) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    const cage::Cage smooth = withCutQuads(biped(), 1.0, 5);
+    cage::Cage creased = smooth;
+    creased.creases.push_back({creased.faceVertices[0], creased.faceVertices[1], 1.7f});
+    for (const bool sharp : {false, true}) {
+        const SuppleAsset asset = own.createAsset(sharp ? creased : smooth);
+        SupplePartInfo part{};
+        part.structSize = sizeof(part);
+        ASSERT_EQ(suppleGetPartInfo(own.handle(), asset, 0, &part), SUPPLE_OK);
+        EXPECT_EQ(part.scheme, SUPPLE_SCHEME_LOOP);
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.rate = 4;
+        desc.flags = SUPPLE_GROUP_INDEXED_MESH;
+        SuppleGroup group{};
+        ASSERT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_OK);
+        SuppleSurfaceInfo info{};
+        info.structSize = sizeof(info);
+        ASSERT_EQ(suppleGetSurfaceInfo(own.handle(), group, 0, &info), SUPPLE_OK);
+        EXPECT_EQ(info.tessellation, sharp ? SUPPLE_TESSELLATION_GRIDS : SUPPLE_TESSELLATION_INDEXED_MESH);
+        EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
+        (void)own.takeLines();
+        (void)own.takeError();
+        desc.scheme = SUPPLE_SCHEME_LOOP; // by name it is asked for
+        EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), sharp ? SUPPLE_ERROR_ARGUMENT : SUPPLE_OK);
+        (void)own.takeError();
+        (void)own.takeLines();
+    }
+}
+
 } // namespace
 } // namespace supple::test

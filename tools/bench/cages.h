@@ -19,8 +19,8 @@ struct BenchCage {
     bool bothFormats = false;          ///< p-rep also with 24-byte vertices
 };
 
-/// Whether the scheme is also measured as an indexed mesh, which stores the samples that patches share once.
-[[nodiscard]] bool sharesSamples(SuppleScheme scheme);
+/// Whether a cage is also measured as an indexed mesh of the scheme, which stores the samples that patches share once.
+[[nodiscard]] bool sharesSamples(SuppleScheme scheme, const cage::Cage& cage);
 
 /// The names of the built-in ones.
 [[nodiscard]] const std::vector<std::string>& builtInCages();
