@@ -1056,8 +1056,7 @@ void groups(Rows& r) {
         d.scheme = SUPPLE_SCHEME_FRAGMENTS;
         d.flags = SUPPLE_GROUP_PATCHES;
     });
-    for (const SuppleScheme scheme :
-         {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CAGE}) {
         spoiled("shared samples of scheme " + std::to_string(scheme), SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
                 [=](Desc& d) {
                     d.scheme = scheme;
