@@ -249,6 +249,14 @@ TEST_F(Cli, InspectSaysWhyASchemeRefuses) {
     expectFailure(run("bake triangles.gltf --keep-triangles -o out.obj --scheme prep"), 1, "3 sides");
 }
 
+TEST_F(Cli, InspectSaysWhereLoopRefines) {
+    const std::string pip = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+    const Json loop = Json::parse(run("inspect " + pip + " --json").out)["schemes"]["loop"];
+    EXPECT_EQ(loop["accepted"], true);
+    EXPECT_EQ(loop["patches"].size(), 1u) << loop;
+    EXPECT_NE(run("inspect " + pip).out.find("refined: creases are semi-sharp"), std::string::npos);
+}
+
 TEST_F(Cli, DamageIsRepairedOrRefusedByName) {
     writeText(file("fin.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\nf 2 1 3\n");
     const std::string twice = "file: 1 face is there twice: face 3 is face 0 again";
