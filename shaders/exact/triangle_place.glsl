@@ -1,5 +1,5 @@
-// Where the samples of a Loop patch lie: of a grid, or with LEVELS of rings. Before the
-// include: pairs.glsl, and what triangle_sample.glsl needs.
+// Where the samples of a Loop patch lie: of a grid, or with LEVELS of rings. Before the include: pairs.glsl, and what
+// triangle_sample.glsl needs.
 #include "shaders/exact/triangle_sample.glsl"
 
 // Derivatives along two edges as those of a sector: along the side and towards the centre.

@@ -24,7 +24,8 @@
 //   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
 //                    patches begins an element
 //   smooth UVs       where texture coordinates are smooth, in the order of patches, per UV set what SmoothPatch of
-//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: the samples of a rate
+//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: records as irregular patches
+//                    have them, of pairs of floats of the table (surface/exact/smooth_uvs.h). Fragments: the samples of a rate
 //   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of the border
 //                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative across is
 //                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;

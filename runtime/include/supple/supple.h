@@ -25,8 +25,8 @@
  *   - Functions that fill an array take `out` and `count`. Before the call, *count is how many entries out has room
  *     for. After it, *count is how many there are. If that is more, the result is SUPPLE_INCOMPLETE. If out is null,
  *     only *count is set, and the result is SUPPLE_OK. count must not be null.
- *   - ..._MAX_ENUM is no value, and is refused like any other number that is none. It makes every number one of the
- *     enum's, so that compilers may not take hosts at their word.
+ *   - ..._MAX_ENUM is no value, and is refused like any other number that is none. It makes all numbers from 0 to
+ *     0x7FFFFFFF the enum's, so that a compiler may not take it for granted that a host passes a value.
  *
  * Handles
  *   - Assets, groups, views and instances are checked in every call. A handle that is destroyed, or of another context,
@@ -738,8 +738,9 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_ATTRIBUTES = 2, /**< also write the static surface attributes: UVs, color, face UVs */
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
     /** PREP, PM, CATMULL_CLARK and LOOP without a view (POLYGONS has it in any case): an instance is one indexed mesh,
-     * which stores samples on the borders of patches once. Positions have the same bits as in other groups. Along creases and
-     * boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. See SuppleDrawRange. */
+     * which stores samples on the borders of patches once. Positions have the same bits as in other groups. Along
+     * creases and boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. LOOP lacks it
+     * where it is refined. See SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
