@@ -16,8 +16,8 @@
 #include "shaders/lod/levels.glsl"
 #include "shaders/lod/facing.glsl"
 
-// What is measured: bicubic nets or sectors, by a constant; or one of CHARTS, HALVES and TRIANGLES. One kernel never has two of
-// them: lavapipe goes through both sides of every `if`.
+// What is measured: bicubic nets or sectors, by a constant; or CHARTS; or HALVES; or TRIANGLES, of which a constant tells regular and
+// irregular ones apart. One kernel never has two of them: lavapipe goes through both sides of every `if`.
 layout(constant_id = kKindConstant) const uint kMeasures = kMeasuresNets;
 #if defined(CHARTS) || defined(HALVES) || defined(TRIANGLES)
 const bool kCubics = false;
@@ -38,6 +38,7 @@ struct PatchPlace {
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 #include "shaders/exact/triangle_sample.glsl"
+const bool kIrregularTriangles = kMeasures == kMeasuresIrregularTriangles;
 #endif
 #ifdef BACK_FACES
 const bool kBackFaces = true; // patches that show their backs are left out
@@ -49,6 +50,9 @@ const bool kSharp = true;
 
 vec3 coefficient(uint i, bool today) { return poolVector(i); }
 #include "shaders/pm/load.glsl"
+#ifdef TRIANGLES
+#include "shaders/lod/triangle_sectors.glsl"
+#endif
 
 // Levels are the same to the bit whether or not back faces are looked for: all that leads to them is precise.
 
@@ -174,11 +178,11 @@ vec2 irregularLevels(uint record, uint base) {
 
 #ifdef TRIANGLES
 // And of a Loop patch: as of sectors. Its middle is that of a leaf, of level 1 in an irregular triangle.
-float triangleLevel(uint record, uint base, bool irregular) {
+float triangleLevel(uint record, uint base) {
     PatchPlace at = PatchPlace(record, base);
-    Triangle t = triangleOf(record, irregular);
+    Triangle t = triangleOf(record, kIrregularTriangles);
     LeafPoints leaf;
-    if (irregular) leaf = leafInCell(at, ownNet(at, t), true, kMiddleCell);
+    if (kIrregularTriangles) leaf = leafInCell(at, ownNet(at, t), true, kMiddleCell);
     else leaf = cageLeaf(at, t);
     vec3 outer = (leaf.p[3] + leaf.p[4] + leaf.p[5]) + (leaf.p[9] + leaf.p[10] + leaf.p[11]);
     vec3 centre = (92.0 * (leaf.p[0] + leaf.p[1] + leaf.p[2]) + 14.0 * (leaf.p[6] + leaf.p[7] + leaf.p[8]) + outer) / 324.0;
@@ -327,10 +331,29 @@ bool mayShowBack(uint record, uint sides, uint base) {
     return may;
 }
 
+#ifdef TRIANGLES
+// Of a regular triangle of Loop, sector by sector.
+bool triangleShowsBack(uint record, uint base, vec4 levels, float inside) {
+    PatchPlace at = PatchPlace(record, base);
+    LeafPoints points = cageLeaf(at, triangleOf(record, false));
+    TriangleNet net = triangleNet(leafOf(points));
+    bool back;
+    uint side = 0u;
+    do {
+        back = sectorShowsBack(sectorOf(net, points.p[0]), reachOfBorder(levels[side], inside));
+        net = turnedOnce(net);
+    } while (back && ++side < 3u);
+    return back;
+}
+#endif
+
 // `levels`: of edges 0..3, `fifth` of edge 4, `inside` of the inside along u and along v: before the budget, which scales
 // them together, but none to below 1. A polar patch shows nothing: at its apex the sides across meet, and what bends there
 // turns triangles over however little it does.
 bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16], vec4 levels, float fifth, vec2 inside) {
+#ifdef TRIANGLES
+    return triangleShowsBack(record, base, levels, inside.x);
+#else
     if (patchClass == kPolarPatch) return false;
     if (!kNets) {
         vec2 ray = vec2(SUPPLE_PM_RAY_MIDDLE(sides), SUPPLE_PM_RAY_SIDE(sides));
@@ -346,6 +369,7 @@ bool showsItsBack(uint patchClass, uint record, uint base, uint sides, vec3 g[16
     vec2 across = max(max(levels.xy, levels.zw), inside); // rows have the finer of theirs, and of the borders beside them
     return bicubicShowsBack(g, p, vec4(reachOfBorder(levels.w, across.x), reachOfBorder(levels.y, across.x),
                                        reachOfBorder(levels.x, across.y), reachOfBorder(levels.z, across.y)));
+#endif
 }
 
 shared uint commonPlace, commonSums[3];
@@ -408,7 +432,7 @@ void main() {
         for (uint k = 0u; k < 4u; ++k) ofEdges[k] = k < sides ? uintBitsToFloat(levelWord(words + edges[k])) : 0.0;
         if (sides > 4u) fifth = uintBitsToFloat(levelWord(words + more.x));
 #if defined(TRIANGLES)
-        own = vec2(triangleLevel(more.z, base, patchClass == kLoopIrregularPatch));
+        own = vec2(triangleLevel(more.z, base));
 #elif defined(CHARTS)
         own = chartLevels(more.z, base);
 #elif defined(HALVES)

@@ -145,9 +145,11 @@ SUPPLE_SHARED_CONST kDepthCounts = kDepthEntries + kDepths;   // in the first in
 SUPPLE_SHARED_CONST kDepthDispatches = kDepthCounts + kDepths; // x, y, z
 SUPPLE_SHARED_CONST kDepthWords = kDepthDispatches + 3u * kDepths;
 
-// What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m.
+// What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m; regular or irregular triangles of Loop.
 SUPPLE_SHARED_CONST kMeasuresNets = 0u;
 SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
+SUPPLE_SHARED_CONST kMeasuresRegularTriangles = 2u;
+SUPPLE_SHARED_CONST kMeasuresIrregularTriangles = 3u;
 
 // What the passes before evaluation are told.
 struct LodPush {

@@ -32,7 +32,11 @@ PatchKernel patchKernel(PatchClass patchClass) {
     case Borders::halves:
         return {Kernel::lodPatchHalves, Kernel::lodPatchHalves};
     case Borders::splines:
-        return {Kernel::lodPatchTriangles, Kernel::lodPatchTriangles};
+        return patchClass == PatchClass::loopRegular
+                   ? PatchKernel{Kernel::lodPatchTriangles, Kernel::lodPatchBackFacesTriangles,
+                                 shared::kMeasuresRegularTriangles}
+                   : PatchKernel{Kernel::lodPatchTriangles, Kernel::lodPatchTriangles,
+                                 shared::kMeasuresIrregularTriangles};
     case Borders::charts:
         break;
     }

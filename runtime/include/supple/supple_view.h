@@ -35,9 +35,9 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in the trim tiles of their faces */
     SUPPLE_VIEW_CULL = 16,      /**< instances that the camera does not see are deformed, but get no vertices */
     SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor do those that suppleSetDepthPyramid hides */
-    /** Leave out patches of PREP and PM that surely show the camera only their backs, unless their material is
-     * double-sided. Use it only if you draw front faces (counter-clockwise) alone, and from this camera alone. Patches
-     * of other schemes stay. */
+    /** Leave out patches that surely show the camera only their backs, unless their material is double-sided. Use it
+     * only if you draw front faces (counter-clockwise) alone, and from this camera alone. Irregular patches of
+     * CATMULL_CLARK and LOOP stay, and all of BLEND. */
     SUPPLE_VIEW_BACK_FACES = 64,
     /** With ATTRIBUTES: write tangents. Groups with one of several rates have none. */
     SUPPLE_VIEW_TANGENTS = 128
