@@ -364,7 +364,8 @@ TEST_P(BackFaces, BordersThatAreCoarserThanTheInsideAreMinded) {
     const SuppleAsset asset = context.createAsset(makeCage(positions, polygons));
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_LOOP}) {
         // Loop cuts a net's middle quad in two, with corners of valence 6.
-        const SupplePatchClass regular = scheme == SUPPLE_SCHEME_LOOP ? SUPPLE_PATCH_LOOP_REGULAR : SUPPLE_PATCH_REGULAR;
+        const SupplePatchClass regular =
+            scheme == SUPPLE_SCHEME_LOOP ? SUPPLE_PATCH_LOOP_REGULAR : SUPPLE_PATCH_REGULAR;
         BothWays both(context, asset, scheme, 1'000'000);
         SuppleCameraDesc camera{};
         camera.flags = SUPPLE_CAMERA_ORTHOGRAPHIC;
