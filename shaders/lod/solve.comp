@@ -3,6 +3,7 @@
 // Sums are of integers: the answer does not depend on the order in which patches were counted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define LOD_WRITE
 #define PUSH_CONSTANTS LodSolvePush
 #include "shaders/shared/mapping.glsl"
@@ -19,7 +20,7 @@ shared uint counts[kMaxRuns * kCapacityCount];
 uint capacityOfBin(uint bin, float scaled) {
     precise float level = exp2(((float(bin) + 1.0625) - scaled) / float(kBinsPerOctave) - float(kOctavesBelow));
     uint index = 0u; // no branches: unrolled, those are much to compile
-    for (uint i = 0u; i + 1u < kCapacityCount; ++i) index += float(capacityOf(i)) < level ? 1u : 0u;
+    [[dont_unroll]] for (uint i = 0u; i + 1u < kCapacityCount; ++i) index += float(capacityOf(i)) < level ? 1u : 0u;
     return index;
 }
 
@@ -41,19 +42,19 @@ uvec2 minus(uvec2 a, uvec2 b) {
 uvec2 demand(float x) {
     uint lane = gl_LocalInvocationID.x;
     uvec2 sum = uvec2(0u);
-    for (uint p = 0u; p < kPriorityCount; ++p) {
+    [[dont_unroll]] for (uint p = 0u; p < kPriorityCount; ++p) {
         if ((push.priorities & (1u << p)) == 0u) continue;
         float scaled = SUPPLE_LOD_SCALED(push.elasticity[p], x);
-        for (uint f = 0u; f < kLodForms; ++f) {
+        [[dont_unroll]] for (uint f = 0u; f < kLodForms; ++f) {
             if ((push.forms & (1u << f)) == 0u) continue;
-            for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
+            [[dont_unroll]] for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
                 uint weight = lodWords[kLodSplit + (p * kLodForms + f) * kLodBinStride + bin];
                 if (weight > 0u)
                     add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, scaled))));
             }
         }
         if (push.rated == 0u) continue;
-        for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
+        [[dont_unroll]] for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
             if (float(bin) > scaled) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
         }
     }
@@ -62,7 +63,7 @@ uvec2 demand(float x) {
     sumLow[lane] = sum.y;
     barrier();
     uvec2 total = uvec2(0u);
-    for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) {
+    [[dont_unroll]] for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) {
         uint carry;
         total.y = uaddCarry(total.y, sumLow[i], carry);
         total.x += sumHigh[i] + carry;
@@ -95,7 +96,7 @@ void main() {
     int low = -1, high = int(kBudgetSteps), step = 0;
     uvec2 wanted = uvec2(0u), over = wanted, fits = wanted;
     bool tooMany = false, searching = true; // of patches, each at level 1
-    for (uint turn = 0u; searching; ++turn) {
+    [[dont_unroll]] for (uint turn = 0u; searching; ++turn) {
         uvec2 d = demand(float(step));
         bool tooMuch = above(d, limit);
         if (turn == 0u) {
@@ -119,17 +120,17 @@ void main() {
     else if (above(over, limit)) x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
 
     uint buckets = push.runCount * kCapacityCount;
-    for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
+    [[dont_unroll]] for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
     barrier();
     // Capacities at the solution, and exact counts by them: from one value, for patches are placed by the capacity of their
     // bin, and one that was counted elsewhere has no place. What was counted is cleared for the next frame.
-    for (uint p = 0u; p < kPriorityCount; ++p) {
+    [[dont_unroll]] for (uint p = 0u; p < kPriorityCount; ++p) {
         if ((push.priorities & (1u << p)) == 0u) continue;
-        for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
+        [[dont_unroll]] for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
             uint c = 0u;
             if (!tooMany) c = capacityOfBin(bin, SUPPLE_LOD_SCALED(push.elasticity[p], x));
             lodWords[kLodCapacities + p * kLodBinStride + bin] = c;
-            for (uint run = 0u; run < push.runCount; ++run) {
+            [[dont_unroll]] for (uint run = 0u; run < push.runCount; ++run) {
                 uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
                 if (count > 0u) {
                     atomicAdd(counts[run * kCapacityCount + c], count);
@@ -137,9 +138,9 @@ void main() {
                 }
             }
         }
-        for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
+        [[dont_unroll]] for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
             lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
-        for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
+        [[dont_unroll]] for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
             lodWords[kLodRatedMore + p * kRatedBins + i] = 0u;
     }
     barrier();
@@ -152,14 +153,14 @@ void main() {
             lodWords[kLodRated] = 0u;
         }
         uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
-        for (uint run = 0u; run < push.runCount; ++run) {
+        [[dont_unroll]] for (uint run = 0u; run < push.runCount; ++run) {
             uint form = lodWords[kLodRuns + run] & 255u, dispatch = dispatchOf(run);
             if (dispatch != last) {
                 group = 0u;
                 last = dispatch;
             }
             uint at = bucketWord(run, 0u);
-            for (uint c = 0u; c < kCapacityCount; ++c, at += 4u) {
+            [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c, at += 4u) {
                 uint b = run * kCapacityCount + c, samples = formSamples(form, capacityOf(c));
                 lodWords[at] = record;
                 lodWords[at + 1u] = vertex;
@@ -183,7 +184,7 @@ void main() {
         lodWords[kLodSolution + 1u] = vertex;
         lodWords[kLodSolution + 2u] = patches;
         lodWords[kLodSolution + 3u] = x > float(kElasticSteps) ? 1u : 0u;
-        for (uint p = 0u; p < kPriorityCount; ++p) {
+        [[dont_unroll]] for (uint p = 0u; p < kPriorityCount; ++p) {
             float scaled = SUPPLE_LOD_SCALED(push.elasticity[p], x);
             lodWords[kLodSolution + 4u + p] =
                 floatBitsToUint(tooMany ? 0.0 : x == 0.0 ? 1.0 : exp2(-scaled / float(kBinsPerOctave)));
@@ -196,7 +197,7 @@ void main() {
     memoryBarrierBuffer();
     barrier();
 
-    for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
+    [[dont_unroll]] for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
         uint run = b / kCapacityCount, c = b - run * kCapacityCount;
         uint form = lodWords[kLodRuns + run] & 255u, samples = formSamples(form, capacityOf(c));
         uint perDraw = patchesPerDraw(samples), whole = padded(counts[b], samples);
@@ -207,14 +208,14 @@ void main() {
         lodWords[draw + 2u] = lodWords[grid];
         lodWords[draw + 3u] = vertex;
         lodWords[draw + 4u] = 0u;
-        for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
+        [[dont_unroll]] for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
             uint to = kLodRecords + kLodRecordWords * (record + i);
             lodWords[to] = kEmptyRecord;
             lodWords[to + 2u] = vertex + i * samples;
             lodWords[to + 3u] = c;
         }
     }
-    for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
+    [[dont_unroll]] for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
         uint dispatch = dispatchOf(run);
         if (dispatch >= kMaxRuns) continue; // given back by a group that is gone
         if (run > 0u && dispatchOf(run - 1u) == dispatch) continue;
