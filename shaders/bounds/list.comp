@@ -2,6 +2,7 @@
 // One workgroup; every lane takes a run of entries, so that places follow from counts alone and are the same every time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define LIST_PUSH ListPush
 #include "shaders/bounds/list.glsl"
 
@@ -78,9 +79,10 @@ void main() {
         countsOf[lane] = own;
         barrier();
         uvec4 before = uvec4(0u), counts = uvec4(0u);
-        for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
-            if (l == lane) before = counts;
-            counts += countsOf[l];
+        [[dont_unroll]] for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
+            uvec4 one = countsOf[l];
+            before += l < lane ? one : uvec4(0u);
+            counts += one;
         }
         barrier();
 
