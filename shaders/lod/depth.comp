@@ -3,6 +3,7 @@
 // every time. Behind the solver.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_WRITE_ONLY
 #define PUSH_CONSTANTS LodPush
 #include "shaders/shared/lod.h"
@@ -43,15 +44,16 @@ void main() {
     countsOf[lane] = own;
     barrier();
     uvec4 places = uvec4(0u), counts = uvec4(0u);
-    for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
-        if (l == lane) places = counts;
-        counts += countsOf[l];
+    [[dont_unroll]] for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
+        uvec4 one = countsOf[l];
+        places += l < lane ? one : uvec4(0u);
+        counts += one;
     }
     for (uint i = begin; i < end; ++i) {
         uint entry = instanceEntry(i), instance = entry & kInstanceSlotMask, depth = depthOf(i, entry);
         pool[instance * push.poolStride + push.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
         uvec4 listed = depthsOf(depth);
-        for (uint d = 0u; d < kDepths; ++d) {
+        [[dont_unroll]] for (uint d = 0u; d < kDepths; ++d) {
             if (listed[d] != 0u) scratchWords[levelBase(places[d]) + push.depths + kDepthEntries + d] = entry;
         }
         places += listed;
