@@ -65,12 +65,12 @@ Net chainNet(const PatchPlace at, Chain chain, uint level) {
 struct NetRow {
     vec3 point[kNetSide], slope[kNetSide];
 };
-NetRow netRow(Net net, uint upper, LeafWeights y) {
+NetRow netRow(Net net, bool upper, LeafWeights y) {
     NetRow row;
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
         vec3 p[4];
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            precise vec3 d = net.p[kNetSide * (j + upper) + i] - net.p[kNetMiddle];
+            precise vec3 d = (upper ? net.p[kNetSide * (j + 1u) + i] : net.p[kNetSide * j + i]) - net.p[kNetMiddle];
             p[j] = d;
         }
         row.point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
@@ -78,15 +78,23 @@ NetRow netRow(Net net, uint upper, LeafWeights y) {
     }
     return row;
 }
-vec3 rowPoint(NetRow row, uint right, vec4 w) {
-    return sum4(w, row.point[right], row.point[right + 1u], row.point[right + 2u], row.point[right + 3u]);
+// The columns of the left or the right cells.
+struct CellRow {
+    vec3 point[4], slope[4];
+};
+CellRow cellRow(NetRow row, bool right) {
+    CellRow cell;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        cell.point[k] = right ? row.point[k + 1u] : row.point[k];
+        cell.slope[k] = right ? row.slope[k + 1u] : row.slope[k];
+    }
+    return cell;
 }
-vec3 rowAlongX(NetRow row, uint right, vec4 d) {
-    return blend4(d, row.point[right], row.point[right + 1u], row.point[right + 2u], row.point[right + 3u]);
-}
-vec3 rowAlongY(NetRow row, uint right, vec4 w) {
-    return blend4(w, row.slope[right], row.slope[right + 1u], row.slope[right + 2u], row.slope[right + 3u]);
-}
+vec3 rowPoint(CellRow row, vec4 w) { return sum4(w, row.point[0], row.point[1], row.point[2], row.point[3]); }
+vec3 rowAlongX(CellRow row, vec4 d) { return blend4(d, row.point[0], row.point[1], row.point[2], row.point[3]); }
+vec3 rowAlongY(CellRow row, vec4 w) { return blend4(w, row.slope[0], row.slope[1], row.slope[2], row.slope[3]); }
+vec3 rowAlongX(NetRow row, bool right, vec4 d) { return rowAlongX(cellRow(row, right), d); }
+vec3 rowAlongY(NetRow row, bool right, vec4 w) { return rowAlongY(cellRow(row, right), w); }
 
 #ifdef LEVELS
 LodPattern patterns[6];
@@ -166,22 +174,22 @@ LeafWeights ownAlong(OwnQuarter q, float distance) { return quarterWeights(dista
 
 void storeOwnFirst(const PatchPlace at, OwnQuarter q) {
     uint corner = q.place.corner, a = 1u;
-    NetRow row = netRow(q.net, 0u, ownAcross(q, 0.0));
+    NetRow row = netRow(q.net, false, ownAcross(q, 0.0));
     LeafWeights begin = ownAlong(q, 0.0);
-    Frame frame = turnedFrame(corner, rowAlongX(row, 0u, begin.d), rowAlongY(row, 0u, begin.w));
+    Frame frame = turnedFrame(corner, rowAlongX(row, false, begin.d), rowAlongY(row, false, begin.w));
     uvec2 place = placeInQuad(corner, 0u, 0u);
     store(at, q.own, place.x, place.y, q.limit, withStoredNormal(at, q.quad, 0u, frame));
     do {
         vec2 pair = pairOf(kOwnBorders ? kSide + corner : 0u, a);
         LeafWeights x = ownAlong(q, pair.x);
         vec3 position = orLimit(q.limit, pair.x, onHalf(q.first, pair, x.w));
-        storeInQuarter(at, q.own && a < q.place.countA, corner, a, 0u, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+        storeInQuarter(at, q.own && a < q.place.countA, corner, a, 0u, position, rowAlongX(row, false, x.d), rowAlongY(row, false, x.w));
     } while (++a < q.place.countA);
 }
 void storeOwnSecond(const PatchPlace at, OwnQuarter q, NetRow row, bool own, uint b, vec2 pair, LeafWeights y) {
     LeafWeights x = ownAlong(q, 0.0);
     vec3 position = orLimit(q.limit, pair.x, onHalf(q.second, pair, y.w));
-    storeInQuarter(at, own, q.place.corner, 0u, b, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+    storeInQuarter(at, own, q.place.corner, 0u, b, position, rowAlongX(row, false, x.d), rowAlongY(row, false, x.w));
 }
 // `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
 void storeOwnQuarter(const PatchPlace at, OwnQuarter q, bool onA, bool onB) {
@@ -195,21 +203,21 @@ void storeOwnQuarter(const PatchPlace at, OwnQuarter q, bool onA, bool onB) {
             vec2 across = pairOf(1u - alongA, b);
             if (kInside) {
                 LeafWeights y = ownAcross(q, across.x);
-                NetRow row = netRow(q.net, 0u, y);
+                NetRow row = netRow(q.net, false, y);
                 if (onB && !apart) storeOwnSecond(at, q, row, own, b, across, y);
                 uint a = 1u;
                 do {
                     vec2 pair = pairOf(alongA, a);
                     LeafWeights x = ownAlong(q, pair.x);
-                    vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(row, 0u, x.w));
+                    vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(cellRow(row, false), x.w));
                     position = orLimit(q.limit, max(pair.x, across.x), position);
-                    storeInQuarter(at, own && a < q.place.countA, corner, a, b, position, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+                    storeInQuarter(at, own && a < q.place.countA, corner, a, b, position, rowAlongX(row, false, x.d), rowAlongY(row, false, x.w));
                 } while (++a < q.place.countA);
             }
             if (apart) {
                 vec2 pair = pairOf(kOwnBorders ? kSide + ((corner + 3u) & 3u) : 0u, b);
                 LeafWeights y = ownAcross(q, pair.x);
-                storeOwnSecond(at, q, netRow(q.net, 0u, y), own, b, pair, y);
+                storeOwnSecond(at, q, netRow(q.net, false, y), own, b, pair, y);
             }
         } while (++b < q.place.countB);
     }
@@ -313,45 +321,40 @@ void storeAlongA(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint 
     do {
         float distance = pairOf(pattern, a).x;
         LeafWeights x = chainWeights(true, parameterOf(l, distance), 0.0);
-        Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 1u, x.d), rowAlongY(row, 1u, x.w));
+        Frame frame = turnedFrame(q.place.corner, rowAlongX(row, true, x.d), rowAlongY(row, true, x.w));
         vec3 offset = sum4(x.w, l.lineA.p[0], l.lineA.p[1], l.lineA.p[2], l.lineA.p[3]);
         storeOnBorder(at, q, a < l.endA, a, 0u, distance, offset, q.middleA, frame);
     } while (++a < l.endA);
 }
 void storeOnB(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, bool own, uint b, float distance, LeafWeights y) {
     LeafWeights x = leafWeights(0.0, l.sharpB);
-    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 0u, x.d), rowAlongY(row, 0u, x.w));
+    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, false, x.d), rowAlongY(row, false, x.w));
     vec3 offset = sum4(y.w, l.lineB.p[0], l.lineB.p[1], l.lineB.p[2], l.lineB.p[3]);
     storeOnBorder(at, q, own, 0u, b, distance, offset, q.middleB, frame);
 }
-void storeChainRow(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uint right, bool own, uint b, uint a, uint end) {
-    do {
-        float distance = pairOf(q.place.corner & 1u, a).x;
-        LeafWeights x = chainWeights(right != 0u, parameterOf(l, distance), l.sharpB);
-        vec3 position = placed(q.origin, l.net.p[kNetMiddle], rowPoint(row, right, x.w));
-        Frame frame = turnedFrame(q.place.corner, rowAlongX(row, right, x.d), rowAlongY(row, right, x.w));
-        uvec2 place = placeInQuad(q.place.corner, a, b);
-        store(at, own && a < end, place.x, place.y, position, frame);
-    } while (++a < end);
+void storeInLevel(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, bool own, uint a, uint b) {
+    bool right = a >= l.firstA;
+    LeafWeights x = chainWeights(right, parameterOf(l, pairOf(q.place.corner & 1u, a).x), l.sharpB);
+    CellRow cell = cellRow(row, right);
+    vec3 position = placed(q.origin, l.net.p[kNetMiddle], rowPoint(cell, x.w));
+    Frame frame = turnedFrame(q.place.corner, rowAlongX(cell, x.d), rowAlongY(cell, x.w));
+    uvec2 place = placeInQuad(q.place.corner, a, b);
+    store(at, own && a < l.endA, place.x, place.y, position, frame);
 }
 
-// The cells of a level but for borders that have patterns of their own.
+// The cells of a level but for borders that have patterns of their own. One loop for all three: at most rates a cell has few samples.
 void storeLevel(const PatchPlace at, Quarter q, ChainLevel l) {
-    uint acrossA = 1u - (q.place.corner & 1u), b = 1u;
+    uint b = 1u;
     do {
-        float distance = pairOf(acrossA, b).x;
-        NetRow row = netRow(l.net, 0u, chainWeights(false, parameterOf(l, distance), l.sharpA));
-        storeChainRow(at, q, l, row, 1u, b < l.firstB, b, l.firstA, l.endA);
-    } while (++b < l.firstB);
-    b = l.firstB;
-    do {
-        bool own = b < l.endB;
-        float distance = pairOf(acrossA, b).x;
-        LeafWeights y = chainWeights(true, parameterOf(l, distance), 0.0);
-        NetRow row = netRow(l.net, 1u, y);
-        if (!kOwnBorders && kSides) storeOnB(at, q, l, row, own, b, distance, y);
-        storeChainRow(at, q, l, row, 0u, own, b, 1u, l.firstA);
-        storeChainRow(at, q, l, row, 1u, own, b, l.firstA, l.endA);
+        bool own = b < l.endB, upper = b >= l.firstB;
+        float distance = pairOf(1u - (q.place.corner & 1u), b).x;
+        LeafWeights y = chainWeights(upper, parameterOf(l, distance), l.sharpA);
+        NetRow row = netRow(l.net, upper, y);
+        if (!kOwnBorders && kSides) storeOnB(at, q, l, row, own && upper, b, distance, y);
+        uint a = upper ? 1u : l.firstA;
+        do {
+            storeInLevel(at, q, l, row, own, a, b);
+        } while (++a < l.endA);
     } while (++b < l.endB);
 }
 
@@ -361,7 +364,7 @@ void storeAlongB(const PatchPlace at, Quarter q, ChainLevel l, uint pattern) {
     do {
         float distance = pairOf(pattern, b).x;
         LeafWeights y = chainWeights(true, parameterOf(l, distance), 0.0);
-        storeOnB(at, q, l, netRow(l.net, 1u, y), b < l.endB, b, distance, y);
+        storeOnB(at, q, l, netRow(l.net, true, y), b < l.endB, b, distance, y);
     } while (++b < l.endB);
 }
 
@@ -438,19 +441,19 @@ void storeBordersOfCone(const PatchPlace at, Quarter q, ChainLevel l, NetRow row
     precise vec3 rimA = q.origin + sum4(begin.w, l.lineA.p[0], l.lineA.p[1], l.lineA.p[2], l.lineA.p[3]);
     precise vec3 rimB = q.origin + sum4(begin.w, l.lineB.p[0], l.lineB.p[1], l.lineB.p[2], l.lineB.p[3]);
     storeOnCone(at, q, uvec2(1u, 0u), uvec2(end.x, 1u), parameterOf(l, pairOf(kSide + corner, 1u).x), rimA,
-                turnedFrame(corner, rowAlongX(row, 1u, begin.d), rowAlongY(row, 1u, begin.w)));
-    NetRow second = netRow(l.net, 1u, begin);
+                turnedFrame(corner, rowAlongX(row, true, begin.d), rowAlongY(row, true, begin.w)));
+    NetRow second = netRow(l.net, true, begin);
     storeOnCone(at, q, uvec2(0u, 1u), uvec2(1u, end.y), parameterOf(l, pairOf(kSide + before, 1u).x), rimB,
-                turnedFrame(corner, rowAlongX(second, 0u, across.d), rowAlongY(second, 0u, across.w)));
+                turnedFrame(corner, rowAlongX(second, false, across.d), rowAlongY(second, false, across.w)));
 }
 #endif
 
 void storeCorner(const PatchPlace at, Quarter q, ChainLevel l, NetRow row) {
     // The directions of the nearest leaves on its edges stand in.
     LeafWeights begin = leafWeights(0.0, 0.0);
-    vec3 alongB = rowAlongY(row, 1u, begin.w);
-    if (kTangents) alongB = rowAlongY(netRow(l.net, 1u, begin), 0u, leafWeights(0.0, l.sharpB).w);
-    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, 1u, begin.d), alongB);
+    vec3 alongB = rowAlongY(row, true, begin.w);
+    if (kTangents) alongB = rowAlongY(netRow(l.net, true, begin), false, leafWeights(0.0, l.sharpB).w);
+    Frame frame = turnedFrame(q.place.corner, rowAlongX(row, true, begin.d), alongB);
     uvec2 place = placeInQuad(q.place.corner, 0u, 0u);
     store(at, true, place.x, place.y, q.limit, withNormal(frame, q.normal));
 }
@@ -475,7 +478,7 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
         }
         if (onB && (kOwnBorders || !kInside)) storeAlongB(at, q, l, kSide + before); // else with the rows inside
         if (onA) {
-            row = netRow(l.net, 0u, leafWeights(0.0, l.sharpA));
+            row = netRow(l.net, false, leafWeights(0.0, l.sharpA));
             storeAlongA(at, q, l, row, kSide + corner);
         }
         ++level;

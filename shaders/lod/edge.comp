@@ -37,6 +37,11 @@ EdgeCurve quarteredCurve(vec3 p[5]) {
     return EdgeCurve(p[0], p[4], curveLength, bend);
 }
 
+// In a loop that drivers compile once, and which lanes cannot index by.
+void setQuarter(inout vec3 p[5], uint k, vec3 point) {
+    [[unroll]] for (uint i = 1u; i < 4u; ++i) p[i] = i == k ? point : p[i];
+}
+
 #if defined(CHARTS)
 // The border is the blend of two charts.
 const bool kSharp = true;
@@ -86,7 +91,10 @@ EdgeCurve curveOf(uint base, uint edge) {
     vec3 p[5];
     p[0] = poolPoint(at, componentOf(quad.points, side < 2u ? side : (side + 1u) & 3u));
     p[4] = poolPoint(at, componentOf(quad.points, side < 2u ? side + 1u : side));
-    [[unroll]] for (uint k = 1u; k < 4u; ++k) p[k] = pointOnHalves(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)));
+    uint k = 1u;
+    [[dont_unroll]] do {
+        setQuarter(p, k, pointOnHalves(at, quad, side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k))));
+    } while (++k < 4u);
     return quarteredCurve(p);
 }
 #elif defined(TRIANGLES)
@@ -110,7 +118,10 @@ EdgeCurve curveOf(uint base, uint edge) {
     vec3 p[5];
     p[0] = cornerLimit(at, t, side);
     p[4] = cornerLimit(at, t, nextOf(side));
-    [[unroll]] for (uint k = 1u; k < 4u; ++k) p[k] = sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k))));
+    uint k = 1u;
+    [[dont_unroll]] do {
+        setQuarter(p, k, sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)))));
+    } while (++k < 4u);
     return quarteredCurve(p);
 }
 #else
