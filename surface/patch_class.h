@@ -32,9 +32,10 @@ enum class Form : uint32_t {
 /// What the borders of patches are.
 enum class Borders : uint8_t {
     cubics,
-    halves,  ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
-    splines, ///< Loop: quartic box splines, whole or in halves
-    charts   ///< blends of two charts
+    halves,       ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
+    splines,      ///< Loop: quartic box splines; of an edge, one
+    splineHalves, ///< of an edge: two, each of its end's leaves
+    charts        ///< blends of two charts
 };
 
 enum class PatchClass : uint32_t {

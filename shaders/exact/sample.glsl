@@ -2,19 +2,20 @@
 //   vec3 netPoint(const PatchPlace at, uint k)        ownPoint(), from workgroup memory
 #include "shaders/exact/quad.glsl"
 
-#ifndef LOCAL_NET
-vec3 netPoint(const PatchPlace at, uint k) { return ownPoint(at, k); }
-#endif
-
 // Where a net's points come from, as they are seen from a corner.
 struct NetSource {
     uint windows, first; // of a chain; windows 0: the quad's own
     uint corner;
 };
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
-    if (net.windows == 0u) return netPoint(at, SUPPLE_EXACT_NET_PLACE(net.corner, k % kNetSide, k / kNetSide));
-    uint halves = tableWord(4u * net.windows + k / 2u);
-    return poolPoint(at, net.first + ((k & 1u) == 0u ? halves & 0xFFFFu : halves >> 16u));
+    bool own = net.windows == 0u;
+    uint place = SUPPLE_EXACT_NET_PLACE(net.corner, k % kNetSide, k / kNetSide);
+#ifdef LOCAL_NET
+    if (own) return netPoint(at, place);
+#endif
+    // One word and one point, whichever it is: lanes on CPUs would load both.
+    uint word = tableWord(own ? 4u * (at.record + kExactNetElement) + 1u + place : 4u * net.windows + k / 2u);
+    return poolPoint(at, own ? word : net.first + ((k & 1u) == 0u ? word & 0xFFFFu : word >> 16u));
 }
 
 // A point of a side that has two halves, at a pair of the quad's own parameter.

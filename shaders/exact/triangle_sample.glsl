@@ -45,15 +45,6 @@ uint cornerAt(TrianglePoint s) {
     return s.w.x == 1.0 ? 0u : s.w.y == 1.0 ? 1u : s.w.z == 1.0 ? 2u : 3u;
 }
 
-// On a side of an irregular triangle that has two halves. `leaf`: the one there, in a cell of the net.
-vec3 onHalfSide(NetSource net, LeafPoints leaf, bool own, uint cell, TrianglePoint s, float scale, float distance) {
-    bool far = s.along.x > s.along.y; // nearer to where the side ends
-    uint begin = own ? cell : 0u;
-    bool sharp = (net.sides >> (far ? lastOf(begin) : begin) & 1u) != 0u;
-    precise float x = distance * scale - (own ? 0.0 : 1.0), rest = 1.0 - x;
-    precise vec3 p = net.origin + onSide(leafSide(leaf, begin, far, sharp), vec2(x, rest));
-    return p;
-}
 vec3 middleOfSide(NetSource net, LeafPoints leaf, uint side) {
     vec3 p[12];
     uint v = lastOf(side); // of the leaf in the middle
@@ -66,67 +57,96 @@ vec3 middleOfSide(NetSource net, LeafPoints leaf, uint side) {
     return onLine(p[8], p[0], p[6], first, second);
 }
 
-void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to, out vec3 position, out Frame frame) {
-    uint corner = s.w.x > 0.5 ? 0u : s.w.y > 0.5 ? 1u : s.w.z > 0.5 ? 2u : 3u, isCorner = cornerAt(s);
-    bool onBorder = s.side != kInside, middle = onBorder && s.along.x == s.along.y;
-    if (onBorder && isCorner == 3u && !middle) corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
-    NetSource net = ownNet(at, t);
-    Chain chain = chainOf(at, t, corner == 3u ? 0u : corner);
-    bool own = corner == 3u || chain.windows == 0u;
-    uint cell = corner, from = 0u;
-    float scale = 2.0, a = s.w.y, b = s.w.z, way = 1.0; // to the rim of the last cell
-    float distance = onBorder ? min(s.along.x, s.along.y) : 0.0;
-    if (!own) {
-        a = corner == 0u ? s.w.y : corner == 1u ? s.w.z : s.w.x;
-        b = corner == 0u ? s.w.z : corner == 1u ? s.w.x : s.w.y;
+// Where a sample of an irregular triangle lies in a leaf: in a cell of a net, the triangle's own or a chain's at `corner`.
+struct LeafPlace {
+    NetSource net;
+    bool own;
+    uint corner, cell;
+    float x, y;            // in the leaf
+    float scale, distance; // of the net; from the nearest corner along the side
+    float way;             // to the rim of the last cell, 1 beyond it
+};
+bool isMiddle(TrianglePoint s) { return s.side != kInside && s.along.x == s.along.y; }
+LeafPlace leafPlace(const PatchPlace at, Triangle t, TrianglePoint s, bool isCorner) {
+    bool onBorder = s.side != kInside;
+    LeafPlace place;
+    place.corner = s.w.x > 0.5 ? 0u : s.w.y > 0.5 ? 1u : s.w.z > 0.5 ? 2u : 3u;
+    if (onBorder && !isCorner && !isMiddle(s)) place.corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
+    place.net = ownNet(at, t);
+    Chain chain = chainOf(at, t, place.corner == 3u ? 0u : place.corner);
+    place.own = place.corner == 3u || chain.windows == 0u;
+    place.cell = place.corner;
+    place.scale = 2.0, place.way = 1.0;
+    float a = s.w.y, b = s.w.z;
+    place.distance = onBorder ? min(s.along.x, s.along.y) : 0.0;
+    if (!place.own) {
+        a = place.corner == 0u ? s.w.y : place.corner == 1u ? s.w.z : s.w.x;
+        b = place.corner == 0u ? s.w.z : place.corner == 1u ? s.w.x : s.w.y;
         float nearest = s.distance;
 #ifdef LEVELS
-        nearest = onBorder ? distance : a + b;
+        nearest = onBorder ? place.distance : a + b;
         float rim = powerOfTwo(-float(chain.lastLevel));
         if (nearest > 0.0 && nearest < rim) {
             precise float of = nearest * powerOfTwo(float(chain.lastLevel)), back = rim / nearest;
-            way = of;
+            place.way = of;
             a *= back, b *= back;
             if (onBorder) { // without rounding
-                distance = rim;
+                place.distance = rim;
                 a = a > 0.0 ? rim : 0.0, b = b > 0.0 ? rim : 0.0;
             }
             nearest = rim;
         }
 #endif
-        ChainPlace place = chainPlace(nearest, chain.lastLevel);
-        scale = place.scale;
-        net = chainNet(at, t, chain, corner, place.level);
-        from = corner;
+        ChainPlace level = chainPlace(nearest, chain.lastLevel);
+        place.scale = level.scale;
+        place.net = chainNet(at, t, chain, place.corner, level.level);
     }
-    precise float x = a * scale, y = b * scale;
-    if (!own) cell = isCorner != 3u || x >= 1.0 ? 1u : y >= 1.0 ? 2u : kMiddleCell;
-    bool reversed = cell == kMiddleCell;
-    LeafPoints points = leafInCell(at, net, own, cell);
+    precise float x = a * place.scale, y = b * place.scale;
+    if (!place.own) place.cell = isCorner || x >= 1.0 ? 1u : y >= 1.0 ? 2u : kMiddleCell;
+    bool reversed = place.cell == kMiddleCell;
+    precise float inX = reversed ? 1.0 - x : place.cell == 1u ? x - 1.0 : x, inY = reversed ? 1.0 - y : place.cell == 2u ? y - 1.0 : y;
+    place.x = inX, place.y = inY;
+    return place;
+}
+
+// On a side that has two halves. `leaf`: the one there.
+vec3 onHalves(LeafPlace place, LeafPoints leaf, TrianglePoint s) {
+    if (isMiddle(s)) return middleOfSide(place.net, leaf, s.side);
+    bool far = s.along.x > s.along.y; // nearer to where the side ends
+    uint begin = place.own ? place.cell : 0u;
+    bool sharp = (place.net.sides >> (far ? lastOf(begin) : begin) & 1u) != 0u;
+    precise float x = place.distance * place.scale - (place.own ? 0.0 : 1.0), rest = 1.0 - x;
+    precise vec3 p = place.net.origin + onSide(leafSide(leaf, begin, far, sharp), vec2(x, rest));
+    return p;
+}
+
+void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to, out vec3 position, out Frame frame) {
+    uint isCorner = cornerAt(s);
+    LeafPlace place = leafPlace(at, t, s, isCorner != 3u);
+    uint from = place.own ? 0u : place.corner;
+    LeafPoints points = leafInCell(at, place.net, place.own, place.cell);
     Leaf leaf = leafOf(points);
-    precise float inX = reversed ? 1.0 - x : cell == 1u ? x - 1.0 : x, inY = reversed ? 1.0 - y : cell == 2u ? y - 1.0 : y;
-    LeafRow row = leafRow(leaf, inY);
-    vec3 da = rowAlongX(row, inX), db = rowAlongY(row, inX);
+    LeafRow row = leafRow(leaf, place.y);
+    vec3 da = rowAlongX(row, place.x), db = rowAlongY(row, place.x);
     if (isCorner != 3u) {
         position = cornerLimit(at, t, isCorner);
-        if (!own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
+        if (!place.own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
         frame = seenFrom(from, to, da, db);
-        if (!own) frame = withCornerNormal(at, t, corner, frame);
+        if (!place.own) frame = withCornerNormal(at, t, place.corner, frame);
         return;
     }
+    bool reversed = place.cell == kMiddleCell;
     frame = seenFrom(from, to, reversed ? -da : da, reversed ? -db : db);
-    if (!onBorder) {
-        precise vec3 p = net.origin + (leaf.first + rowOffset(row, inX));
+    if (s.side == kInside) {
+        precise vec3 p = place.net.origin + (leaf.first + rowOffset(row, place.x));
         position = p;
     } else if (hasFlag(t, kWholeTriangleSide, s.side)) {
         position = onWholeSide(at, t, s.side, s.along);
-    } else if (middle) {
-        position = middleOfSide(net, points, s.side);
     } else {
-        position = onHalfSide(net, points, own, cell, s, scale, distance);
+        position = onHalves(place, points, s);
     }
 #ifdef LEVELS
-    if (way < 1.0) position = onCone(cornerLimit(at, t, corner), position, way);
+    if (place.way < 1.0) position = onCone(cornerLimit(at, t, place.corner), position, place.way);
 #endif
 }
 
@@ -145,13 +165,14 @@ void regularTriangle(const PatchPlace at, Triangle t, LeafPoints points, Leaf le
     }
 }
 
-// A point of a side alone.
-vec3 sidePoint(const PatchPlace at, Triangle t, TrianglePoint s) {
-    if (hasFlag(t, kWholeTriangleSide, s.side)) return onWholeSide(at, t, s.side, s.along);
-    vec3 position;
-    Frame unused;
-    irregularTriangle(at, t, s, 0u, position, unused);
-    return position;
+// A point of a side with two halves alone; not a corner.
+vec3 pointOnHalves(const PatchPlace at, Triangle t, TrianglePoint s) {
+    LeafPlace place = leafPlace(at, t, s, false);
+    vec3 p = onHalves(place, leafInCell(at, place.net, place.own, place.cell), s);
+#ifdef LEVELS
+    if (place.way < 1.0) p = onCone(cornerLimit(at, t, place.corner), p, place.way);
+#endif
+    return p;
 }
 
 // A pair along side r as weights of the corners.

@@ -98,7 +98,8 @@ EdgeCurve curveOf(uint base, uint edge) {
     return quarteredCurve(p);
 }
 #elif defined(TRIANGLES)
-// The border is that of a Loop patch (docs/loop.md).
+// The border is that of a Loop patch (docs/loop.md): one curve, or two halves.
+layout(constant_id = kKindConstant) const uint kMeasures = kMeasuresWholeSides;
 #include "shaders/shared/exact.h"
 #include "shaders/surface/net.glsl"
 const bool kTangents = false;
@@ -114,13 +115,17 @@ EdgeCurve curveOf(uint base, uint edge) {
     uvec4 words = tableElement(push.table + edge);
     PatchPlace at = PatchPlace(words.x, base);
     uint side = words.y;
-    Triangle t = triangleOf(at.record, words.z != 0u);
+    const bool kHalves = kMeasures == kMeasuresHalves;
+    Triangle t = triangleOf(at.record, kHalves);
+    LeafSide whole;
+    if (!kHalves) whole = leafSide(cageLeaf(at, t), side, false, hasFlag(t, kSharpTriangleSide, side));
     vec3 p[5];
     p[0] = cornerLimit(at, t, side);
     p[4] = cornerLimit(at, t, nextOf(side));
     uint k = 1u;
     [[dont_unroll]] do {
-        setQuarter(p, k, sidePoint(at, t, pointOnSide(side, vec2(0.25 * float(k), 1.0 - 0.25 * float(k)))));
+        vec2 along = vec2(0.25 * float(k), 1.0 - 0.25 * float(k));
+        setQuarter(p, k, kHalves ? pointOnHalves(at, t, pointOnSide(side, along)) : onSide(whole, along));
     } while (++k < 4u);
     return quarteredCurve(p);
 }

@@ -150,6 +150,9 @@ SUPPLE_SHARED_CONST kMeasuresNets = 0u;
 SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
 SUPPLE_SHARED_CONST kMeasuresRegularTriangles = 2u;
 SUPPLE_SHARED_CONST kMeasuresIrregularTriangles = 3u;
+// And lod/edge.comp of Loop.
+SUPPLE_SHARED_CONST kMeasuresWholeSides = 0u;
+SUPPLE_SHARED_CONST kMeasuresHalves = 1u;
 
 // What the passes before evaluation are told.
 struct LodPush {

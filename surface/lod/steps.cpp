@@ -13,8 +13,15 @@ namespace {
 constexpr uint32_t kScratchPadding = 16; ///< elements: instances start on 256 bytes
 
 /// What measures edges, by Borders.
-constexpr Kernel kEdgeKernels[] = {Kernel::lodEdge, Kernel::lodEdgeHalves, Kernel::lodEdgeTriangles,
-                                   Kernel::lodEdgeCharts};
+struct EdgeKernel {
+    Kernel kernel = Kernel::lodEdge;
+    uint32_t kind = 0;
+};
+constexpr EdgeKernel kEdgeKernels[] = {{Kernel::lodEdge},
+                                       {Kernel::lodEdgeHalves},
+                                       {Kernel::lodEdgeTriangles, shared::kMeasuresWholeSides},
+                                       {Kernel::lodEdgeTriangles, shared::kMeasuresHalves},
+                                       {Kernel::lodEdgeCharts}};
 static_assert(std::size(kEdgeKernels) == static_cast<size_t>(Borders::charts) + 1);
 
 /// What measures patches of a class, and leaves out those that show their backs where that is known.
@@ -32,6 +39,7 @@ PatchKernel patchKernel(PatchClass patchClass) {
     case Borders::halves:
         return {Kernel::lodPatchHalves, Kernel::lodPatchHalves};
     case Borders::splines:
+    case Borders::splineHalves:
         return patchClass == PatchClass::loopRegular
                    ? PatchKernel{Kernel::lodPatchTriangles, Kernel::lodPatchBackFacesTriangles,
                                  shared::kMeasuresRegularTriangles}
@@ -72,8 +80,9 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t 
 void addEdges(ProgramBuilder& builder, uint32_t& argument) {
     Steps& steps = builder.program.edgeLevels;
     for (const LodTables::Edges& edges : builder.tables.lod.edges) {
-        const gpu::Kernel kernel = builder.kernel(SetKind::levels, kEdgeKernels[static_cast<size_t>(edges.borders)], {},
-                                                  "supple levels of edges");
+        const EdgeKernel& own = kEdgeKernels[static_cast<size_t>(edges.borders)];
+        const gpu::Kernel kernel =
+            builder.kernel(SetKind::levels, own.kernel, {{shared::kKindConstant, own.kind}}, "supple levels of edges");
         shared::LodPush push = pushFor(builder, edges.first, edges.section.count);
         push.table = edges.section.table;
         builder.add(steps, SetKind::levels, kernel, builder.lanes(push.count), push, argument++,

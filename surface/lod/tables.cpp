@@ -48,9 +48,11 @@ Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
 }
 
 /// A side of a triangle of Loop, by the limit points of its ends.
-Border splineBorder(const uint32_t* record, uint32_t element, uint32_t side, bool irregular) {
+Border splineBorder(const uint32_t* record, uint32_t element, uint32_t side) {
     const auto [first, second] = std::minmax(record[side], record[(side + 1) % 3]);
-    return {Borders::splines, {first, second}, {element, side, irregular ? 1u : 0u, 0}};
+    const uint32_t flags = record[4 * shared::kTriangleCornerElement + 3];
+    const bool whole = (flags >> (shared::kWholeTriangleSide + side) & 1u) != 0;
+    return {whole ? Borders::splines : Borders::splineHalves, {first, second}, {element, side, 0, 0}};
 }
 
 /// By side of the grid.
@@ -65,7 +67,7 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
     }
     if (rowOf(patchClass).borders == Borders::splines) {
         for (uint32_t side = 0; side < 3; ++side) {
-            all.push_back(splineBorder(record, element, side, patchClass == PatchClass::loopIrregular));
+            all.push_back(splineBorder(record, element, side));
         }
         return all;
     }
@@ -85,7 +87,8 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
 /// Numbers edges kind by kind, in the order in which patches come to them, and appends their elements to the tables.
 void writeEdges(std::vector<std::vector<Border>>& ofPatches, Tables& tables) {
     TableWriter writer(tables.words);
-    for (const Borders kind : {Borders::cubics, Borders::halves, Borders::splines, Borders::charts}) {
+    for (const Borders kind :
+         {Borders::cubics, Borders::halves, Borders::splines, Borders::splineHalves, Borders::charts}) {
         std::map<Words, uint32_t> numbers;
         const uint32_t first = tables.lod.edgeCount, element = writer.element();
         for (std::vector<Border>& borders : ofPatches) {
