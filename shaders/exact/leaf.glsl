@@ -13,12 +13,11 @@ struct LeafWeights {
 
 // (1): the weight that a point across a crease of this sharpness keeps, and its derivative.
 vec2 sharpWeight(float sharpness, float x) {
-    if (sharpness >= kEndlessSharpness) return vec2(0.0);
-    precise float n = floor(sharpness), f = sharpness - n, scale = powerOfTwo(n);
+    precise float n = floor(min(sharpness, kEndlessSharpness)), f = sharpness - n, scale = powerOfTwo(n);
     precise float a = max(0.0, 1.0 - x * scale), b = max(0.0, 1.0 - x * (2.0 * scale));
     precise float value = ((1.0 - f) * (a * a * a) + 0.5 * f * (b * b * b)) / (6.0 * scale);
     precise float slope = -0.5 * ((1.0 - f) * (a * a) + f * (b * b));
-    return vec2(value, slope);
+    return sharpness < kEndlessSharpness ? vec2(value, slope) : vec2(0.0);
 }
 
 // (2), at x of 0..1; the crease lies at 0.
@@ -28,15 +27,13 @@ LeafWeights leafWeights(float x, float sharpness) {
     precise vec4 w = vec4(ss * s * (1.0 / 6.0), (1.0 + 3.0 * (s + ss * t)) * (1.0 / 6.0),
                           (1.0 + 3.0 * (t + tt * s)) * (1.0 / 6.0), tt * t * (1.0 / 6.0));
     vec4 d = vec4(-0.5 * ss, 1.5 * tt - 2.0 * t, 2.0 * s - 1.5 * ss, 0.5 * tt);
-    if (sharpness > 0.0) {
-        vec2 kept = sharpWeight(sharpness, x);
-        precise float value = w.x - kept.x;
-        float slope = d.x - kept.y;
-        precise vec4 creased = vec4(kept.x, w.y + 2.0 * value, w.z - value, w.w);
-        w = creased;
-        d = vec4(kept.y, d.y + 2.0 * slope, d.z - slope, d.w);
-    }
-    return LeafWeights(w, d);
+    vec2 kept = sharpWeight(sharpness, x);
+    precise float value = w.x - kept.x;
+    float slope = d.x - kept.y;
+    precise vec4 creased = vec4(kept.x, w.y + 2.0 * value, w.z - value, w.w);
+    vec4 creasedSlopes = vec4(kept.y, d.y + 2.0 * slope, d.z - slope, d.w);
+    bool sharp = sharpness > 0.0;
+    return LeafWeights(sharp ? creased : w, sharp ? creasedSlopes : d);
 }
 // In a quarter without a chain, at a distance of 0..1/2 from its corner.
 LeafWeights quarterWeights(float distance, float sharpness) {

@@ -11,7 +11,7 @@ NetRecord netRecord(uint record) {
 }
 
 // Where lanes ask for different components.
-uint componentOf(uvec4 v, uint i) { return i < 2u ? (i == 0u ? v.x : v.y) : i == 2u ? v.z : v.w; }
+uint componentOf(uvec4 v, uint i) { return v[i]; }
 
 // Of coefficient k, row by row in v.
 uint netIndex(NetRecord r, bool polar, uint k) {
