@@ -29,12 +29,12 @@ enum class Form : uint32_t {
 
 } // namespace lod
 
-/// What the borders of patches are.
+/// What the borders of patches and the edges between them are.
 enum class Borders : uint8_t {
     cubics,
     halves,       ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
-    splines,      ///< Loop: quartic box splines; of an edge, one
-    splineHalves, ///< of an edge: two, each of its end's leaves
+    splines,      ///< Loop: quartic box splines, one an edge; of a patch, also two
+    splineHalves, ///< Loop, edges alone: two halves, each of its end's leaves
     charts        ///< blends of two charts
 };
 

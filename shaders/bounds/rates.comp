@@ -2,6 +2,7 @@
 // counts, dispatches and draws of every rate. One workgroup; what is drawn the list pass has found.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define LIST_PUSH RatesPush
 #include "shaders/bounds/list.glsl"
 #include "shaders/shared/lod.h"
@@ -56,7 +57,7 @@ void listPart(uint number, uint entries) {
     barrier();
     for (uint r = 0u; r < push.rateCount; ++r) {
         uint before = 0u, count = 0u;
-        for (uint l = 0u; l < lanes; ++l) {
+        [[dont_unroll]] for (uint l = 0u; l < lanes; ++l) {
             if (l == lane) before = count;
             count += countsOf[r * lanes + l];
         }
@@ -94,7 +95,7 @@ void main() {
         barrier();
         for (uint r = 0u; r < push.rateCount; ++r) {
             uint before = 0u, count = 0u;
-            for (uint l = 0u; l < lanes; ++l) {
+            [[dont_unroll]] for (uint l = 0u; l < lanes; ++l) {
                 if (l == lane) before = count;
                 count += countsOf[r * lanes + l];
             }

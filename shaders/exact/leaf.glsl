@@ -17,7 +17,7 @@ vec2 sharpWeight(float sharpness, float x) {
     precise float a = max(0.0, 1.0 - x * scale), b = max(0.0, 1.0 - x * (2.0 * scale));
     precise float value = ((1.0 - f) * (a * a * a) + 0.5 * f * (b * b * b)) / (6.0 * scale);
     precise float slope = -0.5 * ((1.0 - f) * (a * a) + f * (b * b));
-    return sharpness < kEndlessSharpness ? vec2(value, slope) : vec2(0.0);
+    return sharpness < kEndlessSharpness ? vec2(value, slope) : vec2(0.0); // of an endless one `scale` is none
 }
 
 // (2), at x of 0..1; the crease lies at 0.

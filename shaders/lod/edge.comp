@@ -37,7 +37,7 @@ EdgeCurve quarteredCurve(vec3 p[5]) {
     return EdgeCurve(p[0], p[4], curveLength, bend);
 }
 
-// In a loop that drivers compile once, and which lanes cannot index by.
+// Sets p[k]. Lanes have p in registers, which k cannot index. With k in a loop there is a third of the code to compile.
 void setQuarter(inout vec3 p[5], uint k, vec3 point) {
     [[unroll]] for (uint i = 1u; i < 4u; ++i) p[i] = i == k ? point : p[i];
 }

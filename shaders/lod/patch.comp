@@ -332,7 +332,7 @@ bool mayShowBack(uint record, uint sides, uint base) {
 }
 
 #ifdef TRIANGLES
-// Of a regular triangle of Loop, sector by sector.
+// Judges a regular triangle of Loop sector by sector.
 bool triangleShowsBack(uint record, uint base, vec4 levels, float inside) {
     PatchPlace at = PatchPlace(record, base);
     LeafPoints points = cageLeaf(at, triangleOf(record, false));

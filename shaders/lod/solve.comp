@@ -1,6 +1,8 @@
 // The budget: how far all levels are scaled down so that the vertices of a frame fit, from this frame's histograms alone
 // (docs/lod.md, "The budget"), and from that where everything lies: capacities, buckets, indirect arguments. One workgroup.
 // Sums are of integers: the answer does not depend on the order in which patches were counted.
+//
+// Loops with a known number of rounds stay loops: if they are unrolled, lavapipe takes three to five times as long to compile them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -96,7 +98,7 @@ void main() {
     int low = -1, high = int(kBudgetSteps), step = 0;
     uvec2 wanted = uvec2(0u), over = wanted, fits = wanted;
     bool tooMany = false, searching = true; // of patches, each at level 1
-    [[dont_unroll]] for (uint turn = 0u; searching; ++turn) {
+    for (uint turn = 0u; searching; ++turn) {
         uvec2 d = demand(float(step));
         bool tooMuch = above(d, limit);
         if (turn == 0u) {
@@ -120,7 +122,7 @@ void main() {
     else if (above(over, limit)) x = float(high) + toFloat(minus(over, limit)) / toFloat(minus(over, fits));
 
     uint buckets = push.runCount * kCapacityCount;
-    [[dont_unroll]] for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
+    for (uint i = lane; i < buckets; i += gl_WorkGroupSize.x) counts[i] = 0u;
     barrier();
     // Capacities at the solution, and exact counts by them: from one value, for patches are placed by the capacity of their
     // bin, and one that was counted elsewhere has no place. What was counted is cleared for the next frame.
@@ -130,7 +132,7 @@ void main() {
             uint c = 0u;
             if (!tooMany) c = capacityOfBin(bin, SUPPLE_LOD_SCALED(push.elasticity[p], x));
             lodWords[kLodCapacities + p * kLodBinStride + bin] = c;
-            [[dont_unroll]] for (uint run = 0u; run < push.runCount; ++run) {
+            for (uint run = 0u; run < push.runCount; ++run) {
                 uint at = kLodCounts + (run * kPriorityCount + p) * kLodBinStride + bin, count = lodWords[at];
                 if (count > 0u) {
                     atomicAdd(counts[run * kCapacityCount + c], count);
@@ -153,7 +155,7 @@ void main() {
             lodWords[kLodRated] = 0u;
         }
         uint record = 0u, vertex = 0u, group = 0u, patches = 0u, counted = 0u, last = kEmptyRecord;
-        [[dont_unroll]] for (uint run = 0u; run < push.runCount; ++run) {
+        for (uint run = 0u; run < push.runCount; ++run) {
             uint form = lodWords[kLodRuns + run] & 255u, dispatch = dispatchOf(run);
             if (dispatch != last) {
                 group = 0u;
@@ -197,7 +199,7 @@ void main() {
     memoryBarrierBuffer();
     barrier();
 
-    [[dont_unroll]] for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
+    for (uint b = lane; b < buckets; b += gl_WorkGroupSize.x) {
         uint run = b / kCapacityCount, c = b - run * kCapacityCount;
         uint form = lodWords[kLodRuns + run] & 255u, samples = formSamples(form, capacityOf(c));
         uint perDraw = patchesPerDraw(samples), whole = padded(counts[b], samples);
@@ -208,14 +210,14 @@ void main() {
         lodWords[draw + 2u] = lodWords[grid];
         lodWords[draw + 3u] = vertex;
         lodWords[draw + 4u] = 0u;
-        [[dont_unroll]] for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
+        for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
             uint to = kLodRecords + kLodRecordWords * (record + i);
             lodWords[to] = kEmptyRecord;
             lodWords[to + 2u] = vertex + i * samples;
             lodWords[to + 3u] = c;
         }
     }
-    [[dont_unroll]] for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
+    for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {
         uint dispatch = dispatchOf(run);
         if (dispatch >= kMaxRuns) continue; // given back by a group that is gone
         if (run > 0u && dispatchOf(run - 1u) == dispatch) continue;

@@ -39,7 +39,7 @@ PatchKernel patchKernel(PatchClass patchClass) {
     case Borders::halves:
         return {Kernel::lodPatchHalves, Kernel::lodPatchHalves};
     case Borders::splines:
-    case Borders::splineHalves:
+    case Borders::splineHalves: // edges alone have these
         return patchClass == PatchClass::loopRegular
                    ? PatchKernel{Kernel::lodPatchTriangles, Kernel::lodPatchBackFacesTriangles,
                                  shared::kMeasuresRegularTriangles}
