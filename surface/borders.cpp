@@ -1,5 +1,6 @@
 #include "surface/borders.h"
 
+#include "shaders/shared/exact.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/surface.h"
 
@@ -50,6 +51,40 @@ std::array<uint32_t, 16> netIndices(const Tables& tables, const uint32_t* record
 
 uint32_t recordElements(const Tables& tables, PatchClass patchClass) {
     return rowOf(patchClass).recordElements + (tables.cornerNormals ? 1 : 0);
+}
+
+namespace {
+
+uint32_t half(const uint32_t* words, uint32_t k) {
+    return words[k / 2] >> 16 * (k % 2) & 0xFFFFu;
+}
+uint32_t netPoint(const Tables& tables, uint32_t first, const uint32_t* window, uint32_t k) {
+    const uint32_t index = first + half(window, k);
+    const auto copy = tables.copies.find(index);
+    return copy == tables.copies.end() ? index : copy->second;
+}
+
+} // namespace
+
+uint32_t quadNetPoint(const Tables& tables, const uint32_t* record, uint32_t k) {
+    const uint32_t* window = record + size_t{4} * shared::kExactNetElement;
+    return netPoint(tables, window[shared::kWindowLastWord] >> shared::kNetFirstShift, window, k);
+}
+
+uint32_t triangleNetPoint(const Tables& tables, const uint32_t* record, uint32_t k) {
+    const uint32_t* window = record + size_t{4} * shared::kTriangleNetElement;
+    return netPoint(tables, window[shared::kTriangleWindowLastWord], window, k);
+}
+
+uint32_t quadNormal(const uint32_t* record, uint32_t corner) {
+    const uint32_t before = half(record + size_t{4} * shared::kExactNetElement, shared::kWindowNormals + corner);
+    return before == 0 ? shared::kNoNormal : record[4 + corner] - before;
+}
+
+uint32_t triangleNormal(const uint32_t* record, uint32_t corner) {
+    const uint32_t before =
+        half(record + size_t{4} * shared::kTriangleNetElement, shared::kTriangleWindowNormals + corner);
+    return before == 0 ? shared::kNoNormal : record[4 * shared::kTriangleChainElement + corner] - before;
 }
 
 std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* record, PatchClass patchClass) {

@@ -291,41 +291,40 @@ private:
     [[nodiscard]] std::vector<BorderCurve> curvesOf(const PatchRange& range, uint32_t patch) const {
         const uint32_t* record = &tables_.words[size_t{4} * recordOf(range, patch)];
         if (rowOf(range.patchClass).borders == Borders::splines) {
-            return splineNames(record);
+            return splineNames(tables_, record);
         }
         std::vector<BorderCurve> curves = borderCurves(tables_, record, range.patchClass);
         if (range.patchClass == PatchClass::polar) {
             curves.erase(curves.begin() + 2);
         }
         if (rowOf(range.patchClass).borders == Borders::halves) {
-            nameHalves(record, curves);
+            nameHalves(tables_, record, curves);
         }
         return curves;
     }
     /// Corners by their normals, of which faces between creases have their own, and sides by what no other edge has:
     /// their middle, of level 1. On endless creases that of the quad, since the two sides have different normals.
-    static void nameHalves(const uint32_t* record, std::vector<BorderCurve>& curves) {
+    static void nameHalves(const Tables& tables, const uint32_t* record, std::vector<BorderCurve>& curves) {
         const auto corner = [&](uint32_t i, uint32_t point) {
-            const uint32_t normal = record[4 * kExactNormalElement + i];
+            const uint32_t normal = quadNormal(record, i);
             return normal == kNoNormal ? point : normal;
         };
-        const uint32_t* net = record + size_t{4} * kExactNetElement + 1;
+        const uint32_t flags = record[4 * kExactNetElement + kWindowLastWord];
         for (uint32_t i = 0; i < 4; ++i) {
             BorderCurve& curve = curves[i];
             curve[0] = corner(i, curve[0]);
             curve[3] = corner((i + 1) % 4, curve[3]);
-            if ((record[4 * kExactNetElement] >> (kCubicSide + i) & 1u) == 0) {
+            if ((flags >> (kCubicSide + i) & 1u) == 0) {
                 const bool endless = std::bit_cast<float>(record[4 * kExactSharpnessElement + i]) >= kInfiniteSharpness;
-                curve[1] = curve[2] = net[endless ? kNetMiddle : SUPPLE_EXACT_SIDE_MIDDLE(i)];
+                curve[1] = curve[2] = quadNetPoint(tables, record, endless ? kNetMiddle : SUPPLE_EXACT_SIDE_MIDDLE(i));
             }
         }
     }
 
     /// The border curves of a Loop patch are no cubics. This names their ends and middles so that the two sides of an
     /// edge have the same, but for creases.
-    static std::vector<BorderCurve> splineNames(const uint32_t* record) {
+    static std::vector<BorderCurve> splineNames(const Tables& tables, const uint32_t* record) {
         const uint32_t* cage = record + size_t{4} * kTriangleCageElement;
-        const uint32_t* net = record + size_t{4} * kTriangleNetElement;
         const uint32_t flags = record[4 * kTriangleCornerElement + 3];
         std::vector<BorderCurve> curves(3);
         for (uint32_t i = 0; i < 3; ++i) {
@@ -334,8 +333,8 @@ private:
             BorderCurve& curve = curves[i];
             curve[0] = curves[last][3] = triangleCornerName(record, i);
             if ((flags >> (kWholeTriangleSide + i) & 1u) == 0) {
-                curve[1] = net[3 + i]; // its middle, of level 1
-                curve[2] = sharp ? net[3 + last] : curve[1];
+                curve[1] = triangleNetPoint(tables, record, 3 + i); // its middle, of level 1
+                curve[2] = sharp ? triangleNetPoint(tables, record, 3 + last) : curve[1];
             } else { // of two plain vertices: the vertices opposite
                 curve[1] = curve[2] = sharp ? cage[last] : std::min(cage[last], cage[6 + i]);
             }
@@ -349,7 +348,7 @@ private:
         const uint32_t* corners = record + size_t{4} * kTriangleCornerElement;
         const uint32_t flags = corners[3], last = (i + 2) % 3;
         if ((flags >> (kPlainTriangleCorner + i) & 1u) == 0) {
-            return record[4 * (kTriangleChainElement + 3) + i];
+            return triangleNormal(record, i);
         }
         // Counter-clockwise, from the patch's own two edges on (loop::Triangles::cageOf()).
         const std::array<uint32_t, 6> around = {cage[(i + 1) % 3], cage[last],  cage[6 + last],

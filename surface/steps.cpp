@@ -283,8 +283,10 @@ void addConstructions(ProgramBuilder& builder) {
         // No facet kernel of P_m reads what another writes.
         const Order beside = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
         const Order order = c.readsPool ? Order::after : beside;
-        builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), pushFor(builder, c.section), i,
-                    order);
+        SurfacePush push = pushFor(builder, c.section);
+        push.firstVertex = c.from;
+        push.firstPatch = c.to;
+        builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), push, i, order);
     }
 }
 

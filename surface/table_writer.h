@@ -29,6 +29,8 @@ public:
         }
         return static_cast<uint32_t>(words_.size() / 4);
     }
+    /// The word that comes next.
+    [[nodiscard]] uint32_t word() const { return static_cast<uint32_t>(words_.size()); }
     /// Makes room for so many more words.
     void reserve(size_t words) {
         if (words_.size() + words > words_.capacity()) {

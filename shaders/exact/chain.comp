@@ -37,6 +37,7 @@ layout(constant_id = kKindConstant) const uint kMakes = kMakesLimits;
 
 uint base;   // of the instance in the pool
 uint source; // what the rules read: the first word of the net, or the first point of the level before
+uint netFirst; // what the net counts from
 vec3 centre; // of level 1
 
 #ifdef WIDE
@@ -44,7 +45,10 @@ const uint kBlocks = gl_WorkGroupSize.x / kBlockLanes; // of a workgroup
 shared vec4 localPoints[kMakes == kMakesChains ? kBlocks * kBlockPoints : 1u];
 #endif
 
-vec3 netPoint(uint i) { return poolVector(base + tableWord(source + i)); }
+vec3 netPoint(uint i) {
+    uint two = tableWord(source + i / 2u);
+    return poolVector(base + netFirst + ((i & 1u) == 0u ? two & 0xFFFFu : two >> 16u));
+}
 vec3 netOffset(uint i) {
     precise vec3 offset = netPoint(i) - centre;
     return offset;
@@ -219,6 +223,7 @@ void putPoints(uint target, ChainItem item, SpokePoints p) {
 
 void readNet(uint record) {
     source = tableElement(record).x;
+    netFirst = tableElement(record + 1u).z;
     centre = netPoint(0u);
 }
 

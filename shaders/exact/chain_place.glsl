@@ -7,13 +7,23 @@ struct Chain {
     uint size;            // points of a level
     uint lastLevel;
 };
-// `size`: with the last level, as records have it (surface/exact/chain_tables.h).
-Chain chainOf(const PatchPlace at, uint windows, uint points, uint size) {
-    uint last = size >> kChainLevelShift;
+// `lastWord`: of the window, which says how long chains are (surface/exact/fan_tables.cpp). Windows 0 have none, and any.
+Chain chainOf(const PatchPlace at, uint windows, uint points, uint lastWord) {
+    uint size = tableWord(4u * windows + lastWord), last = size >> kChainLevelShift;
 #ifdef DEPTH_OF_INSTANCE
     last = uint(poolPoint(at, push.pairs).x);
 #endif
     return Chain(windows, points, size & ((1u << kChainLevelShift) - 1u), last);
+}
+// Normals of corners, `back` before their chains.
+uvec4 normalsBefore(uvec4 chains, uvec2 back) {
+    uvec4 by = uvec4(back.x & 0xFFFFu, back.x >> 16u, back.y & 0xFFFFu, back.y >> 16u);
+    return mix(chains - by, uvec4(kNoNormal), equal(by, uvec4(0u)));
+}
+// Point k of a window.
+uint windowPoint(uint window, uint k) {
+    uint word = tableWord(4u * window + k / 2u);
+    return (k & 1u) == 0u ? word & 0xFFFFu : word >> 16u;
 }
 uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
 vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }

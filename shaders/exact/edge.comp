@@ -47,7 +47,7 @@ void main() {
     last = fixedRate();
     // Turned so that the side comes first.
     IrregularQuad quad = turnedQuad(quadOf(at.record), side), next = turnedQuad(quad, 1u);
-    Net net = turnedNet(at, side), nextNet = turnedOnce(net);
+    Net net = turnedNet(at, quad, side), nextNet = turnedOnce(net);
     vec3 border[4] = sideCubic(at, quad, 0u);
     OwnQuarter begin = ownQuarter(at, quad, net, 0u), end = ownQuarter(at, next, nextNet, 1u);
     begin.first = begin.second = ownFirst(at, quad, net, border); // the second is not read, nor is the end's first

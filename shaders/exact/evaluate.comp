@@ -69,7 +69,8 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #include "shaders/exact/sample.glsl"
 
 void loadPart(uint to, const PatchPlace at, uint k) {
-    localPoints[to] = vec4(ownPoint(at, k), 0.0);
+    uint first = tableElement(at.record + kExactNetElement + kWindowElements - 1u).w >> kNetFirstShift;
+    localPoints[to] = vec4(ownPoint(at, first, k), 0.0);
 }
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {

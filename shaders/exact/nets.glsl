@@ -15,27 +15,30 @@
 struct Net {
     vec3 p[kNetPoints];
 };
-Net quadNet(const PatchPlace at) {
+// `window`: which points from `first` on.
+Net netOf(const PatchPlace at, uint window, uint first) {
     Net net;
-    [[unroll]] for (uint e = 0u; e < 7u; ++e) {
-        uvec4 words = tableElement(at.record + kExactNetElement + e);
-        [[unroll]] for (uint c = 0u; c < 4u; ++c) {
-            uint k = 4u * e + c; // behind the flags
-            if (k > 0u && k <= kNetPoints) net.p[k - 1u] = poolPoint(at, words[c]);
+    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) {
+        uvec4 words = tableElement(window + e);
+        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
+            uint k = 8u * e + c;
+            if (k < kNetPoints) net.p[k] = poolPoint(at, first + ((c & 1u) == 0u ? words[c / 2u] & 0xFFFFu : words[c / 2u] >> 16u));
         }
     }
     return net;
 }
+Net quadNet(const PatchPlace at, IrregularQuad quad) { return netOf(at, at.record + kExactNetElement, quad.first); }
+Net chainNet(const PatchPlace at, Chain chain, uint level) { return netOf(at, chain.windows, levelPoints(chain, level)); }
 // Seen from the next corner, and from any.
 Net turnedOnce(Net net) {
     Net turned;
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) turned.p[k] = net.p[SUPPLE_EXACT_NET_PLACE(1u, k % kNetSide, k / kNetSide)];
     return turned;
 }
-Net turnedNet(const PatchPlace at, uint corner) {
+Net turnedNet(const PatchPlace at, IrregularQuad quad, uint corner) {
     Net net;
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k)
-        net.p[k] = ownPoint(at, SUPPLE_EXACT_NET_PLACE(corner, k % kNetSide, k / kNetSide));
+        net.p[k] = ownPoint(at, quad.first, SUPPLE_EXACT_NET_PLACE(corner, k % kNetSide, k / kNetSide));
     return net;
 }
 uvec4 turned(uvec4 v, uint corner) {
@@ -45,20 +48,8 @@ uvec4 turned(uvec4 v, uint corner) {
 IrregularQuad turnedQuad(IrregularQuad quad, uint corner) {
     uint flags = quad.flags >> kCubicSide & 15u;
     return IrregularQuad(turned(quad.points, corner), turned(quad.spokes, corner), turned(quad.windows, corner),
-                         turned(quad.sizes, corner), uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), corner)),
-                         (flags >> corner | flags << (4u - corner)) << kCubicSide, turned(quad.normals, corner));
-}
-Net chainNet(const PatchPlace at, Chain chain, uint level) {
-    uint first = levelPoints(chain, level);
-    Net net;
-    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) {
-        uvec4 words = tableElement(chain.windows + e);
-        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
-            uint k = 8u * e + c;
-            if (k < kNetPoints) net.p[k] = poolPoint(at, first + ((c & 1u) == 0u ? words[c / 2u] & 0xFFFFu : words[c / 2u] >> 16u));
-        }
-    }
-    return net;
+                         uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), corner)),
+                         (flags >> corner | flags << (4u - corner)) << kCubicSide, quad.first, turned(quad.normals, corner));
 }
 
 // All columns of a net at one y, in the lower or the upper cells; from the net's middle.
@@ -266,7 +257,7 @@ vec3 middleOf(const PatchPlace at, IrregularQuad quad, uint side) {
     vec3 e[3];
     [[unroll]] for (uint i = 0u; i < 3u; ++i) {
         vec3 p[3];
-        [[unroll]] for (uint j = 0u; j < 3u; ++j) p[j] = ownPoint(at, SUPPLE_EXACT_NET_PLACE(side, i + 1u, j));
+        [[unroll]] for (uint j = 0u; j < 3u; ++j) p[j] = ownPoint(at, quad.first, SUPPLE_EXACT_NET_PLACE(side, i + 1u, j));
         e[i] = onLine(p[1], p[0], p[2], share);
     }
     return middleOfLine(e[0], e[1], e[2]);
@@ -493,7 +484,7 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
 #ifndef WIDE
 void evaluateQuad(const PatchPlace at) {
     IrregularQuad record = quadOf(at.record), quad = record;
-    Net net = quadNet(at);
+    Net net = quadNet(at, quad);
     vec3 middles[4], before[4] = sideCubic(at, quad, 3u); // of the side that ends in the corner
     uint corner = 0u;
     do {
@@ -527,7 +518,7 @@ void evaluateQuarter(const PatchPlace at, uint corner) {
         return;
     }
     quad = turnedQuad(quad, corner);
-    Net net = turnedNet(at, corner);
+    Net net = turnedNet(at, quad, corner);
     OwnQuarter q = ownQuarter(at, quad, net, corner);
     q.first = ownFirst(at, quad, net, sideCubic(at, quad, 0u));
     q.second = ownSecond(at, quad, net, sideCubic(at, quad, 3u));

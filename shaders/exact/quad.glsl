@@ -5,19 +5,19 @@
 #include "shaders/exact/chain_place.glsl"
 
 struct IrregularQuad {
-    uvec4 points, spokes, windows, sizes;
+    uvec4 points, spokes, windows;
     vec4 sharpness;
-    uint flags;
+    uint flags, first; // what its net counts from
     uvec4 normals;
 };
 IrregularQuad quadOf(uint record) {
-    return IrregularQuad(tableElement(record), tableElement(record + 1u), tableElement(record + kExactWindowElement),
-                         tableElement(record + kExactSizeElement),
-                         uintBitsToFloat(tableElement(record + kExactSharpnessElement)), tableElement(record + kExactNetElement).x,
-                         tableElement(record + kExactNormalElement));
+    uvec4 spokes = tableElement(record + 1u), end = tableElement(record + kExactNetElement + kWindowElements - 1u);
+    return IrregularQuad(tableElement(record), spokes, tableElement(record + kExactWindowElement),
+                         uintBitsToFloat(tableElement(record + kExactSharpnessElement)), end.w, end.w >> kNetFirstShift,
+                         normalsBefore(spokes, end.yz));
 }
 // Point k of the quad's own net.
-vec3 ownPoint(const PatchPlace at, uint k) { return poolPoint(at, tableWord(4u * (at.record + kExactNetElement) + 1u + k)); }
+vec3 ownPoint(const PatchPlace at, uint first, uint k) { return poolPoint(at, first + windowPoint(at.record + kExactNetElement, k)); }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
     if (!kSharp) return 0.0;
     vec4 s = quad.sharpness;
@@ -27,7 +27,7 @@ bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide 
 bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.windows, corner) != 0u; }
 
 Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
-    return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), componentOf(quad.sizes, corner));
+    return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), kWindowLastWord);
 }
 
 // The frame of the quad, of derivatives along a corner's two edges.

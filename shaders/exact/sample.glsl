@@ -4,18 +4,20 @@
 
 // Where a net's points come from, as they are seen from a corner.
 struct NetSource {
-    uint windows, first; // of a chain; windows 0: the quad's own
-    uint corner;
+    bool own; // the quad's, else of a chain
+    uint window, first;
+    uint corner; // 0 for a chain: its windows are the corner's
 };
+NetSource ownNet(const PatchPlace at, IrregularQuad quad, uint corner) {
+    return NetSource(true, at.record + kExactNetElement, quad.first, corner);
+}
+NetSource chainNet(Chain chain, uint level) { return NetSource(false, chain.windows, levelPoints(chain, level), 0u); }
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
-    bool own = net.windows == 0u;
     uint place = SUPPLE_EXACT_NET_PLACE(net.corner, k % kNetSide, k / kNetSide);
 #ifdef LOCAL_NET
-    if (own) return netPoint(at, place);
+    if (net.own) return netPoint(at, place);
 #endif
-    // One word and one point, whichever it is: lanes on CPUs would load both.
-    uint word = tableWord(own ? 4u * (at.record + kExactNetElement) + 1u + place : 4u * net.windows + k / 2u);
-    return poolPoint(at, own ? word : net.first + ((k & 1u) == 0u ? word & 0xFFFFu : word >> 16u));
+    return poolPoint(at, net.first + windowPoint(net.window, place));
 }
 
 // A point of a side that has two halves, at a pair of the quad's own parameter.
@@ -27,7 +29,7 @@ vec3 pointOnHalves(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair
     bool onFirst = corner == side; // of the corner's two edges
     uint beside = onFirst ? (corner + 3u) & 3u : corner, step = onFirst ? 1u : kNetSide, across = onFirst ? kNetSide : 1u;
     float distance = far ? pair.y : pair.x;
-    NetSource net = NetSource(0u, 0u, corner);
+    NetSource net = ownNet(at, quad, corner);
     uint begin = 0u, level = 1u;
     vec4 w = quarterWeights(distance, sharpnessOf(quad, beside, 1u)).w;
     vec3 origin = vec3(0.0);
@@ -45,7 +47,7 @@ vec3 pointOnHalves(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair
         precise float x = distance * place.scale;
         bool second = x >= 1.0;
         level = place.level;
-        net = NetSource(chain.windows, levelPoints(chain, level), corner);
+        net = chainNet(chain, level);
         begin = second ? 1u : 0u;
         w = chainWeights(second, x, sharpnessOf(quad, beside, level)).w;
         origin = chainOrigin(at, chain);
@@ -95,7 +97,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
     bool onU = fromU == 0.0, onV = fromV == 0.0; // on a side
     Chain chain = chainOf(at, quad, corner);
 
-    NetSource net = NetSource(0u, 0u, corner);
+    NetSource net = ownNet(at, quad, corner);
     bool secondX = false, secondY = false, turned = (corner & 1u) != 0u;
     float a = turned ? fromV : fromU, b = turned ? fromU : fromV;
     LeafWeights x, y;
@@ -119,7 +121,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
         secondX = xx >= 1.0, secondY = yy >= 1.0;
         x = chainWeights(secondX, xx, sharpnessOf(quad, (corner + 3u) & 3u, place.level));
         y = chainWeights(secondY, yy, sharpnessOf(quad, corner, place.level));
-        net = NetSource(chain.windows, levelPoints(chain, place.level), corner);
+        net = chainNet(chain, place.level);
         origin = chainOrigin(at, chain);
     }
 

@@ -7,18 +7,21 @@
 struct Triangle {
     uvec4 corners; // limit points; then flags
     bool irregular;
-    uvec4 chains, windows, sizes, normals; // of an irregular one
+    uvec4 chains, windows, normals; // of an irregular one
+    uint first; // what its net counts from
 };
 Triangle triangleOf(uint record, bool irregular) {
     Triangle t;
     t.corners = tableElement(record + kTriangleCornerElement);
     t.irregular = irregular;
-    t.chains = t.windows = t.sizes = t.normals = uvec4(0u);
+    t.chains = t.windows = t.normals = uvec4(0u);
+    t.first = 0u;
     if (irregular) {
         t.chains = tableElement(record + kTriangleChainElement);
         t.windows = tableElement(record + kTriangleChainElement + 1u);
-        t.sizes = tableElement(record + kTriangleChainElement + 2u);
-        t.normals = tableElement(record + kTriangleChainElement + 3u);
+        uvec4 end = tableElement(record + kTriangleNetElement + kTriangleWindowElements - 1u);
+        t.normals = normalsBefore(t.chains, end.yz);
+        t.first = end.w;
     }
     return t;
 }
@@ -39,7 +42,7 @@ LeafPoints cageLeaf(const PatchPlace at, Triangle t) {
 }
 
 Chain chainOf(const PatchPlace at, Triangle t, uint corner) {
-    return chainOf(at, componentOf(t.windows, corner), componentOf(t.chains, corner), componentOf(t.sizes, corner));
+    return chainOf(at, componentOf(t.windows, corner), componentOf(t.chains, corner), kTriangleWindowLastWord);
 }
 vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
 Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame) {
@@ -48,15 +51,15 @@ Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame
     return withNormal(frame, poolPoint(at, normal));
 }
 
-// A net: the triangle's own, of points of level 1, or that of a level of a chain. Words at `element` from `first` on in the pool.
+// A net: the triangle's own, of points of level 1, or that of a level of a chain. `window`: which points from `first` on.
 // A bit a side that is a crease, and a corner that one passes.
 struct NetSource {
-    uint element, first;
+    uint window, first;
     uint sides, corners;
     vec3 origin;
 };
 NetSource ownNet(const PatchPlace at, Triangle t) {
-    return NetSource(at.record + kTriangleNetElement, 0u, triangleFlags(t, kSharpTriangleSide),
+    return NetSource(at.record + kTriangleNetElement, t.first, triangleFlags(t, kSharpTriangleSide),
                      triangleFlags(t, kCreasedTriangleCorner), vec3(0.0));
 }
 NetSource chainNet(const PatchPlace at, Triangle t, Chain chain, uint corner, uint level) {
@@ -72,14 +75,17 @@ const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u
 #define OF_CELL(cell, a, k)                                                                                                      \
     ((cell) < 2u ? ((cell) == 0u ? a[kCellPoints[0][k]] : a[kCellPoints[1][k]])                                                  \
                  : ((cell) == 2u ? a[kCellPoints[2][k]] : a[kCellPoints[3][k]]))
-// The words of a net.
-uint[20] netWords(NetSource net) {
-    uint words[20];
+// Where the points of a net lie in the pool.
+uint[kTriangleNetPoints] netIndices(NetSource net) {
+    uint indices[kTriangleNetPoints];
     [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
-        uvec4 four = tableElement(net.element + e);
-        [[unroll]] for (uint c = 0u; c < 4u; ++c) words[4u * e + c] = four[c];
+        uvec4 words = tableElement(net.window + e);
+        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
+            uint k = 8u * e + c, word = words[c / 2u];
+            if (k < kTriangleNetPoints) indices[k] = net.first + ((c & 1u) == 0u ? word & 0xFFFFu : word >> 16u);
+        }
     }
-    return words;
+    return indices;
 }
 // Creases at the leaf in a cell.
 void mirrorInCell(inout LeafPoints leaf, NetSource net, uint cell) {

@@ -12,16 +12,15 @@ LeafPoints cageOf(const PatchPlace at, Triangle t) { return cageLeaf(at, t); }
 
 LeafPoints leafInCell(const PatchPlace at, NetSource net, bool own, uint cell) {
     LeafPoints leaf;
-    uint words[20] = netWords(net);
+    uint indices[kTriangleNetPoints] = netIndices(net);
     [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) {
-        uint word = net.first + OF_CELL(cell, words, k);
 #ifdef LOCAL_NET
         if (own) {
             leaf.p[k] = netPoint(at, cell < 2u ? kCellPoints[cell == 0u ? 0 : 1][k] : kCellPoints[cell == 2u ? 2 : 3][k]);
             continue;
         }
 #endif
-        leaf.p[k] = poolPoint(at, word);
+        leaf.p[k] = poolPoint(at, OF_CELL(cell, indices, k));
     }
     mirrorInCell(leaf, net, cell);
     return leaf;

@@ -39,8 +39,9 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 
 #ifdef WIDE
 void loadPart(uint to, const PatchPlace at, uint k) {
-    uint first = kIrregular ? kTriangleNetElement : kTriangleCageElement;
-    localPoints[to] = vec4(poolPoint(at, tableWord(4u * (at.record + first) + k)), 0.0);
+    uint index = kIrregular ? triangleOf(at.record, true).first + windowPoint(at.record + kTriangleNetElement, k)
+                            : tableWord(4u * (at.record + kTriangleCageElement) + k);
+    localPoints[to] = vec4(poolPoint(at, index), 0.0);
 }
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     localPlace = place;
@@ -214,8 +215,8 @@ struct NetPoints {
 };
 NetPoints netPoints(const PatchPlace at, NetSource net) {
     NetPoints points;
-    uint words[20] = netWords(net);
-    [[unroll]] for (uint k = 0u; k < kTriangleNetPoints; ++k) points.p[k] = poolPoint(at, net.first + words[k]);
+    uint indices[kTriangleNetPoints] = netIndices(net);
+    [[unroll]] for (uint k = 0u; k < kTriangleNetPoints; ++k) points.p[k] = poolPoint(at, indices[k]);
     return points;
 }
 LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {

@@ -146,8 +146,13 @@ vec2 irregularLevels(uint record, uint base) {
     uvec4 corners = tableElement(record);
     vec4 sharpness = uintBitsToFloat(tableElement(record + kExactSharpnessElement));
     vec3 net[kNetPoints], x[9]; // x: row by row in v
-    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k)
-        net[k] = poolVector(base + tableWord(4u * (record + kExactNetElement) + 1u + k));
+    uvec4 window[kWindowElements];
+    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) window[e] = tableElement(record + kExactNetElement + e);
+    uint first = base + (window[kWindowElements - 1u].w >> kNetFirstShift);
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
+        uint two = window[k / 8u][k / 2u % 4u];
+        net[k] = poolVector(first + ((k & 1u) == 0u ? two & 0xFFFFu : two >> 16u));
+    }
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         x[kPlaces[k]] = poolVector(base + corners[k]);

@@ -5,31 +5,33 @@
 // leaves, B-spline patches of finer levels.
 //
 // Coefficient pool: limit points (one a vertex; a plain vertex on creases has one more for each further run of faces between
-// them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need, normals of vertices that are
-// not plain (one a run), chains, the vertices of the mesh if it is not the cage. A chain is the vertex's point of level 1, then for
-// every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
+// them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need; of every vertex that is not
+// plain its normals (one a run) and its chain; the vertices of the mesh if it is not the cage. A chain is the vertex's point of
+// level 1, then for every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
 //
 // Tables
 //   ring              see shared/surface.h; closed fans come first and have nothing else
 //   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
-//                     index of the chain's level 2 or 0, pool index of the first normal, 0, 0)
+//                     index of the chain's level 2 or 0, pool index of the first normal, that which the net counts from, 0)
 //   blocks            of kBlockLanes lanes: whole chains of one fan, a lane a spoke or a centre: (fan; first vertex; vertices;
 //                     last level). Or one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the level;
 //                     first item). The vertex rises first, then the spoke; the centre comes last
-//   net               one word a point up to radius 2, in spiral order: its pool index
+//   net               points up to radius 2, in spiral order, 16 bits each
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
 //                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
-//                     chain's level, 16 bits each, row by row
+//                     chain's level, 16 bits each, row by row; the last word has the points of a level and,
+//                     from kChainLevelShift on, the last level
 //   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
 //                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights in four
 //                     vectors, the first of the run being the position, the others tangents along which the sum of the cross
 //                     products of neighbours is the normal. Centre steps: an element a level of the chain (smooth, crease,
 //                     first spoke, second spoke)
 //   irregular quads   kExactRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or the pool
-//                     index of their chain; windows of their sector, 0 where there is no chain; points of a level of the chain,
-//                     and from kChainLevelShift on its last level; sharpness of the sides on level 1; normals of the corners, or
-//                     kNoNormal; flags and, from word 1 on, the pool indices of 5 x 5 points of level 1, row by row in v
+//                     index of their chain (without one, of what lies behind their normals); windows of their sector, 0 where
+//                     there is no chain; sharpness of the sides on level 1; their net, as windows: 5 x 5 points of level 1; from
+//                     kWindowNormals on, how far before their chains the normals of the corners lie, 0 where they have none; in
+//                     the last word flags and, from kNetFirstShift on, the pool index that the points count from
 #ifndef SUPPLE_SHARED_EXACT_H
 #define SUPPLE_SHARED_EXACT_H
 
@@ -38,12 +40,10 @@
 
 SUPPLE_SHARED_BEGIN
 
-SUPPLE_SHARED_CONST kExactRecordElements = 13u;
+SUPPLE_SHARED_CONST kExactRecordElements = 8u;
 SUPPLE_SHARED_CONST kExactWindowElement = 2u;
-SUPPLE_SHARED_CONST kExactSizeElement = 3u;
-SUPPLE_SHARED_CONST kExactSharpnessElement = 4u;
-SUPPLE_SHARED_CONST kExactNormalElement = 5u;
-SUPPLE_SHARED_CONST kExactNetElement = 6u;
+SUPPLE_SHARED_CONST kExactSharpnessElement = 3u;
+SUPPLE_SHARED_CONST kExactNetElement = 4u;
 SUPPLE_SHARED_CONST kNetSide = 5u;
 SUPPLE_SHARED_CONST kNetPoints = 25u;
 SUPPLE_SHARED_CONST kNetMiddle = 12u;
@@ -58,23 +58,28 @@ SUPPLE_SHARED_CONST kMakesChains = 3u;     // all levels, in workgroup memory: w
 SUPPLE_SHARED_CONST kBlockPoints = 256u;   // of a level, for all chains of a block
 
 SUPPLE_SHARED_CONST kWindowElements = 4u;
+SUPPLE_SHARED_CONST kWindowNormals = 26u; // numbers
+SUPPLE_SHARED_CONST kWindowLastWord = 15u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
-// Flags of a record, a bit a side.
+// Of a record: flags, a bit a side, and from where the net counts.
 SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
+SUPPLE_SHARED_CONST kNetFirstShift = 4u;
 
 // Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular ones
-// then have, an element each: pool index of the chains of the corners or 0; windows of their sector; points of a level and last
-// level, as quads; normals or kNoNormal; then kTriangleNetPoints pool indices of points of level 1. Windows have one word a point.
+// then have, an element each: pool index of the chains of the corners or 0; windows of their sector; then their net, as quads:
+// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Windows are as those of quads.
 SUPPLE_SHARED_CONST kLeafPoints = 12u;
 SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
-SUPPLE_SHARED_CONST kTriangleWindowElements = 5u;
+SUPPLE_SHARED_CONST kTriangleWindowElements = 3u;
+SUPPLE_SHARED_CONST kTriangleWindowNormals = 18u;
+SUPPLE_SHARED_CONST kTriangleWindowLastWord = 11u;
 SUPPLE_SHARED_CONST kTriangleElements = 4u;
-SUPPLE_SHARED_CONST kIrregularTriangleElements = 13u;
+SUPPLE_SHARED_CONST kIrregularTriangleElements = 9u;
 SUPPLE_SHARED_CONST kTriangleCageElement = 0u;
 SUPPLE_SHARED_CONST kTriangleCornerElement = 3u;
 SUPPLE_SHARED_CONST kTriangleChainElement = 4u;
-SUPPLE_SHARED_CONST kTriangleNetElement = 8u;
+SUPPLE_SHARED_CONST kTriangleNetElement = 6u;
 // Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both ends of a
 // side are plain; a corner is plain.
 SUPPLE_SHARED_CONST kSharpTriangleSide = 0u;

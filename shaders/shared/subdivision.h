@@ -8,11 +8,12 @@
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
 //
 // Tables
-//   stencil records    (first vertex, element of the other vertices, how many these are, pool index), by number of vertices; then
-//                      a word for each record, the element of its weights; the blending surface has them, too, where its cage
-//                      takes a step of subdivision first
-//   stencil vertices   four an element
+//   stencil vertices   of a row: how many pairs follow, its first vertex, the others in pairs. A number has 16 bits if that is
+//                      enough for all (kHalfWords), else a word (kWholeWords)
 //   stencil weights    four an element; rows with the same weights share them
+//   stencil rows       by number of vertices: a word, where the row's vertices begin, and two numbers: its own, and how many
+//                      elements before the rows its weights lie. The exact schemes have stencils, too, and the blending surface
+//                      where its cage takes a step of subdivision first
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
 //   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | turns from the first
@@ -57,6 +58,10 @@ SUPPLE_SHARED_CONST kCornerMask = 0x80000000u;
 SUPPLE_SHARED_CONST kWholeMask = 0x40000000u; // of all sectors round a smooth vertex
 SUPPLE_SHARED_CONST kNoPatch = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kBlockLanes = 32u;
+
+// Kinds of the kernel that makes points by stencils: what a number takes.
+SUPPLE_SHARED_CONST kHalfWords = 0u;
+SUPPLE_SHARED_CONST kWholeWords = 1u;
 
 // Kinds of work. A cell is a point with its ring: it makes the points of the next level that the ring suffices for. A
 // strip is a row of samples of a sector, each loading but the points the one before had not. Both do without sharpness

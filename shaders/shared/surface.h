@@ -194,10 +194,10 @@ struct SurfacePush {
     uint faces;    // first face coefficient in the pool
     uint rate;
     uint samples;    // of a patch of this range
-    uint firstPatch; // of this range in device order
+    uint firstPatch; // of this range in device order; stencils: pool index of the first row's point
     uint patchCount; // of all ranges
     uint verticesPerInstance;
-    uint firstVertex;     // of this range in the instance's surface vertices
+    uint firstVertex;     // of this range in the instance's surface vertices; stencils: the first vertex that rows may name
     uint pairs;           // first parameter pair of the rate; at levels, of patches with chains: LodPush::depth
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
     uint uvSets;          // 1 or 2

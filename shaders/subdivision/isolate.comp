@@ -5,24 +5,40 @@
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
+#include "shaders/shared/subdivision.h"
+
+layout(constant_id = kKindConstant) const uint kNumbers = kHalfWords;
+
+uvec2 halvesOf(uint word) { return uvec2(word & 0xFFFFu, word >> 16u); }
+// Two numbers of a list that begins with the word `list`.
+uvec2 pairAt(uint list, uint pair) {
+    if (kNumbers == kHalfWords) return halvesOf(tableWord(list + pair));
+    return uvec2(tableWord(list + 2u * pair), tableWord(list + 2u * pair + 1u));
+}
+// Where the vertices of a row begin, its number, and where its weights lie.
+uvec3 rowAt(uint row) {
+    if (kNumbers == kHalfWords) {
+        uvec4 two = tableElement(push.table + row / 2u);
+        return (row & 1u) == 0u ? uvec3(two.x, halvesOf(two.y)) : uvec3(two.z, halvesOf(two.w));
+    }
+    uint word = 4u * push.table + 3u * row;
+    return uvec3(tableWord(word), tableWord(word + 1u), tableWord(word + 2u));
+}
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item);
-    uint row = elementOf(item);
-    uvec4 record = tableElement(push.table + row);
-    uint weightList = tableWord(4u * (push.table + push.count) + row);
-    vec3 first = vertexAt(instance, record.x);
+    uvec3 row = rowAt(elementOf(item));
+    uvec2 begin = pairAt(row.x, 0u); // pairs, and the first vertex
+    vec3 first = vertexAt(instance, push.firstVertex + begin.y);
     precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < record.z; i += 2u) { // two at a time: most lists have 3, 5, or 8
-        uvec4 four = tableElement(record.y + i / 4u);
-        vec4 weights = uintBitsToFloat(tableElement(weightList + i / 4u));
-        bool later = (i & 2u) != 0u;
-        uvec2 vertices = later ? four.zw : four.xy;
-        vec2 w = later ? weights.zw : weights.xy;
+    for (uint i = 0u; i < begin.x; ++i) {
+        uvec2 vertices = push.firstVertex + pairAt(row.x, i + 1u);
+        vec4 weights = uintBitsToFloat(tableElement(push.table - row.z + i / 2u));
+        vec2 w = (i & 1u) == 0u ? weights.xy : weights.zw;
         precise vec3 a = vertexAt(instance, vertices.x) - first, b = vertexAt(instance, vertices.y) - first;
         sum = sum + w.x * a;
         sum = sum + w.y * b;
     }
     precise vec3 p = first + sum;
-    storePool(instance * push.poolStride + record.w, p);
+    storePool(instance * push.poolStride + push.firstPatch + row.y, p);
 }

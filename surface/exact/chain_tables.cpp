@@ -1,6 +1,7 @@
 #include "surface/exact/chain_tables.h"
 
 #include "shaders/shared/subdivision.h"
+#include "surface/exact/window.h"
 
 #include <algorithm>
 #include <array>
@@ -65,18 +66,24 @@ uint32_t ChainTables::netSize(uint32_t vertex) const {
     }
 }
 
+void ChainTables::findNets(NeededRows& levelOne) {
+    for (uint32_t v = 0; v < needs_.size(); ++v) {
+        const auto net = mesh_.net.begin() + mesh_.fragments[v].firstNet;
+        levelOne.needNet(nets_.emplace_back(net, net + netSize(v)));
+    }
+}
+
 uint32_t ChainTables::layOut(uint32_t next) {
-    normals_.assign(needs_.size(), shared::kNoNormal);
+    normals_.assign(needs_.size(), 0);
     chains_.assign(needs_.size(), 0);
     vertexArrangements_.assign(needs_.size(), nullptr);
     for (uint32_t v = 0; v < needs_.size(); ++v) {
-        if (needs_[v] != VertexNeeds::nothing) {
-            vertexArrangements_[v] = &arrangementOf(v);
-            normals_[v] = next;
-            next += vertexArrangements_[v]->runs;
+        if (needs_[v] == VertexNeeds::nothing) {
+            continue;
         }
-    }
-    for (uint32_t v = 0; v < needs_.size(); ++v) {
+        vertexArrangements_[v] = &arrangementOf(v);
+        normals_[v] = next;
+        next += vertexArrangements_[v]->runs;
         if (chainLevels(v) > 0) {
             chains_[v] = next + 1; // behind the point that it is relative to
             next += 1 + chainLevels(v) * chainPoints(v);
@@ -91,14 +98,16 @@ uint32_t ChainTables::layOut(uint32_t next) {
 
 ChainTables::Corner ChainTables::cornerOf(uint32_t vertex, uint32_t sector) {
     Corner corner;
-    if (needs_[vertex] != VertexNeeds::nothing) {
-        corner.normal = normals_[vertex] + vertexArrangements_[vertex]->runOfSector[sector];
+    if (needs_[vertex] == VertexNeeds::nothing) {
+        return corner;
     }
+    const ArrangementTable& arrangement = *vertexArrangements_[vertex];
+    corner.chain = normals_[vertex] + arrangement.runs;
     if (chainLevels(vertex) > 0) {
         corner.chain = chains_[vertex];
         corner.windows = fans_.of(fanOf(vertex)).windows + fans_.windowElements(mesh_.subdivision) * sector;
-        corner.size = chainPoints(vertex) | lastLevel_ << shared::kChainLevelShift;
     }
+    corner.normal = corner.chain - (normals_[vertex] + arrangement.runOfSector[sector]);
     return corner;
 }
 
@@ -160,7 +169,7 @@ void ChainTables::writeRun(const subdivision::CentreMask& position, const LimitR
 
 /// Those that are not plain, by the size of their fans, so that neighbouring lanes loop equally long.
 void ChainTables::write(const Places& places, Tables& tables) {
-    std::vector<uint32_t> vertices, nets;
+    std::vector<uint32_t> vertices, nets, firstOfNets;
     for (uint32_t v = 0; v < needs_.size(); ++v) {
         if (needs_[v] != VertexNeeds::nothing) {
             vertices.push_back(v);
@@ -170,10 +179,10 @@ void ChainTables::write(const Places& places, Tables& tables) {
         return std::pair(chainLevels(a), fanOf(a)) < std::pair(chainLevels(b), fanOf(b));
     });
     for (const uint32_t v : vertices) {
-        nets.push_back(4 * writer_.element());
-        for (uint32_t i = 0; i < netSize(v); ++i) {
-            writer_.put({places.levelOne(mesh_.net[mesh_.fragments[v].firstNet + i])});
-        }
+        const uint32_t first = firstOfNet(nets_[v]);
+        firstOfNets.push_back(places.firstLevelOne + first);
+        nets.push_back(writer_.word());
+        writeNet(nets_[v], first, writer_);
         (void)fans_.of(fanOf(v));
     }
     uint32_t limits = 0; // coefficients
@@ -183,7 +192,7 @@ void ChainTables::write(const Places& places, Tables& tables) {
         const ArrangementTable& arrangement = *vertexArrangements_[v];
         const uint32_t levels = chainLevels(v);
         writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, places.limit(v), chains_[v], normals_[v],
-                     0u, 0u});
+                     firstOfNets[i], 0u});
         limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
     }
     if (vertices.empty()) {

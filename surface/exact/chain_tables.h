@@ -5,6 +5,7 @@
 #include "shaders/shared/exact.h"
 #include "surface/exact/arrangement.h"
 #include "surface/exact/fan_tables.h"
+#include "surface/exact/needed_rows.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/table_writer.h"
 
@@ -33,22 +34,25 @@ public:
 
     /// Refuses a vertex with more faces than 16 bits number the points of its chain.
     [[nodiscard]] Status checkSizes() const;
-    /// How many points of level 1 round a vertex are needed: up to radius 2 for its chain, up to 1 for its limit.
-    [[nodiscard]] uint32_t netSize(uint32_t vertex) const;
+    /// Numbers the points that chains and limits are made of.
+    void findNets(NeededRows& levelOne);
     /// Takes pool indices from `next` on, and returns the first that is free.
     [[nodiscard]] uint32_t layOut(uint32_t next);
 
-    /// Where points lie in the pool: that of level 1, and the limit at a vertex.
+    /// Where points lie in the pool: the first of level 1, and the limit at a vertex.
     struct Places {
-        std::function<uint32_t(uint32_t)> levelOne, limit;
+        uint32_t firstLevelOne = 0;
+        std::function<uint32_t(uint32_t)> limit;
         bool isStepped = false; ///< the stage before this one, assemble, writes points of level 1
     };
     /// Behind layOut(). At levels of detail later levels are made for the instances that need them (Stage::deepen).
     void write(const Places& places, Tables& tables);
 
-    /// What records of patches say of a sector of a vertex. Without a chain: 0; of a plain vertex no normal.
+    /// What records of patches say of a sector of a vertex: the pool index of its chain, or what lies behind its
+    /// normals; windows, 0 where there is no chain; and so far before the first the sector's normal lies. Of a plain
+    /// vertex all are 0.
     struct Corner {
-        uint32_t chain = 0, windows = 0, size = 0, normal = shared::kNoNormal;
+        uint32_t chain = 0, windows = 0, normal = 0;
     };
     [[nodiscard]] Corner cornerOf(uint32_t vertex, uint32_t sector);
 
@@ -58,6 +62,8 @@ private:
         std::vector<uint32_t> runOfSector;
     };
 
+    /// How many points of level 1 round a vertex are needed: up to radius 2 for its chain, up to 1 for its limit.
+    [[nodiscard]] uint32_t netSize(uint32_t vertex) const;
     [[nodiscard]] subdivision::Fan fanOf(uint32_t v) const;
     [[nodiscard]] uint32_t chainPoints(uint32_t v) const { return pointCount(fanOf(v), 3); }
     [[nodiscard]] uint32_t chainLevels(uint32_t v) const;
@@ -78,7 +84,8 @@ private:
     TableWriter& writer_;
     std::map<Arrangement, ArrangementTable> arrangements_;
     std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
-    std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; kNoNormal and 0 where there are none
+    std::vector<std::vector<uint32_t>> nets_;                 ///< by vertex: numbers of points of level 1
+    std::vector<uint32_t> normals_, chains_;                  ///< by vertex: pool indices; 0 where there are none
 };
 
 } // namespace supple::surface::exact

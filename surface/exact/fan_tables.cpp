@@ -2,9 +2,10 @@
 
 #include "shaders/shared/exact.h"
 #include "surface/exact/triangles.h"
+#include "surface/exact/window.h"
 #include "surface/subdivision_rules.h"
 
-#include <array>
+#include <vector>
 
 namespace supple::surface::exact {
 
@@ -18,21 +19,22 @@ uint32_t pointOrCentre(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
     return index == subdivision::kNoPoint ? 0 : index;
 }
 
-void writeQuadWindow(const Fan& fan, uint32_t sector, TableWriter& writer) {
+std::vector<uint32_t> quadWindow(const Fan& fan, uint32_t sector) {
     constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
-    std::array<uint32_t, size_t{8} * shared::kWindowElements> window{};
-    for (int32_t k = 1; k < kPoints; ++k) { // point 0 is read by the missing cell alone
-        window[static_cast<size_t>(k)] = pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1);
+    std::vector<uint32_t> window{0}; // point 0 is read by the missing cell alone
+    for (int32_t k = 1; k < kPoints; ++k) {
+        window.push_back(pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1));
     }
-    writer.putHalves(window);
+    return window;
 }
 
-void writeTriangleWindow(const Fan& fan, uint32_t sector, TableWriter& writer) {
+std::vector<uint32_t> triangleWindow(const Fan& fan, uint32_t sector) {
+    std::vector<uint32_t> window;
     for (const loop::TrianglePlace& place : loop::kTriangleNet) {
         const bool missing = place.a + place.b < 0; // beside the vertex, in the missing cell
-        writer.put({missing ? 0 : pointOrCentre(fan, sector, place.a, place.b)});
+        window.push_back(missing ? 0 : pointOrCentre(fan, sector, place.a, place.b));
     }
-    (void)writer.element();
+    return window;
 }
 
 } // namespace
@@ -54,12 +56,12 @@ FanTables::Table FanTables::write(const Fan& fan) {
     const CentreWeights weights = refineWeights(fan.subdivision, fan.sectors);
     writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
     writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
+    const uint32_t size = pointCount(fan, 3) | lastLevel_ << shared::kChainLevelShift;
     for (uint32_t h = 0; h < fan.sectors; ++h) {
-        if (fan.subdivision == Subdivision::loop) {
-            writeTriangleWindow(fan, h, writer_);
-        } else {
-            writeQuadWindow(fan, h, writer_);
-        }
+        const bool loop = fan.subdivision == Subdivision::loop;
+        const std::vector<uint32_t> window = loop ? triangleWindow(fan, h) : quadWindow(fan, h);
+        writeWindow(window, 0, windowElements(fan.subdivision), {static_cast<uint32_t>(window.size()), {}, size},
+                    writer_);
     }
     return table;
 }

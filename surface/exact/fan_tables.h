@@ -12,8 +12,8 @@ inline constexpr uint32_t kFirstChainLevel = 2;
 
 class FanTables {
 public:
-    /// Writes into `writer`, which must outlive this.
-    explicit FanTables(TableWriter& writer) : writer_(writer) {}
+    /// Writes into `writer`, which must outlive this. `lastLevel`: of chains.
+    FanTables(uint32_t lastLevel, TableWriter& writer) : lastLevel_(lastLevel), writer_(writer) {}
 
     struct Table {
         uint32_t element = 0;
@@ -26,6 +26,7 @@ public:
 private:
     [[nodiscard]] Table write(const subdivision::Fan& fan);
 
+    uint32_t lastLevel_;
     TableWriter& writer_;
     std::map<subdivision::Fan, Table> tables_;
 };

@@ -5,6 +5,7 @@
 #include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
 #include "surface/exact/triangles.h"
+#include "surface/exact/window.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
 
@@ -24,7 +25,7 @@ public:
     Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
         : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), triangles_(parent_), lastLevel_(exact::lastChainLevel(recipe.rate)),
-          writer_(tables_.words), fans_(writer_),
+          writer_(tables_.words), fans_(lastLevel_, writer_),
           chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           vertices_(cage_.vertexCount()), levelOne_(mesh_.stencils.back().rows()) {
         tables_.rate = recipe.rate;
@@ -46,12 +47,10 @@ public:
         findPoints(patches);
         layOutPool();
         writeRows();
-        chains_.write({[&](uint32_t point) { return firstLevelOne_ + levelOne_.number(point); },
-                       [&](uint32_t vertex) { return limits_[vertex]; }, false},
-                      tables_);
+        chains_.write({firstLevelOne_, [&](uint32_t vertex) { return limits_[vertex]; }, false}, tables_);
         for (uint32_t p = 0; p < patches.size(); ++p) {
             countPatch(patches[p].info.patchClass, p, writer_, tables_);
-            writePatch(patches[p]);
+            writePatch(patches[p], nets_[p]);
         }
         finishTables(recipe_, cage_, patches, writer_, tables_);
         if (const Status smooth = exact::writeUvLeaves(recipe_, host_, {Subdivision::loop, false, lastLevel_}, patches,
@@ -81,19 +80,17 @@ private:
     void findPoints(const std::vector<DraftPatch>& patches) {
         for (const DraftPatch& patch : patches) {
             for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
-                vertices_.need(vertex);
-            }
-            if (patch.info.patchClass == PatchClass::loopIrregular) {
-                for (const uint32_t point : triangles_.netOf(patch.facet, firstOf(patch))) {
-                    levelOne_.need(point);
-                }
+                (void)vertices_.need(vertex);
             }
         }
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            for (uint32_t i = 0; i < chains_.netSize(v); ++i) {
-                levelOne_.need(mesh_.net[mesh_.fragments[v].firstNet + i]);
+        nets_.resize(patches.size());
+        for (const uint32_t p : exact::patchesByFacet(patches)) {
+            if (patches[p].info.patchClass == PatchClass::loopIrregular) {
+                nets_[p] = triangles_.netOf(patches[p].facet, firstOf(patches[p]));
+                levelOne_.needNet(nets_[p]);
             }
         }
+        chains_.findNets(levelOne_);
     }
 
     /// Limits of plain vertices, vertices, points of level 1, other limits, then what chains have.
@@ -104,6 +101,7 @@ private:
         }
         firstVertex_ = next;
         firstLevelOne_ = firstVertex_ + vertices_.count();
+        tables_.copies = exact::copiesOf(levelOne_, firstLevelOne_);
         next = firstLevelOne_ + levelOne_.count();
         for (uint32_t& limit : limits_) {
             limit = limit == cage::kNone ? next++ : limit;
@@ -142,7 +140,7 @@ private:
         return flags;
     }
 
-    void writePatch(const DraftPatch& patch) {
+    void writePatch(const DraftPatch& patch, const TriangleNet& net) {
         for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
             writer_.put({firstVertex_ + vertices_.number(vertex)});
         }
@@ -153,23 +151,20 @@ private:
         if (patch.info.patchClass == PatchClass::loopRegular) {
             return;
         }
-        std::array<std::array<uint32_t, 4>, 4> words{};
+        std::array<uint32_t, 4> chains{}, windows{}, normals{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
             const ChainTables::Corner corner =
                 chains_.cornerOf(v, topology_.cornerSpokes[c] - topology_.spokeStarts[v]);
-            words[0][i] = corner.chain;
-            words[1][i] = corner.windows;
-            words[2][i] = corner.size;
-            words[3][i] = corner.normal;
+            chains[i] = corner.chain;
+            windows[i] = corner.windows;
+            normals[i] = corner.normal;
         }
-        for (const auto& element : words) {
-            writer_.put(element);
-        }
-        for (const uint32_t point : triangles_.netOf(patch.facet, firstOf(patch))) {
-            writer_.put({firstLevelOne_ + levelOne_.number(point)});
-        }
-        (void)writer_.element();
+        writer_.put(chains);
+        writer_.put(windows);
+        const uint32_t first = exact::firstOfNet(net);
+        exact::writeWindow(net, first, shared::kTriangleWindowElements,
+                           {shared::kTriangleWindowNormals, normals, firstLevelOne_ + first}, writer_);
     }
 
     const cage::Cage& host_;
@@ -185,6 +180,7 @@ private:
     exact::FanTables fans_;
     ChainTables chains_;
     exact::NeededRows vertices_, levelOne_;
+    std::vector<TriangleNet> nets_; ///< by patch, of irregular triangles: numbers of points of level 1
     uint32_t firstVertex_ = 0, firstLevelOne_ = 0;
     std::vector<uint32_t> limits_;      ///< by vertex: pool indices
     std::vector<uint8_t> firstCorners_; ///< by face

@@ -7,6 +7,7 @@
 #include "surface/exact/corners.h"
 #include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
+#include "surface/exact/window.h"
 #include "surface/fans.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
@@ -47,7 +48,8 @@ public:
     Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
         : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
           topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
-          rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words), fans_(writer_),
+          rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words),
+          fans_(lastLevel_, writer_),
           chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           levelOne_(mesh_.stencils.back().rows()) {}
 
@@ -70,9 +72,7 @@ public:
         findLevelOnePoints();
         layOutPool();
         writeFans();
-        chains_.write({[&](uint32_t point) { return firstLevelOne_ + levelOne_.number(point); },
-                       [](uint32_t vertex) { return vertex; }, steps()},
-                      tables_);
+        chains_.write({firstLevelOne_, [](uint32_t vertex) { return vertex; }, steps()}, tables_);
         const std::vector<uint32_t> points = ringPoints();
         RingWriter ring(cage_, topology_, points, firstCorners_, writer_);
         writePatches(ring);
@@ -138,20 +138,15 @@ private:
 
     /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
     void findLevelOnePoints() {
-        for (const DraftPatch& patch : patches_) {
-            if (patch.info.patchClass == PatchClass::regular) {
-                continue;
-            }
-            const QuadNet& net = nets_.emplace_back(corners_.netOf(patch.facet, firstCorners_[patch.facet], points_));
-            for (const uint32_t point : net) {
-                levelOne_.need(point);
-            }
-        }
-        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            for (uint32_t i = 0; i < chains_.netSize(v); ++i) {
-                levelOne_.need(mesh_.net[mesh_.fragments[v].firstNet + i]);
+        nets_.resize(patches_.size());
+        for (const uint32_t p : patchesByFacet(patches_)) {
+            const uint32_t facet = patches_[p].facet;
+            if (patches_[p].info.patchClass != PatchClass::regular) {
+                nets_[p] = corners_.netOf(facet, firstCorners_[facet], points_);
+                levelOne_.needNet(nets_[p]);
             }
         }
+        chains_.findNets(levelOne_);
     }
     /// Runs: closed ones first. Slots lie in this order.
     void layOutPool() {
@@ -180,6 +175,7 @@ private:
         tables_.tangents = point;
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
+        tables_.copies = copiesOf(levelOne_, firstLevelOne_);
         const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
         tables_.inner = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
@@ -236,7 +232,6 @@ private:
     }
 
     void writePatches(RingWriter& ring) {
-        size_t net = 0;
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             const DraftPatch& patch = patches_[p];
             countPatch(patch.info.patchClass, p, writer_, tables_);
@@ -251,13 +246,13 @@ private:
             writer_.put(points);
             writer_.put(spokes);
             if (patch.info.patchClass != PatchClass::regular) {
-                writeIrregular(patch, nets_[net++]);
+                writeIrregular(patch, nets_[p]);
             }
         }
     }
 
     void writeIrregular(const DraftPatch& patch, const QuadNet& net) {
-        std::array<uint32_t, 4> windows{}, sizes{}, sharpness{}, normals{};
+        std::array<uint32_t, 4> windows{}, sharpness{}, normals{};
         uint32_t flags = 0;
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
@@ -266,18 +261,14 @@ private:
             sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
             normals[i] = corner.normal;
             windows[i] = corner.windows;
-            sizes[i] = corner.size;
             const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
             flags |= cubic ? 1u << (shared::kCubicSide + i) : 0u;
         }
-        for (const auto& words : {windows, sizes, sharpness, normals}) {
-            writer_.put(words);
-        }
-        writer_.put({flags});
-        for (const uint32_t point : net) {
-            writer_.put({firstLevelOne_ + levelOne_.number(point)});
-        }
-        (void)writer_.element();
+        writer_.put(windows);
+        writer_.put(sharpness);
+        const uint32_t first = firstOfNet(net);
+        flags |= (firstLevelOne_ + first) << shared::kNetFirstShift;
+        writeWindow(net, first, shared::kWindowElements, {shared::kWindowNormals, normals, flags}, writer_);
     }
 
     const cage::Cage& host_;
@@ -295,7 +286,7 @@ private:
     FanTables fans_;
     ChainTables chains_;
     std::vector<DraftPatch> patches_;
-    std::vector<QuadNet> nets_; ///< of irregular quads, in the order of patches
+    std::vector<QuadNet> nets_; ///< by patch, of irregular quads: numbers of points of level 1
     NeededRows levelOne_;
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them

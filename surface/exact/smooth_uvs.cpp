@@ -4,6 +4,7 @@
 #include "surface/exact/corners.h"
 #include "surface/exact/triangles.h"
 #include "surface/exact/uv_points.h"
+#include "surface/exact/window.h"
 #include "surface/smooth_uvs.h"
 
 #include <array>
@@ -23,11 +24,21 @@ public:
     UvSet(const UvSet&) = delete;
     UvSet& operator=(const UvSet&) = delete;
 
-    [[nodiscard]] UvPoints& points() { return points_; }
-    /// Behind UvPoints::write() and addFans().
-    virtual void writePatch(const DraftPatch& patch, FanTables& fans, TableWriter& writer) const = 0;
+    void write(const std::vector<DraftPatch>& patches, FanTables& fans, TableWriter& writer) {
+        points_.addFans(fans);
+        nets_.resize(patches.size());
+        for (const uint32_t p : patchesByFacet(patches)) {
+            nets_[p] = netOf(patches[p]);
+            points_.needNet(nets_[p]);
+        }
+        points_.write(writer);
+    }
+    /// Behind write(). `p`: its index in device order.
+    virtual void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const = 0;
 
 protected:
+    /// Points of level 1.
+    [[nodiscard]] virtual std::vector<uint32_t> netOf(const DraftPatch& patch) const = 0;
     template <class HasChain>
     void setChains(const HasChain& hasChain) {
         std::vector<uint8_t> chains;
@@ -38,6 +49,7 @@ protected:
     }
 
     UvPoints points_;
+    std::vector<std::vector<uint32_t>> nets_; ///< by patch: numbers of points of level 1
 };
 
 class UvQuads final : public UvSet {
@@ -47,10 +59,9 @@ public:
         setChains([&](uint32_t v) { return corners_.kind(v) == VertexKind::chain; });
     }
 
-    void writePatch(const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
+    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
         const RefinedMesh& mesh = points_.mesh();
-        std::array<uint32_t, 4> limits{}, chains{}, windows{}, sizes{}, sharpness{}, normals{};
-        normals.fill(shared::kNoNormal);
+        std::array<uint32_t, 4> limits{}, chains{}, windows{}, sharpness{};
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t c = patch.cageCorners[i];
             const UvPoints::Corner corner = points_.cornerOf(c, fans);
@@ -58,19 +69,21 @@ public:
             sharpness[i] = std::bit_cast<uint32_t>(softened(mesh.edgeSharpness[mesh.topology.cornerEdges[c]], 1));
             chains[i] = corner.chain;
             windows[i] = corner.windows;
-            sizes[i] = corner.size;
         }
-        for (const auto& words : {limits, chains, windows, sizes, sharpness, normals}) {
+        for (const auto& words : {limits, chains, windows, sharpness}) {
             writer.put(words);
         }
-        writer.put({0u}); // every side is two halves
-        for (const uint32_t point : corners_.netOf(patch.facet, patch.cageCorners[0] % 4, steps_)) {
-            writer.put({points_.point(point)});
-        }
-        (void)writer.element();
+        const uint32_t first = firstOfNet(nets_[p]);
+        const uint32_t last = (points_.firstPoint() + first) << shared::kNetFirstShift; // every side is two halves
+        writeWindow(nets_[p], first, shared::kWindowElements, {shared::kWindowNormals, {}, last}, writer);
     }
 
 private:
+    [[nodiscard]] std::vector<uint32_t> netOf(const DraftPatch& patch) const override {
+        const QuadNet net = corners_.netOf(patch.facet, patch.cageCorners[0] % 4, steps_);
+        return {net.begin(), net.end()};
+    }
+
     Corners corners_;
     StepPoints steps_;
 };
@@ -82,28 +95,30 @@ public:
         setChains([&](uint32_t v) { return !triangles_.isPlain(v); });
     }
 
-    void writePatch(const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
-        std::array<uint32_t, 4> limits{}, chains{}, windows{}, sizes{}, normals{};
-        normals.fill(shared::kNoNormal);
+    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
+        std::array<uint32_t, 4> limits{}, chains{}, windows{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i];
             const UvPoints::Corner corner = points_.cornerOf(c, fans);
             limits[i] = points_.limit(points_.mesh().cage.faceVertices[c]);
             chains[i] = corner.chain;
             windows[i] = corner.windows;
-            sizes[i] = corner.size;
         }
         limits[3] = triangles_.flagsOf(patch.cageCorners); // no side is whole: each is two halves
-        for (const auto& words : {limits, chains, windows, sizes, normals}) {
+        for (const auto& words : {limits, chains, windows}) {
             writer.put(words);
         }
-        for (const uint32_t point : triangles_.netOf(patch.facet, patch.cageCorners[0] % 3)) {
-            writer.put({points_.point(point)});
-        }
-        (void)writer.element();
+        const uint32_t first = firstOfNet(nets_[p]);
+        writeWindow(nets_[p], first, shared::kTriangleWindowElements,
+                    {shared::kTriangleWindowNormals, {}, points_.firstPoint() + first}, writer);
     }
 
 private:
+    [[nodiscard]] std::vector<uint32_t> netOf(const DraftPatch& patch) const override {
+        const loop::TriangleNet net = triangles_.netOf(patch.facet, patch.cageCorners[0] % 3);
+        return {net.begin(), net.end()};
+    }
+
     loop::Triangles triangles_;
 };
 
@@ -132,9 +147,7 @@ Status writeUvLeaves(const Recipe& recipe, const cage::Cage& cage, const UvDeman
         if (!level) {
             return level.error();
         }
-        UvSet& set = *sets.emplace_back(makeSet(demand, std::move(*level)));
-        set.points().addFans(fans);
-        set.points().write(writer);
+        sets.emplace_back(makeSet(demand, std::move(*level)))->write(patches, fans, writer);
     }
     tables.uvMode = recipe.uvMode;
     tables.uvLeaves = true;
@@ -142,7 +155,7 @@ Status writeUvLeaves(const Recipe& recipe, const cage::Cage& cage, const UvDeman
         range.smoothUvs = writer.element();
         for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {
             for (const std::unique_ptr<UvSet>& set : sets) {
-                set->writePatch(patches[p], fans, writer);
+                set->writePatch(p, patches[p], fans, writer);
             }
         }
     }

@@ -64,7 +64,8 @@ Result<ChannelLevel> channelOf(const RefinedMesh& cage, const std::vector<glm::v
 
 UvPoints::UvPoints(Subdivision subdivision, ChannelLevel level, uint32_t lastLevel)
     : subdivision_(subdivision), isolation_(isolated(level, subdivision)),
-      points_(refinedValues(isolation_.mesh.stencils.back(), level.values)), lastLevel_(lastLevel) {}
+      points_(refinedValues(isolation_.mesh.stencils.back(), level.values)),
+      levelOne_(static_cast<uint32_t>(points_.size())), lastLevel_(lastLevel) {}
 
 Fan UvPoints::fanOf(uint32_t vertex) const {
     const subdivision::Fragment& fragment = isolation_.mesh.fragments[vertex];
@@ -120,10 +121,10 @@ void UvPoints::write(TableWriter& writer) {
         putPair(limitAt(v), writer);
     }
     firstPoint_ = firstLimit_ + vertices;
-    for (const glm::dvec2& point : points_) {
-        putPair(point, writer);
+    for (const uint32_t point : levelOne_.rows()) {
+        putPair(points_[point], writer);
     }
-    uint32_t next = firstPoint_ + static_cast<uint32_t>(points_.size());
+    uint32_t next = firstPoint_ + levelOne_.count();
     chains_.assign(vertices, 0);
     for (uint32_t v = 0; v < vertices; ++v) {
         if (hasChain_[v] != 0) {
@@ -151,8 +152,7 @@ UvPoints::Corner UvPoints::cornerOf(uint32_t corner, FanTables& fans) const {
     }
     const Fan fan = fanOf(v);
     const uint32_t sector = topology.cornerSpokes[corner] - topology.spokeStarts[v];
-    return {chains_[v], fans.of(fan).windows + FanTables::windowElements(subdivision_) * sector,
-            pointCount(fan, 3) | lastLevel_ << shared::kChainLevelShift};
+    return {chains_[v], fans.of(fan).windows + FanTables::windowElements(subdivision_) * sector};
 }
 
 } // namespace supple::surface::exact

@@ -5,6 +5,7 @@
 #include "surface/build.h"
 #include "surface/exact/arrangement.h"
 #include "surface/exact/fan_tables.h"
+#include "surface/exact/needed_rows.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/uv_levels.h"
 
@@ -25,16 +26,18 @@ public:
     [[nodiscard]] const RefinedMesh& mesh() const { return isolation_.parent; }
     /// By vertex, whether it has a chain. To be called before write() and addFans().
     void setChains(std::vector<uint8_t> chains) { hasChain_ = std::move(chains); }
+    /// Puts numbers in the place of the points of level 1 that a net has. Before write().
+    void needNet(std::span<uint32_t> net) { levelOne_.needNet(net); }
     void write(TableWriter& writer);
     /// Has the tables of all fans written that corners name.
     void addFans(FanTables& fans) const;
 
-    /// Numbers of the table's pairs of floats, behind write(). `point`: of level 1.
+    /// Numbers of the table's pairs of floats, behind write().
     [[nodiscard]] uint32_t limit(uint32_t vertex) const { return firstLimit_ + vertex; }
-    [[nodiscard]] uint32_t point(uint32_t point) const { return firstPoint_ + point; }
+    [[nodiscard]] uint32_t firstPoint() const { return firstPoint_; } ///< of level 1
     /// What records say of a corner of the mesh, behind write() and addFans(). Without a chain: 0.
     struct Corner {
-        uint32_t chain = 0, windows = 0, size = 0;
+        uint32_t chain = 0, windows = 0;
     };
     [[nodiscard]] Corner cornerOf(uint32_t corner, FanTables& fans) const;
 
@@ -50,6 +53,7 @@ private:
     Subdivision subdivision_;
     subdivision::Isolation isolation_;
     Points points_; ///< of level 1
+    NeededRows levelOne_;
     std::vector<uint8_t> hasChain_;
     uint32_t lastLevel_;
     std::map<Arrangement, subdivision::CentreMask> limits_;

@@ -42,9 +42,9 @@ Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* n
 }
 
 /// A side of an irregular quad that has two halves. No other edge has the point of level 1 in its middle.
-Border halvesBorder(const uint32_t* record, uint32_t element, uint32_t side) {
-    const uint32_t* net = record + size_t{4} * shared::kExactNetElement + 1;
-    return {Borders::halves, {net[SUPPLE_EXACT_SIDE_MIDDLE(side)]}, {element, side, 0, 0}};
+Border halvesBorder(const Tables& tables, const uint32_t* record, uint32_t element, uint32_t side) {
+    const uint32_t middle = quadNetPoint(tables, record, SUPPLE_EXACT_SIDE_MIDDLE(side));
+    return {Borders::halves, {middle}, {element, side, 0, 0}};
 }
 
 /// A side of a triangle of Loop, by the limit points of its ends.
@@ -75,10 +75,11 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
         all.push_back(
             borderOf(Borders::cubics, std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]})));
     }
-    const uint32_t flags = rowOf(patchClass).borders == Borders::halves ? record[4 * shared::kExactNetElement] : ~0u;
+    const bool halves = rowOf(patchClass).borders == Borders::halves;
+    const uint32_t flags = halves ? record[4 * shared::kExactNetElement + shared::kWindowLastWord] : ~0u;
     for (uint32_t side = 0; side < all.size(); ++side) {
         if ((flags >> (shared::kCubicSide + side) & 1u) == 0) {
-            all[side] = halvesBorder(record, element, side);
+            all[side] = halvesBorder(tables, record, element, side);
         }
     }
     return all;

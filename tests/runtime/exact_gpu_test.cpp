@@ -1,5 +1,8 @@
 // Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
 // share.
+#include "surface/build.h"
+#include "surface/indexed_mesh.h"
+#include "surface/lod/tables.h"
 #include "tests/support/crowd.h"
 #include "tests/support/exact_quads.h"
 #include "tests/support/meshes.h"
@@ -117,6 +120,55 @@ TEST_P(ExactOnGpu, CharactersAreTheLimit) {
         ++characters;
     });
     EXPECT_GE(characters, 3u);
+}
+
+/// A torus of irregular quads with more points of level 1 than 16 bits number. Where it closes, they come again.
+cage::Cage largeTorus() {
+    constexpr uint32_t kAround = 148, kAcross = 148;
+    cage::Cage cage = torus(kAround, kAcross);
+    for (uint32_t i = 0; i < kAround; ++i) {
+        for (uint32_t j = 0; j < kAcross; ++j) {
+            const uint32_t v = i * kAcross + j;
+            if (i % 2 == 0) {
+                cage.creases.push_back({v, i * kAcross + (j + 1) % kAcross, 1.5f});
+            }
+            if (j % 2 == 0) {
+                cage.creases.push_back({v, (i + 1) % kAround * kAcross + j, 0.5f});
+            }
+        }
+    }
+    return cage;
+}
+
+TEST_P(ExactOnGpu, PointsOfLargeCagesComeAgain) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const cage::Cage cage = largeTorus();
+    surface::Recipe recipe;
+    recipe.rate = 2;
+    Result<surface::Tables> tables = surface::exact::build(recipe, cage);
+    ASSERT_TRUE(tables);
+    EXPECT_GT(tables->copies.size(), 100u);
+    EXPECT_LT(tables->copies.size(), cage.faceCount() / 10);
+    // Both sides of an edge still know it as one.
+    surface::lod::appendTables(*tables);
+    EXPECT_EQ(tables->lod.edgeCount, 2 * cage.faceCount());
+    surface::appendIndexedMesh(*tables, false, false);
+    EXPECT_EQ(tables->mesh.edgeCount, 2 * cage.faceCount());
+    Worst worst;
+    ASSERT_NO_FATAL_FAILURE(compare(*device, cage, 2, 101, worst));
+    EXPECT_LE(worst.position, 1e-6);
+    EXPECT_EQ(worst.steep, 0u);
+    const ExactQuads quads(cage);
+    GpuSurface gpu(*device, cage, exactOptions(GetParam(), 2));
+    ASSERT_TRUE(gpu.valid());
+    gpu.evaluate();
+    const ComparedBits bits =
+        borderBits(quads.isolation.parent.cage, quads.isolation.parent.topology, quads.patches(gpu.patches()), gpu);
+    bits.print("border samples of a large torus");
+    EXPECT_EQ(bits.different, 0u);
+    EXPECT_GT(bits.samples, 0u);
 }
 
 TEST_P(ExactOnGpu, BordersAgreeBitForBit) {
