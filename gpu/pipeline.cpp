@@ -53,7 +53,7 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     return layout;
 }
 
-Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout, const Spirv& spirv,
+Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLayout layout, const Spirv& spirv,
                                              std::span<const Constant> constants, const char* name) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     const std::span<const uint32_t> words = wordsOf(device, spirv);
@@ -87,7 +87,7 @@ Result<PipelineHandle> createComputePipeline(const Device& device, const Compute
     info.stage.module = shader;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &specialization;
-    info.layout = layout.pipelineLayout.get();
+    info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     result =
         device.vk.CreateComputePipelines(device.handle, device.pipelineCache, 1, &info, device.allocator, &pipeline);
@@ -162,7 +162,7 @@ void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet
 
 void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, VkDescriptorSet set,
           std::span<const std::byte> push) {
-    device.vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
+    device.vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->get());
     device.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &set, 0,
                                     nullptr);
     device.vk.CmdPushConstants(commandBuffer, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,

@@ -59,7 +59,8 @@ struct Constant {
 }
 
 /// The constants of the device's mapping are added to `constants`. gpu::Pipelines keeps what is made here.
-[[nodiscard]] Result<PipelineHandle> createComputePipeline(const Device& device, const ComputeLayout& layout,
+/// Any thread may call it.
+[[nodiscard]] Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLayout layout,
                                                            const Spirv& spirv, std::span<const Constant> constants,
                                                            const char* name);
 
@@ -79,9 +80,9 @@ struct BoundResource {
 void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet set,
               std::span<const BoundResource> resources);
 
-/// A pipeline, ready to be bound. Owns nothing.
+/// A pipeline, to be bound. Owns nothing.
 struct Kernel {
-    VkPipeline pipeline = VK_NULL_HANDLE;
+    const PipelineHandle* pipeline = nullptr; ///< of gpu::Pipelines, which may make it later
     VkPipelineLayout layout = VK_NULL_HANDLE;
 };
 /// Records the pipeline, its set and its push constants: all that a dispatch needs before it.

@@ -1,27 +1,68 @@
 #include "gpu/pipelines.h"
 
+#include "base/within_memory.h"
+
 #include <algorithm>
 
 namespace supple::gpu {
 
 Result<Kernel> Pipelines::get(const ComputeLayout& layout, const Spirv& spirv, std::span<const Constant> constants,
                               const char* name) {
-    const uint32_t* words = wordsOf(*device_, spirv).data();
-    const VkPipelineLayout pipelineLayout = layout.pipelineLayout.get();
-    const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-        return entry.words == words && entry.layout == pipelineLayout &&
-               std::equal(entry.constants.begin(), entry.constants.end(), constants.begin(), constants.end());
-    });
-    if (known != entries_.end()) {
-        return Kernel{known->pipeline.get(), pipelineLayout};
+    Batch batch(*this);
+    const Kernel kernel = batch.get(layout, spirv, constants, name);
+    if (const Status made = batch.make(); !made) {
+        return made.error();
     }
-    Result<PipelineHandle> pipeline = createComputePipeline(*device_, layout, spirv, constants, name);
-    if (!pipeline) {
-        return pipeline.error();
-    }
-    const Kernel kernel{pipeline->get(), pipelineLayout};
-    entries_.push_back({words, pipelineLayout, {constants.begin(), constants.end()}, std::move(*pipeline)});
     return kernel;
+}
+
+Pipelines::Batch::~Batch() {
+    pipelines_.entries_.remove_if([&](const Entry& entry) {
+        return entry.pipeline.get() == VK_NULL_HANDLE &&
+               std::find(missing_.begin(), missing_.end(), &entry) != missing_.end();
+    });
+}
+
+Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, std::span<const Constant> constants,
+                             const char* name) {
+    const uint32_t* words = wordsOf(*pipelines_.device_, spirv).data();
+    const VkPipelineLayout pipelineLayout = layout.pipelineLayout.get();
+    std::list<Entry>& entries = pipelines_.entries_;
+    auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& known) {
+        return wordsOf(*pipelines_.device_, known.spirv).data() == words && known.layout == pipelineLayout &&
+               std::equal(known.constants.begin(), known.constants.end(), constants.begin(), constants.end());
+    });
+    if (entry == entries.end()) {
+        entry = entries.insert(entry, Entry{spirv, pipelineLayout, {constants.begin(), constants.end()}, name, {}});
+        missing_.push_back(&*entry);
+    }
+    return Kernel{&entry->pipeline, pipelineLayout};
+}
+
+Status Pipelines::Batch::make() {
+    const auto count = static_cast<uint32_t>(missing_.size());
+    std::vector<Status> made(count, success());
+    const std::function<void(uint32_t)> job = [&](uint32_t i) {
+        Entry& entry = *missing_[i];
+        Result<PipelineHandle> pipeline = withinMemory(entry.name.c_str(), [&] {
+            return createComputePipeline(*pipelines_.device_, entry.layout, entry.spirv, entry.constants,
+                                         entry.name.c_str());
+        });
+        if (pipeline) {
+            entry.pipeline = std::move(*pipeline);
+        } else {
+            made[i] = pipeline.error();
+        }
+    };
+    if (count > 0 && pipelines_.runJobs_) {
+        pipelines_.runJobs_(count, job);
+    } else {
+        for (uint32_t i = 0; i < count; ++i) {
+            job(i);
+        }
+    }
+    const auto failed = std::find_if(made.begin(), made.end(), [](const Status& status) { return !status; });
+    return failed == made.end() ? success() : *failed;
 }
 
 } // namespace supple::gpu

@@ -3,31 +3,60 @@
 
 #include "gpu/pipeline.h"
 
+#include <functional>
+#include <list>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace supple::gpu {
 
+/// Runs job(i) for every i below count, in any order, on any threads, and returns when all have ended.
+using RunJobs = std::function<void(uint32_t count, const std::function<void(uint32_t)>& job)>;
+
 /// The pipelines of one context. Two are the same if their SPIR-V (its address), layout and constants are the same.
 /// Not thread-safe; recording does not need it.
 class Pipelines {
+    struct Entry {
+        Spirv spirv;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        std::vector<Constant> constants;
+        std::string name;
+        PipelineHandle pipeline; ///< empty until its batch is made
+    };
+
 public:
-    explicit Pipelines(const Device& device) : device_(&device) {}
+    /// `runJobs`: makes the pipelines of a batch; empty: one after the other, on the calling thread.
+    explicit Pipelines(const Device& device, RunJobs runJobs = {}) : device_(&device), runJobs_(std::move(runJobs)) {}
 
     /// The pipeline, created if it is not there yet. The SPIR-V's words and the layout must outlive the cache; `name`
     /// is for debuggers, and that of the first call stays.
     [[nodiscard]] Result<Kernel> get(const ComputeLayout& layout, const Spirv& spirv,
                                      std::span<const Constant> constants, const char* name);
 
-private:
-    struct Entry {
-        const uint32_t* words = nullptr;
-        VkPipelineLayout layout = VK_NULL_HANDLE;
-        std::vector<Constant> constants;
-        PipelineHandle pipeline;
+    /// Pipelines that are made side by side. One batch at a time. Until make() succeeds its kernels may not be used;
+    /// without it they are void when the batch ends.
+    class Batch {
+    public:
+        explicit Batch(Pipelines& pipelines) : pipelines_(pipelines) {}
+        ~Batch();
+        Batch(const Batch&) = delete;
+        Batch& operator=(const Batch&) = delete;
+
+        [[nodiscard]] Kernel get(const ComputeLayout& layout, const Spirv& spirv, std::span<const Constant> constants,
+                                 const char* name);
+        /// The error of the first that could not be made.
+        [[nodiscard]] Status make();
+
+    private:
+        Pipelines& pipelines_;
+        std::vector<Entry*> missing_; ///< in the order in which they were asked for
     };
+
+private:
     const Device* device_;
-    std::vector<Entry> entries_; ///< a few dozen: a search costs nothing beside a pipeline
+    RunJobs runJobs_;
+    std::list<Entry> entries_; ///< a few dozen: a search costs nothing beside a pipeline. Kernels have their addresses
 };
 
 } // namespace supple::gpu

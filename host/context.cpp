@@ -1,5 +1,7 @@
 #include "host/context.h"
 
+#include "host/jobs.h"
+
 #include <cstdio>
 #include <cstring>
 
@@ -52,6 +54,7 @@ Result<std::unique_ptr<Context>> Context::create(Device& device, const ContextOp
     desc.mapping = options.mapping;
     desc.log = log;
     desc.logUser = context.get();
+    desc.runJobs = runJobs;
     if (const Status status = context->check(suppleCreateContext(&desc, &context->context_), "suppleCreateContext");
         !status)
         return status.error();

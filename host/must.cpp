@@ -2,6 +2,7 @@
 
 #include "host/context.h"
 #include "host/frames.h"
+#include "host/jobs.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -40,6 +41,7 @@ supple::Context mustCreateContext(const Device& device) {
         if (severity != SUPPLE_SEVERITY_INFO)
             std::fprintf(stderr, "supple %d: %s\n", static_cast<int>(message), text);
     };
+    desc.runJobs = runJobs;
     supple::Context context;
     must(supple::Context::create(desc, context), "suppleCreateContext");
     return context;

@@ -34,6 +34,17 @@ gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
     return source;
 }
 
+gpu::RunJobs runJobsOf(const SuppleContextDesc& desc) {
+    if (desc.runJobs == nullptr) {
+        return {};
+    }
+    return [runJobs = desc.runJobs, user = desc.jobsUser](uint32_t count, const std::function<void(uint32_t)>& job) {
+        runJobs(
+            count, [](void* data, uint32_t i) { (*static_cast<const std::function<void(uint32_t)>*>(data))(i); },
+            const_cast<std::function<void(uint32_t)>*>(&job), user);
+    };
+}
+
 } // namespace
 
 Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders) {
@@ -68,7 +79,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     }
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
-    context->pipelines_ = std::make_unique<gpu::Pipelines>(d);
+    context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
 
     Result<skinning::DeformPass> deform = skinning::DeformPass::create(d, *context->pipelines_);
     if (!deform) {

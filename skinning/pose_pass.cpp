@@ -45,12 +45,12 @@ Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pip
     } kernels[] = {{&pass.locals_[0], pose_locals_comp, "supple pose, local matrices"},
                    {&pass.locals_[1], pose_locals_comp_ADDS, "supple pose, local matrices, additive"},
                    {&pass.roots_, pose_roots_comp, "supple pose, roots"}};
+    gpu::Pipelines::Batch batch(pipelines);
     for (const auto& [target, spirv, name] : kernels) {
-        const Result<gpu::Kernel> made = pipelines.get(pass.layout_, spirv, {}, name);
-        if (!made) {
-            return made.error();
-        }
-        *target = *made;
+        *target = batch.get(pass.layout_, spirv, {}, name);
+    }
+    if (const Status made = batch.make(); !made) {
+        return made.error();
     }
     return pass;
 }

@@ -150,8 +150,8 @@ Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const 
         subdivision::addSteps(builder);
         polygons::addSteps(builder);
     }
-    if (!builder.status()) {
-        return builder.status().error();
+    if (const Status made = builder.makePipelines(); !made) {
+        return made.error();
     }
     return std::move(builder.program);
 }

@@ -251,16 +251,8 @@ uint32_t outputsOf(const ProgramBuilder& builder) {
 
 gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
                                    const std::string& name) {
-    if (!status_) {
-        return {};
-    }
-    const Result<gpu::Kernel> made = pipelines_.get(layouts_[static_cast<size_t>(sets)], shaders_[which],
-                                                    std::span(constants.begin(), constants.size()), name.c_str());
-    if (!made) {
-        status_ = made.error();
-        return {};
-    }
-    return *made;
+    return pipelines_.get(layouts_[static_cast<size_t>(sets)], shaders_[which],
+                          std::span(constants.begin(), constants.size()), name.c_str());
 }
 
 std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {

@@ -30,8 +30,8 @@ public:
 
     [[nodiscard]] gpu::Kernel kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,
                                      const std::string& name);
-    /// The first error. After it no more pipelines are created.
-    [[nodiscard]] const Status& status() const { return status_; }
+    /// Makes the pipelines of all kernels. Without that the program is void.
+    [[nodiscard]] Status makePipelines() { return pipelines_.make(); }
 
     /// Adds a step unless it has no elements.
     template <class Push>
@@ -54,9 +54,8 @@ public:
 
 private:
     const Layouts& layouts_;
-    gpu::Pipelines& pipelines_;
+    gpu::Pipelines::Batch pipelines_;
     const Shaders& shaders_;
-    Status status_ = success();
 };
 
 /// The push constants of a step on the records of a section.

@@ -81,28 +81,30 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines&
     if (status) {
         makeLayout(pass.listLayout_, list, "supple list");
     }
-    status = status ? pass.make(pass.bounds_, pass.boundsLayout_, bounds_bounds_comp, "supple bounds") : status;
-    status = status ? pass.make(pass.sizes_, pass.listLayout_, bounds_size_comp, "supple sizes of instances") : status;
-    status = status ? pass.make(pass.list_, pass.listLayout_, bounds_list_comp, "supple list of instances") : status;
+    if (!status) {
+        return status.error();
+    }
+    gpu::Pipelines::Batch batch(pipelines);
+    pass.bounds_ = batch.get(pass.boundsLayout_, bounds_bounds_comp, {}, "supple bounds");
+    pass.sizes_ = batch.get(pass.listLayout_, bounds_size_comp, {}, "supple sizes of instances");
+    pass.list_ = batch.get(pass.listLayout_, bounds_list_comp, {}, "supple list of instances");
+    status = batch.make();
     if (!status) {
         return status.error();
     }
     return pass;
 }
 
-Status BoundsPass::make(gpu::Kernel& target, const gpu::ComputeLayout& layout, const gpu::Spirv& spirv,
-                        const char* name) {
-    const Result<gpu::Kernel> made = pipelines_->get(layout, spirv, {}, name);
-    if (!made) {
-        return made.error();
-    }
-    target = *made;
-    return success();
-}
-
 Status BoundsPass::prepareRates() {
-    const Status made = make(demand_, listLayout_, bounds_demand_comp, "supple demand of rates");
-    return made ? make(rates_, listLayout_, bounds_rates_comp, "supple lists of rates") : made;
+    gpu::Pipelines::Batch batch(*pipelines_);
+    const gpu::Kernel demand = batch.get(listLayout_, bounds_demand_comp, {}, "supple demand of rates");
+    const gpu::Kernel rates = batch.get(listLayout_, bounds_rates_comp, {}, "supple lists of rates");
+    const Status made = batch.make();
+    if (made) {
+        demand_ = demand;
+        rates_ = rates;
+    }
+    return made;
 }
 
 template <class Push>

@@ -80,8 +80,6 @@ public:
     void recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const;
 
 private:
-    [[nodiscard]] Status make(gpu::Kernel& target, const gpu::ComputeLayout& layout, const gpu::Spirv& spirv,
-                              const char* name);
     template <class Push>
     void record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set, const Push& push,
                 uint64_t groups) const;

@@ -46,7 +46,9 @@ TEST(ComputePipeline, HasTheCodeAndTheConstantsOfTheMapping) {
         mapping.wide = isWide;
         mapping.localSize = isWide ? 128 : 32;
         mapping.exactDivision = !isWide;
-        ASSERT_TRUE(createComputePipeline(vulkan.device, *layout, {narrow, wide}, {&rate, 1}, "evaluate").ok());
+        ASSERT_TRUE(
+            createComputePipeline(vulkan.device, layout->pipelineLayout.get(), {narrow, wide}, {&rate, 1}, "evaluate")
+                .ok());
         const test::FakeVulkan::Pipeline& made = vulkan.pipelines.back();
         EXPECT_EQ(made.code, isWide ? wide : narrow);
         EXPECT_EQ(made.constants, (std::vector<Pair>{{shared::kLocalSizeConstant, isWide ? 128 : 32},

@@ -87,8 +87,9 @@ void DepthPyramid::make(const DepthPicture& picture) {
     const gpu::Binding bindings[] = {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE}, {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
     Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(*device, bindings, sizeof(uint32_t), "test pyramid");
     ASSERT_TRUE(layout.ok());
-    Result<gpu::PipelineHandle> pipeline = gpu::createComputePipeline(
-        *device, *layout, {supple_depth_pyramid_comp, supple_depth_pyramid_comp}, {}, "test pyramid");
+    Result<gpu::PipelineHandle> pipeline =
+        gpu::createComputePipeline(*device, layout->pipelineLayout.get(),
+                                   {supple_depth_pyramid_comp, supple_depth_pyramid_comp}, {}, "test pyramid");
     Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(*device, *layout, levels(), "test pyramid");
     ASSERT_TRUE(pipeline.ok() && pool.ok());
     std::vector<VkDescriptorSet> sets;

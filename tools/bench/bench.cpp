@@ -416,6 +416,7 @@ Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
                                         {"count", made->pipelines.size()},
                                         {"coldMs", made->cold},
                                         {"warmMs", made->warm},
+                                        {"sideBySideMs", made->sideBySide},
                                         {"coldCpuMs", made->coldCpu},
                                         {"warmCpuMs", made->warmCpu},
                                         {"coldFirstFrameMs", made->coldFirstFrame},

@@ -1,6 +1,7 @@
 #include "tools/bench/loading.h"
 
 #include "host/context.h"
+#include "host/jobs.h"
 #include "host/vk_struct.h"
 #include "tools/bench/clocks.h"
 #include "tools/bench/pipeline_watch.h"
@@ -146,6 +147,26 @@ Result<SuppleGroup> groupFor(Workbench& workbench, const BenchCage& cage, Supple
     return workbench.createGroup(desc);
 }
 
+/// Milliseconds to make the pipelines of a group without a cache, on all threads of the machine.
+Result<double> measureSideBySide(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
+                                 SuppleScheme scheme, PipelineUse use) {
+    double milliseconds = 0.0;
+    SuppleContextDesc desc = host::contextDesc(device);
+    desc.mapping = mapping;
+    desc.jobsUser = &milliseconds;
+    desc.runJobs = [](uint32_t count, void (*job)(void*, uint32_t), void* jobData, void* user) {
+        const double begin = wallSeconds();
+        host::runJobs(count, job, jobData, nullptr);
+        *static_cast<double*>(user) += 1e3 * (wallSeconds() - begin);
+    };
+    Result<std::unique_ptr<Workbench>> workbench = Workbench::create(desc);
+    if (!workbench) {
+        return workbench.error();
+    }
+    const Result<SuppleGroup> group = groupFor(**workbench, cage, scheme, use);
+    return group ? Result<double>(milliseconds) : group.error();
+}
+
 } // namespace
 
 Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
@@ -206,9 +227,12 @@ Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, 
         }
     }
     vkDestroyPipelineCache(device.handle(), cache, nullptr);
-    if (!status) {
-        return status.error();
+    const Result<double> sideBySide =
+        status ? measureSideBySide(device, mapping, cage, scheme, use) : Result<double>(status.error());
+    if (!sideBySide) {
+        return sideBySide.error();
     }
+    result.sideBySide = *sideBySide;
     return result;
 }
 

@@ -43,7 +43,8 @@ struct Pipelines {
     std::string cage, scheme;
     std::vector<PipelineTime> pipelines;
     double cold = 0.0, warm = 0.0;                     ///< milliseconds, all of them
-    double coldCpu = 0.0, warmCpu = 0.0;               ///< of these, CPU time of the process
+    double sideBySide = 0.0;                           ///< the same cold, on all threads (SuppleContextDesc.runJobs)
+    double coldCpu = 0.0, warmCpu = 0.0;               ///< of cold and warm, CPU time of the process
     double coldFirstFrame = 0.0, warmFirstFrame = 0.0; ///< submit to end: drivers that compile at first use do it here
     double coldSecondFrame = 0.0, warmSecondFrame = 0.0; ///< the same of the next frame
     double warmUp = 0.0; ///< recording and running suppleRecordWarmUp, in a context that has done nothing else
@@ -57,7 +58,8 @@ enum class PipelineUse {
 };
 
 /// Everything a group of the cage needs, in a context of its own with an empty VkPipelineCache, then in another with
-/// that cache filled, then in a third one that records a warm-up before its first frame.
+/// that cache filled, then in a third one that records a warm-up before its first frame. Then once more without a
+/// cache, on all threads.
 [[nodiscard]] Result<Pipelines> measurePipelines(host::Device& device, SuppleMapping mapping, const BenchCage& cage,
                                                  SuppleScheme scheme, PipelineUse use);
 

@@ -135,14 +135,15 @@ std::string loadingTable(const Json& result) {
 }
 
 std::string pipelineTables(const Json& result) {
-    Table sums({"pipelines, ms", "count", "created cold", "warm", "CPU cold", "warm", "first frame cold", "warm",
-                "second frame", "warm-up", "first frame after it", "second"});
+    Table sums({"pipelines, ms", "count", "created cold", "warm", "cold, side by side", "CPU cold", "warm",
+                "first frame cold", "warm", "second frame", "warm-up", "first frame after it", "second"});
     Table each({"scheme", "pipeline", "SPIR-V bytes", "cold ms", "warm ms"});
     for (const Json& one : result["pipelines"]) {
         const std::string use = one.value("use", ""),
                           scheme = one["scheme"].get<std::string>() + (use.empty() ? "" : " " + use);
         sums.add({scheme + " on " + one["cage"].get<std::string>(), number(one["count"]), number(one["coldMs"]),
-                  number(one["warmMs"]), number(one.value("coldCpuMs", Json())), number(one.value("warmCpuMs", Json())),
+                  number(one["warmMs"]), number(one.value("sideBySideMs", Json())),
+                  number(one.value("coldCpuMs", Json())), number(one.value("warmCpuMs", Json())),
                   number(one["coldFirstFrameMs"]), number(one["warmFirstFrameMs"]), number(one["warmSecondFrameMs"]),
                   number(one.value("warmUpMs", Json())), number(one.value("preparedFirstFrameMs", Json())),
                   number(one.value("preparedSecondFrameMs", Json()))});

@@ -1,7 +1,8 @@
 #include "tools/supple/surface_batches.h"
 
+#include "host/jobs.h"
+
 #include <algorithm>
-#include <thread>
 
 namespace supple::tools {
 
@@ -17,16 +18,7 @@ std::vector<PatchBatch> patchBatches(std::span<const SuppleDrawRange> ranges) {
 }
 
 void inThreads(const std::vector<PatchBatch>& batches, const std::function<void(const PatchBatch&, size_t)>& work) {
-    const uint32_t threadCount = std::max(std::thread::hardware_concurrency(), 1u);
-    std::vector<std::thread> threads;
-    for (uint32_t t = 0; t < threadCount; ++t) {
-        threads.emplace_back([&, t] {
-            for (size_t i = t; i < batches.size(); i += threadCount)
-                work(batches[i], i);
-        });
-    }
-    for (std::thread& thread : threads)
-        thread.join();
+    host::inParallel(static_cast<uint32_t>(batches.size()), [&](uint32_t i) { work(batches[i], i); });
 }
 
 } // namespace supple::tools

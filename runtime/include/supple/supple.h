@@ -254,6 +254,11 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
+/** Help of the host's threads: calls job(jobData, i) once for every i below count, in any order and on any threads, and
+ * returns when all of these calls have returned. It must not call Supple. */
+typedef void (*SuppleRunJobsFunction)(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData,
+                                      void* user);
+
 /** The host's device, and how Supple uses it. */
 typedef struct SuppleContextDesc {
     uint32_t structSize;
@@ -277,6 +282,12 @@ typedef struct SuppleContextDesc {
     const void* enabledFeatures;
     const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
+    /** Optional. Supple calls it on the thread that called it, where groups and views are created or changed so that they
+     * need pipelines: every job creates one (vkCreateShaderModule, vkCreateComputePipelines). Then pipelineCache, allocator
+     * and the driver must expect calls from several threads at the same time, as Vulkan allows. Null: one after the other.
+     */
+    SuppleRunJobsFunction runJobs;
+    void* jobsUser;
 } SuppleContextDesc;
 
 /** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device or the instance
