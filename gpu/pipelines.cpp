@@ -41,7 +41,10 @@ Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, st
 
 Status Pipelines::Batch::make() {
     const auto count = static_cast<uint32_t>(missing_.size());
-    std::vector<Status> made(count, success());
+    std::vector<Status> made;
+    for (const Entry* entry : missing_) {
+        made.emplace_back(Error{ErrorCode::argument, "pipeline " + entry->name + ": runJobs has not run its job"});
+    }
     const std::function<void(uint32_t)> job = [&](uint32_t i) {
         Entry& entry = *missing_[i];
         Result<PipelineHandle> pipeline = withinMemory(entry.name.c_str(), [&] {
@@ -50,6 +53,7 @@ Status Pipelines::Batch::make() {
         });
         if (pipeline) {
             entry.pipeline = std::move(*pipeline);
+            made[i] = success();
         } else {
             made[i] = pipeline.error();
         }

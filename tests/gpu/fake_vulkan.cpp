@@ -85,6 +85,9 @@ VKAPI_ATTR void VKAPI_CALL destroyPipelineLayout(VkDevice, VkPipelineLayout, con
 VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice, VkPipelineCache, uint32_t,
                                                const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*,
                                                VkPipeline* pipeline) {
+    if (static_cast<int64_t>(fake->pipelineCalls++) == fake->failPipeline) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
     FakeVulkan::Pipeline& made = fake->pipelines.emplace_back();
     made.code = fake->shaders.at(info->stage.module);
     const VkSpecializationInfo& given = *info->stage.pSpecializationInfo;

@@ -25,6 +25,7 @@ struct FakeVulkan {
     // What the device says and does.
     VkDeviceSize alignment = 64;        ///< of buffers
     int64_t failAllocation = -1;        ///< index of the vkAllocateMemory that fails
+    int64_t failPipeline = -1;          ///< index of the vkCreateComputePipelines that fails
     std::vector<uint64_t> queryResults; ///< value and availability of each timestamp
 
     // What was called.
@@ -45,6 +46,7 @@ struct FakeVulkan {
     size_t layouts = 0;                                      ///< of sets, that live
     std::vector<VkDescriptorPoolSize> poolSizes;             ///< of the last pool
     std::vector<Pipeline> pipelines;                         ///< all ever made
+    size_t pipelineCalls = 0;                                ///< vkCreateComputePipelines
     std::vector<std::pair<VkBuffer, VkBuffer>> copies;       ///< from, to
     std::vector<std::pair<uint32_t, uint32_t>> dispatches;   ///< x, y
     std::vector<VkMemoryBarrier2> barriers;                  ///< global ones

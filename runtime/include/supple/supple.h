@@ -287,7 +287,7 @@ typedef struct SuppleContextDesc {
      * and the driver must expect calls from several threads at the same time, as Vulkan allows. Null: one after the other.
      */
     SuppleRunJobsFunction runJobs;
-    void* jobsUser;
+    void* jobsUser; /**< handed to runJobs */
 } SuppleContextDesc;
 
 /** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device or the instance
