@@ -1,8 +1,8 @@
 #include "gpu/pipelines.h"
 
-#include "base/within_memory.h"
-
 #include <algorithm>
+#include <atomic>
+#include <new>
 
 namespace supple::gpu {
 
@@ -32,6 +32,7 @@ Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, st
         return wordsOf(*pipelines_.device_, known.spirv).data() == words && known.layout == pipelineLayout &&
                std::equal(known.constants.begin(), known.constants.end(), constants.begin(), constants.end());
     });
+    missing_.reserve(missing_.size() + 1); // an entry without a pipeline is always some batch's
     if (entry == entries.end()) {
         entry = entries.insert(entry, Entry{spirv, pipelineLayout, {constants.begin(), constants.end()}, name, {}});
         missing_.push_back(&*entry);
@@ -41,32 +42,37 @@ Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, st
 
 Status Pipelines::Batch::make() {
     const auto count = static_cast<uint32_t>(missing_.size());
-    std::vector<Status> made;
+    std::vector<Result<PipelineHandle>> made;
     for (const Entry* entry : missing_) {
         made.emplace_back(Error{ErrorCode::argument, "pipeline " + entry->name + ": runJobs has not run its job"});
     }
+    std::atomic<bool> outOfMemory{false};
     const std::function<void(uint32_t)> job = [&](uint32_t i) {
-        Entry& entry = *missing_[i];
-        Result<PipelineHandle> pipeline = withinMemory(entry.name.c_str(), [&] {
-            return createComputePipeline(*pipelines_.device_, entry.layout, entry.spirv, entry.constants,
-                                         entry.name.c_str());
-        });
-        if (pipeline) {
-            entry.pipeline = std::move(*pipeline);
-            made[i] = success();
-        } else {
-            made[i] = pipeline.error();
+        const Entry& entry = *missing_[i];
+        try { // the host's threads catch nothing
+            made[i] = createComputePipeline(*pipelines_.device_, entry.layout, entry.spirv, entry.constants,
+                                            entry.name.c_str());
+        } catch (const std::bad_alloc&) {
+            outOfMemory = true;
         }
     };
     if (count > 0 && pipelines_.runJobs_) {
         pipelines_.runJobs_(count, job);
     } else {
-        for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t i = 0; i < count && (i == 0 || made[i - 1]); ++i) {
             job(i);
         }
     }
-    const auto failed = std::find_if(made.begin(), made.end(), [](const Status& status) { return !status; });
-    return failed == made.end() ? success() : *failed;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (made[i]) {
+            missing_[i]->pipeline = std::move(*made[i]);
+        }
+    }
+    if (outOfMemory) {
+        return Error{ErrorCode::hostMemory, "out of memory for pipelines"};
+    }
+    const auto failed = std::find_if(made.begin(), made.end(), [](const auto& result) { return !result; });
+    return failed == made.end() ? success() : failed->error();
 }
 
 } // namespace supple::gpu

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,8 +16,11 @@ void inParallel(uint32_t count, const std::function<void(uint32_t)>& work) {
     };
     const uint32_t most = std::max(std::thread::hardware_concurrency(), 1u);
     std::vector<std::jthread> threads; // joins
-    for (uint32_t t = 1; t < std::min(most, count); ++t)
-        threads.emplace_back(run);
+    try {
+        for (uint32_t t = 1; t < std::min(most, count); ++t)
+            threads.emplace_back(run);
+    } catch (const std::system_error&) { // with those that could be started
+    }
     run();
 }
 

@@ -1,4 +1,4 @@
-// Patch records, and the border curves that they imply. For patch classes whose borders are cubics (p-rep, P_m).
+// Patch records: the border curves that they imply, and what names a border that is no cubic.
 #pragma once
 
 #include "base/result.h"
@@ -33,15 +33,16 @@ private:
 /// Table elements of a patch record.
 [[nodiscard]] uint32_t recordElements(const Tables& tables, PatchClass patchClass);
 
-/// Pool index of point k of the net of an irregular quad or triangle, which names it: of a point that is there more
-/// than once (Tables::copies) it is that of the first.
+/// The name of point k in the net of an irregular quad or triangle: its pool index. If the point is there more than
+/// once (Tables::copies), it is the index of the first.
 [[nodiscard]] uint32_t quadNetPoint(const Tables& tables, const uint32_t* record, uint32_t k);
 [[nodiscard]] uint32_t triangleNetPoint(const Tables& tables, const uint32_t* record, uint32_t k);
 /// Pool index of the normal of a corner of an irregular quad or triangle, shared::kNoNormal if it has none.
 [[nodiscard]] uint32_t quadNormal(const uint32_t* record, uint32_t corner);
 [[nodiscard]] uint32_t triangleNormal(const uint32_t* record, uint32_t corner);
 
-/// The border curves of a patch, by side of its grid. A polar patch has four; one of them is the apex.
+/// The border curves of a patch whose borders are cubics, by side of its grid. A polar patch has four; one of them is
+/// the apex.
 [[nodiscard]] std::vector<BorderCurve> borderCurves(const Tables& tables, const uint32_t* record,
                                                     PatchClass patchClass);
 

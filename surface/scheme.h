@@ -53,8 +53,8 @@ struct Construction {
     Section section;
     uint32_t coefficients = 0; ///< how many it writes per instance, for the cost report
     bool readsPool = false;    ///< those before it in its stage write what it reads
-    uint32_t from = 0,
-             to = 0; ///< by stencils: the first vertex that rows may name, pool index of the first row's point
+    uint32_t from = 0;         ///< by stencils: the first vertex that rows may name
+    uint32_t to = 0;           ///< by stencils: pool index of the first row's point
 };
 
 /// Consecutive patches of one class in device order.
@@ -166,7 +166,8 @@ struct Tables {
     Fragments fragments;          ///< subdivision only
     Triangles triangles;          ///< polygons only
     bool cornerNormals = false;   ///< p-rep with CornerRule::smooth: records have an element of corner normals
-    std::map<uint32_t, uint32_t> copies; ///< catmull-clark, loop: points that are there twice, and the first of them
+    std::map<uint32_t, uint32_t>
+        copies; ///< catmull-clark, loop: points that are there more than once, and the first of them
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;

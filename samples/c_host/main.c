@@ -16,6 +16,7 @@
 #include "host_callbacks.h"
 #include "host_device.h"
 #include "host_file.h"
+#include "host_jobs.h"
 #include "host_memory.h"
 
 #include <math.h>
@@ -24,7 +25,6 @@
 
 #define FRAMES_IN_FLIGHT 2
 #define THREADS 2
-#define JOB_THREADS 3 /* beside the one that calls */
 /* Each thread copies the first surface vertex of the instance that stays, and of the one that came last. */
 #define COPIES_PER_THREAD 2
 
@@ -337,48 +337,6 @@ static Options readOptions(int argc, char** argv) {
     return options;
 }
 
-typedef struct Jobs {
-    void (*job)(void* jobData, uint32_t i);
-    void* jobData;
-    uint32_t count, next;
-    pthread_mutex_t mutex;
-} Jobs;
-
-static void* takeJobs(void* argument) {
-    Jobs* jobs = argument;
-    for (;;) {
-        uint32_t i;
-        pthread_mutex_lock(&jobs->mutex);
-        i = jobs->next++;
-        pthread_mutex_unlock(&jobs->mutex);
-        if (i >= jobs->count) {
-            return NULL;
-        }
-        jobs->job(jobs->jobData, i);
-    }
-}
-
-/* An engine would hand the jobs to the threads it has. This one works with those that it can start. */
-static void runJobs(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData, void* user) {
-    Jobs jobs = {0};
-    pthread_t threads[JOB_THREADS];
-    uint32_t started = 0;
-    (void)user;
-    jobs.job = job;
-    jobs.jobData = jobData;
-    jobs.count = count;
-    pthread_mutex_init(&jobs.mutex, NULL);
-    while (started < JOB_THREADS && started + 1 < count &&
-           pthread_create(&threads[started], NULL, takeJobs, &jobs) == 0) {
-        ++started;
-    }
-    takeJobs(&jobs);
-    while (started > 0) {
-        pthread_join(threads[--started], NULL);
-    }
-    pthread_mutex_destroy(&jobs.mutex);
-}
-
 static SuppleContext createContext(const HostDevice* host, HostAllocator memory) {
     SuppleMemoryCallbacks callbacks = {0};
     SuppleContextDesc desc = {0};
@@ -398,7 +356,7 @@ static SuppleContext createContext(const HostDevice* host, HostAllocator memory)
     desc.log = onLog;
     desc.enabledFeatures = &host->requirements.features12;
     desc.memory = &callbacks;
-    desc.runJobs = runJobs;
+    desc.runJobs = runHostJobs;
     CHECK_SUPPLE(suppleCreateContext(&desc, &context));
     return context;
 }

@@ -46,8 +46,7 @@ shared vec4 localPoints[kMakes == kMakesChains ? kBlocks * kBlockPoints : 1u];
 #endif
 
 vec3 netPoint(uint i) {
-    uint two = tableWord(source + i / 2u);
-    return poolVector(base + netFirst + ((i & 1u) == 0u ? two & 0xFFFFu : two >> 16u));
+    return poolVector(base + netFirst + halfOf(tableWord(source + i / 2u), i));
 }
 vec3 netOffset(uint i) {
     precise vec3 offset = netPoint(i) - centre;

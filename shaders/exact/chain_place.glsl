@@ -7,7 +7,8 @@ struct Chain {
     uint size;            // points of a level
     uint lastLevel;
 };
-// `lastWord`: of the window, which says how long chains are (surface/exact/fan_tables.cpp). Windows 0 have none, and any.
+// `lastWord`: of a window; it says how long chains are (surface/exact/fan_tables.cpp). Where there is no chain, `windows` is 0, and
+// the word that is read then is not used.
 Chain chainOf(const PatchPlace at, uint windows, uint points, uint lastWord) {
     uint size = tableWord(4u * windows + lastWord), last = size >> kChainLevelShift;
 #ifdef DEPTH_OF_INSTANCE
@@ -22,8 +23,7 @@ uvec4 normalsBefore(uvec4 chains, uvec2 back) {
 }
 // Point k of a window.
 uint windowPoint(uint window, uint k) {
-    uint word = tableWord(4u * window + k / 2u);
-    return (k & 1u) == 0u ? word & 0xFFFFu : word >> 16u;
+    return halfOf(tableWord(4u * window + k / 2u), k);
 }
 uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
 vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }

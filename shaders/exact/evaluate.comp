@@ -69,8 +69,7 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #include "shaders/exact/sample.glsl"
 
 void loadPart(uint to, const PatchPlace at, uint k) {
-    uint first = tableElement(at.record + kExactNetElement + kWindowElements - 1u).w >> kNetFirstShift;
-    localPoints[to] = vec4(ownPoint(at, first, k), 0.0);
+    localPoints[to] = vec4(ownPoint(at, quadOf(at.record).first, k), 0.0);
 }
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {

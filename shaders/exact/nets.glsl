@@ -22,7 +22,7 @@ Net netOf(const PatchPlace at, uint window, uint first) {
         uvec4 words = tableElement(window + e);
         [[unroll]] for (uint c = 0u; c < 8u; ++c) {
             uint k = 8u * e + c;
-            if (k < kNetPoints) net.p[k] = poolPoint(at, first + ((c & 1u) == 0u ? words[c / 2u] & 0xFFFFu : words[c / 2u] >> 16u));
+            if (k < kNetPoints) net.p[k] = poolPoint(at, first + halfOf(words[c / 2u], c));
         }
     }
     return net;

@@ -82,7 +82,7 @@ uint[kTriangleNetPoints] netIndices(NetSource net) {
         uvec4 words = tableElement(net.window + e);
         [[unroll]] for (uint c = 0u; c < 8u; ++c) {
             uint k = 8u * e + c, word = words[c / 2u];
-            if (k < kTriangleNetPoints) indices[k] = net.first + ((c & 1u) == 0u ? word & 0xFFFFu : word >> 16u);
+            if (k < kTriangleNetPoints) indices[k] = net.first + halfOf(word, c);
         }
     }
     return indices;

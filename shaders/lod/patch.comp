@@ -150,8 +150,7 @@ vec2 irregularLevels(uint record, uint base) {
     [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) window[e] = tableElement(record + kExactNetElement + e);
     uint first = base + (window[kWindowElements - 1u].w >> kNetFirstShift);
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
-        uint two = window[k / 8u][k / 2u % 4u];
-        net[k] = poolVector(first + ((k & 1u) == 0u ? two & 0xFFFFu : two >> 16u));
+        net[k] = poolVector(first + halfOf(window[k / 8u][k / 2u % 4u], k));
     }
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {

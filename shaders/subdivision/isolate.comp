@@ -9,7 +9,7 @@
 
 layout(constant_id = kKindConstant) const uint kNumbers = kHalfWords;
 
-uvec2 halvesOf(uint word) { return uvec2(word & 0xFFFFu, word >> 16u); }
+uvec2 halvesOf(uint word) { return uvec2(halfOf(word, 0u), halfOf(word, 1u)); }
 // Two numbers of a list that begins with the word `list`.
 uvec2 pairAt(uint list, uint pair) {
     if (kNumbers == kHalfWords) return halvesOf(tableWord(list + pair));

@@ -13,7 +13,8 @@ namespace {
 
 using subdivision::Fan;
 
-constexpr uint32_t kMaxChainPoints = 0xFFFF; ///< 16-bit numbers
+/// 16 bits number them. So a net, which has half as many, fits NeededRows, too.
+constexpr uint32_t kMaxChainPoints = 0xFFFF;
 
 } // namespace
 
@@ -69,7 +70,9 @@ uint32_t ChainTables::netSize(uint32_t vertex) const {
 void ChainTables::findNets(NeededRows& levelOne) {
     for (uint32_t v = 0; v < needs_.size(); ++v) {
         const auto net = mesh_.net.begin() + mesh_.fragments[v].firstNet;
-        levelOne.needNet(nets_.emplace_back(net, net + netSize(v)));
+        firstOfNet_.push_back(static_cast<uint32_t>(nets_.size()));
+        nets_.insert(nets_.end(), net, net + netSize(v));
+        levelOne.needNet(netOf(v));
     }
 }
 
@@ -179,10 +182,10 @@ void ChainTables::write(const Places& places, Tables& tables) {
         return std::pair(chainLevels(a), fanOf(a)) < std::pair(chainLevels(b), fanOf(b));
     });
     for (const uint32_t v : vertices) {
-        const uint32_t first = firstOfNet(nets_[v]);
+        const uint32_t first = firstOfNet(netOf(v));
         firstOfNets.push_back(places.firstLevelOne + first);
         nets.push_back(writer_.word());
-        writeNet(nets_[v], first, writer_);
+        writeNet(netOf(v), first, writer_);
         (void)fans_.of(fanOf(v));
     }
     uint32_t limits = 0; // coefficients

@@ -50,7 +50,10 @@ public:
         chains_.write({firstLevelOne_, [&](uint32_t vertex) { return limits_[vertex]; }, false}, tables_);
         for (uint32_t p = 0; p < patches.size(); ++p) {
             countPatch(patches[p].info.patchClass, p, writer_, tables_);
-            writePatch(patches[p], nets_[p]);
+            writePatch(patches[p]);
+            if (netOfPatch_[p] != cage::kNone) {
+                writeIrregular(patches[p], nets_[netOfPatch_[p]]);
+            }
         }
         finishTables(recipe_, cage_, patches, writer_, tables_);
         if (const Status smooth = exact::writeUvLeaves(recipe_, host_, {Subdivision::loop, false, lastLevel_}, patches,
@@ -80,14 +83,14 @@ private:
     void findPoints(const std::vector<DraftPatch>& patches) {
         for (const DraftPatch& patch : patches) {
             for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
-                (void)vertices_.need(vertex);
+                vertices_.need(vertex);
             }
         }
-        nets_.resize(patches.size());
-        for (const uint32_t p : exact::patchesByFacet(patches)) {
+        netOfPatch_.assign(patches.size(), cage::kNone);
+        for (const uint32_t p : exact::patchesByNeighbours(patches, cage_, topology_)) {
             if (patches[p].info.patchClass == PatchClass::loopIrregular) {
-                nets_[p] = triangles_.netOf(patches[p].facet, firstOf(patches[p]));
-                levelOne_.needNet(nets_[p]);
+                netOfPatch_[p] = static_cast<uint32_t>(nets_.size());
+                levelOne_.needNet(nets_.emplace_back(triangles_.netOf(patches[p].facet, firstOf(patches[p]))));
             }
         }
         chains_.findNets(levelOne_);
@@ -101,7 +104,7 @@ private:
         }
         firstVertex_ = next;
         firstLevelOne_ = firstVertex_ + vertices_.count();
-        tables_.copies = exact::copiesOf(levelOne_, firstLevelOne_);
+        tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
         next = firstLevelOne_ + levelOne_.count();
         for (uint32_t& limit : limits_) {
             limit = limit == cage::kNone ? next++ : limit;
@@ -140,7 +143,7 @@ private:
         return flags;
     }
 
-    void writePatch(const DraftPatch& patch, const TriangleNet& net) {
+    void writePatch(const DraftPatch& patch) {
         for (const uint32_t vertex : triangles_.cageOf(patch.facet, firstOf(patch))) {
             writer_.put({firstVertex_ + vertices_.number(vertex)});
         }
@@ -148,9 +151,9 @@ private:
             writer_.put({limits_[cage_.faceVertices[patch.cageCorners[i]]]});
         }
         writer_.put({flagsOf(patch)});
-        if (patch.info.patchClass == PatchClass::loopRegular) {
-            return;
-        }
+    }
+    /// What follows of an irregular one.
+    void writeIrregular(const DraftPatch& patch, const TriangleNet& net) {
         std::array<uint32_t, 4> chains{}, windows{}, normals{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
@@ -180,7 +183,8 @@ private:
     exact::FanTables fans_;
     ChainTables chains_;
     exact::NeededRows vertices_, levelOne_;
-    std::vector<TriangleNet> nets_; ///< by patch, of irregular triangles: numbers of points of level 1
+    std::vector<TriangleNet> nets_;    ///< of irregular triangles: numbers of points of level 1
+    std::vector<uint32_t> netOfPatch_; ///< kNone where it is regular
     uint32_t firstVertex_ = 0, firstLevelOne_ = 0;
     std::vector<uint32_t> limits_;      ///< by vertex: pool indices
     std::vector<uint8_t> firstCorners_; ///< by face

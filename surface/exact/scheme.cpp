@@ -138,12 +138,12 @@ private:
 
     /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
     void findLevelOnePoints() {
-        nets_.resize(patches_.size());
-        for (const uint32_t p : patchesByFacet(patches_)) {
+        netOfPatch_.assign(patches_.size(), cage::kNone);
+        for (const uint32_t p : patchesByNeighbours(patches_, cage_, topology_)) {
             const uint32_t facet = patches_[p].facet;
             if (patches_[p].info.patchClass != PatchClass::regular) {
-                nets_[p] = corners_.netOf(facet, firstCorners_[facet], points_);
-                levelOne_.needNet(nets_[p]);
+                netOfPatch_[p] = static_cast<uint32_t>(nets_.size());
+                levelOne_.needNet(nets_.emplace_back(corners_.netOf(facet, firstCorners_[facet], points_)));
             }
         }
         chains_.findNets(levelOne_);
@@ -175,7 +175,7 @@ private:
         tables_.tangents = point;
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
-        tables_.copies = copiesOf(levelOne_, firstLevelOne_);
+        tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
         const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
         tables_.inner = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
@@ -246,7 +246,7 @@ private:
             writer_.put(points);
             writer_.put(spokes);
             if (patch.info.patchClass != PatchClass::regular) {
-                writeIrregular(patch, nets_[p]);
+                writeIrregular(patch, nets_[netOfPatch_[p]]);
             }
         }
     }
@@ -286,7 +286,8 @@ private:
     FanTables fans_;
     ChainTables chains_;
     std::vector<DraftPatch> patches_;
-    std::vector<QuadNet> nets_; ///< by patch, of irregular quads: numbers of points of level 1
+    std::vector<QuadNet> nets_;        ///< of irregular quads: numbers of points of level 1
+    std::vector<uint32_t> netOfPatch_; ///< kNone where it is regular
     NeededRows levelOne_;
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them

@@ -26,19 +26,26 @@ public:
 
     void write(const std::vector<DraftPatch>& patches, FanTables& fans, TableWriter& writer) {
         points_.addFans(fans);
-        nets_.resize(patches.size());
-        for (const uint32_t p : patchesByFacet(patches)) {
-            nets_[p] = netOf(patches[p]);
-            points_.needNet(nets_[p]);
+        const RefinedMesh& mesh = points_.mesh();
+        for (const uint32_t p : patchesByNeighbours(patches, mesh.cage, mesh.topology)) {
+            const std::vector<uint32_t> net = netOf(patches[p]);
+            nets_.resize(net.size() * patches.size());
+            netSize_ = net.size();
+            std::copy(net.begin(), net.end(), numbersOf(p).begin());
+            points_.needNet(numbersOf(p));
         }
         points_.write(writer);
     }
     /// Behind write(). `p`: its index in device order.
-    virtual void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const = 0;
+    virtual void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) = 0;
+    /// Behind write().
+    [[nodiscard]] Status checkSize() const { return points_.checkSize(); }
 
 protected:
     /// Points of level 1.
     [[nodiscard]] virtual std::vector<uint32_t> netOf(const DraftPatch& patch) const = 0;
+    /// The net of a patch: what points() numbers.
+    [[nodiscard]] std::span<uint32_t> numbersOf(uint32_t p) { return std::span(nets_).subspan(netSize_ * p, netSize_); }
     template <class HasChain>
     void setChains(const HasChain& hasChain) {
         std::vector<uint8_t> chains;
@@ -49,7 +56,10 @@ protected:
     }
 
     UvPoints points_;
-    std::vector<std::vector<uint32_t>> nets_; ///< by patch: numbers of points of level 1
+
+private:
+    std::vector<uint32_t> nets_; ///< patch by patch
+    size_t netSize_ = 0;
 };
 
 class UvQuads final : public UvSet {
@@ -59,7 +69,7 @@ public:
         setChains([&](uint32_t v) { return corners_.kind(v) == VertexKind::chain; });
     }
 
-    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
+    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) override {
         const RefinedMesh& mesh = points_.mesh();
         std::array<uint32_t, 4> limits{}, chains{}, windows{}, sharpness{};
         for (uint32_t i = 0; i < 4; ++i) {
@@ -73,9 +83,9 @@ public:
         for (const auto& words : {limits, chains, windows, sharpness}) {
             writer.put(words);
         }
-        const uint32_t first = firstOfNet(nets_[p]);
+        const uint32_t first = firstOfNet(numbersOf(p));
         const uint32_t last = (points_.firstPoint() + first) << shared::kNetFirstShift; // every side is two halves
-        writeWindow(nets_[p], first, shared::kWindowElements, {shared::kWindowNormals, {}, last}, writer);
+        writeWindow(numbersOf(p), first, shared::kWindowElements, {shared::kWindowNormals, {}, last}, writer);
     }
 
 private:
@@ -95,7 +105,7 @@ public:
         setChains([&](uint32_t v) { return !triangles_.isPlain(v); });
     }
 
-    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) const override {
+    void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) override {
         std::array<uint32_t, 4> limits{}, chains{}, windows{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i];
@@ -108,8 +118,8 @@ public:
         for (const auto& words : {limits, chains, windows}) {
             writer.put(words);
         }
-        const uint32_t first = firstOfNet(nets_[p]);
-        writeWindow(nets_[p], first, shared::kTriangleWindowElements,
+        const uint32_t first = firstOfNet(numbersOf(p));
+        writeWindow(numbersOf(p), first, shared::kTriangleWindowElements,
                     {shared::kTriangleWindowNormals, {}, points_.firstPoint() + first}, writer);
     }
 
@@ -147,7 +157,11 @@ Status writeUvLeaves(const Recipe& recipe, const cage::Cage& cage, const UvDeman
         if (!level) {
             return level.error();
         }
-        sets.emplace_back(makeSet(demand, std::move(*level)))->write(patches, fans, writer);
+        UvSet& set = *sets.emplace_back(makeSet(demand, std::move(*level)));
+        set.write(patches, fans, writer);
+        if (const Status fits = set.checkSize(); !fits) {
+            return fits.error();
+        }
     }
     tables.uvMode = recipe.uvMode;
     tables.uvLeaves = true;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
 namespace supple::surface::exact {
 namespace {
@@ -134,6 +135,15 @@ void UvPoints::write(TableWriter& writer) {
         }
     }
     (void)writer.element();
+}
+
+Status UvPoints::checkSize() const {
+    constexpr uint64_t kNames = uint64_t{1} << (32 - shared::kNetFirstShift);
+    if (uint64_t{firstPoint_} + levelOne_.count() > kNames) {
+        return Error{ErrorCode::limit, "smooth texture coordinates have points beyond number " +
+                                           std::to_string(kNames) + ": more than records of patches can name"};
+    }
+    return success();
 }
 
 void UvPoints::addFans(FanTables& fans) const {

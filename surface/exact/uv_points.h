@@ -11,6 +11,7 @@
 
 #include <glm/glm.hpp>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace supple::surface::exact {
@@ -35,6 +36,8 @@ public:
     /// Numbers of the table's pairs of floats, behind write().
     [[nodiscard]] uint32_t limit(uint32_t vertex) const { return firstLimit_ + vertex; }
     [[nodiscard]] uint32_t firstPoint() const { return firstPoint_; } ///< of level 1
+    /// Refuses more of them than records of patches can name.
+    [[nodiscard]] Status checkSize() const;
     /// What records say of a corner of the mesh, behind write() and addFans(). Without a chain: 0.
     struct Corner {
         uint32_t chain = 0, windows = 0;

@@ -1,26 +1,24 @@
 // Nets in the tables (shaders/shared/exact.h). Private to exact/.
 #pragma once
 
-#include "surface/exact/needed_rows.h"
+#include "shaders/shared/exact.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
 namespace supple::surface::exact {
 
-/// The points that are there more than once, by pool index: the first one.
-[[nodiscard]] inline std::map<uint32_t, uint32_t> copiesOf(const NeededRows& points, uint32_t firstIndex) {
-    std::map<uint32_t, uint32_t> copies;
-    for (const auto& [copy, first] : points.firsts()) {
-        copies.emplace(firstIndex + copy, firstIndex + first);
-    }
-    return copies;
-}
+static_assert(shared::kNetPoints <= shared::kWindowNormals);
+static_assert(shared::kTriangleNetPoints <= shared::kTriangleWindowNormals);
+// Four normals, then the last word.
+static_assert(shared::kWindowNormals + 4 == 2 * shared::kWindowLastWord);
+static_assert(shared::kTriangleWindowNormals + 4 == 2 * shared::kTriangleWindowLastWord);
+static_assert(shared::kWindowLastWord == 4 * shared::kWindowElements - 1);
+static_assert(shared::kTriangleWindowLastWord == 4 * shared::kTriangleWindowElements - 1);
 
 /// What the points of a net are counted from: the smallest.
 [[nodiscard]] inline uint32_t firstOfNet(std::span<const uint32_t> points) {

@@ -73,7 +73,8 @@ TEST_F(PipelineCache, WhatCannotBeMadeIsTriedAgainByTheNextBatch) {
         const Kernel second = ask(batch, 2);
         ASSERT_TRUE(batch.make().ok());
         EXPECT_NE(second.pipeline->get(), VkPipeline{VK_NULL_HANDLE});
-        EXPECT_EQ(vulkan.pipelines.size(), 3u); // what could be made was kept
+        // What could be made was kept. One after the other, none was tried behind the one that failed.
+        EXPECT_EQ(vulkan.pipelines.size(), jobs ? 3u : 2u);
     }
 }
 

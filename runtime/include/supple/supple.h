@@ -50,6 +50,7 @@
  *     threads at the same time. In this, groups of one view are one group, and so are a group and those that follow it
  *     (SuppleGroupDesc.instancesOf). Everything else, such as creating assets, groups and views, is for one thread.
  *   - Different contexts are independent.
+ *   - Supple has no threads. It uses the host's only through SuppleContextDesc.runJobs.
  *
  * Recording
  *   - Recording creates no Vulkan object and allocates no memory. It changes the compute pipeline, compute descriptor
@@ -254,8 +255,8 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
-/** Help of the host's threads: calls job(jobData, i) once for every i below count, in any order and on any threads, and
- * returns when all of these calls have returned. It must not call Supple. */
+/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order and
+ * on any threads. It returns when all of these calls have returned. It must not call Supple. */
 typedef void (*SuppleRunJobsFunction)(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData,
                                       void* user);
 
@@ -282,10 +283,10 @@ typedef struct SuppleContextDesc {
     const void* enabledFeatures;
     const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
-    /** Optional. Supple calls it on the thread that called it, where groups and views are created or changed so that they
-     * need pipelines: every job creates one (vkCreateShaderModule, vkCreateComputePipelines). Then pipelineCache, allocator
-     * and the driver must expect calls from several threads at the same time, as Vulkan allows. Null: one after the other.
-     */
+    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups call
+     * it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver and
+     * debug messengers at the same time, and pipelineCache must not be VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED.
+     * If a job is not run, the call that needs it fails with SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
 } SuppleContextDesc;
