@@ -45,9 +45,7 @@ const uint kBlocks = gl_WorkGroupSize.x / kBlockLanes; // of a workgroup
 shared vec4 localPoints[kMakes == kMakesChains ? kBlocks * kBlockPoints : 1u];
 #endif
 
-vec3 netPoint(uint i) {
-    return poolVector(base + netFirst + halfOf(tableWord(source + i / 2u), i));
-}
+vec3 netPoint(uint i) { return poolVector(base + netFirst + halfOf(tableWord(source + i / 2u), i)); }
 vec3 netOffset(uint i) {
     precise vec3 offset = netPoint(i) - centre;
     return offset;

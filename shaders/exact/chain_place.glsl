@@ -18,12 +18,10 @@ Chain chainOf(const PatchPlace at, uint windows, uint points, uint lastWord) {
 }
 // Normals of corners, `back` before their chains.
 uvec4 normalsBefore(uvec4 chains, uvec2 back) {
-    uvec4 by = uvec4(back.x & 0xFFFFu, back.x >> 16u, back.y & 0xFFFFu, back.y >> 16u);
+    uvec4 by = uvec4(halfOf(back.x, 0u), halfOf(back.x, 1u), halfOf(back.y, 0u), halfOf(back.y, 1u));
     return mix(chains - by, uvec4(kNoNormal), equal(by, uvec4(0u)));
 }
 // Point k of a window.
-uint windowPoint(uint window, uint k) {
-    return halfOf(tableWord(4u * window + k / 2u), k);
-}
+uint windowPoint(uint window, uint k) { return halfOf(tableWord(4u * window + k / 2u), k); }
 uint levelPoints(Chain chain, uint level) { return chain.points + (level - 2u) * chain.size; }
 vec3 chainOrigin(const PatchPlace at, Chain chain) { return poolPoint(at, chain.points - 1u); }

@@ -62,7 +62,8 @@ SUPPLE_SHARED_CONST kWindowNormals = 26u; // numbers
 SUPPLE_SHARED_CONST kWindowLastWord = 15u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
-// Of a record: flags, a bit a side, and what the net counts from. 28 bits number the 16-byte vectors of any pool.
+// The last word of a record's net: flags, a bit a side, and what the net counts from. 28 bits number the 16-byte vectors of
+// any pool.
 SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
 SUPPLE_SHARED_CONST kNetFirstShift = 4u;
 

@@ -70,7 +70,7 @@ uint32_t ChainTables::netSize(uint32_t vertex) const {
 void ChainTables::findNets(NeededRows& levelOne) {
     for (uint32_t v = 0; v < needs_.size(); ++v) {
         const auto net = mesh_.net.begin() + mesh_.fragments[v].firstNet;
-        firstOfNet_.push_back(static_cast<uint32_t>(nets_.size()));
+        netStarts_.push_back(static_cast<uint32_t>(nets_.size()));
         nets_.insert(nets_.end(), net, net + netSize(v));
         levelOne.needNet(netOf(v));
     }

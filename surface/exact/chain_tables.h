@@ -66,7 +66,7 @@ private:
     /// How many points of level 1 round a vertex are needed: up to radius 2 for its chain, up to 1 for its limit.
     [[nodiscard]] uint32_t netSize(uint32_t vertex) const;
     [[nodiscard]] std::span<uint32_t> netOf(uint32_t vertex) {
-        return std::span(nets_).subspan(firstOfNet_[vertex], netSize(vertex));
+        return std::span(nets_).subspan(netStarts_[vertex], netSize(vertex));
     }
     [[nodiscard]] subdivision::Fan fanOf(uint32_t v) const;
     [[nodiscard]] uint32_t chainPoints(uint32_t v) const { return pointCount(fanOf(v), 3); }
@@ -88,8 +88,8 @@ private:
     TableWriter& writer_;
     std::map<Arrangement, ArrangementTable> arrangements_;
     std::vector<const ArrangementTable*> vertexArrangements_; ///< by vertex; null where it is plain
-    std::vector<uint32_t> nets_, firstOfNet_; ///< numbers of points of level 1; by vertex: the first of its net
-    std::vector<uint32_t> normals_, chains_;  ///< by vertex: pool indices; 0 where there are none
+    std::vector<uint32_t> nets_, netStarts_; ///< numbers of points of level 1; by vertex: where its net begins
+    std::vector<uint32_t> normals_, chains_; ///< by vertex: pool indices; 0 where there are none
 };
 
 } // namespace supple::surface::exact

@@ -18,19 +18,19 @@ namespace {
 /// One UV set.
 class UvSet {
 public:
-    UvSet(const UvDemand& demand, ChannelLevel level)
-        : points_(demand.subdivision, std::move(level), demand.lastLevel) {}
+    /// `netSize`: points of a patch's net.
+    UvSet(const UvDemand& demand, ChannelLevel level, size_t netSize)
+        : points_(demand.subdivision, std::move(level), demand.lastLevel), netSize_(netSize) {}
     virtual ~UvSet() = default;
     UvSet(const UvSet&) = delete;
     UvSet& operator=(const UvSet&) = delete;
 
     void write(const std::vector<DraftPatch>& patches, FanTables& fans, TableWriter& writer) {
         points_.addFans(fans);
+        nets_.resize(netSize_ * patches.size());
         const RefinedMesh& mesh = points_.mesh();
         for (const uint32_t p : patchesByNeighbours(patches, mesh.cage, mesh.topology)) {
             const std::vector<uint32_t> net = netOf(patches[p]);
-            nets_.resize(net.size() * patches.size());
-            netSize_ = net.size();
             std::copy(net.begin(), net.end(), numbersOf(p).begin());
             points_.needNet(numbersOf(p));
         }
@@ -58,14 +58,14 @@ protected:
     UvPoints points_;
 
 private:
+    size_t netSize_;
     std::vector<uint32_t> nets_; ///< patch by patch
-    size_t netSize_ = 0;
 };
 
 class UvQuads final : public UvSet {
 public:
     UvQuads(const UvDemand& demand, ChannelLevel level)
-        : UvSet(demand, std::move(level)), corners_(points_.mesh()), steps_(points_.mesh()) {
+        : UvSet(demand, std::move(level), shared::kNetPoints), corners_(points_.mesh()), steps_(points_.mesh()) {
         setChains([&](uint32_t v) { return corners_.kind(v) == VertexKind::chain; });
     }
 
@@ -101,7 +101,7 @@ private:
 class UvTriangles final : public UvSet {
 public:
     UvTriangles(const UvDemand& demand, ChannelLevel level)
-        : UvSet(demand, std::move(level)), triangles_(points_.mesh()) {
+        : UvSet(demand, std::move(level), shared::kTriangleNetPoints), triangles_(points_.mesh()) {
         setChains([&](uint32_t v) { return !triangles_.isPlain(v); });
     }
 
