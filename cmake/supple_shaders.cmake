@@ -19,10 +19,16 @@ find_program(SUPPLE_GLSLANG NAMES glslangValidator glslang REQUIRED)
 find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
 
 # Drivers inline all functions before they look at constants: code that is never taken, and every early return, would cost
-# time whenever a pipeline is made. These passes inline it all once, at build time, and throw away what is dead. None computes
-# with floats in another way than the shader says: simplify-instructions, which -O has, would.
+# time whenever a pipeline is made. And arrays that a loop indexes are memory to them until they unroll it. These passes unroll
+# and inline it all once, at build time, and throw away what is dead. None computes with floats in another way than the shader
+# says: simplify-instructions, which -O has, would.
+# loop-unroll forgets NoContraction in the copies that it makes, but inlining keeps it. So unrolling comes first, and loops to be
+# unrolled call functions for what is precise (tests/runtime/precise_test.cpp).
 set(SUPPLE_SPIRV_PASSES
+    --eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite --loop-unroll --ccp
     --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+    --scalar-replacement=100 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
+    --ssa-rewrite --ccp --eliminate-dead-branches
     --scalar-replacement=100 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
     --ssa-rewrite --ccp --eliminate-dead-branches --eliminate-dead-code-aggressive --merge-blocks
     --redundancy-elimination --eliminate-dead-code-aggressive)

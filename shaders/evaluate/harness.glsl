@@ -43,9 +43,10 @@ PatchPlace placeOf(uint item) {
 // Instances without a past have today's coefficients as their previous ones. These are bound in the place of the cage.
 vec3 coefficient(uint i, bool isNew) {
 #ifdef LEVELS
-    if (kVertexFormat == kVertexPosition && isNew) return cageVertex(i);
-#endif
+    return kVertexFormat == kVertexPosition && isNew ? cageVertex(i) : poolVector(i);
+#else
     return poolVector(i);
+#endif
 }
 
 #ifndef WIDE

@@ -8,15 +8,15 @@ uint fixedRate() { return kRate != 0u ? kRate : push.rate; }
 
 // (t, s) = (k / rate, (rate - k) / rate), never 1 - t of a rounded t. `rate` is kRate where that is set.
 vec2 parameterPair(uint k, uint rate, uint firstPair) {
+    precise vec2 p;
     if (kExactDivision) {
-        precise vec2 p = vec2(float(k) / float(rate), float(rate - k) / float(rate));
-        return p;
-    }
-    // Powers of two divide without rounding: where the rate is one, and known, so are the pairs.
-    if (kRate != 0u && (kRate & (kRate - 1u)) == 0u) {
+        p = vec2(float(k) / float(rate), float(rate - k) / float(rate));
+    } else if (kRate != 0u && (kRate & (kRate - 1u)) == 0u) {
+        // Powers of two divide without rounding: where the rate is one, and known, so are the pairs.
         float inverse = uintBitsToFloat((127u << 24) - floatBitsToUint(float(kRate)));
-        precise vec2 p = vec2(float(k) * inverse, float(kRate - k) * inverse);
-        return p;
+        p = vec2(float(k) * inverse, float(kRate - k) * inverse);
+    } else {
+        p = pairs[firstPair + k];
     }
-    return pairs[firstPair + k];
+    return p;
 }

@@ -8,30 +8,38 @@
 // Side r runs from corner r to the next one, and r counts from 0 to 2 in each row. Seen from the next corner, every row moves on
 // by one.
 
+#include "shaders/exact/offset.glsl"
+
 struct LeafPoints {
     vec3 p[12];
 };
 
+// The fourth point of a parallelogram.
+vec3 completed(vec3 a, vec3 b, vec3 across) {
+    precise vec3 p = a + b - across;
+    return p;
+}
 // What lies across an endless crease is the mirror image of what lies on this side: it completes a parallelogram. A bit a leaf
 // side that is a crease, and a bit a corner that a crease passes outside of the leaf.
 void mirror(inout LeafPoints leaf, uint sides, uint corners) {
     if ((sides | corners) == 0u) return;
     [[unroll]] for (uint r = 0u; r < 3u; ++r) {
         const uint next = (r + 1u) % 3u, last = (r + 2u) % 3u;
-        precise vec3 first = leaf.p[9u + last] + leaf.p[r] - leaf.p[6u + last];
-        precise vec3 opposite = leaf.p[r] + leaf.p[next] - leaf.p[last];
-        precise vec3 end = leaf.p[next] + leaf.p[3u + next] - leaf.p[6u + next];
+        vec3 first = completed(leaf.p[9u + last], leaf.p[r], leaf.p[6u + last]);
+        vec3 opposite = completed(leaf.p[r], leaf.p[next], leaf.p[last]);
+        vec3 end = completed(leaf.p[next], leaf.p[3u + next], leaf.p[6u + next]);
         bool onSide = (sides >> r & 1u) != 0u;
-        leaf.p[3u + r] = onSide ? first : leaf.p[3u + r];
-        leaf.p[6u + r] = onSide ? opposite : leaf.p[6u + r];
-        leaf.p[9u + r] = onSide ? end : leaf.p[9u + r];
+        leaf.p[3u + r] = SELECT3(onSide, first, leaf.p[3u + r]);
+        leaf.p[6u + r] = SELECT3(onSide, opposite, leaf.p[6u + r]);
+        leaf.p[9u + r] = SELECT3(onSide, end, leaf.p[9u + r]);
     }
     [[unroll]] for (uint r = 0u; r < 3u; ++r) {
         const uint next = (r + 1u) % 3u, last = (r + 2u) % 3u;
-        precise vec3 before = leaf.p[r] + leaf.p[6u + last] - leaf.p[last], behind = leaf.p[r] + leaf.p[6u + r] - leaf.p[next];
+        vec3 before = completed(leaf.p[r], leaf.p[6u + last], leaf.p[last]);
+        vec3 behind = completed(leaf.p[r], leaf.p[6u + r], leaf.p[next]);
         bool passes = (corners >> r & 1u) != 0u;
-        leaf.p[9u + last] = passes ? before : leaf.p[9u + last];
-        leaf.p[3u + r] = passes ? behind : leaf.p[3u + r];
+        leaf.p[9u + last] = SELECT3(passes, before, leaf.p[9u + last]);
+        leaf.p[3u + r] = SELECT3(passes, behind, leaf.p[3u + r]);
     }
 }
 
@@ -43,10 +51,7 @@ struct Leaf {
 };
 Leaf leafOf(LeafPoints points) {
     vec3 d[12];
-    [[unroll]] for (uint k = 1u; k < 12u; ++k) {
-        precise vec3 offset = points.p[k] - points.p[0];
-        d[k] = offset;
-    }
+    [[unroll]] for (uint k = 1u; k < 12u; ++k) d[k] = offsetFrom(points.p[0], points.p[k]);
     // Round corner 0, counter-clockwise.
     vec3 e1 = d[1], e2 = d[2], e3 = d[8], e4 = d[11], e5 = d[3], e6 = d[6];
     precise vec3 along1 = e1 + e4, along2 = e2 + e5, along3 = e3 + e6;
@@ -96,20 +101,20 @@ LeafSide leafSide(LeafPoints leaf, uint r, bool back, bool sharp) {
     vec3 p[12];
     [[unroll]] for (uint k = 0u; k < 12u; ++k) {
         const uint row = k / 3u * 3u, at = k % 3u;
-        p[k] = r == 0u ? leaf.p[k] : r == 1u ? leaf.p[row + (at + 1u) % 3u] : leaf.p[row + (at + 2u) % 3u];
+        p[k] = SELECT3(r == 0u, leaf.p[k], SELECT3(r == 1u, leaf.p[row + (at + 1u) % 3u], leaf.p[row + (at + 2u) % 3u]));
     }
     LeafSide side;
-    side.line[0] = back ? p[3] : p[11];
+    side.line[0] = SELECT3(back, p[3], p[11]);
     side.line[1] = p[0];
-    side.line[2] = back ? p[2] : p[1];
-    side.line[3] = back ? p[10] : p[4];
-    precise vec3 first = back ? p[11] + p[6] : p[3] + p[8], middle = back ? p[8] + p[1] : p[6] + p[2];
-    precise vec3 last = back ? p[5] + p[7] : p[9] + p[7];
+    side.line[2] = SELECT3(back, p[2], p[1]);
+    side.line[3] = SELECT3(back, p[10], p[4]);
+    precise vec3 first = SELECT3(back, p[11], p[3]) + SELECT3(back, p[6], p[8]);
+    precise vec3 middle = SELECT3(back, p[8], p[6]) + SELECT3(back, p[1], p[2]), last = SELECT3(back, p[5], p[9]) + p[7];
     // At a crease they are the mirror images of each other.
     precise vec3 ends[3] = vec3[3](side.line[0] + side.line[1], side.line[1] + side.line[2], side.line[2] + side.line[3]);
-    side.beside[0] = sharp ? ends[0] : first;
-    side.beside[1] = sharp ? ends[1] : middle;
-    side.beside[2] = sharp ? ends[2] : last;
+    side.beside[0] = SELECT3(sharp, ends[0], first);
+    side.beside[1] = SELECT3(sharp, ends[1], middle);
+    side.beside[2] = SELECT3(sharp, ends[2], last);
     return side;
 }
 // At a pair (t, 1 - t) from where the side begins. Reversal, and exchanging both sides of the line, change no bit.

@@ -33,9 +33,8 @@ const bool kInside = true;
 const bool kSides = !kInterior;
 uint last;
 void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
-    if (!own) return;
     uint to = kInterior ? (j - 1u) * (last - 1u) + i - 1u : j * (last + 1u) + i;
-    storeSurfaceVertex(at.vertex + to, at.own + to, at.empty ? vec3(0.0) : position, frame);
+    if (own) storeSurfaceVertex(at.vertex + to, at.own + to, SELECT3(at.empty, vec3(0.0), position), frame);
 }
 #include "shaders/exact/nets.glsl"
 

@@ -17,7 +17,7 @@ vec2 sharpWeight(float sharpness, float x) {
     precise float a = max(0.0, 1.0 - x * scale), b = max(0.0, 1.0 - x * (2.0 * scale));
     precise float value = ((1.0 - f) * (a * a * a) + 0.5 * f * (b * b * b)) / (6.0 * scale);
     precise float slope = -0.5 * ((1.0 - f) * (a * a) + f * (b * b));
-    return sharpness < kEndlessSharpness ? vec2(value, slope) : vec2(0.0); // of an endless one `scale` is none
+    return SELECT2(sharpness < kEndlessSharpness, vec2(value, slope), vec2(0.0)); // of an endless one `scale` is none
 }
 
 // (2), at x of 0..1; the crease lies at 0.
@@ -42,14 +42,13 @@ LeafWeights quarterWeights(float distance, float sharpness) {
 }
 // Along one parameter of a chain's net, at x of 0..2. What happens on the corner's edges does not reach its second cell.
 LeafWeights chainWeights(bool second, float x, float sharpness) {
-    precise float inside = second ? x - 1.0 : x;
+    precise float inside = SELECT(second, x - 1.0, x);
     return leafWeights(inside, second ? 0.0 : sharpness);
 }
 
 // On the line itself: the share of a point beside it. The point on it has what is left.
 float besideLine(float sharpness) {
-    if (sharpness > 0.0) return sharpWeight(sharpness, 0.0).x;
-    return 1.0 / 6.0;
+    return SELECT(sharpness > 0.0, sharpWeight(sharpness, 0.0).x, 1.0 / 6.0);
 }
 vec3 onLine(vec3 line, vec3 one, vec3 other, float share) {
     precise vec3 p = line + share * ((one + other) - 2.0 * line);

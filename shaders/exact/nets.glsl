@@ -10,6 +10,7 @@
 // one at corner 0: lanes have nets in registers, which they cannot index, and code for each corner would take drivers four times as
 // long to compile. On lavapipe lanes go through both sides of every `if`, and once more through a loop that is tested at the top. So
 // borders are not told apart sample by sample, loops are tested at the bottom, and what must not be stored is computed all the same.
+#include "shaders/exact/offset.glsl"
 #include "shaders/exact/quad.glsl"
 
 struct Net {
@@ -42,8 +43,8 @@ Net turnedNet(const PatchPlace at, IrregularQuad quad, uint corner) {
     return net;
 }
 uvec4 turned(uvec4 v, uint corner) {
-    uvec4 once = (corner & 1u) != 0u ? v.yzwx : v;
-    return (corner & 2u) != 0u ? once.zwxy : once;
+    uvec4 once = SELECT4((corner & 1u) != 0u, v.yzwx, v);
+    return SELECT4((corner & 2u) != 0u, once.zwxy, once);
 }
 IrregularQuad turnedQuad(IrregularQuad quad, uint corner) {
     uint flags = quad.flags >> kCubicSide & 15u;
@@ -61,8 +62,7 @@ NetRow netRow(Net net, bool upper, LeafWeights y) {
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
         vec3 p[4];
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            precise vec3 d = (upper ? net.p[kNetSide * (j + 1u) + i] : net.p[kNetSide * j + i]) - net.p[kNetMiddle];
-            p[j] = d;
+            p[j] = offsetFrom(net.p[kNetMiddle], SELECT3(upper, net.p[kNetSide * (j + 1u) + i], net.p[kNetSide * j + i]));
         }
         row.point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
         row.slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
@@ -76,8 +76,8 @@ struct CellRow {
 CellRow cellRow(NetRow row, bool right) {
     CellRow cell;
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        cell.point[k] = right ? row.point[k + 1u] : row.point[k];
-        cell.slope[k] = right ? row.slope[k + 1u] : row.slope[k];
+        cell.point[k] = SELECT3(right, row.point[k + 1u], row.point[k]);
+        cell.slope[k] = SELECT3(right, row.slope[k + 1u], row.slope[k]);
     }
     return cell;
 }
@@ -119,13 +119,13 @@ Half firstHalf(Net net, float share) { return halfOf(net, 1u, kNetSide, share); 
 Half secondHalf(Net net, float share) { return halfOf(net, kNetSide, 1u, share); }
 void setCubic(inout Half h, bool cubic, vec3 g[4]) {
     h.cubic = cubic;
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) h.p[k] = cubic ? g[k] : h.p[k];
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) h.p[k] = SELECT3(cubic, g[k], h.p[k]);
 }
 // `w`: of the leaf, along the side.
 vec3 onHalf(Half h, vec2 pair, vec4 w) {
-    w = h.cubic ? bernstein3(pair) : w;
+    w = SELECT4(h.cubic, bernstein3(pair), w);
     vec3 p = sum4(w, h.p[0], h.p[1], h.p[2], h.p[3]);
-    return !h.cubic && pair.x == pair.y ? h.middle : p;
+    return SELECT3(!h.cubic && pair.x == pair.y, h.middle, p);
 }
 
 // Where a quarter's samples stand: counted from its corner, along its two edges.
@@ -137,12 +137,12 @@ QuarterPlace quarterPlace(uint corner) {
     // What lies in the middle belongs to the lower quarters.
     bool turned = (corner & 1u) != 0u;
     uint below = last / 2u + 1u, above = (last + 1u) / 2u;
-    uint countU = corner == 1u || corner == 2u ? above : below, countV = corner >= 2u ? above : below;
+    uint countU = isRight(corner) ? above : below, countV = isUpper(corner) ? above : below;
     return QuarterPlace(corner, turned ? countV : countU, turned ? countU : countV);
 }
 uvec2 placeInQuad(uint corner, uint a, uint b) {
     uint x = (corner & 1u) == 0u ? a : b, y = (corner & 1u) == 0u ? b : a;
-    return uvec2(corner == 1u || corner == 2u ? last - x : x, corner >= 2u ? last - y : y);
+    return uvec2(SELECT(isRight(corner), last - x, x), SELECT(isUpper(corner), last - y, y));
 }
 void storeInQuarter(const PatchPlace at, bool own, uint corner, uint a, uint b, vec3 position, vec3 da, vec3 db) {
     uvec2 place = placeInQuad(corner, a, b);
@@ -392,38 +392,14 @@ void storeOnCone(const PatchPlace at, Quarter q, uvec2 first, uvec2 end, float s
     } while (++b < end.y);
 }
 
-// Weights of all five points of a net along a parameter.
-struct NetWeights {
-    float w[kNetSide], d[kNetSide];
-};
-NetWeights netWeights(bool second, LeafWeights l) {
-    NetWeights five;
-    [[unroll]] for (uint k = 0u; k < kNetSide; ++k) {
-        five.w[k] = second ? (k > 0u ? l.w[k - 1u] : 0.0) : k < 4u ? l.w[k] : 0.0;
-        five.d[k] = second ? (k > 0u ? l.d[k - 1u] : 0.0) : k < 4u ? l.d[k] : 0.0;
-    }
-    return five;
-}
 void storeInCone(const PatchPlace at, Quarter q, ChainLevel l, uvec2 end) {
     float a = pairOf(q.place.corner & 1u, 1u).x, b = pairOf(1u - (q.place.corner & 1u), 1u).x, far = max(a, b);
-    precise float x = a >= b ? 1.0 : a / far, y = b >= a ? 1.0 : b / far;
-    NetWeights wx = netWeights(a >= b, chainWeights(a >= b, x, l.sharpB)), wy = netWeights(b >= a, chainWeights(b >= a, y, l.sharpA));
-    precise vec3 offset = vec3(0.0);
-    vec3 alongX = vec3(0.0), alongY = vec3(0.0);
-    [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
-        precise vec3 point = vec3(0.0);
-        vec3 slope = vec3(0.0);
-        [[unroll]] for (uint j = 0u; j < kNetSide; ++j) {
-            precise vec3 d = l.net.p[kNetSide * j + i] - l.net.p[kNetMiddle];
-            point += wy.w[j] * d;
-            slope += wy.d[j] * d;
-        }
-        offset += wx.w[i] * point;
-        alongX += wx.d[i] * point;
-        alongY += wx.w[i] * slope;
-    }
-    storeOnCone(at, q, uvec2(1u), end, parameterOf(l, far), placed(q.origin, l.net.p[kNetMiddle], offset),
-                turnedFrame(q.place.corner, alongX, alongY));
+    bool right = a >= b, upper = b >= a;
+    precise float inX = right ? 1.0 : a / far, inY = upper ? 1.0 : b / far;
+    LeafWeights x = chainWeights(right, inX, l.sharpB), y = chainWeights(upper, inY, l.sharpA);
+    CellRow cell = cellRow(netRow(l.net, upper, y), right);
+    storeOnCone(at, q, uvec2(1u), end, parameterOf(l, far), placed(q.origin, l.net.p[kNetMiddle], rowPoint(cell, x.w)),
+                turnedFrame(q.place.corner, rowAlongX(cell, x.d), rowAlongY(cell, x.w)));
 }
 // `row`: of the first edge; `end`: of the samples on the two edges.
 void storeBordersOfCone(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, uvec2 end) {

@@ -19,9 +19,8 @@ IrregularQuad quadOf(uint record) {
 // Point k of the quad's own net.
 vec3 ownPoint(const PatchPlace at, uint first, uint k) { return poolPoint(at, first + windowPoint(at.record + kExactNetElement, k)); }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
-    if (!kSharp) return 0.0;
-    vec4 s = quad.sharpness;
-    return softened(side < 2u ? (side == 0u ? s.x : s.y) : side == 2u ? s.z : s.w, level - 1u);
+    vec2 pair = SELECT2(side < 2u, quad.sharpness.xy, quad.sharpness.zw);
+    return kSharp ? softened(SELECT((side & 1u) == 0u, pair.x, pair.y), level - 1u) : 0.0;
 }
 bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide + side) & 1u) != 0u; }
 bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.windows, corner) != 0u; }
@@ -30,11 +29,14 @@ Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
     return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), kWindowLastWord);
 }
 
+// Where a corner of the quad lies.
+bool isRight(uint corner) { return ((corner + 1u) & 2u) != 0u; }
+bool isUpper(uint corner) { return corner >= 2u; }
 // The frame of the quad, of derivatives along a corner's two edges.
 Frame turnedFrame(uint corner, vec3 da, vec3 db) {
     bool odd = (corner & 1u) != 0u;
     vec3 du = odd ? db : da, dv = odd ? da : db;
-    return Frame(corner == 1u || corner == 2u ? -du : du, corner >= 2u ? -dv : dv, cross(da, db));
+    return Frame(SELECT3(isRight(corner), -du, du), SELECT3(isUpper(corner), -dv, dv), cross(da, db));
 }
 Frame withStoredNormal(const PatchPlace at, IrregularQuad quad, uint corner, Frame frame) {
     uint normal = componentOf(quad.normals, corner);

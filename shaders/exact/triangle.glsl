@@ -72,9 +72,9 @@ const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u
                                             uint[12](5u, 4u, 2u, 0u, 10u, 8u, 3u, 13u, 11u, 1u, 16u, 14u),
                                             uint[12](4u, 5u, 3u, 13u, 14u, 12u, 2u, 0u, 1u, 11u, 9u, 10u));
 // Which of four, one a cell: for arrays in registers, which lanes cannot index.
-#define OF_CELL(cell, a, k)                                                                                                      \
-    ((cell) < 2u ? ((cell) == 0u ? a[kCellPoints[0][k]] : a[kCellPoints[1][k]])                                                  \
-                 : ((cell) == 2u ? a[kCellPoints[2][k]] : a[kCellPoints[3][k]]))
+#define OF_CELL(SELECTION, cell, a, k)                                                                                           \
+    SELECTION((cell) < 2u, SELECTION((cell) == 0u, a[kCellPoints[0][k]], a[kCellPoints[1][k]]),                                  \
+              SELECTION((cell) == 2u, a[kCellPoints[2][k]], a[kCellPoints[3][k]]))
 // Where the points of a net lie in the pool.
 uint[kTriangleNetPoints] netIndices(NetSource net) {
     uint indices[kTriangleNetPoints];
@@ -100,5 +100,5 @@ void mirrorInCell(inout LeafPoints leaf, NetSource net, uint cell) {
 Frame seenFrom(uint from, uint to, vec3 da, vec3 db) {
     bool once = to == nextOf(from), twice = to == lastOf(from);
     vec3 normal = cross(da, db);
-    return Frame(once ? db - da : twice ? -db : da, once ? -da : twice ? da - db : db, normal);
+    return Frame(SELECT3(once, db - da, SELECT3(twice, -db, da)), SELECT3(once, -da, SELECT3(twice, da - db, db)), normal);
 }

@@ -20,7 +20,7 @@ LeafPoints leafInCell(const PatchPlace at, NetSource net, bool own, uint cell) {
             continue;
         }
 #endif
-        leaf.p[k] = poolPoint(at, OF_CELL(cell, indices, k));
+        leaf.p[k] = poolPoint(at, OF_CELL(SELECT, cell, indices, k));
     }
     mirrorInCell(leaf, net, cell);
     return leaf;
@@ -49,7 +49,7 @@ vec3 middleOfSide(NetSource net, LeafPoints leaf, uint side) {
     uint v = lastOf(side); // of the leaf in the middle
     [[unroll]] for (uint k = 0u; k < 12u; ++k) {
         const uint row = k / 3u * 3u, at = k % 3u;
-        p[k] = v == 0u ? leaf.p[k] : v == 1u ? leaf.p[row + (at + 1u) % 3u] : leaf.p[row + (at + 2u) % 3u];
+        p[k] = SELECT3(v == 0u, leaf.p[k], SELECT3(v == 1u, leaf.p[row + (at + 1u) % 3u], leaf.p[row + (at + 2u) % 3u]));
     }
     bool sharp = (net.sides >> side & 1u) != 0u;
     precise vec3 first = sharp ? p[8] + p[0] : p[11] + p[2], second = sharp ? p[0] + p[6] : p[3] + p[1];

@@ -103,14 +103,13 @@ uint last; // segments along a side
 vec2 pairOf(uint k) { return parameterPair(k, last, push.pairs); }
 // `counts`: of the weights of corners 1 and 2.
 void store(const PatchPlace at, bool own, uvec2 counts, vec3 position, Frame frame) {
-    if (!own) return;
     uint to = kInterior ? rowStart(last - 2u, counts.y - 1u) + counts.x - 1u : rowStart(last + 1u, counts.y) + counts.x;
-    storeSurfaceVertex(at.vertex + to, at.own + to, position, frame);
+    if (own) storeSurfaceVertex(at.vertex + to, at.own + to, position, frame);
 }
 // So many steps from a corner along its two edges.
 uvec2 countsFrom(uint corner, uint a, uint b) {
     uint rest = last - a - b;
-    return corner == 0u ? uvec2(a, b) : corner == 1u ? uvec2(rest, a) : uvec2(b, rest);
+    return SELECT2(corner == 0u, uvec2(a, b), SELECT2(corner == 1u, uvec2(rest, a), uvec2(b, rest)));
 }
 
 void storeRegular(const PatchPlace at, Triangle t) {
@@ -186,7 +185,7 @@ void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, Lea
     uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
     bool whole = hasFlag(t, kWholeTriangleSide, side);
     LeafPoints from;
-    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) from.p[k] = whole ? cage.p[k] : points.p[k];
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) from.p[k] = SELECT3(whole, cage.p[k], points.p[k]);
     LeafSide line = leafSide(from, corner, back, hasFlag(t, kSharpTriangleSide, side));
     uint k = 1u;
     do {
@@ -221,7 +220,7 @@ NetPoints netPoints(const PatchPlace at, NetSource net) {
 }
 LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
     LeafPoints leaf;
-    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) leaf.p[k] = OF_CELL(cell, net.p, k);
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) leaf.p[k] = OF_CELL(SELECT3, cell, net.p, k);
     mirrorInCell(leaf, source, cell);
     return leaf;
 }

@@ -16,9 +16,8 @@ LodPattern lodPattern(vec2 level, uint capacityIndex) {
 
 // (t, 1 - t) of sample i. The complement is taken in the near half only: there t <= 1/2.
 vec2 lodPair(LodPattern p, uint i, uint capacity) {
-    bool near = 2u * i <= capacity;
-    uint low = (1u << (near ? i : capacity - i)) - 1u;
-    precise float x = (float(bitCount(p.full & low)) + ((p.fresh & low) != 0u ? p.part : 0.0)) * p.inverse;
+    uint low = (1u << min(i, capacity - i)) - 1u;
+    precise float x = (float(bitCount(p.full & low)) + SELECT((p.fresh & low) != 0u, p.part, 0.0)) * p.inverse;
     precise float y = 1.0 - x;
-    return near ? vec2(x, y) : vec2(y, x);
+    return SELECT2(2u * i <= capacity, vec2(x, y), vec2(y, x));
 }

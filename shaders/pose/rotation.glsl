@@ -22,7 +22,7 @@ float sine(float x) {
         1.0 + q * (-1.6666666667e-1 +
                    q * (8.3333333333e-3 + q * (-1.9841269841e-4 + q * (2.7557319224e-6 + q * -2.5052108385e-8))));
     precise float value = r * series;
-    return zero - 2.0 * floor(0.5 * zero) == 0.0 ? value : -value;
+    return SELECT(zero - 2.0 * floor(0.5 * zero) == 0.0, value, -value);
 }
 float cosine(float x) {
     precise float shifted = x + 1.57079632679;

@@ -16,8 +16,8 @@ vec4 tableFloats(uint i) { return uintBitsToFloat(table(i)); }
 vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 
 float component(vec4 v, uint k) {
-    vec2 two = (k & 2u) == 0u ? v.xy : v.zw;
-    return (k & 1u) == 0u ? two.x : two.y;
+    vec2 two = SELECT2((k & 2u) == 0u, v.xy, v.zw);
+    return SELECT((k & 1u) == 0u, two.x, two.y);
 }
 // The i-th of floats packed from an element on.
 float packedFloat(uint first, uint i) { return component(tableFloats(first + i / 4u), i & 3u); }

@@ -42,7 +42,7 @@ vec2 timeProduct(vec2 a, float b) {
     return renormalized(product.x, low);
 }
 
-bool earlier(vec2 a, vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+bool earlier(vec2 a, vec2 b) { return SELECT(a.x == b.x, a.y < b.y, a.x < b.x); }
 
 // A time that runs on, as a time in the clip, 0 <= time < duration, and the number of whole loops before it.
 struct LoopTime {

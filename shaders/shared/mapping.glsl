@@ -1,4 +1,5 @@
 // The mapping of the work to lanes, for CPU devices and for GPUs. gpu/mapping.cpp chooses it.
+#include "shaders/shared/select.glsl"
 #include "shaders/shared/specialization.h"
 
 layout(local_size_x_id = kLocalSizeConstant) in;

@@ -18,4 +18,4 @@ uint instanceOf(uint item) { return instanceSlot(item / push.count); }
 LOADED_BUFFER(uvec4, tableElement, Table4, kTableBinding, usamplerBuffer, kTable4TexelBinding, xyzw)
 LOADED_BUFFER(uint, tableWord, Table1, kTableBinding, usamplerBuffer, kTable1TexelBinding, x)
 // Number k of 16 bits, where a word holds two.
-uint halfOf(uint word, uint k) { return (k & 1u) == 0u ? word & 0xFFFFu : word >> 16u; }
+uint halfOf(uint word, uint k) { return word >> 16u * (k & 1u) & 0xFFFFu; }

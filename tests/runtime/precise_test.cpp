@@ -10,6 +10,7 @@
 #include "tools/common/cage_arrays.h"
 
 #include <cstring>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 namespace supple::test {
@@ -65,6 +66,21 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
             }
         }
     }
+}
+
+TEST(Precise, IsNotLostWhereLoopsAreUnrolled) {
+    uint32_t kernels = 0, loops = 0;
+    for (const auto& file : std::filesystem::directory_iterator(SUPPLE_SPIRV_DIR)) {
+        const std::string name = file.path().filename().string();
+        if (!name.ends_with(".spv") || name.ends_with(".opt.spv")) {
+            continue; // as glslang wrote it
+        }
+        ++kernels;
+        EXPECT_EQ(preciseInUnrolledLoops(readWords(file.path()), loops), 0u) << name;
+    }
+    std::printf("%u kernels, %u loops to be unrolled\n", kernels, loops);
+    EXPECT_GE(kernels, 2u * static_cast<uint32_t>(surface::Kernel::count));
+    EXPECT_GT(loops, 0u);
 }
 
 /// Border samples that differ when evaluation runs the given code, over rates 5, 7, 11.

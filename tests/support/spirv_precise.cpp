@@ -47,6 +47,8 @@ enum Op : uint32_t {
     kVectorTimesScalar = 142,
     kDot = 148,
     kSelect = 169,
+    kLoopMerge = 246,
+    kLabel = 248,
     kReturnValue = 254,
 };
 constexpr uint32_t kNoContraction = 42;
@@ -217,7 +219,8 @@ private:
         case 128: // IAdd, ISub, IMul: integers are exact
         case 130: //
         case 132: //
-        case 134: // UDiv, of whole numbers
+        case 134: // UDiv, UMod, of whole numbers
+        case 137: //
         case 170: // IEqual, INotEqual
         case 171: //
         case 194: // ShiftRightLogical, ShiftLeftLogical, BitwiseOr
@@ -382,13 +385,6 @@ std::string stripped(const std::string& source, const std::string& name, uint32_
 
 } // namespace
 
-std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv, const std::string& positionName,
-                                                     uint32_t& checked, bool roots) {
-    return Walk(spirv, roots).run(positionName, checked);
-}
-
-namespace {
-
 std::vector<uint32_t> readWords(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -396,6 +392,34 @@ std::vector<uint32_t> readWords(const std::filesystem::path& path) {
     std::memcpy(words.data(), bytes.data(), words.size() * 4);
     return words;
 }
+
+uint32_t preciseInUnrolledLoops(std::span<const uint32_t> spirv, uint32_t& loops) {
+    constexpr uint32_t kUnroll = 1; // of the loop's control mask
+    std::set<uint32_t> precise, ends;
+    uint32_t found = 0;
+    // The blocks of a loop stand between its header and its end.
+    for (size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
+        const uint32_t op = spirv[at] & 0xFFFFu;
+        if (op == kDecorate && spirv[at + 2] == kNoContraction) {
+            precise.insert(spirv[at + 1]);
+        } else if (op == kLoopMerge && (spirv[at + 3] & kUnroll) != 0) {
+            ends.insert(spirv[at + 1]);
+            ++loops;
+        } else if (op == kLabel) {
+            ends.erase(spirv[at + 1]);
+        } else if (arithmeticName(op) != nullptr && !ends.empty() && precise.contains(spirv[at + 2])) {
+            ++found;
+        }
+    }
+    return found;
+}
+
+std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv, const std::string& positionName,
+                                                     uint32_t& checked, bool roots) {
+    return Walk(spirv, roots).run(positionName, checked);
+}
+
+namespace {
 
 /// GLSL below a copy of shaders/ that `edit` has changed. `flags`: of the compiler.
 std::vector<uint32_t> compileCopy(const std::string& path, const std::string& flags,

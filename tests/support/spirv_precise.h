@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,13 @@ namespace supple::test {
 [[nodiscard]] std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> spirv,
                                                                    const std::string& positionName, uint32_t& checked,
                                                                    bool roots = false);
+
+/// How much arithmetic carries NoContraction in loops to be unrolled. The pass that unrolls them when the library is
+/// built forgets it (cmake/supple_shaders.cmake). Adds to `loops` how many such loops there are.
+[[nodiscard]] uint32_t preciseInUnrolledLoops(std::span<const uint32_t> spirv, uint32_t& loops);
+
+/// A file of SPIR-V.
+[[nodiscard]] std::vector<uint32_t> readWords(const std::filesystem::path& path);
 
 /// GLSL below shaders/, compiled with names kept. `strip`: the name of a function whose `precise` qualifiers are
 /// removed first, wherever it is defined; "*": everywhere; empty leaves the source alone. `macros`: "-DWIDE", else it
