@@ -19,9 +19,9 @@ find_program(SUPPLE_GLSLANG NAMES glslangValidator glslang REQUIRED)
 find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
 
 # Drivers inline all functions before they look at constants: code that is never taken, and every early return, would cost
-# time whenever a pipeline is made. And arrays that a loop indexes are memory to them until they unroll it. These passes unroll
-# and inline it all once, at build time, and throw away what is dead. None computes with floats in another way than the shader
-# says: simplify-instructions, which -O has, would.
+# time whenever a pipeline is made. And a driver keeps an array in memory until it has unrolled the loops that index it. These
+# passes unroll and inline nearly all of it once, at build time, and throw away what is dead. None computes with floats in
+# another way than the shader says: simplify-instructions, which -O has, would.
 # loop-unroll forgets NoContraction in the copies that it makes, but inlining keeps it. So unrolling comes first, and loops to be
 # unrolled call functions for what is precise (tests/runtime/precise_test.cpp).
 set(SUPPLE_SPIRV_PASSES

@@ -428,18 +428,19 @@ void storeCorner(const PatchPlace at, Quarter q, ChainLevel l, NetRow row) {
 // `onA`, `onB`: constants, whether the samples on the quarter's two borders are stored, and the corner's with the first.
 void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, bool onB) {
     uint corner = q.place.corner, before = (corner + 3u) & 3u, lastLevel = q.chain.lastLevel, level = 2u;
-    uvec2 first = uvec2(q.place.countA, q.place.countB), side = first; // the same of the borders
+    uvec2 end = uvec2(q.place.countA, q.place.countB), first;
+    uvec2 sideEnd = end, side; // the same of the borders
     ChainLevel l;
     NetRow row; // of the first edge
     bool more;
     do {
-        l = chainLevel(at, quad, q, level, first.x, first.y);
+        l = chainLevel(at, quad, q, level, end.x, end.y);
         first = uvec2(l.firstA, l.firstB);
         if (kInside) storeLevel(at, q, l);
         more = level < lastLevel;
         if (kOwnBorders) {
-            l.endA = side.x, l.endB = side.y;
-            side = uvec2(firstOfLevel(kSide + corner, side.x, level), firstOfLevel(kSide + before, side.y, level));
+            l.endA = sideEnd.x, l.endB = sideEnd.y;
+            side = uvec2(firstOfLevel(kSide + corner, sideEnd.x, level), firstOfLevel(kSide + before, sideEnd.y, level));
             l.firstA = side.x, l.firstB = side.y;
             more = more && max(max(first.x, first.y), max(side.x, side.y)) > 1u;
         }
@@ -448,7 +449,10 @@ void storeQuarter(const PatchPlace at, IrregularQuad quad, Quarter q, bool onA, 
             row = netRow(l.net, false, leafWeights(0.0, l.sharpA));
             storeAlongA(at, q, l, row, kSide + corner);
         }
-        ++level;
+        // What is used behind the loop is that of the last level, even if lavapipe goes on with lanes that have finished.
+        level += more ? 1u : 0u;
+        end = SELECT2(more, first, end);
+        sideEnd = SELECT2(more, side, sideEnd);
     } while (more);
     if (onA) storeCorner(at, q, l, row);
 #ifdef LEVELS

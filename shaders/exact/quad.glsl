@@ -29,7 +29,7 @@ Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
     return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), kWindowLastWord);
 }
 
-// Where a corner of the quad lies.
+// Where a corner of the quad lies, without a branch.
 bool isRight(uint corner) { return ((corner + 1u) & 2u) != 0u; }
 bool isUpper(uint corner) { return corner >= 2u; }
 // The frame of the quad, of derivatives along a corner's two edges.

@@ -233,6 +233,7 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
     NetPoints all = netPoints(at, net);
     LeafPoints points, cage = cageLeaf(at, t);
     Leaf leaf;
+    bool more;
     do {
         uint cell = uint(findLSB(cells));
         points = leafOfNet(all, net, cell);
@@ -242,8 +243,11 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
         storeHalfSide(at, t, s, cell, points, leaf, cage, true);
         store(at, !kInterior && cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
               leafFrame(leaf, vec2(cell == 1u, cell == 2u)));
-        cells &= cells - 1u;
-    } while (cells != 0u);
+        // What is used behind the loop is that of the last cell, even if lavapipe goes on with lanes that have finished.
+        uint rest = cells & (cells - 1u);
+        more = rest != 0u;
+        cells = more ? rest : cells;
+    } while (more);
     storeMiddles(at, t, net, points, leaf, cage);
 }
 

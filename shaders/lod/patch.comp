@@ -341,10 +341,11 @@ bool triangleShowsBack(uint record, uint base, vec4 levels, float inside) {
     PatchPlace at = PatchPlace(record, base);
     LeafPoints points = cageLeaf(at, triangleOf(record, false));
     TriangleNet net = triangleNet(leafOf(points));
-    bool back;
+    bool back = true; // stays false even if lavapipe goes on with lanes that have finished
     uint side = 0u;
     do {
-        back = sectorShowsBack(sectorOf(net, points.p[0]), reachOfBorder(levels[side], inside));
+        bool own = sectorShowsBack(sectorOf(net, points.p[0]), reachOfBorder(levels[side], inside));
+        back = back && own;
         net = turnedOnce(net);
     } while (back && ++side < 3u);
     return back;

@@ -81,6 +81,10 @@ TEST(Precise, IsNotLostWhereLoopsAreUnrolled) {
     std::printf("%u kernels, %u loops to be unrolled\n", kernels, loops);
     EXPECT_GE(kernels, 2u * static_cast<uint32_t>(surface::Kernel::count));
     EXPECT_GT(loops, 0u);
+    // It sees one where there is one.
+    const std::vector<uint32_t> unrolled =
+        compileEdited("exact/triangles.comp", "    do { // to before endJ - 1", "    [[unroll]] do { //", "");
+    EXPECT_GT(preciseInUnrolledLoops(unrolled, loops), 0u);
 }
 
 /// Border samples that differ when evaluation runs the given code, over rates 5, 7, 11.
