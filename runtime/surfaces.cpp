@@ -148,10 +148,12 @@ Status Surfaces::setRate(uint32_t rate) {
     const auto ignores = [&](const Tessellation& surface) { return size() > 1 && surface.isMesh(); };
     Status status = success();
     for (const std::unique_ptr<Tessellation>& surface : all_) {
-        status = status && !ignores(*surface) ? surface->canSetRate(rate) : status;
+        status = status && !ignores(*surface) ? surface->prepareRate(rate) : status;
     }
     for (const std::unique_ptr<Tessellation>& surface : all_) {
-        status = status && !ignores(*surface) ? surface->setRate(rate) : status;
+        if (status && !ignores(*surface)) {
+            surface->takeRate();
+        }
     }
     return status;
 }

@@ -10,11 +10,19 @@ public:
     explicit FixedRate(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_GRIDS; }
-    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
-    [[nodiscard]] Status setRate(uint32_t rate) override;
+    [[nodiscard]] Status prepareRate(uint32_t rate) override;
+    void takeRate() override;
 
 private:
-    void layOutDraws();
+    /// What another rate brings.
+    struct OtherRate {
+        surface::Evaluation evaluation;
+        uint32_t vertexCount = 0;
+        surface::Program program;
+        std::vector<SuppleDrawRange> draws;
+    };
+
+    [[nodiscard]] std::vector<SuppleDrawRange> drawsAt(uint32_t rate) const;
     /// The tables serve all rates up to the one that the group begins with.
     [[nodiscard]] bool canChange() const {
         return tables().rate == 0 || surface::schemeOf(scheme_->recipe.scheme).rates == surface::RateRule::upTo;
@@ -27,6 +35,7 @@ private:
 
     uint32_t maxRate_ = 0;
     GridDraws grids_; ///< of rates 1.., or of the one rate
+    std::optional<OtherRate> next_;
 };
 
 Status FixedRate::begin() {
@@ -45,35 +54,52 @@ Status FixedRate::begin() {
         grids_.addRate(tables(), rate);
     }
     indexData_ = grids_.takeIndices();
-    layOutDraws();
+    setDraws(drawsAt(maxRate_));
     return success();
 }
 
-void FixedRate::layOutDraws() {
+std::vector<SuppleDrawRange> FixedRate::drawsAt(uint32_t rate) const {
     std::vector<SuppleDrawRange> draws;
     uint32_t firstVertex = 0;
-    grids_.append(tables(), canChange() ? evaluation_.rate - 1 : 0, firstVertex, draws);
-    setDraws(std::move(draws));
+    grids_.append(tables(), canChange() ? rate - 1 : 0, firstVertex, draws);
+    return draws;
 }
 
-Status FixedRate::canSetRate(uint32_t rate) const {
+Status FixedRate::prepareRate(uint32_t rate) {
+    next_.reset();
     const std::string& name = desc_.asset->character.name;
     if (!canChange() && rate != askedRate_) {
         return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeOf(scheme_->recipe.scheme).name +
                                               " are made for rate " + std::to_string(askedRate_) + " alone"};
     }
-    return canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
+    const Status takes = canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
+    if (!takes || !canChange() || patchRate(rate) == evaluation_.rate) {
+        return takes; // the attributes stand
+    }
+    OtherRate next;
+    next.evaluation = evaluation_;
+    next.evaluation.rate = patchRate(rate);
+    next.vertexCount = static_cast<uint32_t>(next.evaluation.layOut(tables()));
+    Result<surface::Program> program = programFor(tables(), needs(), next.evaluation);
+    if (!program) {
+        return program.error();
+    }
+    next.program = std::move(*program);
+    next.draws = drawsAt(next.evaluation.rate);
+    next_ = std::move(next);
+    return success();
 }
 
-Status FixedRate::setRate(uint32_t rate) {
-    if (!canChange() || patchRate(rate) == evaluation_.rate) {
-        return success(); // the attributes stand
+void FixedRate::takeRate() {
+    if (!next_) {
+        return;
     }
-    evaluation_.rate = patchRate(rate);
-    vertexCount_ = static_cast<uint32_t>(evaluation_.layOut(tables()));
+    evaluation_ = std::move(next_->evaluation);
+    vertexCount_ = next_->vertexCount;
+    program_ = std::move(next_->program);
+    setDraws(std::move(next_->draws));
     attributes_.renew(wanted_.has(Stream::attributes));
-    layOutDraws();
-    return prepare();
+    next_.reset();
 }
 
 } // namespace

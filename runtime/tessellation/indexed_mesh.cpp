@@ -11,7 +11,7 @@ public:
     explicit IndexedMesh(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_INDEXED_MESH; }
-    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
+    [[nodiscard]] Status prepareRate(uint32_t rate) override;
 };
 
 Status IndexedMesh::begin() {
@@ -33,7 +33,7 @@ Status IndexedMesh::begin() {
     return success();
 }
 
-Status IndexedMesh::canSetRate(uint32_t rate) const {
+Status IndexedMesh::prepareRate(uint32_t rate) {
     if (rate == askedRate_) {
         return success();
     }

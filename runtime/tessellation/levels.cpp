@@ -30,7 +30,7 @@ public:
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_LEVELS; }
     [[nodiscard]] const VertexStreams* streams() const override { return &view()->streams(); }
     void fillLevels(SuppleLevelOutput& output) const override;
-    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
+    [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const override;
@@ -76,9 +76,9 @@ Status Levels::begin() {
     if (!built) {
         return built;
     }
-    Result<surface::Program> program = desc_.passes->prepare(tables(), levelNeeds(), evaluation_);
+    Result<surface::Program> program = programFor(tables(), levelNeeds(), evaluation_);
     if (!program) {
-        return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+        return program.error();
     }
     program_ = std::move(*program);
     for (const surface::LodTables::Run& run : tables().lod.runs) {
@@ -166,7 +166,7 @@ void Levels::fillLevels(SuppleLevelOutput& output) const {
     view()->fillDraws(output, firstRun_);
 }
 
-Status Levels::canSetRate(uint32_t) const {
+Status Levels::prepareRate(uint32_t) {
     return Error{ErrorCode::argument, desc_.asset->character.name + ": the group has its view's levels, not a rate"};
 }
 

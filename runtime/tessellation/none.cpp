@@ -13,7 +13,7 @@ public:
     }
 
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
-    [[nodiscard]] Status canSetRate(uint32_t rate) const override { return checkRate(rate, askedRate_); }
+    [[nodiscard]] Status prepareRate(uint32_t rate) override { return checkRate(rate, askedRate_); }
     PassCost recordEvaluate(VkCommandBuffer) const override { return {}; }
     PassCost recordMotion(VkCommandBuffer) const override { return {}; }
 

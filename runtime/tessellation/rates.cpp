@@ -31,7 +31,7 @@ public:
                                     const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
-    [[nodiscard]] Status canSetRate(uint32_t rate) const override;
+    [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
     [[nodiscard]] bool staticsPending() const override;
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
@@ -86,9 +86,9 @@ Status Rates::begin() {
         Rate& rate = own_[r];
         rate.evaluation.verticesPerInstance = evaluation_.verticesPerInstance;
         rate.evaluation.cageStride = evaluation_.cageStride;
-        Result<surface::Program> program = desc_.passes->prepare(rate.scheme->tables, needs, rate.evaluation);
+        Result<surface::Program> program = programFor(rate.scheme->tables, needs, rate.evaluation);
         if (!program) {
-            return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+            return program.error();
         }
         rate.program = std::move(*program);
     }
@@ -203,7 +203,7 @@ void Rates::fillGrid(SuppleGridOutput& output) const {
                        draws_.size() * sizeof(VkDrawIndexedIndirectCommand), sizeof(VkDrawIndexedIndirectCommand)};
 }
 
-Status Rates::canSetRate(uint32_t rate) const {
+Status Rates::prepareRate(uint32_t rate) {
     if (rate == askedRate_) {
         return success();
     }

@@ -191,12 +191,21 @@ surface::Needs Tessellation::needs() const {
 }
 
 Status Tessellation::prepare() {
-    Result<surface::Program> program = desc_.passes->prepare(tables(), needs(), evaluation_);
+    Result<surface::Program> program = programFor(tables(), needs(), evaluation_);
     if (!program) {
-        return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+        return program.error();
     }
     program_ = std::move(*program);
     return success();
+}
+
+Result<surface::Program> Tessellation::programFor(const surface::Tables& tables, const surface::Needs& needs,
+                                                  const surface::Evaluation& evaluation) const {
+    Result<surface::Program> program = desc_.passes->prepare(tables, needs, evaluation);
+    if (!program) {
+        return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
+    }
+    return program;
 }
 
 Status Tessellation::checkVertices(uint64_t vertices) const {

@@ -114,10 +114,10 @@ public:
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return patches_; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
-    /// Whether setRate() would take the rate.
-    [[nodiscard]] virtual Status canSetRate(uint32_t rate) const = 0;
-    /// A rate that it can. The next fillGrid() tells of it.
-    [[nodiscard]] virtual Status setRate(uint32_t /*rate*/) { return success(); }
+    /// Makes ready for another rate, or says why it cannot. Until takeRate() nothing else changes.
+    [[nodiscard]] virtual Status prepareRate(uint32_t rate) = 0;
+    /// What prepareRate() made ready. The next fillGrid() tells of it.
+    virtual void takeRate() {}
 
     // Uploads and clears that are recorded once.
     [[nodiscard]] virtual bool staticsPending() const;
@@ -170,6 +170,9 @@ protected:
     /// What the passes write for this group.
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();
+    /// The passes of tables at a rate or at levels.
+    [[nodiscard]] Result<surface::Program> programFor(const surface::Tables& tables, const surface::Needs& needs,
+                                                      const surface::Evaluation& evaluation) const;
     [[nodiscard]] Status checkVertices(uint64_t vertices) const;
     /// Whether the device can bind what a window that draws have holds: `bytes` per instance.
     [[nodiscard]] Status checkBinding(const InstanceWindows& windows, VkDeviceSize bytes, const char* what) const;

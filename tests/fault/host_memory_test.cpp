@@ -36,6 +36,39 @@ TEST(HostMemory, EveryAllocationOfEveryFunctionMayFail) {
     }
 }
 
+TEST(HostMemory, ARateThatCannotBeSetLeavesTheGroupAsItWas) {
+    const std::unique_ptr<host::Device> device = deviceThrough(&faultyGetInstanceProcAddr, false);
+    ASSERT_NE(device, nullptr);
+    LoggedContext context(*device, quiet);
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    const SmallGroup group = createGroup(context.handle(), asset, {.rate = 8});
+    ASSERT_EQ(group.result, SUPPLE_OK);
+    struct Output {
+        uint32_t vertices = 0, samplesPerPatch = 0;
+        std::vector<std::byte> bits;
+        bool operator==(const Output&) const = default;
+    };
+    const auto output = [&] {
+        SuppleGridOutput grid{};
+        grid.structSize = sizeof(grid);
+        EXPECT_EQ(suppleGetGridOutput(context.handle(), group.group, 0, &grid), SUPPLE_OK);
+        context.evaluate({&group.group, 1});
+        return Output{grid.vertexCount, grid.drawRanges[0].samplesPerPatch, surfaceBits(context, group.group)};
+    };
+    const Output before = output();
+    ASSERT_FALSE(before.bits.empty());
+    uint64_t failed = 0;
+    for (bool fails = true; fails; ++failed) {
+        failHostMemory(failed, Failure::all);
+        const SuppleResult result = suppleSetRate(context.handle(), group.group, 5);
+        fails = liftHostFailure();
+        EXPECT_EQ(result, fails ? SUPPLE_ERROR_HOST_MEMORY : SUPPLE_OK) << failed;
+        EXPECT_EQ(output() == before, fails) << failed;
+    }
+    EXPECT_GT(failed, 5u);
+}
+
 TEST(HostMemory, DestroyingTakesNone) {
     const std::unique_ptr<host::Device> device = deviceThrough(&faultyGetInstanceProcAddr, false);
     ASSERT_NE(device, nullptr);

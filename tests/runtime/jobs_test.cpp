@@ -3,6 +3,7 @@
 #include "tests/support/logged_context.h"
 
 #include <atomic>
+#include <functional>
 #include <gtest/gtest.h>
 #include <thread>
 #include <vector>
@@ -66,18 +67,23 @@ TEST(Jobs, GroupsHaveTheSameBits) {
     }
 }
 
-TEST(Jobs, AGroupWhoseJobsAreNotRunIsRefused) {
-    ASSERT_NE(testDevice(), nullptr);
-    const ValidationGuard guard;
-    bool lazy = true;
-    LoggedContext context(*testDevice(), [&](SuppleContextDesc& desc) {
+/// Leaves out its first job while `lazy`.
+std::function<void(SuppleContextDesc&)> lazyHost(bool& lazy) {
+    return [&lazy](SuppleContextDesc& desc) {
         desc.runJobs = [](uint32_t count, void (*job)(void*, uint32_t), void* jobData, void* user) {
             for (uint32_t i = *static_cast<bool*>(user) ? 1 : 0; i < count; ++i) {
                 job(jobData, i);
             }
         };
         desc.jobsUser = &lazy;
-    });
+    };
+}
+
+TEST(Jobs, AGroupWhoseJobsAreNotRunIsRefused) {
+    ASSERT_NE(testDevice(), nullptr);
+    const ValidationGuard guard;
+    bool lazy = true;
+    LoggedContext context(*testDevice(), lazyHost(lazy));
     SuppleAsset asset{};
     ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
     EXPECT_EQ(createGroup(context.handle(), asset).result, SUPPLE_ERROR_ARGUMENT);
@@ -89,6 +95,33 @@ TEST(Jobs, AGroupWhoseJobsAreNotRunIsRefused) {
     ASSERT_EQ(group.result, SUPPLE_OK);
     context.evaluate({&group.group, 1});
     EXPECT_FALSE(surfaceBits(context, group.group).empty());
+}
+
+TEST(Jobs, AGroupOfAViewWhoseJobsAreNotRunIsRefused) {
+    ASSERT_NE(testDevice(), nullptr);
+    const ValidationGuard guard;
+    bool lazy = false;
+    LoggedContext context(*testDevice(), lazyHost(lazy));
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    SuppleViewDesc viewDesc{};
+    viewDesc.structSize = sizeof(viewDesc);
+    viewDesc.maxVertices = 100000;
+    SuppleView view{};
+    ASSERT_EQ(suppleCreateView(context.handle(), &viewDesc, &view), SUPPLE_OK);
+    SuppleGroupDesc desc{};
+    desc.view = view;
+    lazy = true;
+    context.takeLines();
+    EXPECT_EQ(createGroup(context.handle(), asset, desc).result, SUPPLE_ERROR_ARGUMENT);
+    const std::vector<LogLine> lines = context.takeLines();
+    ASSERT_FALSE(lines.empty());
+    EXPECT_NE(lines.back().text.find("runJobs has not run its job"), std::string::npos) << lines.back().text;
+    lazy = false;
+    const SmallGroup group = createGroup(context.handle(), asset, desc);
+    ASSERT_EQ(group.result, SUPPLE_OK);
+    context.evaluate({&group.group, 1});
+    EXPECT_TRUE(context.takeLines().empty());
 }
 
 } // namespace

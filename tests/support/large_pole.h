@@ -31,8 +31,7 @@ struct PoleRings {
 };
 
 /// Quads, with creases along the rings.
-[[nodiscard]] inline cage::Cage largePoleOfQuads() {
-    constexpr PoleRings rings{3000, 7};
+[[nodiscard]] inline cage::Cage largePoleOfQuads(PoleRings rings = {3000, 7}) {
     Faces polygons;
     for (uint32_t k = 0; k < rings.around; ++k) {
         if (k % 2 == 0) {
@@ -52,8 +51,7 @@ struct PoleRings {
 }
 
 /// Triangles, whose vertices have 4 and 8 of them by turns.
-[[nodiscard]] inline cage::Cage largePoleOfTriangles() {
-    constexpr PoleRings rings{1500, 12};
+[[nodiscard]] inline cage::Cage largePoleOfTriangles(PoleRings rings = {1500, 12}) {
     Faces polygons;
     for (uint32_t k = 0; k < rings.around; ++k) {
         polygons.push_back({0, rings.at(0, k), rings.at(0, k + 1)});
