@@ -236,8 +236,8 @@ private:
 
     /// Of GLSL.std.450, what has no rounding.
     [[nodiscard]] static bool exactBuiltIn(uint32_t instruction) {
-        return instruction == 4 || instruction == 8 || instruction == 37 ||
-               instruction == 40; // FAbs, Floor, FMin, FMax
+        return instruction == 4 || instruction == 8 || instruction == 37 || // FAbs, Floor, FMin
+               instruction == 40 || instruction == 45;                      // FMax, SClamp
     }
 
     void visit(Key key) {
