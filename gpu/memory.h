@@ -72,7 +72,6 @@ public:
     [[nodiscard]] VkDeviceSize size(size_t index) const { return buffers_[index].size; }
     /// What is allocated, alignment included: each byte counts for the buffer that it, or the gap before it, is for.
     [[nodiscard]] MemoryUse use() const;
-    [[nodiscard]] VkDeviceSize allocatedBytes() const { return use().total(); }
     /// Mapped bytes of an upload or readback buffer.
     [[nodiscard]] std::byte* mapped(size_t index) const {
         const HostMemory& piece = allocations_[buffers_[index].allocation].piece();

@@ -363,13 +363,13 @@ Status Device::createDevice(const DeviceOptions& options) {
     requirements_.features12.pNext = &requirements_.features13;
     // Many draws by one command (docs/integration.md).
     features11_ = vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
-    manyDraws_ = supported.multiDrawIndirect == VK_TRUE && supported11.shaderDrawParameters == VK_TRUE;
-    features11_.shaderDrawParameters = manyDraws_ ? VK_TRUE : VK_FALSE;
+    const bool manyDraws = supported.multiDrawIndirect == VK_TRUE && supported11.shaderDrawParameters == VK_TRUE;
+    features11_.shaderDrawParameters = manyDraws ? VK_TRUE : VK_FALSE;
     requirements_.features13.pNext = &features11_;
     features_ =
         vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
-    features_.features.multiDrawIndirect = manyDraws_ ? VK_TRUE : VK_FALSE;
+    features_.features.multiDrawIndirect = manyDraws ? VK_TRUE : VK_FALSE;
     features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 

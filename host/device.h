@@ -120,17 +120,14 @@ public:
     [[nodiscard]] bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
-    /// multiDrawIndirect and shaderDrawParameters.
-    [[nodiscard]] bool hasManyDraws() const { return manyDraws_; }
 
     /// The chain that vkCreateDevice was given, for SuppleContextDesc::enabledFeatures.
     [[nodiscard]] const void* enabledFeatures() const { return &features_; }
     /// What suppleCreateContext is to be given: the option's function, or the loader's.
     [[nodiscard]] PFN_vkGetInstanceProcAddr getInstanceProcAddr() const { return getInstanceProcAddr_; }
 
-    /// Warnings and errors of the validation layer so far; 0 without validation.
-    [[nodiscard]] uint32_t validationMessageCount() const { return validation_->messageCount(); }
-    /// Outlives the device, so that what is said while the device is destroyed can be counted as well.
+    /// What the validation layer has said; nothing without validation. Outlives the device, so that what is said while
+    /// the device is destroyed can be counted as well.
     [[nodiscard]] std::shared_ptr<const ValidationLog> validation() const { return validation_; }
 
     /// By VK_EXT_calibrated_timestamps; nothing where the device does not have it.
@@ -191,7 +188,6 @@ private:
     std::vector<std::function<void()>> atEnd_;
     bool debugUtils_ = false;
     bool anisotropy_ = false;
-    bool manyDraws_ = false;
 };
 
 /// "vkCreateBuffer: VK_ERROR_OUT_OF_DEVICE_MEMORY", with the ErrorCode that fits the VkResult.

@@ -1,7 +1,5 @@
 #include "host/picture.h"
 
-#include "host/whole_file.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,18 +7,12 @@
 #include <cstring>
 #include <memory>
 
-// Static, so that it never meets another copy (of imgui, of tools/creature) in the linker.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wsign-compare"
 #endif
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
-// Declared by no standard header the font includes itself.
 #include <stb/stb_easy_font.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -130,20 +122,6 @@ Picture pictureWithAlpha(const Picture& overBlack, const Picture& overWhite) {
         picture.rgba[i + 3] = static_cast<uint8_t>(alpha);
     }
     return picture;
-}
-
-Status writePng(const Picture& picture, const std::string& path) {
-    std::vector<uint8_t> encoded;
-    const auto append = [](void* context, void* data, int size) {
-        auto& bytes = *static_cast<std::vector<uint8_t>*>(context);
-        const auto* begin = static_cast<const uint8_t*>(data);
-        bytes.insert(bytes.end(), begin, begin + size);
-    };
-    const int stride = static_cast<int>(picture.width * 4);
-    if (stbi_write_png_to_func(append, &encoded, static_cast<int>(picture.width), static_cast<int>(picture.height), 4,
-                               picture.rgba.data(), stride) == 0)
-        return Error{ErrorCode::io, path + ": cannot encode the picture"};
-    return writeWhole(path, std::as_bytes(std::span(encoded)));
 }
 
 Result<Picture> readPng(const std::string& path) {

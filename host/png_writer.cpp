@@ -1,149 +1,127 @@
 #include "host/png_writer.h"
 
-#include "host/deflate.h"
+#include "host/whole_file.h"
 
-#include <array>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
+#include <csetjmp>
+#include <cstdio>
+#include <utility>
+
+#include <png.h>
 
 namespace supple::host {
+
+struct PngWriter::State {
+    State(std::string target, uint32_t columns, uint32_t rows)
+        : path(std::move(target)), file(path), width(columns), height(rows) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() { png_destroy_write_struct(&png, &info); }
+
+    std::string path;
+    WholeFile file;
+    uint32_t width, height;
+    uint32_t written = 0; ///< rows
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    char fault[128] = "";
+    std::jmp_buf back;
+};
+
 namespace {
 
-constexpr size_t kChannels = 3;
-constexpr long kFirstRows = 8 + 25; ///< behind the signature and the header's chunk
+// libpng jumps back over its own frames alone: nothing of C++ is on the stack there.
 
-void appendBig(std::vector<uint8_t>& bytes, uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        bytes.push_back(static_cast<uint8_t>(value >> shift));
+/// `back` is where the caller has called setjmp.
+template <class State>
+[[noreturn]] void fail(png_structp png, png_const_charp message) {
+    auto& state = *static_cast<State*>(png_get_error_ptr(png));
+    std::snprintf(state.fault, sizeof state.fault, "%s", message);
+    std::longjmp(state.back, 1);
 }
 
-uint32_t crc(const uint8_t* bytes, size_t count) {
-    static const std::array<uint32_t, 256> kTable = [] {
-        std::array<uint32_t, 256> table{};
-        for (uint32_t n = 0; n < 256; ++n) {
-            table[n] = n;
-            for (int bit = 0; bit < 8; ++bit)
-                table[n] = (table[n] & 1u) != 0 ? 0xEDB88320u ^ (table[n] >> 1) : table[n] >> 1;
-        }
-        return table;
-    }();
-    uint32_t value = 0xFFFFFFFFu;
-    for (size_t i = 0; i < count; ++i)
-        value = kTable[(value ^ bytes[i]) & 0xFFu] ^ (value >> 8);
-    return ~value;
+void ignore(png_structp, png_const_charp) {}
+
+void writeBytes(png_structp png, png_bytep bytes, size_t count) {
+    static_cast<WholeFile*>(png_get_io_ptr(png))->write({reinterpret_cast<const std::byte*>(bytes), count});
 }
 
-void appendChunk(std::vector<uint8_t>& file, const char* type, const std::vector<uint8_t>& data) {
-    appendBig(file, static_cast<uint32_t>(data.size()));
-    const size_t begin = file.size();
-    file.insert(file.end(), type, type + 4);
-    file.insert(file.end(), data.begin(), data.end());
-    appendBig(file, crc(&file[begin], file.size() - begin));
-}
+void flush(png_structp) {}
 
-std::vector<uint8_t> beginning(uint32_t width, uint32_t height) {
-    std::vector<uint8_t> file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, header;
-    appendBig(header, width);
-    appendBig(header, height);
-    header.insert(header.end(), {8, 2, 0, 0, 0}); // 8 bits of RGB, not interlaced
-    appendChunk(file, "IHDR", header);
-    return file;
-}
-
-uint8_t paeth(int left, int up, int corner) {
-    const int guess = left + up - corner;
-    const int toLeft = std::abs(guess - left), toUp = std::abs(guess - up), toCorner = std::abs(guess - corner);
-    return static_cast<uint8_t>(toLeft <= toUp && toLeft <= toCorner ? left : toUp <= toCorner ? up : corner);
-}
-
-/// A row's bytes less what the filter foretells: 0 nothing, 1 the pixel to the left, 2 the one above, 4 Paeth's.
-void filterRow(int filter, const std::vector<uint8_t>& row, const std::vector<uint8_t>& above,
-               std::vector<uint8_t>& out) {
-    for (size_t i = 0; i < row.size(); ++i) {
-        const int left = i < kChannels ? 0 : row[i - kChannels], corner = i < kChannels ? 0 : above[i - kChannels];
-        const int foretold = filter == 0   ? 0
-                             : filter == 1 ? left
-                             : filter == 2 ? above[i]
-                                           : paeth(left, above[i], corner);
-        out[i] = static_cast<uint8_t>(row[i] - foretold);
+/// Runs a step of libpng; false where it fails.
+template <class State, class Step>
+bool run(State& state, Step&& step) {
+    if (state.fault[0] != '\0' || setjmp(state.back) != 0) {
+        return false;
     }
-}
-
-/// The filter with the smallest sum of magnitudes, as the specification suggests, and the row behind it.
-void appendRow(const std::vector<uint8_t>& row, const std::vector<uint8_t>& above, std::vector<uint8_t>& out) {
-    std::vector<uint8_t> best, tried(row.size());
-    uint64_t least = std::numeric_limits<uint64_t>::max();
-    for (const int filter : {0, 1, 2, 4}) {
-        filterRow(filter, row, above, tried);
-        uint64_t sum = 0;
-        for (const uint8_t byte : tried)
-            sum += static_cast<uint64_t>(std::abs(static_cast<int8_t>(byte)));
-        if (sum < least) {
-            least = sum;
-            best = {static_cast<uint8_t>(filter)};
-            best.insert(best.end(), tried.begin(), tried.end());
-        }
-    }
-    out.insert(out.end(), best.begin(), best.end());
-}
-
-uint32_t addToAdler(uint32_t adler, const std::vector<uint8_t>& bytes) {
-    uint32_t low = adler & 0xFFFFu, high = adler >> 16;
-    for (const uint8_t byte : bytes) {
-        low = (low + byte) % 65521u;
-        high = (high + low) % 65521u;
-    }
-    return high << 16 | low;
+    step();
+    return true;
 }
 
 } // namespace
 
+PngWriter::PngWriter(std::string path, uint32_t width, uint32_t height, PngAlpha alpha)
+    : state_(std::make_unique<State>(std::move(path), width, height)) {
+    State& state = *state_;
+    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, fail<State>, ignore);
+    state.info = state.png != nullptr ? png_create_info_struct(state.png) : nullptr;
+    if (state.info == nullptr) {
+        std::snprintf(state.fault, sizeof state.fault, "libpng cannot be used");
+        return;
+    }
+    run(state, [&] {
+        png_set_write_fn(state.png, &state.file, writeBytes, flush);
+        png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        const int color = alpha == PngAlpha::kept ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+        png_set_IHDR(state.png, state.info, width, height, 8, color, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                     PNG_FILTER_TYPE_DEFAULT);
+        png_write_info(state.png, state.info);
+        if (alpha == PngAlpha::leftOut) {
+            png_set_filler(state.png, 0, PNG_FILLER_AFTER);
+        }
+    });
+}
+
+PngWriter::~PngWriter() = default;
+
+Error PngWriter::failure() const {
+    return Error{ErrorCode::io, state_->path + ": cannot encode the picture: " + state_->fault};
+}
+
 Status PngWriter::append(const Picture& rows) {
-    if (rows.width != width_)
-        return Error{ErrorCode::argument, path_ + ": rows of another width"};
-    std::vector<uint8_t> filtered;
-    lastRow_.resize(kChannels * width_);
-    for (uint32_t y = 0; y < rows.height; ++y) {
-        std::vector<uint8_t> row(kChannels * width_);
-        for (uint32_t x = 0; x < width_; ++x)
-            std::memcpy(&row[kChannels * x], rows.pixel(x, y), kChannels);
-        appendRow(row, lastRow_, filtered);
-        lastRow_ = std::move(row);
+    State& state = *state_;
+    if (const Status open = state.file.status(); !open) {
+        return open;
     }
-    adler_ = addToAdler(adler_, filtered);
-    height_ += rows.height;
-
-    std::vector<uint8_t> compressed, last, chunks;
-    if (file_ == nullptr)
-        compressed = {0x78, 0x01}; // the stream's header: deflate, a window of 32 KiB
-    appendDeflateBlock(filtered, compressed);
-    appendChunk(chunks, "IDAT", compressed);
-    const auto rowBytes = static_cast<long>(chunks.size());
-    appendLastDeflateBlock(last);
-    appendBig(last, adler_);
-    appendChunk(chunks, "IDAT", last);
-    appendChunk(chunks, "IEND", {});
-
-    if (file_ == nullptr) {
-        file_.reset(std::fopen(path_.c_str(), "wb"));
-        end_ = kFirstRows;
+    if (rows.width != state.width || rows.height > state.height - state.written) {
+        return Error{ErrorCode::argument, state.path + ": rows that do not belong to the picture"};
     }
-    // The height last: until then, the rows that it does not count are ignored.
-    if (const Status status = write(chunks, end_); !status)
-        return status.error();
-    if (const Status status = write(beginning(width_, height_), 0); !status)
-        return status.error();
-    end_ += rowBytes;
+    const bool done = run(state, [&] {
+        for (uint32_t y = 0; y < rows.height; ++y) {
+            png_write_row(state.png, rows.pixel(0, y));
+        }
+    });
+    if (!done) {
+        return failure();
+    }
+    state.written += rows.height;
     return success();
 }
 
-Status PngWriter::write(const std::vector<uint8_t>& bytes, long place) {
-    if (!file_ || std::fseek(file_.get(), place, SEEK_SET) != 0 ||
-        std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() || std::fflush(file_.get()) != 0)
-        return Error{ErrorCode::io, path_ + ": " + std::strerror(errno)};
-    return success();
+Status PngWriter::close() {
+    State& state = *state_;
+    if (state.written != state.height) {
+        return Error{ErrorCode::argument, state.path + ": rows are missing"};
+    }
+    if (!run(state, [&] { png_write_end(state.png, nullptr); })) {
+        return failure();
+    }
+    return state.file.close();
+}
+
+Status writePng(const Picture& picture, const std::string& path) {
+    PngWriter writer(path, picture.width, picture.height, PngAlpha::kept);
+    const Status status = writer.append(picture);
+    return status ? writer.close() : status;
 }
 
 } // namespace supple::host

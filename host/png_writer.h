@@ -1,39 +1,37 @@
-// A PNG that is written as its rows are made.
+// A PNG that is written as its rows are made, by libpng.
 #pragma once
 
 #include "host/picture.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace supple::host {
 
-/// The file is a whole PNG of all rows so far after every append(), and memory holds none of them but the last.
+enum class PngAlpha {
+    leftOut, ///< three channels
+    kept
+};
+
+/// Memory holds no rows but those that are being written. The file takes its place when it is closed (WholeFile).
 class PngWriter {
 public:
-    /// Rows of `width` pixels. The file is made by the first append().
-    PngWriter(std::string path, uint32_t width) : path_(std::move(path)), width_(width) {}
+    PngWriter(std::string path, uint32_t width, uint32_t height, PngAlpha alpha);
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+    ~PngWriter(); ///< what is not closed leaves nothing behind
 
-    /// Adds the rows of a picture of the same width below those that there are; alpha is left out.
+    /// Adds the rows of a picture of the same width below those that there are.
     [[nodiscard]] Status append(const Picture& rows);
+    /// Ends the file. An error if rows are missing, or if anything went wrong on the way.
+    [[nodiscard]] Status close();
 
 private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
+    struct State;
+    [[nodiscard]] Error failure() const;
 
-    [[nodiscard]] Status write(const std::vector<uint8_t>& bytes, long place);
-
-    std::string path_;
-    uint32_t width_;
-    uint32_t height_ = 0;
-    std::unique_ptr<std::FILE, FileCloser> file_;
-    long end_ = 0;                 ///< where the next rows go, over the chunks that end the file
-    uint32_t adler_ = 1;           ///< of all rows, with their filters
-    std::vector<uint8_t> lastRow_; ///< RGB
+    std::unique_ptr<State> state_;
 };
 
 } // namespace supple::host

@@ -27,8 +27,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL ValidationLog::receive(VkDebugUtilsMessageSeverit
     auto& log = *static_cast<ValidationLog*>(user);
     const bool isError = (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) != 0;
     const char* text = data->pMessage != nullptr ? data->pMessage : "";
-    if (!log.quiet_.load())
-        std::fprintf(stderr, "validation %s: %s\n", isError ? "error" : "warning", text);
+    std::fprintf(stderr, "validation %s: %s\n", isError ? "error" : "warning", text);
     {
         const std::lock_guard lock(log.mutex_);
         log.messages_.emplace_back(text);

@@ -1,4 +1,4 @@
-// Counts what the validation layer says from before the instance exists until after it is gone.
+// Counts and prints what the validation layer says from before the instance exists until after it is gone.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,6 @@ public:
     [[nodiscard]] uint32_t messageCount() const { return count_.load(); }
     /// Their texts.
     [[nodiscard]] std::vector<std::string> messages() const;
-    /// Messages are printed on stderr unless this is switched off (tests that provoke one).
-    void setQuiet(bool quiet) { quiet_.store(quiet); }
 
     /// For VkInstanceCreateInfo::pNext and vkCreateDebugUtilsMessengerEXT; the log must outlive both.
     [[nodiscard]] VkDebugUtilsMessengerCreateInfoEXT messengerInfo();
@@ -28,7 +26,6 @@ private:
                                                   const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
 
     std::atomic<uint32_t> count_ = 0;
-    std::atomic<bool> quiet_ = false;
     mutable std::mutex mutex_;
     std::vector<std::string> messages_;
 };

@@ -10,14 +10,28 @@ namespace supple::host {
 
 namespace fs = std::filesystem;
 
-WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
+namespace {
+
+/// A device or a pipe.
+bool isSpecial(const std::string& path) {
     std::error_code error;
-    const fs::file_status target = fs::status(path_, error);
-    const bool special = fs::exists(target) && !fs::is_regular_file(target) && !fs::is_directory(target);
-    if (!special && fs::is_symlink(fs::symlink_status(path_, error))) {
+    const fs::file_status target = fs::status(path, error);
+    return fs::exists(target) && !fs::is_regular_file(target) && !fs::is_directory(target);
+}
+
+} // namespace
+
+bool isRefusedLink(const std::string& path) {
+    std::error_code error;
+    return !isSpecial(path) && fs::is_symlink(fs::symlink_status(path, error));
+}
+
+WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
+    if (isRefusedLink(path_)) {
         refusal_ = "is a symbolic link";
         return;
     }
+    const bool special = isSpecial(path_);
     if (!special) {
         temporary_ = path_ + "." + std::to_string(getpid()) + ".tmp";
     }
@@ -42,9 +56,13 @@ void WholeFile::write(std::span<const std::byte> bytes) {
     }
 }
 
+Status WholeFile::status() const {
+    return refusal_.empty() ? success() : Status(Error{ErrorCode::io, path_ + ": " + refusal_});
+}
+
 Status WholeFile::close() {
-    if (!refusal_.empty()) {
-        return Error{ErrorCode::io, path_ + ": " + refusal_};
+    if (Status open = status(); !open) {
+        return open;
     }
     errno = 0;
     stream_.close();

@@ -19,6 +19,8 @@ public:
     WholeFile& operator=(const WholeFile&) = delete;
     ~WholeFile(); ///< what is not closed leaves nothing behind
 
+    /// An error if the file cannot be written at all.
+    [[nodiscard]] Status status() const;
     void write(std::span<const std::byte> bytes);
     /// Anything that went wrong on the way is reported here.
     [[nodiscard]] Status close();
@@ -29,6 +31,9 @@ private:
     std::string refusal_;
     std::ofstream stream_;
 };
+
+/// Whether the path is a symbolic link that WholeFile refuses. A link to a device or a pipe is none.
+[[nodiscard]] bool isRefusedLink(const std::string& path);
 
 [[nodiscard]] Status writeWhole(const std::string& path, std::span<const std::byte> bytes);
 

@@ -66,9 +66,8 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
         deviceDesc.memorySource = memorySourceOf(*desc.memory);
     }
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
-    context->queueFamily_ = desc.queueFamily;
-    context->drawQueueFamily_ = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
-    deviceDesc.drawQueueFamily = context->drawQueueFamily_;
+    deviceDesc.drawQueueFamily = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
+    context->families_ = {desc.queueFamily, deviceDesc.drawQueueFamily};
     deviceDesc.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
     deviceDesc.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
                          : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide

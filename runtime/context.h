@@ -125,14 +125,12 @@ private:
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
-    /// What the group hands to the queue family that draws, and with the first of its groups what the view does.
-    [[nodiscard]] Transfers transfersOf(const Group& group, bool withView) const;
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
     uint32_t framesInFlight_ = 2;
     bool asyncCompute_ = false;
-    uint32_t queueFamily_ = 0, drawQueueFamily_ = 0;
+    QueueFamilies families_; ///< with asyncCompute_
     uint64_t frame_ = 0, completedFrame_ = 0;
     bool frameOpen_ = false;               ///< begun and not cancelled
     std::optional<uint64_t> refusedFrame_; ///< by suppleBeginFrame, since the last one that it took

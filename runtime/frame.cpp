@@ -491,36 +491,14 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     timing.end();
     if (asyncCompute_) {
-        frame.forEach([&](Group& group) {
-            Transfers transfers = transfersOf(group, group.link.leadsView);
-            for (VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
-                barrier.srcStageMask = lastScope().stages;
-                barrier.srcAccessMask = lastScope().access;
-            }
-            VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-            info.bufferMemoryBarrierCount = static_cast<uint32_t>(transfers.barriers().size());
-            info.pBufferMemoryBarriers = transfers.barriers().data();
-            device.vk.CmdPipelineBarrier2(commandBuffer, &info);
-        });
+        Releases releases(device, commandBuffer, families_, {lastScope().stages, lastScope().access});
+        frame.forEach([&](Group& group) { group.addTransfers(releases, group.link.leadsView); });
     }
     if (desc.after.stages != 0) {
         gpu::memoryBarrier(device, commandBuffer, kLast, {desc.after.stages, desc.after.access});
     }
     device.endLabel(commandBuffer);
     return success();
-}
-
-Transfers Context::transfersOf(const Group& group, bool withView) const {
-    Transfers transfers;
-    group.addTransfers(transfers);
-    if (withView) {
-        group.view()->addTransfers(transfers);
-    }
-    for (VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
-        barrier.srcQueueFamilyIndex = queueFamily_;
-        barrier.dstQueueFamilyIndex = drawQueueFamily_;
-    }
-    return transfers;
 }
 
 Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, SuppleSyncScope use,
@@ -541,24 +519,16 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
             return refuse(ErrorCode::order, "not recorded in this frame");
         }
     }
-    uint32_t total = 0;
+    Acquires acquires(families_, {use.stages, use.access}, out);
     for (size_t g = 0; g < wanted.size(); ++g) {
         const std::shared_ptr<Group> group = groups.find(wanted[g].id);
         const bool leadsView =
             group->view() != nullptr &&
             std::none_of(wanted.begin(), wanted.begin() + static_cast<ptrdiff_t>(g),
                          [&](const SuppleGroup& h) { return groups.find(h.id)->view() == group->view(); });
-        Transfers transfers = transfersOf(*group, leadsView);
-        for (const VkBufferMemoryBarrier2& barrier : transfers.barriers()) {
-            if (total < out.size()) {
-                out[total] = barrier;
-                out[total].dstStageMask = use.stages;
-                out[total].dstAccessMask = use.access;
-            }
-            ++total;
-        }
+        group->addTransfers(acquires, leadsView);
     }
-    return total;
+    return acquires.count();
 }
 
 } // namespace supple::runtime

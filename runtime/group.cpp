@@ -355,7 +355,7 @@ bool Group::noteUnrecordedFrame() {
     return anyVisible && ++unrecordedFrames_ == kFrames;
 }
 
-void Group::addTransfers(Transfers& transfers) const {
+void Group::addTransfers(Transfers& transfers, bool withView) const {
     if (!follows()) {
         instances_->addTransfers(transfers);
     }
@@ -366,6 +366,9 @@ void Group::addTransfers(Transfers& transfers) const {
     }
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, passesFrame_);
+    }
+    if (withView) {
+        view()->addTransfers(transfers);
     }
 }
 

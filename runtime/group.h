@@ -99,7 +99,8 @@ public:
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
     void recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame);
-    void addTransfers(Transfers& transfers) const;
+    /// What the group hands to the queue family that draws; withView: and what its view does.
+    void addTransfers(Transfers& transfers, bool withView) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
     [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }

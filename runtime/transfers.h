@@ -9,22 +9,66 @@
 
 namespace supple::runtime {
 
+/// The two queue families of a context with SUPPLE_CONTEXT_ASYNC_COMPUTE.
+struct QueueFamilies {
+    uint32_t compute = VK_QUEUE_FAMILY_IGNORED, draw = VK_QUEUE_FAMILY_IGNORED;
+};
+
+/// What a group and its view hand over, buffer by buffer. Nothing is kept, so there may be any number of them.
 class Transfers {
 public:
     /// Null handles are passed over. Bytes from `offset` on change hands.
-    void add(VkBuffer buffer, VkDeviceSize offset = 0) {
-        if (buffer != VK_NULL_HANDLE) {
-            VkBufferMemoryBarrier2& barrier = barriers_[count_++];
-            barrier = gpu::bufferBarrier(buffer);
-            barrier.offset = offset;
-        }
-    }
-    [[nodiscard]] std::span<VkBufferMemoryBarrier2> barriers() { return {barriers_.data(), count_}; }
+    void add(VkBuffer buffer, VkDeviceSize offset = 0);
+
+protected:
+    explicit Transfers(QueueFamilies families) : families_(families) {}
+    Transfers(const Transfers&) = default;
+    Transfers& operator=(const Transfers&) = default;
+    ~Transfers() = default;
 
 private:
-    static constexpr size_t kMost = 74; ///< of a group with a surface of every scheme, and its view
-    std::array<VkBufferMemoryBarrier2, kMost> barriers_{};
-    size_t count_ = 0;
+    /// Scopes are empty.
+    virtual void take(const VkBufferMemoryBarrier2& barrier) = 0;
+
+    QueueFamilies families_;
+};
+
+/// Records the release of each buffer, some at a time. Allocates nothing.
+class Releases final : public Transfers {
+public:
+    static constexpr size_t kAtOnce = 64; ///< barriers of a call; most groups have fewer
+
+    Releases(const gpu::Device& device, VkCommandBuffer commandBuffer, QueueFamilies families, gpu::SyncScope after)
+        : Transfers(families), device_(device), commandBuffer_(commandBuffer), after_(after) {}
+    Releases(const Releases&) = delete;
+    Releases& operator=(const Releases&) = delete;
+    ~Releases() { flush(); }
+
+private:
+    void take(const VkBufferMemoryBarrier2& barrier) override;
+    void flush();
+
+    const gpu::Device& device_;
+    VkCommandBuffer commandBuffer_;
+    gpu::SyncScope after_;
+    std::array<VkBufferMemoryBarrier2, kAtOnce> barriers_{};
+    uint32_t count_ = 0;
+};
+
+/// Writes the barrier that acquires each buffer into `out`, and counts those that do not fit as well.
+class Acquires final : public Transfers {
+public:
+    Acquires(QueueFamilies families, gpu::SyncScope use, std::span<VkBufferMemoryBarrier2> out)
+        : Transfers(families), use_(use), out_(out) {}
+
+    [[nodiscard]] uint32_t count() const { return count_; }
+
+private:
+    void take(const VkBufferMemoryBarrier2& barrier) override;
+
+    gpu::SyncScope use_;
+    std::span<VkBufferMemoryBarrier2> out_;
+    uint32_t count_ = 0;
 };
 
 } // namespace supple::runtime

@@ -15,8 +15,8 @@
 /// As a file has things: indices are into its own tables, -1 where it names none.
 namespace supple::cage::gltf::file {
 
-/// Elements of accessors.
-enum ElementType : int { kScalar, kVec2, kVec3, kVec4, kMat2, kMat3, kMat4 };
+/// Elements of accessors that something reads, by their places in kTypeNames.
+enum ElementType : int { kScalar = 0, kVec2 = 1, kVec3 = 2, kVec4 = 3, kMat4 = 6 };
 /// Components of elements; the values are glTF's, as are those of modes.
 enum Component : int {
     kByte = 5120,
@@ -26,9 +26,9 @@ enum Component : int {
     kUnsignedInt = 5125,
     kFloat = 5126
 };
-enum Mode : int { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, kTriangleFan };
+enum Mode : int { kPoints = 0, kLines = 1, kLineStrip = 3, kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-/// The names of element types, by type.
+/// The names of all element types that glTF has.
 inline constexpr const char* kTypeNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 
 struct BufferView {

@@ -137,6 +137,10 @@ VKAPI_ATTR void VKAPI_CALL resetQueryPool(VkCommandBuffer, VkQueryPool, uint32_t
 VKAPI_ATTR void VKAPI_CALL pipelineBarrier(VkCommandBuffer, const VkDependencyInfo* dependency) {
     fake->barriers.insert(fake->barriers.end(), dependency->pMemoryBarriers,
                           dependency->pMemoryBarriers + dependency->memoryBarrierCount);
+    if (dependency->bufferMemoryBarrierCount > 0) {
+        fake->bufferBarriers.emplace_back(dependency->pBufferMemoryBarriers,
+                                          dependency->pBufferMemoryBarriers + dependency->bufferMemoryBarrierCount);
+    }
 }
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t) {
     fake->dispatches.emplace_back(x, y);

@@ -30,7 +30,7 @@ TEST(BufferSet, SharesOneAllocation) {
             end = bound.offset + bound.size;
             EXPECT_EQ(set->mapped(i), vulkan.memory.at(bound.memory).data() + bound.offset);
         }
-        EXPECT_EQ(set->allocatedBytes(), end);
+        EXPECT_EQ(set->use().total(), end);
         EXPECT_EQ(vulkan.memory.begin()->second.size(), end);
     }
     EXPECT_TRUE(vulkan.buffers.empty());
@@ -50,7 +50,7 @@ TEST(BufferSet, TakesAsManyAllocationsAsTheDeviceWants) {
         memories.insert(vulkan.buffers.at(set->buffer(i)).memory);
     }
     EXPECT_EQ(memories.size(), 3u);
-    EXPECT_EQ(set->allocatedBytes(), 128u + 100u + 20u);
+    EXPECT_EQ(set->use().total(), 128u + 100u + 20u);
 }
 
 TEST(BufferSet, NamesTheBufferThatIsTooLarge) {
@@ -137,7 +137,7 @@ TEST(BufferSet, CountsByPurposeAndGivesBack) {
         EXPECT_EQ(set->use().of(MemoryPurpose::vertices), 54u + 100u) << "the gap before it is its own";
         EXPECT_EQ(set->use().of(MemoryPurpose::cages), 10u + 28u + 1u);
         EXPECT_EQ(set->use().of(MemoryPurpose::tables), 0u);
-        EXPECT_EQ(set->allocatedBytes(), 193u);
+        EXPECT_EQ(set->use().total(), 193u);
         EXPECT_EQ(set->use().allocations, 1u);
         const BufferSet moved = std::move(*set);
         Result<BufferSet> staging = BufferSet::create(vulkan.device, requests, MemoryKind::upload);

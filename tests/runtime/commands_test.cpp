@@ -206,7 +206,7 @@ TEST_P(Commanded, CommandsDoNotCountInstances) {
             EXPECT_EQ(recordOf(context, c, visible, 100).frames, two.frames) << visible;
         }
     }
-    EXPECT_EQ(device->validationMessageCount(), 0u);
+    EXPECT_EQ(device->validation()->messageCount(), 0u);
     (void)wrappedVulkan();
 }
 
@@ -220,7 +220,7 @@ TEST_P(Commanded, SplitDispatchesWriteTheSameBits) {
         for (const CommandCase& c : kFixedRates) {
             all[split ? 1 : 0].push_back(recordOf(context, c, 40, 40));
         }
-        EXPECT_EQ(device->validationMessageCount(), 0u);
+        EXPECT_EQ(device->validation()->messageCount(), 0u);
     }
     size_t bytes = 0;
     for (size_t c = 0; c < std::size(kFixedRates); ++c) {

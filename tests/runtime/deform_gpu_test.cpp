@@ -495,7 +495,7 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
                     cages[small ? 1 : 0].push_back(gpu.cage(i));
                 }
             }
-            EXPECT_EQ((*device)->validationMessageCount(), 0u);
+            EXPECT_EQ((*device)->validation()->messageCount(), 0u);
         }
         for (uint32_t i = 0; i < kInstances; ++i) {
             EXPECT_TRUE(sameBits(cages[0][i], cages[1][i])) << "mapping " << mapping << ", instance " << i;

@@ -130,7 +130,8 @@ uint32_t pixelsThatDiffer(const host::Picture& a, const host::Picture& b) {
 using DrawRanges = CrowdContexts;
 
 TEST_F(DrawRanges, OfAGroupAreDrawnByOneCall) {
-    ASSERT_TRUE(testDevice()->hasManyDraws());
+    const auto& features = *static_cast<const VkPhysicalDeviceFeatures2*>(testDevice()->enabledFeatures());
+    ASSERT_EQ(features.features.multiDrawIndirect, VK_TRUE) << "and shaderDrawParameters with it";
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     ASSERT_TRUE(own.valid());

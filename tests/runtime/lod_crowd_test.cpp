@@ -303,7 +303,7 @@ Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
         context.run(crowd.group());
         drawn.levelScale = view.statistics().levelScales[0];
         EXPECT_EQ(drawn.patches.size(), size_t{instances} * crowd.output().surface.patchCount);
-        EXPECT_EQ(device->validationMessageCount(), 0u);
+        EXPECT_EQ(device->validation()->messageCount(), 0u);
     }
     (void)wrappedVulkan();
     return drawn;

@@ -799,7 +799,7 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
             }
         }
         EXPECT_EQ(drawn.instances.size(), count);
-        EXPECT_EQ(device->validationMessageCount(), 0u);
+        EXPECT_EQ(device->validation()->messageCount(), 0u);
     }
     (void)wrappedVulkan();
     return drawn;

@@ -555,7 +555,7 @@ TEST_F(MotionFrames, WindowsOfInstancesMoveAlike) {
                 }
             }
         }
-        EXPECT_EQ((*device)->validationMessageCount(), 0u);
+        EXPECT_EQ((*device)->validation()->messageCount(), 0u);
         wrapped.maxStorageBufferRange = 0;
     }
 }

@@ -606,7 +606,7 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
                         static_cast<unsigned long long>(c.bytes));
         }
     }
-    EXPECT_EQ((*device)->validationMessageCount(), 0u);
+    EXPECT_EQ((*device)->validation()->messageCount(), 0u);
 }
 
 } // namespace

@@ -188,7 +188,7 @@ TEST_F(Remake, CapacityThatThereIsNoMemoryForChangesNothing) {
         EXPECT_EQ(tubes.crowd->output().info.capacity, 6u);
         EXPECT_TRUE(tubes.drawn().size() == before.size());
     }
-    EXPECT_EQ(device->validationMessageCount(), 0u);
+    EXPECT_EQ(device->validation()->messageCount(), 0u);
 }
 
 TEST_P(RemakeOf, AssetIsReloadedInPlace) {

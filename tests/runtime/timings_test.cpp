@@ -56,7 +56,7 @@ void readsTimings(VkPhysicalDeviceType type, uint64_t& reads, uint64_t& copies) 
     }
     reads = currentWrappedVulkan().queryReads;
     copies = currentWrappedVulkan().queryCopies;
-    EXPECT_EQ(device->validationMessageCount(), 0u);
+    EXPECT_EQ(device->validation()->messageCount(), 0u);
 }
 
 TEST(Timings, OfCpuDevicesAreCopiedByTheCommandBuffer) {

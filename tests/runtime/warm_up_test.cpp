@@ -150,7 +150,7 @@ TEST(WarmUp, DispatchesWhatLaterFramesRunAndChangesNothing) {
         EXPECT_EQ(cold.size(), 0u) << "pipelines of " << wrapped.pipelinesBound.size() << " that frames run first";
         EXPECT_GT(wrapped.workgroups, 0u);
     }
-    EXPECT_EQ(device->validationMessageCount(), 0u);
+    EXPECT_EQ(device->validation()->messageCount(), 0u);
 }
 
 TEST(WarmUp, NeedsAFrameAndLivingGroups) {

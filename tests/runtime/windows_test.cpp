@@ -31,7 +31,7 @@ protected:
             ASSERT_TRUE(small.valid());
             body(small);
         }
-        EXPECT_EQ(device->validationMessageCount(), 0u);
+        EXPECT_EQ(device->validation()->messageCount(), 0u);
         wrapped.maxStorageBufferRange = 0;
     }
 };

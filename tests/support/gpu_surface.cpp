@@ -74,12 +74,12 @@ host::Device* testDevice() {
 
 ValidationGuard::ValidationGuard() {
     if (const host::Device* device = testDevice()) {
-        before_ = device->validationMessageCount();
+        before_ = device->validation()->messageCount();
     }
 }
 ValidationGuard::~ValidationGuard() {
     if (const host::Device* device = testDevice()) {
-        EXPECT_EQ(device->validationMessageCount(), before_) << "the validation layer spoke";
+        EXPECT_EQ(device->validation()->messageCount(), before_) << "the validation layer spoke";
     }
 }
 

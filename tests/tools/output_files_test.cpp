@@ -33,9 +33,11 @@ TEST_F(OutputFiles, SymbolicLinksAreNotFollowed) {
     for (const char* name : {"link.obj", "link.ply", "link.glb", "link.png", "link.json"}) {
         fs::create_symlink("precious", file(name));
     }
-    for (const char* arguments : {"bake cube.obj --rate 2 -o link.obj", "bake cube.obj --rate 2 -o link.ply",
-                                  "bake cube.obj --rate 2 -o link.glb", "render cube.obj --size 64x64 -o link.png",
-                                  "bake cube.obj --rate 2 --scheme pm -o out.obj --patches link.json"}) {
+    for (const char* arguments :
+         {"bake cube.obj --rate 2 -o link.obj", "bake cube.obj --rate 2 -o link.ply",
+          "bake cube.obj --rate 2 -o link.glb", "render cube.obj --size 64x64 -o link.png",
+          "sheet cube.obj --columns 1 --cell 32x32 -o link.png", "profile cube.obj --frames 2 --json link.json",
+          "bake cube.obj --rate 2 --scheme pm -o out.obj --patches link.json"}) {
         expectFailure(runOnDevice(arguments), 1, "is a symbolic link");
         EXPECT_EQ(readText(file("precious")), "precious") << arguments;
     }

@@ -56,7 +56,7 @@ protected:
     }
 
     void SetUp() override { ASSERT_NE(figure_, nullptr); }
-    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
+    void TearDown() override { EXPECT_EQ(device_->validation()->messageCount(), 0u); }
 
     static std::unique_ptr<FigureGroup> makeGroup(GroupOptions options = {.rate = 4}) {
         Result<std::unique_ptr<FigureGroup>> group = FigureGroup::create(*figure_, options);

@@ -50,7 +50,7 @@ protected:
     }
 
     void SetUp() override { ASSERT_NE(renderers_[1], nullptr); }
-    void TearDown() override { EXPECT_EQ(device_->validationMessageCount(), 0u); }
+    void TearDown() override { EXPECT_EQ(device_->validation()->messageCount(), 0u); }
 
     inline static std::unique_ptr<Device> device_;
     inline static std::unique_ptr<Context> context_;

@@ -30,6 +30,7 @@ struct Layout {
     [[nodiscard]] uint32_t columnX(uint32_t column) const { return kSheetGap + column * (2 * cell.width + kSheetGap); }
     [[nodiscard]] uint32_t width() const { return columnX(columns); }
     [[nodiscard]] uint32_t rowHeight() const { return label + cell.height + kSheetGap; }
+    [[nodiscard]] uint32_t height(size_t rows) const { return kSheetGap + static_cast<uint32_t>(rows) * rowHeight(); }
 };
 
 /// The clip of that name or index, else those of a list with commas.
@@ -125,8 +126,8 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
     if (!clips)
         return clips.error();
     const Layout layout{cell, options.columns, options.labels ? kSheetLabelHeight : 0};
-    // Row by row, so that memory does not grow with the clips, and a run that is stopped leaves the rows it has drawn.
-    host::PngWriter sheet(options.output, layout.width());
+    // Row by row, so that memory does not grow with the clips.
+    host::PngWriter sheet(options.output, layout.width(), layout.height(clips->size()), host::PngAlpha::leftOut);
     if (const Status status = sheet.append(blankSheet(layout.width(), kSheetGap)); !status)
         return status.error();
     host::Scene scene;
@@ -144,7 +145,7 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
             std::fflush(stdout);
         }
     }
-    return success();
+    return sheet.close();
 }
 
 } // namespace

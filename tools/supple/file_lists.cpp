@@ -1,5 +1,7 @@
 #include "tools/supple/file_browser.h"
 
+#include "host/whole_file.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -74,9 +76,11 @@ void rememberFile(const fs::path& list, const std::string& file) {
     std::erase(files, path);
     files.insert(files.begin(), path);
     fs::create_directories(list.parent_path(), fault);
-    std::ofstream out(list, std::ios::trunc);
+    std::string lines;
     for (size_t i = 0; i < std::min(files.size(), kRecentFiles); ++i)
-        out << files[i] << '\n';
+        lines += files[i] + '\n';
+    // Nothing depends on the list: if it cannot be written, the old one stays.
+    [[maybe_unused]] const Status written = host::writeWhole(list.string(), std::as_bytes(std::span(lines)));
 }
 
 } // namespace supple::tools

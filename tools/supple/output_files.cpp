@@ -1,5 +1,7 @@
 #include "tools/supple/output_files.h"
 
+#include "host/whole_file.h"
+
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
@@ -24,6 +26,8 @@ std::string whyNotWritable(const std::string& text) {
     const fs::path path(text);
     if (fs::is_directory(path, unknown))
         return "is a folder";
+    if (host::isRefusedLink(text))
+        return "is a symbolic link";
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::exists(folder, unknown))
         return "there is no folder " + folder.string();

@@ -1238,7 +1238,6 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_P4 = 4,        /**< 25 */
     SUPPLE_PATCH_P5 = 5,        /**< 31 */
     SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_CATMULL_CLARK = SUPPLE_PATCH_FRAGMENT, /**< the name that it had up to 0.2 */
     SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
     SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
     SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
