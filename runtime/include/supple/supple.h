@@ -15,10 +15,10 @@
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
- *     fills. If a field has a default, zero means the default. A field whose comment gives a
- *     least value above 0 must be set. Later versions add fields at the end only.
- *     Missing trailing fields read as zero. Unknown trailing fields must be zero, and come back as zero. Structs
- *     without structSize never change. A structSize of 0 is refused by name.
+ *     fills. If a field has a default, zero means the default. A field whose comment gives a least value above 0 must
+ *     be set. Later versions add fields at the end only. Missing trailing fields read as zero. Unknown trailing fields
+ *     must be zero, and come back as zero. Structs without structSize never change. A structSize of 0 is refused by
+ *     name.
  *   - Matrices are column-major float[16] for column vectors. Space is right-handed with +Y up, as in glTF. Angles are
  *     radians, times are seconds.
  *   - Pointers in a description are read during the call only, unless a comment says otherwise.
@@ -36,8 +36,8 @@
  *
  * Errors
  *   - Errors are negative results. The log callback gets the reason, with an id that is the same in all versions.
- *     A file or a cage with several faults has one line for each. There may be no line for suppleQueryRequirements, a
- * null context and SUPPLE_ERROR_HOST_MEMORY.
+ *     A file or a cage with several faults has one line for each. There may be no line for suppleQueryRequirements,
+ *     for a null context and for SUPPLE_ERROR_HOST_MEMORY.
  *   - A call that fails has done nothing, unless its comment says otherwise. suppleCreate... may set *out to null.
  *   - Once a call has returned SUPPLE_ERROR_DEVICE_LOST, so does every later call that needs the device. Destroying
  *     still works.
