@@ -786,11 +786,11 @@ typedef struct SuppleGroupDesc {
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
-     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK and BLEND ignore
-     * `rate` and have a SuppleLevelOutput. With FRAGMENTS each instance gets the rate that its level asks for,
-     * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
-     * count in SuppleCameraDesc.vertexBudget. */
+     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK, LOOP and BLEND
+     * ignore `rate` and have a SuppleLevelOutput. With FRAGMENTS, and LOOP where it is refined, each instance gets the
+     * rate that its level asks for, at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is
+     * drawn as it is. The vertices of FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's
+     * maxVertices, but count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
@@ -815,8 +815,9 @@ typedef struct SuppleGroupDesc {
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
- * take long. So create one group of each kind while loading, with a pipeline cache. Errors: a cage that the scheme
- * cannot take, limits of the device or of the view, memory. */
+ * take long. So create groups while loading, with a pipeline cache: docs/integration.md says which groups need the same
+ * pipelines. Errors: a cage that the scheme cannot take, limits of the device, a view that is full (SuppleViewDesc),
+ * memory. */
 SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGroupDesc* desc, SuppleGroup* out);
 /** Also destroys its instances. The handle is dead at once. The memory is freed when the frames that used the group are
  * complete (suppleBeginFrame). */
@@ -1055,8 +1056,8 @@ typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
     SUPPLE_TESSELLATION_INDEXED_MESH = 2, /**< one mesh per instance: SuppleGridOutput */
-    /** Subdivision in a view: grids, and a rate per instance. POLYGONS in a view: one mesh per instance, and one rate.
-     * SuppleGridOutput. */
+    /** FRAGMENTS in a view, and LOOP where it is refined: grids, and a rate per instance. POLYGONS in a view: one mesh
+     * per instance, and one rate. SuppleGridOutput. */
     SUPPLE_TESSELLATION_RATES = 3,
     SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
 } SuppleTessellation;
