@@ -109,7 +109,6 @@ private:
     [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
-    /// Groups that take the places of others, once all are made.
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none
@@ -117,6 +116,7 @@ private:
         std::shared_ptr<Asset> asset; ///< null: they keep theirs
         const AssetMatch& match;
     };
+    /// A group that takes the place of another, once all are made.
     struct Remade {
         uint64_t id = 0;
         std::shared_ptr<Group> group;

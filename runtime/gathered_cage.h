@@ -20,8 +20,9 @@ public:
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
     /// Vertices from one instance to the next.
     [[nodiscard]] uint32_t stride() const;
-    /// Behind the deform pass.
+    /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const;
+    /// Behind the deform pass.
     PassCost record(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const;
 
 private:

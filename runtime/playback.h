@@ -69,9 +69,9 @@ public:
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
     void cancelUpload(uint64_t frame);
 
-    /// The pass over `count` instances of a window, whose entries of the list begin at `first`.
     enum class Part { locals, roots, palette };
     static constexpr Part kParts[] = {Part::locals, Part::roots, Part::palette};
+    /// A part of the pass over `count` instances of a window, whose entries of the list begin at `first`.
     void record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const;
     /// Without there is nothing to record of the roots.
     [[nodiscard]] bool hasRoots() const { return roots_; }

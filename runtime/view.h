@@ -58,10 +58,10 @@ public:
     [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || clear_.due(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
-    /// `priorities`: bits of those that instances have.
     /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const;
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
+    /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const;
     /// What an instance of a group has: patches of the view's, and surface vertices of the budget at its coarsest.
     struct SolvedGroup {

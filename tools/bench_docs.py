@@ -4,7 +4,7 @@
 supple bench --rounds 7 --json result.json --plots plots > tables.txt; tools/bench_docs.py tables.txt plots
 
 Each table under "### Results: lavapipe" is replaced by the one of the same cage and the same first cell. The text
-between them is about the run before: read it again.
+between them is about the run before: read it again. "How old the figures are" at the top of the page, too.
 """
 
 import pathlib

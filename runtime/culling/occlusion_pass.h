@@ -13,7 +13,7 @@ class OcclusionPass {
 public:
     [[nodiscard]] static Result<OcclusionPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
 
-    /// Bounds, states and the host's list as in BoundsPass::layout(); the pyramid by writePyramid().
+    /// Bounds, states and the host's list at the bindings of shaders/shared/bounds.h; the pyramid by writePyramid().
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// A view of all levels of a sampled image with one component of 32-bit floats; `imageLayout` as it is when the
     /// pass runs.

@@ -32,7 +32,7 @@ protected:
 
     /// Takes the vertices that layOut() has counted, without padding.
     [[nodiscard]] Status setVertexCount(uint64_t vertices);
-    /// Lays out one mesh per instance: its index buffer, and a draw range per material at the end of draws_.
+    /// Lays out one mesh per instance: its index buffer, and a draw range per material and part at the end of draws_.
     [[nodiscard]] Result<std::vector<std::byte>> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
     [[nodiscard]] Status createIndices(std::span<const std::byte> indices);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;

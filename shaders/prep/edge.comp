@@ -1,4 +1,4 @@
-// Edge stage of p-rep: the four coefficients of the bi-5 perturbation (SMI 2008, section 4, corrected as docs/prep.md).
+// Edge stage of p-rep: the four coefficients of the bi-5 perturbation (equations (8) and (9), corrected as docs/prep.md).
 // The perturbation belongs to the edge: both patches read the same words. It is linear in six vectors, with weights that
 // depend on the two valences only. One invocation a perturbed edge and instance.
 #version 460

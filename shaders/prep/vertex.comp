@@ -1,4 +1,4 @@
-// Vertex stage of p-rep: limit point, spoke tangents, face coefficients (SMI 2008, eqs. (2)-(4), corrected as docs/prep.md).
+// Vertex stage of p-rep: limit point, spoke tangents, face coefficients (equations (2) to (4), corrected as docs/prep.md).
 // One invocation a cage vertex and instance. Interior vertices of valence 4 have
 // their weights as constants.
 #version 460

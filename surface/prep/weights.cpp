@@ -1,4 +1,5 @@
-// Equation numbers are those of "GPU Smoothing of Quad Meshes"; docs/prep.md says where we depart from the print.
+// Equation numbers are those of "GPU Conversion of Quad Meshes to Smooth Surfaces"; docs/prep.md says where we depart
+// from the print.
 #include "surface/prep/weights.h"
 
 #include "surface/valence.h"

@@ -1,6 +1,6 @@
 // The cage as the subdivision sees it: refined to the isolated level, and cut into fragments. The isolated level is the
 // first at which no vertex of a fragment but its centre is irregular. Depends on connectivity and sharpness only; built
-// once per asset. Paper and numbers: docs/subdivision.md.
+// once per asset. Papers and numbers: docs/subdivision.md.
 #pragma once
 
 #include "base/result.h"

@@ -1,5 +1,6 @@
-// Equation numbers are those of "GPU Smoothing of Quad Meshes"; docs/prep.md says where we depart from the print.
-// Arithmetic here must round as written (no contraction, no reassociation): the bits of shared borders depend on it.
+// Equation numbers are those of "GPU Conversion of Quad Meshes to Smooth Surfaces"; docs/prep.md says where we depart
+// from the print. Arithmetic here must round as written (no contraction, no reassociation): the bits of shared borders
+// depend on it.
 #include "tools/reference/prep.h"
 
 #include <cassert>

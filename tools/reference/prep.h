@@ -1,6 +1,6 @@
-// p-rep on the CPU, in float or double, with the stages of the shaders. For tests and comparisons. Paper: T. Ni, Y.
-// Yeo, A. Myles, V. Goel, J. Peters, "GPU Smoothing of Quad Meshes", SMI 2008. Formulas: docs/prep.md, where errors of
-// the paper are corrected.
+// p-rep on the CPU, in float or double, with the stages of the shaders. For tests and comparisons. Paper: A. Myles,
+// Y. I. Yeo, J. Peters, "GPU Conversion of Quad Meshes to Smooth Surfaces", SPM 2008. Formulas: docs/prep.md, where
+// errors of the paper are corrected.
 #pragma once
 
 #include "cage/topology.h"

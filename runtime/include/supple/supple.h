@@ -15,10 +15,10 @@
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
- *     fills. If a field has a default, zero means the default. A field whose comment gives a
- *     least value above 0 must be set. Later versions add fields at the end only.
- *     Missing trailing fields read as zero. Unknown trailing fields must be zero, and come back as zero. Structs
- *     without structSize never change. A structSize of 0 is refused by name.
+ *     fills. If a field has a default, zero means the default. A field whose comment gives a least value above 0 must
+ *     be set. Later versions add fields at the end only. Missing trailing fields read as zero. Unknown trailing fields
+ *     must be zero, and come back as zero. Structs without structSize never change. A structSize of 0 is refused by
+ *     name.
  *   - Matrices are column-major float[16] for column vectors. Space is right-handed with +Y up, as in glTF. Angles are
  *     radians, times are seconds.
  *   - Pointers in a description are read during the call only, unless a comment says otherwise.
@@ -36,8 +36,8 @@
  *
  * Errors
  *   - Errors are negative results. The log callback gets the reason, with an id that is the same in all versions.
- *     A file or a cage with several faults has one line for each. There may be no line for suppleQueryRequirements, a
- * null context and SUPPLE_ERROR_HOST_MEMORY.
+ *     A file or a cage with several faults has one line for each. There may be no line for suppleQueryRequirements,
+ *     for a null context and for SUPPLE_ERROR_HOST_MEMORY.
  *   - A call that fails has done nothing, unless its comment says otherwise. suppleCreate... may set *out to null.
  *   - Once a call has returned SUPPLE_ERROR_DEVICE_LOST, so does every later call that needs the device. Destroying
  *     still works.
@@ -786,11 +786,11 @@ typedef struct SuppleGroupDesc {
     SuppleSkinning skinning;
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
-     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK and BLEND ignore
-     * `rate` and have a SuppleLevelOutput. With FRAGMENTS each instance gets the rate that its level asks for,
-     * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
-     * FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but
-     * count in SuppleCameraDesc.vertexBudget. */
+     * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK, LOOP and BLEND
+     * ignore `rate` and have a SuppleLevelOutput. With FRAGMENTS, and LOOP where it is refined, each instance gets the
+     * rate that its level asks for, at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is
+     * drawn as it is. The vertices of FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's
+     * maxVertices, but count in SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
@@ -815,8 +815,9 @@ typedef struct SuppleGroupDesc {
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
- * take long. So create one group of each kind while loading, with a pipeline cache. Errors: a cage that the scheme
- * cannot take, limits of the device or of the view, memory. */
+ * take long. So create groups while loading, with a pipeline cache: docs/integration.md says which groups need the same
+ * pipelines. Errors: a cage that the scheme cannot take, limits of the device, a view that is full (SuppleViewDesc),
+ * memory. */
 SUPPLE_API SuppleResult suppleCreateGroup(SuppleContext context, const SuppleGroupDesc* desc, SuppleGroup* out);
 /** Also destroys its instances. The handle is dead at once. The memory is freed when the frames that used the group are
  * complete (suppleBeginFrame). */
@@ -1055,8 +1056,8 @@ typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
     SUPPLE_TESSELLATION_INDEXED_MESH = 2, /**< one mesh per instance: SuppleGridOutput */
-    /** Subdivision in a view: grids, and a rate per instance. POLYGONS in a view: one mesh per instance, and one rate.
-     * SuppleGridOutput. */
+    /** FRAGMENTS in a view, and LOOP where it is refined: grids, and a rate per instance. POLYGONS in a view: one mesh
+     * per instance, and one rate. SuppleGridOutput. */
     SUPPLE_TESSELLATION_RATES = 3,
     SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
 } SuppleTessellation;

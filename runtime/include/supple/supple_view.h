@@ -10,8 +10,8 @@
  * All groups of a view write into the view's surface vertices. Before a frame writes any, it counts how many they want.
  * If these do not fit, a factor that changes continuously scales all levels down (docs/lod.md).
  *
- * Subdivision by refinement (FRAGMENTS) has no such levels per edge. Each instance is drawn at one of several rates, and
- * jumps from one to the next, which may be seen.
+ * Subdivision by refinement (FRAGMENTS, and LOOP with semi-sharp creases) has no such levels per edge. Each instance is
+ * drawn at one of several rates, and jumps from one to the next, which may be seen.
  */
 #ifndef SUPPLE_VIEW_H
 #define SUPPLE_VIEW_H
@@ -39,7 +39,7 @@ typedef enum SuppleViewFlags {
      * only if you draw front faces (counter-clockwise) alone, and from this camera alone. Irregular patches of
      * CATMULL_CLARK and LOOP stay, and all of BLEND. */
     SUPPLE_VIEW_BACK_FACES = 64,
-    /** With ATTRIBUTES: write tangents. Groups with one of several rates have none. */
+    /** With ATTRIBUTES: write tangents. */
     SUPPLE_VIEW_TANGENTS = 128
 } SuppleViewFlags;
 
