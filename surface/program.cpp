@@ -11,6 +11,9 @@ std::vector<DispatchSize> sizesOf(std::initializer_list<const Steps*> passes) {
     std::vector<DispatchSize> sizes;
     for (const Steps* steps : passes) {
         for (const Step& step : *steps) {
+            if (step.size.isOneGroup()) {
+                continue;
+            }
             sizes.resize(std::max<size_t>(sizes.size(), step.argument + 1));
             sizes[step.argument] = step.size;
         }
@@ -32,7 +35,9 @@ void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<
         std::memcpy(push.data(), &window.push, sizeof(window.push));
         gpu::bind(device, commandBuffer, step.kernel, window.sets[static_cast<size_t>(step.sets)],
                   std::span<const std::byte>(push).first(step.pushBytes));
-        if (window.arguments != VK_NULL_HANDLE) {
+        if (step.size.isOneGroup()) {
+            device.vk.CmdDispatch(commandBuffer, 1, 1, 1);
+        } else if (window.arguments != VK_NULL_HANDLE) {
             device.vk.CmdDispatchIndirect(commandBuffer, window.arguments,
                                           window.firstArgument + step.argument * window.argumentStride);
         } else {

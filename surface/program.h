@@ -52,6 +52,10 @@ enum class Order : uint32_t {
 struct DispatchSize {
     uint32_t elements = 0; ///< lanes, patches or fragments
     uint32_t perGroup = 1;
+
+    /// One workgroup, however many instances there are. If there are none, it writes that there are none.
+    [[nodiscard]] static constexpr DispatchSize oneGroup() { return {1, 0}; }
+    [[nodiscard]] constexpr bool isOneGroup() const { return perGroup == 0; }
 };
 
 /// One dispatch per window.
@@ -60,7 +64,7 @@ struct Step {
     SetKind sets = SetKind::construct;
     Order order = Order::free;
     DispatchSize size;     ///< has at least one element
-    uint32_t argument = 0; ///< its number among the window's arguments
+    uint32_t argument = 0; ///< its number among the window's arguments; a step of one workgroup has none
     /// The push constants. They begin with shared::WindowPush, which recording fills in.
     std::array<std::byte, gpu::kPushConstantBytes> push{};
     uint32_t pushBytes = 0;

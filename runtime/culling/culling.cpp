@@ -300,6 +300,7 @@ surface::Window Culling::window(uint32_t window, size_t surface) const {
     surface::Window result;
     result.push.firstInstance = windows_->firstEntry(window);
     result.push.instanceCount = (firstArgument() + kListHeaderWords * (1 + window)) | kCountOnDevice;
+    result.push.slots = windows_->slots(window);
     result.push.firstSlot = windows_->firstSlot(window);
     result.arguments = list_.buffer();
     result.firstArgument = (arguments + VkDeviceSize{3} * places_[surface].firstArgument) * kWordBytes;

@@ -65,6 +65,7 @@ public:
         surface::Window result;
         result.push.firstInstance = windows.firstEntry(window);
         result.push.instanceCount = windows.listed[window].count;
+        result.push.slots = windows.slots(window);
         result.push.firstSlot = windows.firstSlot(window);
         return result;
     }

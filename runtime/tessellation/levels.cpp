@@ -76,6 +76,7 @@ Status Levels::begin() {
     if (!built) {
         return built;
     }
+    evaluation_.verticesPerInstance = view()->desc().maxVertices;
     Result<surface::Program> program = programFor(tables(), levelNeeds(), evaluation_);
     if (!program) {
         return program.error();
@@ -178,13 +179,13 @@ VkDeviceSize Levels::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame,
 surface::Window Levels::levelWindow(uint32_t window) const {
     surface::Window result = seen(window);
     result.push.firstRun = firstRun_ + window * runs();
-    result.push.firstBucket = firstRun_ * kLodBucketStride + window * runs() * kCapacityCount;
     return result;
 }
 
 surface::Window Levels::placed(uint32_t window, const surface::Sets& sets) const {
     surface::Window result;
     result.sets = sets;
+    result.push.slots = windows().slots(window);
     result.push.firstSlot = windows().firstSlot(window);
     result.push.firstRun = firstRun_ + window * runs();
     result.arguments = view()->words();

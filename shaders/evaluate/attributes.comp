@@ -7,13 +7,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/surface/tables.glsl"
+#include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/evaluate/domain.glsl"
 #include "shaders/evaluate/sectors.glsl"
 #include "shaders/evaluate/pentagon.glsl"
-#include "shaders/lod/record.glsl"
 
 #if defined(BICUBIC) || defined(SECTORS) || defined(BLEND) || defined(SAMPLES) || defined(QUADS) || defined(TRIANGLES)
 #define SMOOTH
@@ -26,6 +26,9 @@ const bool kRings = true; // with level of detail: samples lie in rings round a 
 #else
 const bool kRings = false;
 #endif
+const uint kForm = !kRings ? kLodQuadForm : kDomain == kTriangleDomain ? kLodTriangleForm
+                   : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
+#include "shaders/lod/record.glsl"
 layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, .. where they are written
 layout(constant_id = kSectorsConstant) const bool kSectors = false;
 const bool kDirections = (kOutputs & kOutputDirections) != 0u;
@@ -380,8 +383,8 @@ void evaluateWideLod(uint form) {
     uint place = gl_LocalInvocationID.x / share.samples;
     if (place >= share.count) return;
     LodRecord r = localRecord(place);
-    if (r.patchIndex == kEmptyRecord) return;
-    Corners corners = loadCorners(r.patchIndex - push.firstPatch);
+    if (r.isEmpty) return;
+    Corners corners = loadCorners(r.patchIndex);
     for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x) {
 #ifdef SMOOTH
         storeSmooth(r.firstVertex + k, corners, lodCornerWeights(place, r, k), lodPlace(place, r, k));
@@ -408,7 +411,7 @@ Slopes slopesAtRate(Corners c, uint index) {
 void evaluateNarrowLod() {
     uint record = lodRecordElement(lodRecordOfLane());
     LodRecord r = lodRecordOf(lodElement(record));
-    Corners corners = loadCorners(r.patchIndex == kEmptyRecord ? 0u : r.patchIndex - push.firstPatch);
+    Corners corners = loadCorners(r.patchIndex);
 #if !defined(SMOOTH) || defined(RINGS)
     if (kRings) storeRings(record, r, corners);
 #endif
@@ -501,9 +504,6 @@ void storeOnEdge(uint id) {
 
 void main() {
 #ifdef LEVELS
-    const uint kForm = !kRings ? kLodQuadForm
-                     : kDomain == kTriangleDomain ? kLodTriangleForm
-                     : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
 #ifdef WIDE
     evaluateWideLod(kForm);
 #else

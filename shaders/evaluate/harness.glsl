@@ -28,8 +28,8 @@ struct PatchPlace {
 #ifdef LEVELS
 PatchPlace placeOf(const LodRecord r) {
     setPast(r.isNew);
-    return PatchPlace(push.table + kRecordElements * (r.patchIndex - push.firstPatch), r.slot * push.poolStride, r.firstVertex,
-                      r.firstVertex, r.capacity, r.capacityIndex, r.isNew, r.patchIndex == kEmptyRecord);
+    return PatchPlace(push.table + kRecordElements * r.patchIndex, r.slot * push.poolStride, r.firstVertex, r.firstVertex,
+                      r.capacity, r.capacityIndex, r.isNew, r.isEmpty);
 }
 #else
 PatchPlace placeOf(uint item) {
@@ -55,12 +55,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord); // with its patterns: r
 
 void main() {
     uint record = lodRecordElement(lodRecordOfLane());
-    PatchPlace at = placeOf(lodRecordOf(lodElement(record)));
-    if (at.empty) { // any coefficients will do
-        at.record = push.table;
-        at.base = 0u;
-    }
-    evaluatePatch(at, record);
+    evaluatePatch(placeOf(lodRecordOf(lodElement(record))), record);
 }
 #else
 void evaluatePatch(const PatchPlace at);

@@ -16,10 +16,10 @@
 
 #ifdef LEVELS
 #include "shaders/lod/levels.glsl"
-uint listedCount() { return levelWord(push.depths + kDepthCounts + push.first); }
+uint listedCount() { return min(levelWord(push.depths + kDepthCounts + push.first), instanceCount()); }
 uint itemOfList() { return min(invocationIndex(), push.count * listedCount() - 1u); }
 uint slotOfItem(uint item) {
-    return levelWord(levelBase(item / push.count) + push.depths + kDepthEntries + push.first) & kInstanceSlotMask;
+    return slotOf(levelWord(levelBase(item / push.count) + push.depths + kDepthEntries + push.first));
 }
 #else
 uint itemOfList() { return itemOfLane(); }

@@ -19,11 +19,11 @@ shared uvec4 countsOf[kMaxLanes];
 
 // A segment is 1 / level long, or more; but one that grows from nothing lies in the cone of the last cell (exact/chain_level.glsl).
 uint depthOf(uint i, uint entry) {
-    uint instance = entry & kInstanceSlotMask;
+    uint instance = slotOf(entry);
     float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + push.depths));
     level = clamp(level * uintBitsToFloat(lodWord(kLodSolution + 4u + SUPPLE_INSTANCE_PRIORITY(entry))), 1.0, 63.0);
     // A level above 2^(n - 1), up to 2^n, gives n.
-    return max((floatBitsToUint(level) - 1u >> 23u) - 126u, kFirstDepth - 1u);
+    return clamp((floatBitsToUint(level) - 1u >> 23u) - 126u, kFirstDepth - 1u, kFirstDepth + kDepths - 1u);
 }
 uvec4 depthsOf(uint depth) {
     return uvec4(greaterThanEqual(uvec4(depth), kFirstDepth + uvec4(0u, 1u, 2u, 3u)));
@@ -50,7 +50,7 @@ void main() {
         counts += one;
     }
     for (uint i = begin; i < end; ++i) {
-        uint entry = instanceEntry(i), instance = entry & kInstanceSlotMask, depth = depthOf(i, entry);
+        uint entry = instanceEntry(i), instance = slotOf(entry), depth = depthOf(i, entry);
         pool[instance * push.poolStride + push.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
         uvec4 listed = depthsOf(depth);
         [[dont_unroll]] for (uint d = 0u; d < kDepths; ++d) {

@@ -416,7 +416,7 @@ bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool insid
 void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
     uint item = itemOfLane(), patchIndex = push.first + elementOf(item), listed = entryOf(item);
-    uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
+    uint instance = slotOf(listed), priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), base = instance * push.poolStride;
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
     uint patchClass = more.w & ((1u << kLodPartShift) - 1u), part = more.w >> kLodPartShift;
@@ -455,7 +455,7 @@ void main() {
     }
 
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
-    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));
+    uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * float(kSplitUnit)), kSplitUnit);
     if (inside) {
         scratchWords[target] = counted ? bin : kNoBin;
         scratchWords[target + 1u] = floatBitsToUint(own.x);

@@ -27,24 +27,26 @@ void main() {
         barrier();
     }
     uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
-    uint instance = listed & kInstanceSlotMask, priority = SUPPLE_INSTANCE_PRIORITY(listed);
+    uint instance = slotOf(listed), priority = SUPPLE_INSTANCE_PRIORITY(listed);
     uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
     uint bin = levelWord(at);
     vec2 own = uintBitsToFloat(uvec2(levelWord(at + 1u), levelWord(at + 2u)));
     uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
     bool drawn = invocationIndex() < itemCount() && bin != kNoBin;
     uint capacity = 0u;
-    if (drawn) capacity = lodWord(kLodCapacities + priority * kLodBinStride + bin);
+    if (drawn) capacity = min(lodWord(kLodCapacities + priority * kLodBinStride + min(bin, kLodBins - 1u)), kCapacityCount - 1u);
 
     // A place in the bucket. On GPUs a workgroup takes its places together.
-    uint local = more.y * kCapacityCount + capacity, bucket = kLodBuckets + 4u * (push.window.firstBucket + local);
+    uint local = more.y * kCapacityCount + capacity, firstBucket = bucketIndex(lodWord(kLodRuns + push.window.firstRun),
+                                                                               push.window.firstRun, 0u);
+    uint bucket = kLodBuckets + 4u * (firstBucket + local);
     uint place = 0u;
     if (kWide) {
         if (drawn) place = atomicAdd(taken[local], 1u);
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (push.window.firstBucket + i) + 2u], n);
+            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (firstBucket + i) + 2u], n);
         }
         barrier();
         place += taken[local];
@@ -83,6 +85,7 @@ void main() {
     }
     uint samples = formSamples(form, capacityOf(capacity));
     uint to = kLodRecords / 4u + kLodRecordWords / 4u * (lodWord(bucket) + place);
+    if (to + kLodRecordWords / 4u > uint(lodTargets.length())) return;
     lodTargets[to] = uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
                            lodWord(bucket + 1u) + place * samples, capacity);
     lodTargets[to + 1u] = uvec4(pairs[0], pairs[1]);

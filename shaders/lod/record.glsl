@@ -3,6 +3,8 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/pattern.glsl"
 
+// Before the include: kForm, of the grids.
+
 // Records of a view, else all patches at one rate. A macro: what either does without need not be compiled when a pipeline
 // is made.
 #ifdef LEVELS
@@ -12,7 +14,8 @@ const bool kLod = false;
 #endif
 
 struct LodRecord {
-    uint patchIndex; // in device order, or kEmptyRecord
+    uint patchIndex; // of the range
+    bool isEmpty;
     uint slot;       // of the window
     bool isNew;
     uint firstVertex;
@@ -20,14 +23,16 @@ struct LodRecord {
 };
 
 uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * index) / 4u; }
+// Whatever the words are, the record names a patch, a slot, vertices and a grid that there are. That of an empty one is any patch.
 LodRecord lodRecordOf(uvec4 head) {
     LodRecord r;
-    r.patchIndex = head.x;
-    r.slot = (head.y & kInstanceSlotMask) - push.window.firstSlot;
+    r.patchIndex = min(head.x - push.firstPatch, push.count - 1u);
+    r.isEmpty = head.x == kEmptyRecord;
+    r.slot = min((head.y & kInstanceSlotMask) - push.window.firstSlot, push.window.slots - 1u);
     r.isNew = (head.y & kInstanceIsNew) != 0u;
-    r.firstVertex = head.z;
-    r.capacityIndex = head.w;
-    r.capacity = capacityOf(head.w);
+    r.capacityIndex = min(head.w, kCapacityCount - 1u);
+    r.capacity = capacityOf(r.capacityIndex);
+    r.firstVertex = min(head.z, push.verticesPerInstance - formSamples(kForm, r.capacity));
     return r;
 }
 // Pattern k of a record, whose elements begin at `element`.
@@ -48,7 +53,7 @@ uint ringSideStart(uint m, uint ring, uint side, uint capacity) {
 }
 RingSample ringSample(uint m, uint capacity, uint index) {
     uint ring = 0u;
-    while (ringStart(m, ring + 1u, capacity) <= index) ++ring;
+    for (; ring < (capacity + 1u) / 2u && ringStart(m, ring + 1u, capacity) <= index; ++ring) {}
     uint at = index - ringStart(m, ring, capacity), each = capacity - 2u * ring, side = at / each;
     return RingSample(ring, side, ring + at - side * each);
 }
@@ -71,7 +76,7 @@ struct Share {
 };
 Share lodShareOfGroup(uint form) {
     uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
-    uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = lodWord(at + 6u);
+    uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), kMaxRuns * kCapacityCount);
     Share share = Share(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
     uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
@@ -102,7 +107,7 @@ void loadRecords(Share share) {
     for (uint n = gl_LocalInvocationID.x; n < 6u * share.count; n += gl_WorkGroupSize.x) {
         uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.first + place);
         uvec4 head = lodElement(at);
-        LodPattern p = recordPattern(at, k, head.w);
+        LodPattern p = recordPattern(at, k, min(head.w, kCapacityCount - 1u));
         localPatternBits[n] = uvec2(p.full, p.fresh);
         localPatternWidths[n] = vec2(p.part, p.inverse);
         if (k == 0u) localHeads[place] = head;

@@ -12,6 +12,7 @@
 #include "shaders/shared/surface.h"
 #include "shaders/lod/lod.glsl"
 
+layout(set = 0, binding = kLodBinding, std430) writeonly buffer LodTargets { uvec4 lodTargets[]; };
 layout(push_constant) uniform Push { LodSolvePush push; };
 
 shared uint sumHigh[kMaxLanes], sumLow[kMaxLanes];
@@ -79,11 +80,8 @@ uint padded(uint count, uint samples) {
     uint n = patchesPerDraw(samples);
     return (count + n - 1u) / n * n;
 }
-// Where the bucket of a run and capacity stands, and among what dispatches count.
-uint bucketIndex(uint run, uint c) {
-    uint first = (lodWords[kLodRuns + run] >> 8u) & 255u; // of the group
-    return first * kLodBucketStride + (run - first) * kCapacityCount + c;
-}
+// Where the bucket of a run and capacity stands.
+uint bucketIndex(uint run, uint c) { return bucketIndex(lodWords[kLodRuns + run], run, c); }
 uint bucketWord(uint run, uint c) { return kLodBuckets + 4u * bucketIndex(run, c); }
 uint dispatchOf(uint run) { return lodWords[kLodRuns + run] >> 16u; }
 uint patchesPerGroup(uint samples) { return clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup); }
@@ -170,7 +168,7 @@ void main() {
                 lodWords[at + 3u] = group;
                 uint whole = padded(counts[b], samples), each = patchesPerGroup(samples);
                 counted += counts[b];
-                if (tooMany && whole * samples > room - vertex) {
+                if (whole > (room - vertex) / samples) { // only where even levels of 1 are too many
                     uint n = patchesPerDraw(samples);
                     whole = (room - vertex) / (n * samples) * n;
                     counts[b] = min(counts[b], whole);
@@ -211,10 +209,9 @@ void main() {
         lodWords[draw + 3u] = vertex;
         lodWords[draw + 4u] = 0u;
         for (uint i = counts[b]; i < whole; ++i) { // empty records: evaluation makes points of them
-            uint to = kLodRecords + kLodRecordWords * (record + i);
-            lodWords[to] = kEmptyRecord;
-            lodWords[to + 2u] = vertex + i * samples;
-            lodWords[to + 3u] = c;
+            uint to = (kLodRecords + kLodRecordWords * (record + i)) / 4u;
+            lodTargets[to] = uvec4(kEmptyRecord, 0u, vertex + i * samples, c);
+            for (uint k = 1u; k < kLodRecordWords / 4u; ++k) lodTargets[to + k] = uvec4(0u);
         }
     }
     for (uint run = lane; run < push.runCount; run += gl_WorkGroupSize.x) {

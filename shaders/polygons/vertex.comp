@@ -21,7 +21,7 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 }
 
 void main() {
-    uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = slotOf(entry);
     uvec4 record = tableElement(push.records + index);
     uint frame = instance * push.poolStride + record.x, vertex = instance * push.verticesPerInstance + push.firstVertex + index;
     if (kVertexFormat == kVertexPosition) {

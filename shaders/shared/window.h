@@ -11,10 +11,10 @@ SUPPLE_SHARED_BEGIN
 struct WindowPush {
     uint firstInstance; // of the window, in the list of instances (shared/instances.h)
     uint instanceCount; // or kCountOnDevice and where the count stands
+    uint slots;         // of the window: no count and no slot that the device has written is taken for more
     // Level of detail:
-    uint firstSlot;   // of the window, in the group
-    uint firstRun;    // of the window, in the view (shared/lod.h)
-    uint firstBucket; // likewise
+    uint firstSlot; // of the window, in the group
+    uint firstRun;  // of the window, in the view (shared/lod.h)
     // Previous positions: how far the origin of the coordinates has moved since the frame that they come from.
     float pastX, pastY, pastZ;
 };

@@ -31,7 +31,7 @@ void writePoint(uint at, vec3 p) {
 
 void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
-    uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = entry & kInstanceSlotMask;
+    uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = slotOf(entry);
     setPast(push.today != 0u && (entry & kInstanceIsNew) != 0u);
     uvec4 record = tableElement(push.records + elementOf(item));
     uint header = record.x, fragment = record.y;

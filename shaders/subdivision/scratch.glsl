@@ -19,7 +19,7 @@ void findLane() {
     uint id = invocationIndex();
     uint block = min(id / kBlockLanes, itemCount() - 1u);
     lane.listed = entryOf(block);
-    lane.instance = lane.listed & kInstanceSlotMask;
+    lane.instance = slotOf(lane.listed);
     lane.record = push.records + 3u * elementOf(block);
     uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;

@@ -108,8 +108,7 @@ void addPatches(ProgramBuilder& builder, uint32_t& argument) {
 }
 
 /// Lists instances by how far their chains go, and makes these levels.
-void addDepths(ProgramBuilder& builder, uint32_t& argument) {
-    constexpr uint32_t kAll = 0x7FFFFFFF; // one workgroup
+void addDepths(ProgramBuilder& builder) {
     const LodTables& tables = builder.tables.lod;
     Program& program = builder.program;
     if (tables.depth == 0) {
@@ -118,7 +117,7 @@ void addDepths(ProgramBuilder& builder, uint32_t& argument) {
     shared::LodPush push = pushFor(builder, 0, 1);
     push.table = tables.depthLanes;
     const gpu::Kernel kernel = builder.kernel(SetKind::levels, Kernel::lodDepth, {}, "supple depths of chains");
-    builder.add(program.places, SetKind::levels, kernel, DispatchSize{1, kAll}, push, argument++, Order::after);
+    builder.add(program.places, SetKind::levels, kernel, DispatchSize::oneGroup(), push, 0, Order::after);
     program.firstDepthDispatch = depthWords(tables) + shared::kDepthDispatches;
     uint32_t depth = 0;
     for (const Construction& c : builder.tables.constructions) {
@@ -148,7 +147,7 @@ void addSteps(ProgramBuilder& builder) {
         addEdges(builder, argument);
     }
     addPatches(builder, argument);
-    addDepths(builder, argument);
+    addDepths(builder);
     // Behind the solver. Between windows places are taken with atomics, but to synchronization validation the view's
     // words are one resource.
     const shared::LodPush push = pushFor(builder, 0, tables.patches.count);
