@@ -246,6 +246,29 @@ private:
     std::vector<DraftPatch> patches_;
 };
 
+/// What the cage has and p-rep has not.
+std::vector<std::string> notesOn(const cage::Cage& cage) {
+    cage::Found creases, vertices;
+    for (const cage::Crease& crease : cage.creases) {
+        if (crease.sharpness > 0.0f) {
+            creases.add([&] { return "edge (" + std::to_string(crease.a) + ", " + std::to_string(crease.b) + ")"; });
+        }
+    }
+    for (const cage::SharpVertex& sharp : cage.sharpVertices) {
+        if (sharp.sharpness > 0.0f) {
+            vertices.add([&] { return "vertex " + std::to_string(sharp.vertex); });
+        }
+    }
+    std::vector<std::string> notes;
+    if (creases.count > 0) {
+        notes.push_back("p-rep has no creases: " + creases.told("crease is drawn smooth", "creases are drawn smooth"));
+    }
+    if (vertices.count > 0) {
+        notes.push_back("p-rep has no sharp vertices: " + vertices.told("is drawn smooth", "are drawn smooth"));
+    }
+    return notes;
+}
+
 } // namespace
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
@@ -272,7 +295,11 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    return Builder(cage, *topology, recipe).build();
+    Result<Tables> tables = Builder(cage, *topology, recipe).build();
+    if (tables) {
+        tables->notes = notesOn(cage);
+    }
+    return tables;
 }
 
 } // namespace supple::surface::prep

@@ -4,7 +4,10 @@
 //
 // SUPPLE_POISON says with what: ff, 3f, 01 (bytes), nan (floats), random, zero, or each: one of the first five, by the
 // arguments of the program and the number of the allocation, so that it changes by test and is the same every time.
-// Without the variable nothing is filled, and neither is memory that the host cannot map.
+// Without the variable nothing is filled. Memory that the host cannot map never is.
+//
+// SUPPLE_POISON_GPU=1 makes the layer call every device a GPU. So lavapipe takes the path of one wherever nobody
+// chooses a mapping.
 //
 // Tests let `operator new` fail and count its calls, also those of a library. So nothing here calls it, but for what
 // makes a device.
@@ -25,6 +28,8 @@ struct Instance {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkDestroyInstance destroyInstance = nullptr;
     PFN_vkGetPhysicalDeviceMemoryProperties getMemoryProperties = nullptr;
+    PFN_vkGetPhysicalDeviceProperties getProperties = nullptr;
+    PFN_vkGetPhysicalDeviceProperties2 getProperties2 = nullptr;
 };
 struct Device {
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
@@ -182,6 +187,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
     next.destroyInstance = as<PFN_vkDestroyInstance>(next.getInstanceProcAddr(*handle, "vkDestroyInstance"));
     next.getMemoryProperties = as<PFN_vkGetPhysicalDeviceMemoryProperties>(
         next.getInstanceProcAddr(*handle, "vkGetPhysicalDeviceMemoryProperties"));
+    next.getProperties =
+        as<PFN_vkGetPhysicalDeviceProperties>(next.getInstanceProcAddr(*handle, "vkGetPhysicalDeviceProperties"));
+    next.getProperties2 =
+        as<PFN_vkGetPhysicalDeviceProperties2>(next.getInstanceProcAddr(*handle, "vkGetPhysicalDeviceProperties2"));
     instances().add(*handle, next);
     return VK_SUCCESS;
 }
@@ -224,6 +233,23 @@ VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice handle, const VkAllocationCall
     }
 }
 
+void pretend(VkPhysicalDeviceProperties& properties) {
+    const char* const wish = std::getenv("SUPPLE_POISON_GPU");
+    if (wish != nullptr && is(wish, "1")) {
+        properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice physical, VkPhysicalDeviceProperties* properties) {
+    instances().find(physical).getProperties(physical, properties);
+    pretend(*properties);
+}
+
+VKAPI_ATTR void VKAPI_CALL getProperties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* properties) {
+    instances().find(physical).getProperties2(physical, properties);
+    pretend(properties->properties);
+}
+
 template <class Function>
 PFN_vkVoidFunction asVoid(Function function) {
     return reinterpret_cast<PFN_vkVoidFunction>(function);
@@ -257,6 +283,12 @@ VK_LAYER_EXPORT VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL supplePoisonGetInstance
     }
     if (is(name, "vkDestroyInstance")) {
         return asVoid(&destroyInstance);
+    }
+    if (is(name, "vkGetPhysicalDeviceProperties")) {
+        return asVoid(&getProperties);
+    }
+    if (is(name, "vkGetPhysicalDeviceProperties2")) {
+        return asVoid(&getProperties2);
     }
     if (is(name, "vkCreateDevice")) {
         return asVoid(&createDevice);

@@ -31,7 +31,7 @@ constexpr const char* kRandomEdge = R"(
 /// And capacities up to four octaves above what a patch needs.
 constexpr const char* kRandomCapacity = R"(
     at = min(at + float((patchIndex * 2654435761u) >> 24u), 895.0);
-    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));)";
+    uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * float(kSplitUnit)), kSplitUnit);)";
 
 } // namespace
 
@@ -44,9 +44,11 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
                                        kRandomEdge, macros + borders));
     };
     const auto patchLevels = [&](const std::string& borders) {
-        return optimized(compileEdited("lod/patch.comp",
-                                       "    uint bin = uint(at), weight = uint((at - float(bin)) * float(kSplitUnit));",
-                                       kRandomCapacity, macros + borders));
+        return optimized(
+            compileEdited("lod/patch.comp",
+                          "    uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * "
+                          "float(kSplitUnit)), kSplitUnit);",
+                          kRandomCapacity, macros + borders));
     };
     surface::Shaders shaders = surface::Shaders::embedded();
     using surface::Kernel;

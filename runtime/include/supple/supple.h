@@ -438,7 +438,7 @@ typedef enum SuppleScheme {
     /** Each part has the scheme that suits it: SupplePartInfo.scheme. The group has a surface per scheme. What a scheme
      * lacks of SUPPLE_GROUP_PATCHES and SUPPLE_GROUP_INDEXED_MESH its surface goes without. */
     SUPPLE_SCHEME_AUTO = 0,
-    SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch per face; creases are ignored */
+    SUPPLE_SCHEME_PREP = 1, /**< p-rep: quads, G1 at any valence, one patch per face; creases are drawn smooth */
     SUPPLE_SCHEME_PM = 2,   /**< P_m: any polygons, polar fans, creases; G1 except at creases, one patch per facet */
     /** The limit of Catmull-Clark subdivision by one patch per quad (docs/catmull_clark.md), at any rate: any polygons,
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */

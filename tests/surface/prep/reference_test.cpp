@@ -5,6 +5,7 @@
 #include "tests/support/prep_vectors.h"
 
 #include "cage/procedural.h"
+#include "surface/build.h"
 
 #include <functional>
 
@@ -313,6 +314,25 @@ TEST(PrepReference, perturbationOnlyWhereAValenceIsIrregular) {
         }
     }
     EXPECT_EQ(perturbed, 24u); // three quads round each cube corner
+}
+
+TEST(PrepTables, creasesAreSaidToBeSmooth) {
+    cage::Cage cage = test::cube();
+    const auto notes = [&] {
+        const Result<Tables> tables = build(Recipe{}, cage);
+        EXPECT_TRUE(tables.ok());
+        return tables ? tables->notes : std::vector<std::string>();
+    };
+    EXPECT_EQ(notes(), std::vector<std::string>());
+    const uint32_t a = cage.faceVertices[0], b = cage.faceVertices[1], c = cage.faceVertices[2];
+    cage.creases = {{a, b, 0.0f}, {b, c, 2.5f}};
+    const std::string edge = "edge (" + std::to_string(b) + ", " + std::to_string(c) + ")";
+    EXPECT_EQ(notes(), std::vector<std::string>{"p-rep has no creases: 1 crease is drawn smooth: " + edge});
+    cage.creases.push_back({a, b, 10.0f});
+    cage.sharpVertices = {{a, 10.0f}};
+    const std::vector<std::string> both{"p-rep has no creases: 2 creases are drawn smooth, the first is " + edge,
+                                        "p-rep has no sharp vertices: 1 is drawn smooth: vertex " + std::to_string(a)};
+    EXPECT_EQ(notes(), both);
 }
 
 } // namespace
