@@ -10,6 +10,6 @@ layout(push_constant) uniform Push { SizePush push; };
 void main() {
     uint index = invocationIndex();
     if (index >= push.instanceCount) return;
-    uint rank = states[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x;
+    uint rank = min(states[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x, kSizeRanks);
     if (rank > 0u) atomicAdd(sizes[rank - 1u], push.vertices);
 }
