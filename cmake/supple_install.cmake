@@ -30,6 +30,7 @@ install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.hpp
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_playback.h
+    ${supple_SOURCE_DIR}/runtime/include/supple/supple_prepare.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_tracy.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_view.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supple COMPONENT development)

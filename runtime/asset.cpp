@@ -1,8 +1,5 @@
 #include "runtime/asset.h"
 
-#include "skinning/deform_pass.h"
-
-#include <algorithm>
 #include <span>
 #include <string>
 
@@ -31,74 +28,43 @@ Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& 
     return buffers;
 }
 
-PartSummary summaryOf(const cage::Character& character, size_t part) {
-    const cage::Cage& cage = character.cage;
-    const uint32_t begin = character.parts[part].firstFace, end = cage::endFace(character, part);
-    PartSummary summary;
-    for (uint32_t f = begin; f < end; ++f) {
-        summary.materials.push_back(cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f]);
-    }
-    std::sort(summary.materials.begin(), summary.materials.end());
-    summary.materials.erase(std::unique(summary.materials.begin(), summary.materials.end()), summary.materials.end());
-    summary.low = summary.high = cage.positions[cage.faceVertices[cage.faceStarts[begin]]];
-    for (uint32_t c = cage.faceStarts[begin]; c < cage.faceStarts[end]; ++c) {
-        summary.low = glm::min(summary.low, cage.positions[cage.faceVertices[c]]);
-        summary.high = glm::max(summary.high, cage.positions[cage.faceVertices[c]]);
-    }
-    if (character.parts[part].rigid) {
-        const uint32_t vertex = cage.faceVertices[cage.faceStarts[begin]];
-        summary.joint = character.weights.influences[character.weights.starts[vertex]].joint;
-    }
-    return summary;
-}
-
-/// Faces and corners of a piece's patches become those of the whole cage.
-void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& patches) {
-    for (surface::PatchInfo& patch : patches) {
-        patch.face = piece.faces[patch.face];
-        for (uint32_t& corner : patch.corners) {
-            corner = corner == cage::kNone ? corner : piece.vertices[corner];
-        }
-    }
-}
-
 } // namespace
 
+Asset::Asset(std::shared_ptr<const Prepared> of)
+    : prepared(std::move(of)), character(prepared->character), parts(prepared->parts), choices(prepared->choices),
+      rig(prepared->rig), jointFrames(prepared->jointFrames) {}
+
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
-    auto asset = std::make_shared<Asset>();
-    const skinning::DeformTable table = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "skin tables", table.words);
+    const std::shared_ptr<Prepared> own = Prepared::of(std::move(character));
+    Result<std::shared_ptr<Asset>> asset = create(device, own);
+    if (asset) {
+        (*asset)->ownsPrepared = true;
+        own->deform.words = {};
+    }
+    return asset;
+}
+
+Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, std::shared_ptr<const Prepared> prepared) {
+    auto asset = std::make_shared<Asset>(std::move(prepared));
+    const skinning::DeformTable& deform = asset->prepared->deform;
+    Result<gpu::StaticBuffers> buffers = upload(device, asset->character.name + ": ", "skin tables", deform.words);
     if (!buffers) {
         return buffers.error();
     }
     asset->buffers = std::move(*buffers);
-    asset->firstInfluences = table.firstInfluences;
-    asset->rig = skinning::makeRig(character);
-    for (size_t part = 0; part < character.parts.size(); ++part) {
-        asset->parts.push_back(summaryOf(character, part));
-    }
-    asset->choices = surface::chooseSchemes(character);
-    asset->jointFrames = skinning::jointFrames(character);
-    asset->character = std::move(character);
+    asset->firstInfluences = deform.firstInfluences;
     return asset;
 }
 
-Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, const std::vector<uint32_t>& parts) {
+Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, const std::vector<uint32_t>& wanted) {
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {
-        if (piece->parts == parts) {
+        if (piece->prepared->parts == wanted) {
             return piece;
         }
     }
-    std::vector<uint32_t> faces;
-    for (const uint32_t part : parts) {
-        for (uint32_t f = character.parts[part].firstFace; f < cage::endFace(character, part); ++f) {
-            faces.push_back(f);
-        }
-    }
     auto piece = std::make_shared<AssetPiece>();
-    piece->parts = parts;
-    piece->of = cage::takeFaces(character.cage, faces);
-    std::vector<uint32_t> words = piece->of.vertices;
+    piece->prepared = prepared->pieceOf(wanted);
+    std::vector<uint32_t> words = piece->prepared->of.vertices;
     words.resize((words.size() + 3) / 4 * 4);
     Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "vertices of a piece", words);
     if (!buffers) {
@@ -109,38 +75,39 @@ Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, co
     return piece;
 }
 
-const cage::Cage& Asset::cageOf(const std::shared_ptr<AssetPiece>& piece) const {
-    if (piece != nullptr) {
-        return piece->of.cage;
-    }
-    return character.cage;
-}
-
 Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device, const surface::Recipe& recipe,
                                                        const std::shared_ptr<AssetPiece>& piece) {
     for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
-        if (scheme->recipe == recipe && scheme->piece == piece) {
+        if (scheme->recipe() == recipe && scheme->piece == piece) {
             return scheme;
         }
     }
-    Result<surface::Tables> tables = surface::buildTables(recipe, cageOf(piece));
-    if (!tables) {
-        return Error{tables.error().code, character.name + ": " + tables.error().message};
-    }
-    if (piece != nullptr) {
-        nameInWhole(piece->of, tables->patches);
-    }
+    const std::shared_ptr<const PreparedPiece> of = piece != nullptr ? piece->prepared : nullptr;
     auto scheme = std::make_shared<SchemeTables>();
-    scheme->recipe = recipe;
     scheme->piece = piece;
-    scheme->tables = std::move(*tables);
-    std::vector<uint32_t>& words = scheme->tables.words;
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "surface tables", words);
+    scheme->prepared = prepared->find(recipe, of.get());
+    std::shared_ptr<PreparedTables> own; // what is built for this asset alone
+    if (scheme->prepared == nullptr) {
+        Result<std::shared_ptr<PreparedTables>> built = prepared->build(recipe, of);
+        if (!built) {
+            return built.error();
+        }
+        own = std::move(*built);
+        scheme->prepared = own;
+    }
+    Result<gpu::StaticBuffers> buffers =
+        upload(device, character.name + ": ", "surface tables", scheme->tables().words);
     if (!buffers) {
         return buffers.error();
     }
     scheme->buffers = std::move(*buffers);
-    words = {};
+    if (own != nullptr) {
+        own->tables.words = {};
+    }
+    if (own != nullptr && !ownsPrepared) {
+        builtLate.push_back(std::string("the tables of ") + surface::schemeOf(recipe.scheme).name +
+                            (recipe.wide ? " for the wide mapping" : " for the narrow mapping"));
+    }
     schemes.push_back(scheme);
     return scheme;
 }
@@ -149,7 +116,10 @@ Status Asset::makeClips(const gpu::Device& device) {
     if (!clips.empty()) {
         return success();
     }
-    skinning::ClipTable table = skinning::buildClipTable(character);
+    skinning::ClipTable table = prepared->clips ? *prepared->clips : skinning::buildClipTable(character);
+    if (!prepared->clips && !ownsPrepared) {
+        builtLate.emplace_back("the tables of the clips");
+    }
     Result<gpu::StaticBuffers> buffers = upload(device, "", "clip tables", table.words);
     if (!buffers) {
         return buffers.error();

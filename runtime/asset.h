@@ -2,16 +2,10 @@
 #pragma once
 
 #include "base/result.h"
-#include "cage/character.h"
-#include "cage/piece.h"
 #include "gpu/static_buffers.h"
 #include "runtime/clip_bounds.h"
-#include "skinning/clip_table.h"
-#include "skinning/joints.h"
-#include "skinning/layers.h"
+#include "runtime/prepared.h"
 #include "supple/supple.h"
-#include "surface/choice.h"
-#include "surface/schemes.h"
 
 #include <memory>
 #include <vector>
@@ -20,48 +14,54 @@ namespace supple::runtime {
 
 /// Some parts of an asset, which groups make a surface of.
 struct AssetPiece {
-    std::vector<uint32_t> parts; ///< rising
-    cage::CagePiece of;
+    std::shared_ptr<const PreparedPiece> prepared;
     gpu::StaticBuffers vertices; ///< 0: which vertices of the whole cage it has
 };
 
 /// Static tables of a scheme for one asset and one set of options, shared by the groups that use them.
 struct SchemeTables {
-    surface::Recipe recipe;
+    std::shared_ptr<const PreparedTables> prepared;
     std::shared_ptr<AssetPiece> piece; ///< null: the whole cage
-    surface::Tables tables;            ///< `words` is emptied once it lies in the staging memory. Patches have the
-                                       ///< faces and corners of the whole cage
     gpu::StaticBuffers buffers;        ///< 0: the tables
-};
 
-/// What the API tells of a part beside cage::Part.
-struct PartSummary {
-    std::vector<uint32_t> materials; ///< that its faces have, rising
-    uint32_t joint = cage::kNone;    ///< that all its vertices follow
-    glm::vec3 low{0.0f}, high{0.0f}; ///< box of its cage vertices
+    [[nodiscard]] const surface::Recipe& recipe() const { return prepared->recipe; }
+    [[nodiscard]] const surface::Tables& tables() const { return prepared->tables; }
 };
 
 struct Asset {
-    cage::Character character;
-    std::vector<PartSummary> parts;
-    std::vector<surface::SchemeChoice> choices; ///< what SUPPLE_SCHEME_AUTO takes for each part
-    gpu::StaticBuffers buffers;                 ///< 0: the deform table
-    uint32_t firstInfluences = 0;               ///< skinning::DeformTable
-    skinning::Rig rig;
-    skinning::JointFrames jointFrames;
+    /// If it is the asset's own, the words of its tables are gone: they lie in staging memory.
+    const std::shared_ptr<const Prepared> prepared;
+    // All of them are its.
+    const cage::Character& character;
+    const std::vector<PartSummary>& parts;
+    const std::vector<surface::SchemeChoice>& choices;
+    const skinning::Rig& rig;
+    const skinning::JointFrames& jointFrames;
+
+    gpu::StaticBuffers buffers;    ///< 0: the deform table
+    uint32_t firstInfluences = 0;  ///< skinning::DeformTable
     mutable ClipBounds clipBounds; ///< what has been asked for
     // Made for the first group that plays on the device:
-    skinning::ClipTable clipTable; ///< `words` is emptied once it lies in the staging memory
+    skinning::ClipTable clipTable; ///< without its words
     gpu::StaticBuffers clips;      ///< 0: the clip table
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
+    bool ownsPrepared = false;
+    std::vector<std::string> builtLate; ///< what had to be built because it was not prepared, until somebody says so
 
+    explicit Asset(std::shared_ptr<const Prepared> of);
+    /// Prepares the character for itself.
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
+    /// Of what was prepared for anybody.
+    [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device,
+                                                               std::shared_ptr<const Prepared> prepared);
     /// Finds or makes the piece of some parts (rising).
     [[nodiscard]] Result<std::shared_ptr<AssetPiece>> pieceOf(const gpu::Device& device,
                                                               const std::vector<uint32_t>& parts);
     /// The cage of the piece, or the whole cage if it is null.
-    [[nodiscard]] const cage::Cage& cageOf(const std::shared_ptr<AssetPiece>& piece) const;
+    [[nodiscard]] const cage::Cage& cageOf(const std::shared_ptr<AssetPiece>& piece) const {
+        return prepared->cageOf(piece != nullptr ? piece->prepared.get() : nullptr);
+    }
     /// Finds or builds the tables of a recipe for the piece, or for the whole cage if it is null; refuses what the
     /// scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>>

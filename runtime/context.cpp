@@ -266,6 +266,14 @@ Result<uint64_t> Context::createAsset(cage::Character character) {
     return assets.insert(std::move(*asset));
 }
 
+Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared) {
+    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(prepared));
+    if (!asset) {
+        return asset.error();
+    }
+    return assets.insert(std::move(*asset));
+}
+
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     const std::shared_ptr<Asset> asset = assets.find(desc.asset.id);
     if (asset == nullptr) {
@@ -313,6 +321,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
                                               "feature drawIndirectFirstInstance"};
     }
     tellNotes(**group);
+    tellBuiltLate(*asset);
     makeRoom(retired_, groups.slotCount() + 1);
     return groups.insert(std::move(*group));
 }
@@ -361,6 +370,14 @@ void Context::tellNotes(const Group& group) const {
                 group.asset().character.name + ": " + surface->uvNote());
         }
     }
+}
+
+void Context::tellBuiltLate(Asset& asset) const {
+    for (const std::string& what : asset.builtLate) {
+        log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_NOT_PREPARED,
+            asset.character.name + ": " + what + " were not prepared, and are built now");
+    }
+    asset.builtLate.clear();
 }
 
 Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade) {
@@ -439,27 +456,34 @@ Status Context::setCapacity(uint64_t id, uint32_t capacity) {
 }
 
 Status Context::reloadAsset(uint64_t id, cage::Character character) {
-    const std::shared_ptr<Asset> before = assets.find(id);
-    const std::vector<std::string> warnings = character.warnings;
     Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
-    if (!asset) {
-        return asset.error();
-    }
-    const AssetMatch match = AssetMatch::of(before->character, (*asset)->character);
+    return asset ? reloadAsset(id, std::move(*asset), true) : Status(asset.error());
+}
+
+Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared) {
+    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(prepared));
+    return asset ? reloadAsset(id, std::move(*asset), false) : Status(asset.error());
+}
+
+Status Context::reloadAsset(uint64_t id, std::shared_ptr<Asset> asset, bool warns) {
+    const std::shared_ptr<Asset> before = assets.find(id);
+    const AssetMatch match = AssetMatch::of(before->character, asset->character);
     Result<std::vector<Remade>> remade =
         remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
-                [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, *asset, match});
+                [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, asset, match});
     if (!remade) {
         return remade.error();
     }
-    for (const std::string& warning : warnings) {
-        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, (*asset)->character.name + ": " + warning);
+    for (size_t w = 0; warns && w < asset->character.warnings.size(); ++w) {
+        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING,
+            asset->character.name + ": " + asset->character.warnings[w]);
     }
     for (const Remade& own : *remade) {
         tellNotes(*own.group);
     }
+    tellBuiltLate(*asset);
     replace(*remade);
-    assets.replace(id, std::move(*asset));
+    assets.replace(id, std::move(asset));
     return success();
 }
 

@@ -71,12 +71,14 @@ public:
     [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
 
     [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
+    [[nodiscard]] Result<uint64_t> createAsset(std::shared_ptr<const Prepared> prepared);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
     /// Makes the group anew with another capacity, and those that follow it.
     [[nodiscard]] Status setCapacity(uint64_t group, uint32_t capacity);
     /// Puts a new version into the place of an asset, and makes its groups anew. If that fails nothing changes.
     [[nodiscard]] Status reloadAsset(uint64_t id, cage::Character character);
+    [[nodiscard]] Status reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared);
     /// Where the coordinates of the device begin.
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     /// From now on or, if the frame has recorded a group, from the next frame on.
@@ -109,6 +111,8 @@ private:
     [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
+    void tellBuiltLate(Asset& asset) const;
+    [[nodiscard]] Status reloadAsset(uint64_t id, std::shared_ptr<Asset> asset, bool warns);
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none

@@ -3,7 +3,7 @@
 namespace supple::runtime {
 
 uint32_t GatheredCage::stride() const {
-    return InstanceSet::cageStrideOf(piece_->of.cage.vertexCount());
+    return InstanceSet::cageStrideOf(piece_->prepared->of.cage.vertexCount());
 }
 
 void GatheredCage::plan(gpu::BufferPlan& device, uint32_t capacity) {
@@ -27,7 +27,7 @@ Status GatheredCage::createSets(const gpu::Device& device, const InstanceSet& in
 }
 
 PassCost GatheredCage::record(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const {
-    const uint32_t vertices = piece_->of.cage.vertexCount();
+    const uint32_t vertices = piece_->prepared->of.cage.vertexCount();
     windows.forEach([&](uint32_t w) {
         shared::DeformPush push{};
         push.vertexCount = vertices;

@@ -36,8 +36,8 @@ Result<std::vector<uint32_t>> leaders(const cage::Character& character, const st
 
 } // namespace
 
-Result<std::vector<SchemeParts>> schemesOf(const Asset& asset, const SuppleGroupDesc& desc) {
-    const cage::Character& character = asset.character;
+Result<std::vector<SchemeParts>> schemesOf(const Prepared& prepared, const SuppleGroupDesc& desc) {
+    const cage::Character& character = prepared.character;
     if (desc.partSchemeCount > character.parts.size()) {
         return Error{ErrorCode::range, character.name + ": " + std::to_string(desc.partSchemeCount) + " schemes for " +
                                            std::to_string(character.parts.size()) + " parts"};
@@ -54,7 +54,7 @@ Result<std::vector<SchemeParts>> schemesOf(const Asset& asset, const SuppleGroup
     for (uint32_t part = 0; part < named.size(); ++part) {
         const uint32_t from = (*leader)[part];
         const bool chosen = named[from] == SUPPLE_SCHEME_AUTO;
-        const SuppleScheme scheme = chosen ? static_cast<SuppleScheme>(asset.choices[from].scheme) : named[from];
+        const SuppleScheme scheme = chosen ? static_cast<SuppleScheme>(prepared.choices[from].scheme) : named[from];
         auto own =
             std::find_if(surfaces.begin(), surfaces.end(), [&](const SchemeParts& s) { return s.scheme == scheme; });
         if (own == surfaces.end()) {

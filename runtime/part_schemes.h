@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/result.h"
-#include "runtime/asset.h"
+#include "runtime/prepared.h"
 #include "supple/supple.h"
 
 #include <cstdint>
@@ -19,6 +19,6 @@ struct SchemeParts {
 
 /// One entry per scheme, by their first parts. Parts that are sewn have one scheme: that of a part which the
 /// description names counts for those sewn to it. Refuses a description that names two for sewn parts.
-[[nodiscard]] Result<std::vector<SchemeParts>> schemesOf(const Asset& asset, const SuppleGroupDesc& desc);
+[[nodiscard]] Result<std::vector<SchemeParts>> schemesOf(const Prepared& prepared, const SuppleGroupDesc& desc);
 
 } // namespace supple::runtime

@@ -23,9 +23,7 @@ Result<TessellationDesc> describe(const TessellationDesc& group, const SchemePar
     }
     const surface::Drawer drawer =
         surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), desc.asset->cageOf(desc.piece));
-    if (parts.chosen && !surface::schemeOf(drawer.scheme).hasIndexedMesh) {
-        desc.group.flags &= ~uint32_t{SUPPLE_GROUP_INDEXED_MESH};
-    }
+    desc.group.flags = surfaceFlags(desc.group.flags, drawer.scheme, parts.chosen);
     return desc;
 }
 
@@ -44,7 +42,7 @@ Result<std::vector<TessellationDesc>> describeAll(const TessellationDesc& group)
         all.push_back(describeCage(group));
         return all;
     }
-    const Result<std::vector<SchemeParts>> schemes = schemesOf(*group.asset, group.group);
+    const Result<std::vector<SchemeParts>> schemes = schemesOf(*group.asset->prepared, group.group);
     if (!schemes) {
         return schemes.error();
     }

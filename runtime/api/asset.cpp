@@ -1,7 +1,7 @@
 // supple.h, asset.
-#include "cage/formats/reader.h"
 #include "cage/limits.h"
 #include "cage/trim.h"
+#include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
 
 #include <cstddef>
@@ -28,110 +28,6 @@ static_assert(SUPPLE_MAX_COORDINATE == cage::kMaxCoordinate);
 // A struct within a struct can never grow, and no field may come to lie where there was padding.
 static_assert(sizeof(SuppleTextureInfo) == 12 * sizeof(uint32_t));
 static_assert(sizeof(SuppleMaterialInfo) == offsetof(SuppleMaterialInfo, trim) + sizeof(SuppleTextureInfo));
-
-Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
-    SuppleFileBytes found{};
-    if (files.read(path.c_str(), &found, files.user) == 0) {
-        return Error{ErrorCode::io, "the host has no such file"};
-    }
-    // Given back even if there is no memory to copy it to.
-    const auto release = [&files](SuppleFileBytes* bytes) {
-        if (files.release != nullptr) {
-            files.release(bytes, files.user);
-        }
-    };
-    const std::unique_ptr<SuppleFileBytes, decltype(release)> held(&found, release);
-    const auto* first = static_cast<const std::byte*>(found.bytes);
-    return std::vector<std::byte>(first, first + (first != nullptr ? found.byteCount : 0));
-}
-
-cage::FileReader reader(const SuppleFiles* files) {
-    if (files == nullptr) {
-        return nullptr;
-    }
-    return [files = *files](const std::string& path) { return readThrough(files, path); };
-}
-
-std::string orEmpty(const char* text) {
-    return text != nullptr ? text : "";
-}
-
-std::string nameOf(const SuppleAssetDesc& desc) {
-    return desc.name != nullptr ? desc.name : "asset";
-}
-
-std::string nameOf(const SuppleClipFile& file, size_t index) {
-    return file.name != nullptr ? file.name : "clip file " + std::to_string(index);
-}
-
-/// A file in memory or arrays, as a character.
-Result<cage::Character> characterOf(const SuppleAssetDesc& desc) {
-    const std::string name = nameOf(desc);
-    if (desc.cage != nullptr) {
-        SuppleCageDesc cage{};
-        if (!runtime::readSized(*desc.cage, cage)) {
-            return Error{ErrorCode::structSize,
-                         "suppleCreateAsset: " + faultOfSize<SuppleCageDesc>("desc.cage", desc.cage->structSize)};
-        }
-        return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
-    }
-    cage::GltfOptions options;
-    if ((desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0) {
-        options.pairing = cage::Pairing::always;
-    } else if ((desc.flags & SUPPLE_ASSET_KEEP_TRIANGLES) != 0) {
-        options.pairing = cage::Pairing::never;
-    }
-    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
-    options.creasesFromNormals = (desc.flags & SUPPLE_ASSET_CREASES_FROM_NORMALS) != 0;
-    options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
-    if (desc.scene != 0) {
-        options.scene = desc.scene - 1;
-    }
-    options.memoryLimit = desc.memoryLimit;
-    options.readFile = reader(desc.files);
-    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
-        const SuppleClipFile& file = desc.clipFiles[i];
-        options.clipFiles.push_back({nameOf(file, i),
-                                     {static_cast<const std::byte*>(file.bytes), file.byteCount},
-                                     orEmpty(file.baseDirectory),
-                                     reader(file.files)});
-    }
-    return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
-                               orEmpty(desc.baseDirectory), options);
-}
-
-std::optional<Error> faultOfFlags(uint32_t flags) {
-    constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
-    constexpr uint32_t kKnown =
-        kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART | SUPPLE_ASSET_CREASES_FROM_NORMALS;
-    if ((flags & ~kKnown) != 0) {
-        return Error{ErrorCode::range, "unknown flags"};
-    }
-    if ((flags & kPairing) == kPairing) {
-        return Error{ErrorCode::argument, "both SUPPLE_ASSET_PAIR_QUADS and SUPPLE_ASSET_KEEP_TRIANGLES"};
-    }
-    return std::nullopt;
-}
-
-/// Why the description's clip files cannot be read, if they cannot.
-std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
-    if (desc.clipFileCount > 0 && desc.clipFiles == nullptr) {
-        return Error{ErrorCode::nullPointer, "clipFiles is null"};
-    }
-    if (desc.clipFileCount > 0 && desc.cage != nullptr) {
-        return Error{ErrorCode::argument, nameOf(desc) + ": both cage and clipFiles"};
-    }
-    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
-        const SuppleClipFile& file = desc.clipFiles[i];
-        if (file.bytes == nullptr) {
-            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": bytes is null"};
-        }
-        if (file.files != nullptr && file.files->read == nullptr) {
-            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": files->read is null"};
-        }
-    }
-    return std::nullopt;
-}
 
 SuppleTextureInfo toTextureInfo(const cage::Texture& from) {
     SuppleTextureInfo info{};
@@ -204,34 +100,6 @@ void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     tellTrim(from, info);
 }
 
-/// Checks a description and reads the character. Null if that has worked.
-std::optional<SuppleResult> readAsset(Context& context, const char* function, const SuppleAssetDesc* given,
-                                      cage::Character& out) {
-    SuppleAssetDesc desc{};
-    if (const auto fault = takeIn(context, function, "desc", given, desc)) {
-        return fault;
-    }
-    if ((desc.bytes == nullptr) == (desc.cage == nullptr)) {
-        return refuse(context, ErrorCode::argument, function,
-                      nameOf(desc) + (desc.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage"));
-    }
-    if (const std::optional<Error> fault = faultOfFlags(desc.flags)) {
-        return refuse(context, fault->code, function, fault->message);
-    }
-    if (desc.files != nullptr && desc.files->read == nullptr) {
-        return refuse(context, ErrorCode::nullPointer, function, "files->read is null");
-    }
-    if (const std::optional<Error> fault = faultOfClipFiles(desc)) {
-        return refuse(context, fault->code, function, fault->message);
-    }
-    Result<cage::Character> character = characterOf(desc);
-    if (!character) {
-        return report(context, character.error());
-    }
-    out = std::move(*character);
-    return std::nullopt;
-}
-
 } // namespace
 
 SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* given, SuppleAsset* out) {
@@ -241,16 +109,19 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
             return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
         }
         out->id = 0;
-        cage::Character character;
-        if (const auto fault = readAsset(context, kHere, given, character)) {
-            return *fault;
+        SuppleAssetDesc desc{};
+        if (const std::optional<Error> fault = takeAsset("desc", given, desc)) {
+            return refuse(context, fault->code, kHere, fault->message);
         }
-        Result<uint64_t> id = context.createAsset(std::move(character));
-        if (!id) {
-            return report(context, id.error());
+        const auto made = [&](const Result<uint64_t>& id) {
+            out->id = id ? *id : 0;
+            return id ? SUPPLE_OK : report(context, id.error());
+        };
+        if (desc.prepared != nullptr) {
+            return made(context.createAsset(preparedOf(desc.prepared)));
         }
-        out->id = *id;
-        return SUPPLE_OK;
+        Result<cage::Character> character = readAsset(kHere, desc);
+        return character ? made(context.createAsset(std::move(*character))) : report(context, character.error());
     });
 }
 
@@ -260,11 +131,16 @@ SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const Su
         if (context.assets.find(asset.id) == nullptr) {
             return refuse(context, ErrorCode::staleHandle, kHere, "stale or foreign asset handle");
         }
-        cage::Character character;
-        if (const auto fault = readAsset(context, kHere, given, character)) {
-            return *fault;
+        SuppleAssetDesc desc{};
+        if (const std::optional<Error> fault = takeAsset("desc", given, desc)) {
+            return refuse(context, fault->code, kHere, fault->message);
         }
-        return reportStatus(context, context.reloadAsset(asset.id, std::move(character)));
+        if (desc.prepared != nullptr) {
+            return reportStatus(context, context.reloadAsset(asset.id, preparedOf(desc.prepared)));
+        }
+        Result<cage::Character> character = readAsset(kHere, desc);
+        return character ? reportStatus(context, context.reloadAsset(asset.id, std::move(*character)))
+                         : report(context, character.error());
     });
 }
 

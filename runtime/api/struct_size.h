@@ -33,6 +33,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleRecordDesc)                                                                                                \
     X(SuppleBudget)                                                                                                    \
     X(SuppleMemoryUse)                                                                                                 \
+    X(SupplePrepareDesc)                                                                                               \
     X(SupplePoseDesc)                                                                                                  \
     X(SuppleRootMotion)                                                                                                \
     X(SupplePlaybackDesc)                                                                                              \

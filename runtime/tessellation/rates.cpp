@@ -86,7 +86,7 @@ Status Rates::begin() {
         Rate& rate = own_[r];
         rate.evaluation.verticesPerInstance = evaluation_.verticesPerInstance;
         rate.evaluation.cageStride = evaluation_.cageStride;
-        Result<surface::Program> program = programFor(rate.scheme->tables, needs, rate.evaluation);
+        Result<surface::Program> program = programFor(rate.scheme->tables(), needs, rate.evaluation);
         if (!program) {
             return program.error();
         }
@@ -143,19 +143,17 @@ void Rates::setLadder(Ladder ladder) {
 }
 
 Status Rates::buildRates() {
-    surface::Recipe recipe = scheme_->recipe;
     uint64_t vertices = 0;
-    for (uint32_t segments = 1; segments <= tables().rate; segments *= 2) {
-        recipe.rate = segments << tables().isolationSteps;
+    for (const surface::Recipe& recipe : ratesBelow(scheme_->recipe(), tables())) {
         Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
         if (!scheme) {
             return scheme.error();
         }
         Rate& rate = own_.emplace_back();
         rate.scheme = std::move(*scheme);
-        rate.evaluation.rate = segments;
+        rate.evaluation.rate = recipe.rate >> tables().isolationSteps;
         rate.firstVertex = static_cast<uint32_t>(vertices);
-        vertices = rate.evaluation.layOut(rate.scheme->tables, vertices);
+        vertices = rate.evaluation.layOut(rate.scheme->tables(), vertices);
         rate.vertices = static_cast<uint32_t>(vertices) - rate.firstVertex;
     }
     scheme_ = own_.back().scheme;
@@ -208,7 +206,7 @@ Status Rates::prepareRate(uint32_t rate) {
         return success();
     }
     return Error{ErrorCode::argument, desc_.asset->character.name + ": the tables of " +
-                                          surface::schemeOf(scheme_->recipe.scheme).name + " are made for rate " +
+                                          surface::schemeOf(scheme_->recipe().scheme).name + " are made for rate " +
                                           std::to_string(askedRate_) + " alone"};
 }
 

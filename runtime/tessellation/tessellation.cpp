@@ -11,57 +11,6 @@ namespace {
 
 constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
 
-bool wantsAttributes(const SuppleGroupDesc& desc, const View* view) {
-    return view != nullptr ? (view->desc().flags & SUPPLE_VIEW_ATTRIBUTES) != 0
-                           : (desc.flags & SUPPLE_GROUP_ATTRIBUTES) != 0;
-}
-
-surface::Recipe recipeOf(const SuppleGroupDesc& desc, surface::SchemeId drawer, uint32_t rate, const View* view) {
-    surface::Recipe recipe;
-    recipe.indexedMesh = (desc.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
-    recipe.attributes = wantsAttributes(desc, view);
-    recipe.scheme = drawer;
-    const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
-    recipe.tangents =
-        (scheme.isMesh() || recipe.indexedMesh) && (view != nullptr ? (view->desc().flags & SUPPLE_VIEW_TANGENTS) != 0
-                                                                    : (desc.flags & SUPPLE_GROUP_TANGENTS) != 0);
-    recipe.lod = view != nullptr && scheme.hasLevels;
-    recipe.rate = scheme.tableRate(rate, recipe.lod);
-    if (desc.blend != nullptr) {
-        using surface::blend::CreaseMode;
-        recipe.blend.creases = desc.blend->creaseMode == SUPPLE_CREASES_CURVE ? CreaseMode::curve : CreaseMode::cut;
-        recipe.blend.sharpThreshold = desc.blend->sharpThreshold > 0.0f ? desc.blend->sharpThreshold : 1.0f;
-    }
-    if (desc.prep != nullptr) {
-        using namespace surface::prep;
-        const bool printed = desc.prep->tangentMode == SUPPLE_TANGENTS_PRINTED;
-        recipe.prep.tangentMode = printed ? TangentMode::printed : TangentMode::standard;
-        recipe.prep.cornerRule =
-            desc.prep->cornerRule == SUPPLE_CORNERS_SMOOTH ? CornerRule::smooth : CornerRule::sharp;
-    }
-    return recipe;
-}
-
-/// What the file says of the parts of a surface: the first part that says anything counts.
-std::optional<cage::UvMode> uvModeOfFile(const TessellationDesc& desc) {
-    for (const uint32_t part : desc.parts) {
-        const std::optional<cage::UvMode> mode = desc.asset->character.parts[part].uvMode;
-        if (mode) {
-            return mode;
-        }
-    }
-    return std::nullopt;
-}
-
-/// How texture coordinates are interpolated, if the scheme does.
-cage::UvMode uvModeOf(const TessellationDesc& desc, const StreamSet& wanted) {
-    using cage::UvMode;
-    if (desc.group.uvInterpolation != SUPPLE_UV_FROM_FILE) {
-        return static_cast<UvMode>(static_cast<uint32_t>(desc.group.uvInterpolation) - 1);
-    }
-    return uvModeOfFile(desc).value_or(wanted.has(Stream::tangents) ? UvMode::cornersPlus1 : UvMode::all);
-}
-
 StreamSet wantedBy(const TessellationDesc& desc) {
     return desc.view != nullptr ? StreamSet::ofView(desc.view->desc().flags) : StreamSet::ofGroup(desc.group.flags);
 }
@@ -103,8 +52,8 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
 }
 
 Tessellation::Tessellation(TessellationDesc desc)
-    : desc_(std::move(desc)), askedRate_(desc_.group.rate == 0 ? 8 : desc_.group.rate),
-      scheme_(std::make_shared<SchemeTables>()) {
+    : desc_(std::move(desc)), askedRate_(askedRate(desc_.group)), scheme_(std::make_shared<SchemeTables>()) {
+    scheme_->prepared = std::make_shared<PreparedTables>();
     wanted_ = wantedBy(desc_);
     if (desc_.piece != nullptr) {
         gathered_.emplace(*desc_.deform, *desc_.piece);
@@ -112,36 +61,19 @@ Tessellation::Tessellation(TessellationDesc desc)
     evaluation_.cageStride = InstanceSet::cageStrideOf(cage().vertexCount());
 }
 
-Status Tessellation::chooseUvs(surface::Recipe& recipe) {
-    using cage::UvMode;
-    const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
-    const bool asked = desc_.group.uvInterpolation != SUPPLE_UV_FROM_FILE;
-    const UvMode mode = uvModeOf(desc_, wanted_);
-    recipe.uvMode = mode;
-    if (!recipe.attributes || cage().cornerUvs.empty()) {
-        recipe.uvMode = UvMode::all; // nobody sees the difference
-    } else if (!scheme.interpolates(mode)) {
-        const std::string reason = std::string(scheme.name) + " does not interpolate texture coordinates by \"" +
-                                   cage::uvModeName(mode) + "\"";
-        if (asked && !desc_.schemeChosen) {
-            return Error{ErrorCode::argument, desc_.asset->character.name + ": " + reason};
-        }
-        recipe.uvMode = UvMode::all;
-        uvNote_ = asked || uvModeOfFile(desc_) ? reason + ": they are linear" : "";
-    }
-    return success();
-}
-
 Status Tessellation::buildTables() {
-    surface::Recipe recipe = recipeOf(desc_.group, desc_.drawer.scheme, askedRate_, view());
-    recipe.wide = desc_.device->mapping.wide;
-    if (const Status chosen = chooseUvs(recipe); !chosen) {
-        return chosen;
+    std::optional<uint32_t> viewFlags;
+    if (view() != nullptr) {
+        viewFlags = view()->desc().flags;
     }
-    if (recipe.attributes && wanted_.has(Stream::tangents)) {
-        recipe.mapFrames = cage::mapFramesOf(desc_.asset->character);
+    Result<SurfaceRecipe> recipe =
+        surfaceRecipe({desc_.asset->character, desc_.parts, cage(), desc_.group, desc_.drawer.scheme,
+                       desc_.schemeChosen, viewFlags, desc_.device->mapping.wide});
+    if (!recipe) {
+        return recipe.error();
     }
-    Result<std::shared_ptr<SchemeTables>> built = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
+    uvNote_ = std::move(recipe->uvNote);
+    Result<std::shared_ptr<SchemeTables>> built = desc_.asset->tablesFor(*desc_.device, recipe->recipe, desc_.piece);
     if (!built) {
         return built.error();
     }
@@ -149,7 +81,7 @@ Status Tessellation::buildTables() {
     desc_.group.prep = nullptr; // the caller's
     desc_.group.blend = nullptr;
     const surface::Tables& own = tables();
-    const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe.scheme);
+    const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe().scheme);
     const bool hasCoefficients =
         !own.ranges.empty() && std::all_of(own.ranges.begin(), own.ranges.end(), [](const surface::PatchRange& range) {
             return surface::rowOf(range.patchClass).coefficients > 0;

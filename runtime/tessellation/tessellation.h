@@ -14,6 +14,7 @@
 #include "runtime/instance_set.h"
 #include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
+#include "runtime/surface_recipe.h"
 #include "runtime/surface_sets.h"
 #include "runtime/vertex_streams.h"
 #include "runtime/view.h"
@@ -60,17 +61,17 @@ public:
     Tessellation& operator=(const Tessellation&) = delete;
 
     [[nodiscard]] const SchemeTables& scheme() const { return *scheme_; }
-    [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables; }
+    [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables(); }
     [[nodiscard]] SuppleScheme schemeId() const { return desc_.group.scheme; }
     [[nodiscard]] const std::vector<uint32_t>& parts() const { return desc_.parts; }
     /// The scheme polygons, which is not tessellated.
     [[nodiscard]] bool isMesh() const {
-        return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe.scheme).isMesh();
+        return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe().scheme).isMesh();
     }
     /// How far the surface may lie outside the box of its cage, as a part of the box's size.
     [[nodiscard]] float boundsMargin() const {
         return kind() == SUPPLE_TESSELLATION_NONE ? 0.0f
-                                                  : surface::schemeOf(scheme_->recipe.scheme).boundsMargin(cage());
+                                                  : surface::schemeOf(scheme_->recipe().scheme).boundsMargin(cage());
     }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
@@ -202,8 +203,6 @@ protected:
     }
 
     void recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program, const SurfaceSets& sets) const;
-    /// Sets Recipe::uvMode, or refuses what the group asks for.
-    [[nodiscard]] Status chooseUvs(surface::Recipe& recipe);
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.

@@ -451,6 +451,55 @@ void withoutContext(Rows& r) {
     });
 }
 
+void preparing(Rows& r) {
+    constexpr const char* kPrepare = "supplePrepare";
+    r.accept("suppleDestroyPrepared", "null", [](World&) {
+        suppleDestroyPrepared(nullptr);
+        return SUPPLE_OK;
+    });
+    static const SuppleAssetDesc kAsset = World::assetDesc();
+    static const SuppleGroupDesc kPlan = [] {
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.rate = 2;
+        return desc;
+    }();
+    static const SupplePlannedGroup kPlanned{&kPlan, 0, 0};
+    const auto good = [](World&) {
+        SupplePrepareDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = &kAsset;
+        desc.groups = &kPlanned;
+        desc.groupCount = 1;
+        return desc;
+    };
+    const auto prepare = [](World& w, const SupplePrepareDesc* desc) {
+        SupplePrepared* const out = w.newHandle<SupplePrepared>();
+        const SuppleResult result = supplePrepare(desc, out);
+        EXPECT_EQ(*out != nullptr, result == SUPPLE_OK);
+        suppleDestroyPrepared(*out);
+        return result;
+    };
+    r.accept(kPrepare, "valid", [=](World& w) {
+        const SupplePrepareDesc desc = good(w);
+        return prepare(w, &desc);
+    });
+    r.refuse(kPrepare, "desc null", kSilent, [=](World& w) { return prepare(w, nullptr); });
+    r.refuse(kPrepare, "out null", kSilent, [=](World& w) {
+        const SupplePrepareDesc desc = good(w);
+        return supplePrepare(&desc, nullptr);
+    });
+    r.refuse(kPrepare, "desc of a later version, with something in it", kSilent,
+             [=](World& w) { return prepare(w, w.grown(good(w), 1)); });
+    for (const size_t size : {size_t{0}, size_t{4}, sizeof(SupplePrepareDesc) - 1}) {
+        r.refuse(kPrepare, "desc->structSize " + std::to_string(size), kSilent, [=](World& w) {
+            SupplePrepareDesc desc = good(w);
+            desc.structSize = static_cast<uint32_t>(size);
+            return prepare(w, &desc);
+        });
+    }
+}
+
 void contexts(Rows& r) {
     constexpr const char* kCreate = "suppleCreateContext";
     r.accept("suppleDestroyContext", "null context", [](World&) {
@@ -570,6 +619,8 @@ void createAsset(Rows& r) {
     static const SuppleCageDesc kNoCage{};
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
+    spoiled("bytes and prepared", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+            [](Desc& d) { d.prepared = reinterpret_cast<SupplePrepared>(&d); });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
     spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 32; });
     spoiled("pairs and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
@@ -1834,6 +1885,7 @@ void memoryUses(Rows& r) {
 std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
+    preparing(r);
     contexts(r);
     createAsset(r);
     assetGetters(r);
@@ -1961,7 +2013,7 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h"}) {
+    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h"}) {
         std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/" + name);
         ASSERT_TRUE(file.good()) << name;
         header.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
+#include <mutex>
 #include <thread>
 
 namespace supple::test {
@@ -149,6 +150,99 @@ TEST(Threads, RecordTheBitsOfOneThread) {
         EXPECT_TRUE(alone == run(context, groups, Order::asRecorded)) << groups;
         EXPECT_TRUE(alone == run(context, groups, Order::reversed)) << groups;
     }
+}
+
+/// Prepared characters on their way from threads that make them to the one that records.
+class Handover {
+public:
+    void give(SupplePrepared prepared) {
+        const std::scoped_lock lock(mutex_);
+        ready_.push_back(prepared);
+    }
+    [[nodiscard]] SupplePrepared take() {
+        const std::scoped_lock lock(mutex_);
+        if (ready_.empty()) {
+            return nullptr;
+        }
+        const SupplePrepared prepared = ready_.back();
+        ready_.pop_back();
+        return prepared;
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<SupplePrepared> ready_;
+};
+
+/// The tube, for a group as the test below makes it.
+SupplePrepared prepareTube(SuppleScheme scheme) {
+    SuppleGroupDesc group{};
+    group.structSize = sizeof(group);
+    group.scheme = scheme;
+    group.rate = 2;
+    const SupplePlannedGroup planned{&group, 0, 0};
+    SuppleAssetDesc asset{};
+    asset.structSize = sizeof(asset);
+    asset.bytes = tubeFile().data();
+    asset.byteCount = tubeFile().size();
+    SupplePrepareDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.mapping = SUPPLE_MAPPING_NARROW;
+    desc.asset = &asset;
+    desc.groups = &planned;
+    desc.groupCount = 1;
+    SupplePrepared prepared = nullptr;
+    EXPECT_EQ(supplePrepare(&desc, &prepared), SUPPLE_OK);
+    return prepared;
+}
+
+TEST(Threads, PrepareCharactersWhileFramesAreRecorded) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    LoggedContext context(*device, [](SuppleContextDesc& desc) { desc.mapping = SUPPLE_MAPPING_NARROW; });
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    SmallGroup group = createGroup(context.handle(), asset, {.scheme = SUPPLE_SCHEME_PM});
+    ASSERT_EQ(group.result, SUPPLE_OK);
+    context.evaluate({&group.group, 1});
+    const std::vector<std::byte> expected = surfaceBits(context, group.group);
+    context.takeLines();
+
+    constexpr uint32_t kEach = 12;
+    Handover handover;
+    std::vector<std::jthread> threads;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+        threads.emplace_back([&, scheme] {
+            for (uint32_t i = 0; i < kEach; ++i) {
+                handover.give(prepareTube(scheme));
+                suppleDestroyPrepared(prepareTube(scheme)); // one that nobody wants
+            }
+        });
+    }
+    uint32_t taken = 0;
+    while (taken < 2 * kEach && !testing::Test::HasFailure()) {
+        const SupplePrepared prepared = handover.take();
+        context.evaluate({&group.group, 1});
+        if (prepared == nullptr) {
+            continue;
+        }
+        ++taken;
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.prepared = prepared;
+        SuppleAsset own{};
+        EXPECT_EQ(suppleCreateAsset(context.handle(), &desc, &own), SUPPLE_OK);
+        suppleDestroyPrepared(prepared);
+        const SmallGroup made = createGroup(context.handle(), own, {.scheme = SUPPLE_SCHEME_PM});
+        EXPECT_EQ(made.result, SUPPLE_OK);
+        context.evaluate({&made.group, 1});
+        EXPECT_TRUE(surfaceBits(context, made.group) == expected);
+        EXPECT_EQ(suppleDestroyGroup(context.handle(), made.group), SUPPLE_OK);
+        EXPECT_EQ(suppleDestroyAsset(context.handle(), own), SUPPLE_OK);
+    }
+    EXPECT_EQ(taken, 2 * kEach);
+    EXPECT_TRUE(surfaceBits(context, group.group) == expected);
 }
 
 } // namespace

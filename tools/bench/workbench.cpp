@@ -210,7 +210,7 @@ Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
     StaticBytes bytes;
     bytes.deform = group.asset().buffers.size(0);
     for (const std::shared_ptr<runtime::SchemeTables>& scheme : group.asset().schemes) {
-        if (&scheme->tables == &group.surfaces()[0].tables()) {
+        if (&scheme->tables() == &group.surfaces()[0].tables()) {
             bytes.tables = scheme->buffers.size(0);
         }
     }

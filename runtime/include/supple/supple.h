@@ -106,6 +106,9 @@ typedef struct SuppleContext_T* SuppleContext;
 typedef struct SuppleAsset {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleAsset;
+/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to no
+ * context. */
+typedef struct SupplePrepared_T* SupplePrepared;
 /** Instances of one asset with one scheme (SuppleScheme) and the same options. They go through each pass together. */
 typedef struct SuppleGroup {
     uint64_t id; /**< 0 is never a valid handle */
@@ -158,6 +161,7 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_ASSET_WARNING = 201,    /**< accepted, but something in the file is left out or mended */
     SUPPLE_MESSAGE_SCHEME_NOTE = 202,      /**< what a scheme changed in the cage */
     SUPPLE_MESSAGE_RATE_CHANGED = 203,     /**< the scheme takes another rate than the one asked for */
+    SUPPLE_MESSAGE_NOT_PREPARED = 204,     /**< a group built what supplePrepare was not told of */
     SUPPLE_MESSAGE_DEVICE_UNSUITED = 300,  /**< see suppleQueryRequirements */
     SUPPLE_MESSAGE_FEATURE_DISABLED = 301, /**< the device has it, but the host did not enable it */
     SUPPLE_MESSAGE_LIMIT = 302,
@@ -384,7 +388,8 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`) or arrays (`cage`). Everything is copied before the call returns.
+/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything is
+ * copied before the call returns.
  *
  * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
  * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
@@ -410,6 +415,9 @@ typedef struct SuppleAssetDesc {
      * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
      * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
+    /** Instead of bytes or cage: what supplePrepare made. Then all members above but structSize must be 0. It need not
+     * outlive the call. */
+    SupplePrepared prepared;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -1384,5 +1392,6 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 #endif
 
 #include "supple_playback.h" /* IWYU pragma: export */
+#include "supple_prepare.h"  /* IWYU pragma: export */
 #include "supple_view.h"     /* IWYU pragma: export */
 #endif

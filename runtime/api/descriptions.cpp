@@ -1,0 +1,302 @@
+#include "runtime/api/descriptions.h"
+
+#include "cage/formats/reader.h"
+#include "runtime/api/entry.h"
+#include "runtime/asset.h"
+#include "runtime/sized.h"
+#include "runtime/vertex_streams.h"
+#include "surface/schemes.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace supple::api {
+
+namespace {
+
+static_assert(std::has_unique_object_representations_v<SuppleAssetDesc>); // it can be compared byte by byte
+constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
+                                 SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
+                                 SUPPLE_GROUP_WINDOWS;
+
+/// Takes a struct in, of whatever version; null if it could be read.
+template <class T>
+std::optional<Error> takeIn(const char* name, const T* from, T& to) {
+    if (from == nullptr) {
+        return Error{ErrorCode::nullPointer, std::string(name) + " is null"};
+    }
+    if (!runtime::readSized(*from, to)) {
+        return Error{ErrorCode::structSize, faultOfSize<T>(name, from->structSize)};
+    }
+    return std::nullopt;
+}
+
+Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
+    SuppleFileBytes found{};
+    if (files.read(path.c_str(), &found, files.user) == 0) {
+        return Error{ErrorCode::io, "the host has no such file"};
+    }
+    // Given back even if there is no memory to copy it to.
+    const auto release = [&files](SuppleFileBytes* bytes) {
+        if (files.release != nullptr) {
+            files.release(bytes, files.user);
+        }
+    };
+    const std::unique_ptr<SuppleFileBytes, decltype(release)> held(&found, release);
+    const auto* first = static_cast<const std::byte*>(found.bytes);
+    return std::vector<std::byte>(first, first + (first != nullptr ? found.byteCount : 0));
+}
+
+cage::FileReader reader(const SuppleFiles* files) {
+    if (files == nullptr) {
+        return nullptr;
+    }
+    return [files = *files](const std::string& path) { return readThrough(files, path); };
+}
+
+std::string orEmpty(const char* text) {
+    return text != nullptr ? text : "";
+}
+
+std::string nameOf(const SuppleAssetDesc& desc) {
+    return desc.name != nullptr ? desc.name : "asset";
+}
+
+std::string nameOf(const SuppleClipFile& file, size_t index) {
+    return file.name != nullptr ? file.name : "clip file " + std::to_string(index);
+}
+
+std::optional<Error> faultOfFlags(uint32_t flags) {
+    constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
+    constexpr uint32_t kKnown =
+        kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART | SUPPLE_ASSET_CREASES_FROM_NORMALS;
+    if ((flags & ~kKnown) != 0) {
+        return Error{ErrorCode::range, "unknown flags"};
+    }
+    if ((flags & kPairing) == kPairing) {
+        return Error{ErrorCode::argument, "both SUPPLE_ASSET_PAIR_QUADS and SUPPLE_ASSET_KEEP_TRIANGLES"};
+    }
+    return std::nullopt;
+}
+
+/// Why the description's clip files cannot be read, if they cannot.
+std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
+    if (desc.clipFileCount > 0 && desc.clipFiles == nullptr) {
+        return Error{ErrorCode::nullPointer, "clipFiles is null"};
+    }
+    if (desc.clipFileCount > 0 && desc.cage != nullptr) {
+        return Error{ErrorCode::argument, nameOf(desc) + ": both cage and clipFiles"};
+    }
+    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
+        const SuppleClipFile& file = desc.clipFiles[i];
+        if (file.bytes == nullptr) {
+            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": bytes is null"};
+        }
+        if (file.files != nullptr && file.files->read == nullptr) {
+            return Error{ErrorCode::nullPointer, nameOf(file, i) + ": files->read is null"};
+        }
+    }
+    return std::nullopt;
+}
+
+/// Null if all are schemes of surfaces.
+std::optional<Error> faultOfPartSchemes(const SuppleGroupDesc& desc) {
+    if (desc.partSchemeCount > 0 && desc.partSchemes == nullptr) {
+        return Error{ErrorCode::nullPointer, "partSchemes is null"};
+    }
+    if (desc.partSchemeCount > 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::argument, "a cage has no surfaces of parts"};
+    }
+    for (uint32_t part = 0; part < desc.partSchemeCount; ++part) {
+        if (runtime::rawValue(desc.partSchemes[part]) > surface::schemes().size()) {
+            return Error{ErrorCode::range, "partSchemes[" + std::to_string(part) + "]: no such scheme of a surface"};
+        }
+    }
+    return std::nullopt;
+}
+
+/// Null if the flags go with each other and with the rest.
+std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
+    const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
+    if (has(~kGroupFlags)) {
+        return Error{ErrorCode::range, "unknown flags"};
+    }
+    if (desc.view.id != 0 && has(~uint32_t{SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS})) {
+        return Error{ErrorCode::argument,
+                     "a group of a view takes the flags ONE_LEVEL and BOUNDS alone: the view has the others"};
+    }
+    if (desc.view.id == 0 && has(SUPPLE_GROUP_ONE_LEVEL)) {
+        return Error{ErrorCode::argument, "SUPPLE_GROUP_ONE_LEVEL without a view"};
+    }
+    if (has(SUPPLE_GROUP_INDEXED_MESH) && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::argument, "a cage has no samples to share"};
+    }
+    if (has(SUPPLE_GROUP_TANGENTS) && !has(SUPPLE_GROUP_ATTRIBUTES)) {
+        return Error{ErrorCode::argument, "TANGENTS go with ATTRIBUTES"};
+    }
+    return std::nullopt;
+}
+
+/// Null if it says whose instances they are, and how many.
+std::optional<Error> faultOfInstances(const SuppleGroupDesc& desc) {
+    if (desc.instancesOf.id != 0 &&
+        (desc.capacity != 0 || runtime::rawValue(desc.skinning) != 0 || runtime::rawValue(desc.poseSource) != 0)) {
+        return Error{ErrorCode::argument, "capacity, skinning and poseSource are those of instancesOf: they must be 0"};
+    }
+    if (desc.capacity == 0 && desc.instancesOf.id == 0) {
+        return Error{ErrorCode::range, "capacity is 0"};
+    }
+    return std::nullopt;
+}
+
+/// Null if all of them are values of their enumerations, or numbers in their range.
+std::optional<Error> faultOfValues(const SuppleGroupDesc& desc) {
+    if (desc.rate > SUPPLE_MAX_RATE) {
+        return Error{ErrorCode::range, "rate must be 1..64"};
+    }
+    if (runtime::rawValue(desc.scheme) > surface::schemes().size() &&
+        runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::range, "no such scheme"};
+    }
+    if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
+        !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
+        return Error{ErrorCode::range, "no such vertexFormat, skinning or poseSource"};
+    }
+    if (!within(desc.uvInterpolation, SUPPLE_UV_LINEAR_ALL)) {
+        return Error{ErrorCode::range, "no such uvInterpolation"};
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, SuppleAssetDesc& out) {
+    if (std::optional<Error> fault = takeIn(name, given, out)) {
+        return fault;
+    }
+    if (out.prepared != nullptr) {
+        SuppleAssetDesc alone{};
+        alone.structSize = out.structSize;
+        alone.prepared = out.prepared;
+        const bool isAlone = std::memcmp(&alone, &out, sizeof(out)) == 0;
+        return isAlone ? std::nullopt
+                       : std::optional(Error{ErrorCode::argument, "with `prepared`, all other members must be 0"});
+    }
+    if ((out.bytes == nullptr) == (out.cage == nullptr)) {
+        return Error{ErrorCode::argument,
+                     nameOf(out) + (out.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage")};
+    }
+    if (std::optional<Error> fault = faultOfFlags(out.flags)) {
+        return fault;
+    }
+    if (out.files != nullptr && out.files->read == nullptr) {
+        return Error{ErrorCode::nullPointer, "files->read is null"};
+    }
+    return faultOfClipFiles(out);
+}
+
+Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc) {
+    const std::string name = nameOf(desc);
+    if (desc.cage != nullptr) {
+        SuppleCageDesc cage{};
+        if (!runtime::readSized(*desc.cage, cage)) {
+            return Error{ErrorCode::structSize, std::string(function) + ": " +
+                                                    faultOfSize<SuppleCageDesc>("desc.cage", desc.cage->structSize)};
+        }
+        return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
+    }
+    cage::GltfOptions options;
+    if ((desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0) {
+        options.pairing = cage::Pairing::always;
+    } else if ((desc.flags & SUPPLE_ASSET_KEEP_TRIANGLES) != 0) {
+        options.pairing = cage::Pairing::never;
+    }
+    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
+    options.creasesFromNormals = (desc.flags & SUPPLE_ASSET_CREASES_FROM_NORMALS) != 0;
+    options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
+    if (desc.scene != 0) {
+        options.scene = desc.scene - 1;
+    }
+    options.memoryLimit = desc.memoryLimit;
+    options.readFile = reader(desc.files);
+    for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
+        const SuppleClipFile& file = desc.clipFiles[i];
+        options.clipFiles.push_back({nameOf(file, i),
+                                     {static_cast<const std::byte*>(file.bytes), file.byteCount},
+                                     orEmpty(file.baseDirectory),
+                                     reader(file.files)});
+    }
+    return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
+                               orEmpty(desc.baseDirectory), options);
+}
+
+std::optional<Error> GivenGroup::take(const SuppleGroupDesc* given) {
+    if (std::optional<Error> fault = takeIn("desc", given, desc)) {
+        return fault;
+    }
+    return check();
+}
+
+std::optional<Error> GivenGroup::takePlanned(const SuppleGroupDesc* given, bool inView) {
+    if (std::optional<Error> fault = takeIn("desc", given, desc)) {
+        return fault;
+    }
+    desc.asset = {};
+    desc.instancesOf = {};
+    desc.capacity = 1;
+    desc.view.id = inView ? 1 : 0;
+    return check();
+}
+
+std::optional<Error> GivenGroup::takeOptions() {
+    if (desc.prep != nullptr) {
+        if (std::optional<Error> fault = takeIn("prep", desc.prep, prep)) {
+            return fault;
+        }
+        desc.prep = &prep;
+    }
+    if (desc.blend != nullptr) {
+        if (std::optional<Error> fault = takeIn("blend", desc.blend, blend)) {
+            return fault;
+        }
+        desc.blend = &blend;
+    }
+    if (!within(prep.tangentMode, SUPPLE_TANGENTS_PRINTED) || !within(prep.cornerRule, SUPPLE_CORNERS_SMOOTH) ||
+        !within(blend.creaseMode, SUPPLE_CREASES_CURVE)) {
+        return Error{ErrorCode::range, "no such tangentMode, cornerRule or creaseMode"};
+    }
+    if (std::isnan(blend.sharpThreshold)) {
+        return Error{ErrorCode::notFinite, "sharpThreshold is NaN"};
+    }
+    if (blend.sharpThreshold < 0.0f) {
+        return Error{ErrorCode::range, "sharpThreshold is negative"};
+    }
+    return std::nullopt;
+}
+
+std::optional<Error> GivenGroup::check() {
+    std::optional<Error> fault = faultOfInstances(desc);
+    fault = fault ? fault : faultOfValues(desc);
+    fault = fault ? fault : faultOfFlags(desc);
+    fault = fault ? fault : takeOptions();
+    if (fault) {
+        return fault;
+    }
+    if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER && desc.skinning != SUPPLE_SKINNING_LINEAR) {
+        return Error{ErrorCode::argument, "a palette buffer goes with linear skinning only"};
+    }
+    if (std::optional<Error> ofParts = faultOfPartSchemes(desc)) {
+        return ofParts;
+    }
+    if (desc.view.id != 0 && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::argument, "a cage has no levels of detail"};
+    }
+    return std::nullopt;
+}
+
+} // namespace supple::api

@@ -1,0 +1,125 @@
+// supple_prepare.h.
+#include "runtime/prepare.h"
+#include "runtime/api/descriptions.h"
+#include "runtime/api/entry.h"
+
+using namespace supple;      // NOLINT
+using namespace supple::api; // NOLINT
+
+struct SupplePrepared_T {
+    std::shared_ptr<const runtime::Prepared> prepared;
+};
+
+namespace {
+
+constexpr const char* kHere = "supplePrepare";
+
+Error here(const Error& error) {
+    return {error.code, std::string(kHere) + ": " + error.message};
+}
+
+Error here(ErrorCode code, const std::string& reason) {
+    return here(Error{code, reason});
+}
+
+Result<std::shared_ptr<runtime::Prepared>> readCharacter(const SupplePrepareDesc& desc) {
+    SuppleAssetDesc asset{};
+    if (const std::optional<Error> fault = takeAsset("desc.asset", desc.asset, asset)) {
+        return here(*fault);
+    }
+    if (asset.prepared != nullptr) {
+        return here(ErrorCode::argument, "the asset is prepared already");
+    }
+    Result<cage::Character> character = readAsset(kHere, asset);
+    if (!character) {
+        return character.error();
+    }
+    return runtime::Prepared::of(std::move(*character));
+}
+
+Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc& desc) {
+    if (!within(desc.mapping, SUPPLE_MAPPING_WIDE)) {
+        return here(ErrorCode::range, "no such mapping");
+    }
+    if (desc.groupCount > 0 && desc.groups == nullptr) {
+        return here(ErrorCode::nullPointer, "groups is null");
+    }
+    const Result<std::shared_ptr<runtime::Prepared>> prepared = readCharacter(desc);
+    if (!prepared) {
+        return prepared.error();
+    }
+    for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        const SupplePlannedGroup& planned = desc.groups[g];
+        const std::string name = "groups[" + std::to_string(g) + "]: ";
+        GivenGroup group;
+        if (const std::optional<Error> fault = group.takePlanned(planned.desc, planned.inView != 0)) {
+            return here(fault->code, name + fault->message);
+        }
+        if (planned.inView == 0 && planned.viewFlags != 0) {
+            return here(ErrorCode::argument, name + "viewFlags without a view");
+        }
+        const std::optional<uint32_t> flags =
+            planned.inView != 0 ? std::optional<uint32_t>(planned.viewFlags) : std::nullopt;
+        if (const Status status =
+                runtime::prepareFor(**prepared, {group.desc, flags}, desc.mapping != SUPPLE_MAPPING_NARROW);
+            !status) {
+            return status.error();
+        }
+    }
+    return std::shared_ptr<const runtime::Prepared>(*prepared);
+}
+
+} // namespace
+
+namespace supple::api {
+
+std::shared_ptr<const runtime::Prepared> preparedOf(SupplePrepared handle) {
+    return handle->prepared;
+}
+
+} // namespace supple::api
+
+SuppleResult supplePrepare(const SupplePrepareDesc* given, SupplePrepared* out) {
+    if (out != nullptr) {
+        *out = nullptr;
+    }
+    if (given == nullptr || !runtime::isPossibleSize<SupplePrepareDesc>(given->structSize)) {
+        return SUPPLE_ERROR_ARGUMENT; // a struct of no version has no log function to tell
+    }
+    try {
+        SupplePrepareDesc desc{};
+        const bool read = runtime::readSized(*given, desc);
+        const auto tell = [&](SuppleSeverity severity, SuppleMessage message, const std::string& text) {
+            if (given->log != nullptr) {
+                given->log(severity, message, text.c_str(), given->logUser);
+            }
+        };
+        const auto refused = [&](const Error& error) {
+            const Verdict verdict = verdictOf(error.code);
+            tell(SUPPLE_SEVERITY_ERROR, verdict.message, error.message);
+            return verdict.result;
+        };
+        if (!read) {
+            return refused(here(ErrorCode::structSize, faultOfSize<SupplePrepareDesc>("desc", given->structSize)));
+        }
+        if (out == nullptr) {
+            return refused(here(ErrorCode::nullPointer, "out is null"));
+        }
+        Result<std::shared_ptr<const runtime::Prepared>> prepared = prepare(desc);
+        if (!prepared) {
+            return refused(prepared.error());
+        }
+        const cage::Character& character = (*prepared)->character;
+        for (const std::string& warning : character.warnings) {
+            tell(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, character.name + ": " + warning);
+        }
+        *out = new SupplePrepared_T{std::move(*prepared)};
+        return SUPPLE_OK;
+    } catch (const std::exception&) {
+        return SUPPLE_ERROR_HOST_MEMORY; // nothing else is thrown at us
+    }
+}
+
+void suppleDestroyPrepared(SupplePrepared prepared) {
+    delete prepared;
+}

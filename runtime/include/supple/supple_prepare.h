@@ -1,0 +1,56 @@
+/**
+ * @file supple_prepare.h
+ * Characters that are read, and whose tables are built, before a context needs them: on any thread, without a device.
+ * supple.h includes this header.
+ */
+#ifndef SUPPLE_PREPARE_H
+#define SUPPLE_PREPARE_H
+
+#include "supple.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A group that will be made of a character. */
+typedef struct SupplePlannedGroup {
+    /** As it will be given to suppleCreateGroup. asset, capacity, view and instancesOf do not matter here. */
+    const SuppleGroupDesc* desc;
+    uint32_t inView;    /**< 1: the group will belong to a view */
+    uint32_t viewFlags; /**< SuppleViewFlags of that view; 0 without one */
+} SupplePlannedGroup;
+
+/** What to prepare. All pointers are needed during the call only. */
+typedef struct SupplePrepareDesc {
+    uint32_t structSize;
+    /** The mapping of the context that will make the groups: tables of the other mapping are of no use there. AUTO is
+     * WIDE, the mapping of GPUs. */
+    SuppleMapping mapping;
+    const SuppleAssetDesc* asset;     /**< the file or the arrays; `prepared` must be null */
+    const SupplePlannedGroup* groups; /**< groupCount of them; their order does not matter */
+    uint32_t groupCount;
+    SuppleLogFunction log; /**< optional: errors, and warnings about the file */
+    void* logUser;
+} SupplePrepareDesc;
+
+/** Reads a character and builds what its groups will need: skin tables, the tables of each scheme, and the tables of
+ * clips if a group is to play (SUPPLE_POSES_PLAYBACK). Needs no context and no device. Any number of threads may call
+ * it at the same time, also while others use contexts.
+ *
+ * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
+ * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
+ * differs from the plan in what its tables depend on (scheme, flags, rate of BLEND and FRAGMENTS, options,
+ * uvInterpolation, flags of the view, mapping), works as well: suppleCreateGroup builds what is missing, and says so
+ * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
+ *
+ * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
+ * null then. */
+SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepared* out);
+/** Null does nothing. Assets that were made of it keep what they need. */
+SUPPLE_API void suppleDestroyPrepared(SupplePrepared prepared);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SUPPLE_PREPARE_H */

@@ -1,0 +1,86 @@
+#include "runtime/prepare.h"
+
+#include "runtime/part_schemes.h"
+#include "runtime/surface_recipe.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+namespace {
+
+Result<std::shared_ptr<const PreparedTables>> tablesFor(Prepared& prepared, const surface::Recipe& recipe,
+                                                        const std::shared_ptr<const PreparedPiece>& piece) {
+    if (std::shared_ptr<const PreparedTables> known = prepared.find(recipe, piece.get())) {
+        return known;
+    }
+    Result<std::shared_ptr<PreparedTables>> built = prepared.build(recipe, piece);
+    if (!built) {
+        return built.error();
+    }
+    prepared.tables.push_back(*built);
+    return prepared.tables.back();
+}
+
+/// Null: all parts.
+std::shared_ptr<const PreparedPiece> pieceFor(Prepared& prepared, const std::vector<uint32_t>& parts) {
+    if (parts.size() == prepared.character.parts.size()) {
+        return nullptr;
+    }
+    std::shared_ptr<const PreparedPiece> piece = prepared.pieceOf(parts);
+    if (std::ranges::find(prepared.pieces, piece) == prepared.pieces.end()) {
+        prepared.pieces.push_back(piece);
+    }
+    return piece;
+}
+
+Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts, bool wide) {
+    const std::shared_ptr<const PreparedPiece> piece = pieceFor(prepared, parts.parts);
+    const cage::Cage& cage = prepared.cageOf(piece.get());
+    const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), cage);
+    SuppleGroupDesc desc = group.desc;
+    desc.flags = surfaceFlags(desc.flags, drawer.scheme, parts.chosen);
+    const Result<SurfaceRecipe> recipe = surfaceRecipe(
+        {prepared.character, parts.parts, cage, desc, drawer.scheme, parts.chosen, group.viewFlags, wide});
+    if (!recipe) {
+        return recipe.error();
+    }
+    const auto finest = tablesFor(prepared, recipe->recipe, piece);
+    if (!finest) {
+        return finest.error();
+    }
+    const surface::Scheme& scheme = surface::schemeOf(drawer.scheme);
+    if (!group.viewFlags || scheme.hasLevels || !scheme.hasRates()) {
+        return success();
+    }
+    for (const surface::Recipe& below : ratesBelow(recipe->recipe, (*finest)->tables)) {
+        const auto own = tablesFor(prepared, below, piece);
+        if (!own) {
+            return own.error();
+        }
+    }
+    return success();
+}
+
+} // namespace
+
+Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
+    if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK && !prepared.clips) {
+        prepared.clips = skinning::buildClipTable(prepared.character);
+    }
+    if (group.desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return success();
+    }
+    const Result<std::vector<SchemeParts>> schemes = schemesOf(prepared, group.desc);
+    if (!schemes) {
+        return schemes.error();
+    }
+    for (const SchemeParts& parts : *schemes) {
+        if (const Status status = prepareSurface(prepared, group, parts, wide); !status) {
+            return status;
+        }
+    }
+    return success();
+}
+
+} // namespace supple::runtime

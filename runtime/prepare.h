@@ -1,0 +1,22 @@
+// What groups will need of a character, built before there are any: no device, no context.
+#pragma once
+
+#include "runtime/prepared.h"
+#include "supple/supple.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace supple::runtime {
+
+/// A group that is to come.
+struct PlannedGroup {
+    const SuppleGroupDesc& desc;       ///< checked; asset, capacity, view and instancesOf do not matter
+    std::optional<uint32_t> viewFlags; ///< of its view, if it will have one
+};
+
+/// Adds what the group will need and `prepared` does not have. Refuses what creating the group would refuse of the
+/// character.
+[[nodiscard]] Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide);
+
+} // namespace supple::runtime

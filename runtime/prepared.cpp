@@ -1,0 +1,87 @@
+#include "runtime/prepared.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+namespace {
+
+PartSummary summaryOf(const cage::Character& character, size_t part) {
+    const cage::Cage& cage = character.cage;
+    const uint32_t begin = character.parts[part].firstFace, end = cage::endFace(character, part);
+    PartSummary summary;
+    for (uint32_t f = begin; f < end; ++f) {
+        summary.materials.push_back(cage.faceMaterials.empty() ? cage::kNone : cage.faceMaterials[f]);
+    }
+    std::sort(summary.materials.begin(), summary.materials.end());
+    summary.materials.erase(std::unique(summary.materials.begin(), summary.materials.end()), summary.materials.end());
+    summary.low = summary.high = cage.positions[cage.faceVertices[cage.faceStarts[begin]]];
+    for (uint32_t c = cage.faceStarts[begin]; c < cage.faceStarts[end]; ++c) {
+        summary.low = glm::min(summary.low, cage.positions[cage.faceVertices[c]]);
+        summary.high = glm::max(summary.high, cage.positions[cage.faceVertices[c]]);
+    }
+    if (character.parts[part].rigid) {
+        const uint32_t vertex = cage.faceVertices[cage.faceStarts[begin]];
+        summary.joint = character.weights.influences[character.weights.starts[vertex]].joint;
+    }
+    return summary;
+}
+
+/// Faces and corners of a piece's patches become those of the whole cage.
+void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& patches) {
+    for (surface::PatchInfo& patch : patches) {
+        patch.face = piece.faces[patch.face];
+        for (uint32_t& corner : patch.corners) {
+            corner = corner == cage::kNone ? corner : piece.vertices[corner];
+        }
+    }
+}
+
+} // namespace
+
+std::shared_ptr<Prepared> Prepared::of(cage::Character character) {
+    auto prepared = std::make_shared<Prepared>();
+    prepared->deform = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+    prepared->rig = skinning::makeRig(character);
+    for (size_t part = 0; part < character.parts.size(); ++part) {
+        prepared->parts.push_back(summaryOf(character, part));
+    }
+    prepared->choices = surface::chooseSchemes(character);
+    prepared->jointFrames = skinning::jointFrames(character);
+    prepared->character = std::move(character);
+    return prepared;
+}
+
+std::shared_ptr<const PreparedPiece> Prepared::pieceOf(const std::vector<uint32_t>& wanted) const {
+    const auto known = std::ranges::find_if(pieces, [&](const auto& piece) { return piece->parts == wanted; });
+    if (known != pieces.end()) {
+        return *known;
+    }
+    std::vector<uint32_t> faces;
+    for (const uint32_t part : wanted) {
+        for (uint32_t f = character.parts[part].firstFace; f < cage::endFace(character, part); ++f) {
+            faces.push_back(f);
+        }
+    }
+    return std::make_shared<PreparedPiece>(PreparedPiece{wanted, cage::takeFaces(character.cage, faces)});
+}
+
+std::shared_ptr<const PreparedTables> Prepared::find(const surface::Recipe& recipe, const PreparedPiece* piece) const {
+    const auto known = std::ranges::find_if(
+        tables, [&](const auto& own) { return own->recipe == recipe && own->piece.get() == piece; });
+    return known != tables.end() ? *known : nullptr;
+}
+
+Result<std::shared_ptr<PreparedTables>> Prepared::build(const surface::Recipe& recipe,
+                                                        const std::shared_ptr<const PreparedPiece>& piece) const {
+    Result<surface::Tables> built = surface::buildTables(recipe, cageOf(piece.get()));
+    if (!built) {
+        return Error{built.error().code, character.name + ": " + built.error().message};
+    }
+    if (piece != nullptr) {
+        nameInWhole(piece->of, built->patches);
+    }
+    return std::make_shared<PreparedTables>(PreparedTables{recipe, piece, std::move(*built)});
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,71 @@
+// A character and what is built of it on the CPU. It knows no device and no context, so it can be made on any thread.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+#include "cage/piece.h"
+#include "skinning/clip_table.h"
+#include "skinning/deform_pass.h"
+#include "skinning/joints.h"
+#include "skinning/layers.h"
+#include "surface/choice.h"
+#include "surface/schemes.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace supple::runtime {
+
+/// What the API tells of a part beside cage::Part.
+struct PartSummary {
+    std::vector<uint32_t> materials; ///< that its faces have, rising
+    uint32_t joint = cage::kNone;    ///< that all its vertices follow
+    glm::vec3 low{0.0f}, high{0.0f}; ///< box of its cage vertices
+};
+
+/// Some parts of a character, of which a surface is made.
+struct PreparedPiece {
+    std::vector<uint32_t> parts; ///< rising
+    cage::CagePiece of;
+};
+
+/// The tables of a recipe. Patches have the faces and corners of the whole cage.
+struct PreparedTables {
+    surface::Recipe recipe;
+    std::shared_ptr<const PreparedPiece> piece; ///< null: the whole cage
+    surface::Tables tables;
+};
+
+/// Whoever shares it may not change it: then threads, assets and contexts read it at the same time.
+struct Prepared {
+    cage::Character character;
+    std::vector<PartSummary> parts;
+    std::vector<surface::SchemeChoice> choices; ///< what SUPPLE_SCHEME_AUTO takes for each part
+    skinning::DeformTable deform;
+    skinning::Rig rig;
+    skinning::JointFrames jointFrames;
+    std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
+    std::vector<std::shared_ptr<const PreparedPiece>> pieces;
+    std::vector<std::shared_ptr<const PreparedTables>> tables;
+
+    /// Without clips, pieces and tables.
+    [[nodiscard]] static std::shared_ptr<Prepared> of(cage::Character character);
+
+    /// Finds the piece of some parts (rising), or makes one that is not kept here.
+    [[nodiscard]] std::shared_ptr<const PreparedPiece> pieceOf(const std::vector<uint32_t>& parts) const;
+    /// Null if the tables were not prepared.
+    [[nodiscard]] std::shared_ptr<const PreparedTables> find(const surface::Recipe& recipe,
+                                                             const PreparedPiece* piece) const;
+    /// Builds the tables of a recipe for the piece, or for the whole cage if it is null. They are not kept here.
+    /// Refuses what the scheme cannot take.
+    [[nodiscard]] Result<std::shared_ptr<PreparedTables>>
+    build(const surface::Recipe& recipe, const std::shared_ptr<const PreparedPiece>& piece) const;
+
+    /// The cage of the piece, or the whole cage if it is null.
+    [[nodiscard]] const cage::Cage& cageOf(const PreparedPiece* piece) const {
+        return piece != nullptr ? piece->of.cage : character.cage;
+    }
+};
+
+} // namespace supple::runtime
