@@ -80,6 +80,7 @@ public:
         const uint64_t before = deviceMemoryOf(handle());
         createAssets();
         createGroups();
+        prepare();
         pose();
         ask();
         frames(0);
@@ -102,6 +103,38 @@ public:
     }
 
 private:
+    /// A character on its way through a worker, and a group of it.
+    void prepare() {
+        SuppleGroupDesc group{};
+        group.structSize = sizeof(group);
+        group.capacity = 1;
+        group.rate = 2;
+        group.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+        const SupplePlannedGroup planned{&group, 0, 0};
+        SuppleAssetDesc read{};
+        read.structSize = sizeof(read);
+        read.name = "another tube whose name is too long to lie in a string itself";
+        read.bytes = tubeFile().data();
+        read.byteCount = tubeFile().size();
+        SupplePrepareDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.mapping = SUPPLE_MAPPING_NARROW;
+        desc.asset = &read;
+        desc.groups = &planned;
+        desc.groupCount = 1;
+        SupplePrepared prepared = nullptr;
+        call("supplePrepare", [&] { return supplePrepare(&desc, &prepared); });
+        SuppleAssetDesc given{};
+        given.structSize = sizeof(given);
+        given.prepared = prepared;
+        call("suppleCreateAsset, prepared", [&] { return suppleCreateAsset(handle(), &given, &group.asset); });
+        suppleDestroyPrepared(prepared);
+        SuppleGroup made{};
+        call("suppleCreateGroup, prepared", [&] { return suppleCreateGroup(handle(), &group, &made); });
+        call("suppleDestroyGroup, prepared", [&] { return suppleDestroyGroup(handle(), made); });
+        call("suppleDestroyAsset, prepared", [&] { return suppleDestroyAsset(handle(), group.asset); });
+    }
+
     void call(const char* name, const std::function<SuppleResult()>& body, SuppleResult good = SUPPLE_OK) {
         make_(name, body, good);
     }

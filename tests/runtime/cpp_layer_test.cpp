@@ -37,6 +37,15 @@ TEST(CppLayer, OwnsWhatItMakes) {
     {
         supple::Asset asset;
         ASSERT_EQ(supple::Asset::create(context, assetDesc, asset), SUPPLE_OK);
+        supple::Prepared prepared;
+        auto prepareDesc = supple::sized<SupplePrepareDesc>();
+        EXPECT_EQ(supple::Prepared::create(prepareDesc, prepared), SUPPLE_ERROR_ARGUMENT) << "no asset";
+        prepareDesc.asset = &assetDesc;
+        ASSERT_EQ(supple::Prepared::create(prepareDesc, prepared), SUPPLE_OK);
+        supple::Prepared moved(std::move(prepared));
+        auto preparedDesc = supple::sized<SuppleAssetDesc>();
+        preparedDesc.prepared = moved.handle();
+        ASSERT_EQ(supple::Asset::create(context, preparedDesc, asset), SUPPLE_OK);
         SuppleAssetInfo info;
         ASSERT_EQ(asset.info(info), SUPPLE_OK);
         EXPECT_EQ(info.faceCount, 6u);

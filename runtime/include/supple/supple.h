@@ -10,8 +10,9 @@
  *
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
- * This header is in the order of use. supple_view.h (level of detail, culling) and supple_playback.h (layers of clips,
- * root motion, clips that the device plays) are for hosts that need them. This header includes both at its end.
+ * This header is in the order of use. supple_prepare.h (characters read on any thread), supple_view.h (level of detail,
+ * culling) and supple_playback.h (layers of clips, root motion, clips that the device plays) are for hosts that need
+ * them. This header includes all three at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple

@@ -224,6 +224,34 @@ protected:
     Handle handle_{};                 ///< see handle()
 };
 
+/// Owns a SupplePrepared, of no context.
+class Prepared {
+public:
+    Prepared() = default;
+    Prepared(const Prepared&) = delete;
+    Prepared& operator=(const Prepared&) = delete;
+    Prepared(Prepared&& other) noexcept { *this = std::move(other); }
+    Prepared& operator=(Prepared&& other) noexcept {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Prepared() { suppleDestroyPrepared(handle_); }
+
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const SupplePrepareDesc& desc, Prepared& out) {
+        Prepared made;
+        const SuppleResult result = supplePrepare(&desc, &made.handle_);
+        if (result == SUPPLE_OK) {
+            out = std::move(made);
+        }
+        return result;
+    }
+    [[nodiscard]] SupplePrepared handle() const { return handle_; }
+
+private:
+    SupplePrepared handle_ = nullptr;
+};
+
 /// Owns a SuppleAsset. Its context must outlive it.
 class Asset : public Owner<SuppleAsset> {
 public:
