@@ -20,6 +20,7 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
+layout(location = 10) in vec3 inSquares;
 layout(location = 9) in vec4 inTangent; // views of values: x is the value
 
 layout(location = 0) out vec4 outColor;
@@ -89,6 +90,10 @@ vec3 zebra(vec2 tubes, vec3 n, vec3 v) {
     float form = 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0);
     return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
 }
+
+/// The edge of a shadow crosses the triangle, or one of its vertices lies inside of another body: what is interpolated from
+/// vertices means little there. The mean of squares is the square of the mean only if all agree.
+bool verticesDisagree() { return strongest(inSquares - inKeyRimOpen * inKeyRimOpen) > 0.02; }
 
 /// front: the surface's own unit normal.
 vec3 normalFromMap(vec3 front) {
@@ -167,11 +172,11 @@ void main() {
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
         if (back && !materialHas(kMaterialDoubleSided))
             material.albedo *= 0.35;
-        Incident light;
-        if (kLightPerVertex)
-            light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
-        else
-            light = gatherLight(inPosition, n);
+        Incident light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
+        if (!kLightPerVertex)
+            light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
+        else if (areCones() && verticesDisagree())
+            light = gatherLight(inPosition, n, kLookIntoCones, pixelNoise(gl_FragCoord.xy));
         color = studioTone(material, studioShade(material, light, mapped, n, v));
     }
 

@@ -142,16 +142,17 @@ std::vector<NamedView> allViews() {
 Sheet drawViews(const GoldenSheet& golden) {
     Sheet sheet(static_cast<uint32_t>(golden.views.size()));
     DrawnFigure figure(golden.figure, golden.rate, golden.joint);
-    const Status status = inSession({}, [&](Session& session) -> Status {
-        for (size_t i = 0; i < golden.views.size(); ++i) {
-            const Result<host::Picture> picture = figure.draw(session, golden.views[i]);
-            if (!picture)
-                return picture.error();
-            sheet.put(i, golden.views[i].name, *picture);
-        }
-        figure.close();
-        return success();
-    });
+    const Status status =
+        inSession({.validate = std::getenv("SUPPLE_VALIDATION") != nullptr}, [&](Session& session) -> Status {
+            for (size_t i = 0; i < golden.views.size(); ++i) {
+                const Result<host::Picture> picture = figure.draw(session, golden.views[i]);
+                if (!picture)
+                    return picture.error();
+                sheet.put(i, golden.views[i].name, *picture);
+            }
+            figure.close();
+            return success();
+        });
     EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().message);
     return sheet;
 }
