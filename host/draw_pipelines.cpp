@@ -58,6 +58,7 @@ Status DrawPipelines::createLayouts() {
         {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex | kFragment},
         {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
         {shared::kEnvironmentBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        {shared::kShadowDepthBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kVertex | kFragment},
     };
     const std::initializer_list<Binding> figure = {
         {shared::kSurfaceVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},

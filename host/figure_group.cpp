@@ -10,8 +10,8 @@ namespace supple::host {
 
 namespace {
 
-/// Triangles a shadow map may cost before its grid is made coarser.
-constexpr uint64_t kShadowTrianglesCpu = 16'000;
+/// Triangles a shadow map may cost before its grid is made coarser: four segments to a side of 500 quads.
+constexpr uint64_t kShadowTrianglesCpu = 16'500;
 constexpr uint64_t kShadowTrianglesGpu = 1'500'000;
 
 /// The first `used` positions of each instance. What fills its stride up to the next instance is never written.

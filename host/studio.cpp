@@ -9,6 +9,8 @@ namespace supple::host {
 namespace {
 
 constexpr float kGoldenAngle = 2.39996323f;
+/// Directions are blurred into cones of equal areas that just overlap.
+constexpr float kConeOverlap = 1.2f;
 
 const glm::vec3 kKeyColor = glm::vec3(1.0f, 0.89f, 0.76f) * 1.0f;
 const glm::vec3 kRimColor = glm::vec3(0.70f, 0.85f, 1.0f) * 1.5f;
@@ -45,11 +47,11 @@ glm::mat4 shadowMatrix(glm::vec3 towardsLight, const Sphere& sphere) {
     const float radius = sphere.radius;
     const glm::vec3 up = std::abs(towardsLight.y) > 0.95f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
     const glm::mat4 view = glm::lookAtRH(sphere.center + towardsLight * radius * 2.0f, sphere.center, up);
-    return glm::orthoRH_ZO(-radius, radius, -radius, radius, radius * 0.9f, radius * 3.1f) * view;
+    return glm::orthoRH_ZO(-radius, radius, -radius, radius, radius * 0.9f, radius * (0.9f + kShadowDepth)) * view;
 }
 
-shared::Light makeLight(glm::vec3 towards, glm::vec3 color, uint32_t part, const Sphere& sphere) {
-    return {glm::vec4(towards, 0.0f), glm::vec4(color, static_cast<float>(part)), shadowMatrix(towards, sphere)};
+shared::Light makeLight(glm::vec3 towards, float cone, glm::vec3 color, uint32_t part, const Sphere& sphere) {
+    return {glm::vec4(towards, cone), glm::vec4(color, static_cast<float>(part)), shadowMatrix(towards, sphere)};
 }
 
 /// `count` directions spread evenly over a disc of `spread` radians about the middle direction.
@@ -57,11 +59,13 @@ void addSoftLight(std::vector<shared::Light>& lights, uint32_t count, const Samp
                   float spread, glm::vec3 color, uint32_t part, const Sphere& sphere) {
     const glm::vec3 side = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), middle));
     const glm::vec3 above = glm::cross(middle, side);
+    const float cone = kConeOverlap * spread / std::sqrt(static_cast<float>(count * sampling.passes));
     for (uint32_t i = 0; i < count; ++i) {
         const float reach = spread * std::sqrt(sampling.fraction(i, count));
         const float angle = kGoldenAngle * sampling.index(i);
         const glm::vec3 offset = side * (reach * std::cos(angle)) + above * (reach * std::sin(angle));
-        lights.push_back(makeLight(glm::normalize(middle + offset), color / static_cast<float>(count), part, sphere));
+        lights.push_back(
+            makeLight(glm::normalize(middle + offset), cone, color / static_cast<float>(count), part, sphere));
     }
 }
 
@@ -84,11 +88,12 @@ std::vector<shared::Light> studioLights(const StudioQuality& quality, uint32_t p
     const float scale = 2.0f / static_cast<float>(std::max(quality.sky, 1u));
     // A few directions keep to the top: low ones would each throw a long shadow of its own.
     const float reach = quality.sky * sampling.passes >= 8 ? 0.96f : 0.55f;
+    const float cone = kConeOverlap * std::sqrt(2.0f * reach / static_cast<float>(quality.sky * sampling.passes));
     for (uint32_t i = 0; i < quality.sky; ++i) {
         const float height = 1.0f - sampling.fraction(i, quality.sky) * reach;
         const glm::vec3 towards = direction(yaw + kGoldenAngle * sampling.index(i), std::asin(height));
         const glm::vec3 color = glm::mix(kSkyHorizon, kSkyZenith, height) * scale;
-        lights.push_back(makeLight(towards, color, shared::kLightSky, sphere));
+        lights.push_back(makeLight(towards, cone, color, shared::kLightSky, sphere));
     }
     return lights;
 }

@@ -26,7 +26,7 @@ struct StudioQuality {
         const bool small = height <= 480;
         if (cpuDevice)
             return {
-                .key = 3, .rim = 1, .sky = 5, .shadowSize = small ? 512u : 1024u, .passes = 8, .multisample = false};
+                .key = 2, .rim = 1, .sky = 4, .shadowSize = small ? 512u : 1024u, .passes = 7, .multisample = false};
         return {.shadowSize = small ? 512u : 1024u};
     }
     /// For a window: on a CPU device a few directions must do.
@@ -45,6 +45,9 @@ struct StudioQuality {
         return {.key = 1, .rim = 1, .sky = 1, .shadowSize = 768, .passes = 32, .multisample = false};
     }
 };
+
+/// How deep a shadow map is, in radii of the scene.
+inline constexpr float kShadowDepth = 2.2f;
 
 /// The rig for a figure inside the sphere, seen from `yaw` (see Camera): the key stands to the viewer's left, the rim
 /// behind the figure to the right. All passes together sample each part of the rig evenly, and so does every one of

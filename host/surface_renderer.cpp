@@ -251,7 +251,8 @@ Status SurfaceRenderer::createEnvironment() {
 
 Status SurfaceRenderer::createSlots(uint32_t count) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count}};
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = count;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -281,9 +282,10 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
         VkWriteDescriptorSet writes[] = {
             descriptorWrite(slot.set, shared::kFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
             descriptorWrite(slot.set, shared::kShadowBinding, kImage),
-            descriptorWrite(slot.set, shared::kEnvironmentBinding, kImage)};
+            descriptorWrite(slot.set, shared::kEnvironmentBinding, kImage),
+            descriptorWrite(slot.set, shared::kShadowDepthBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE)};
         writes[0].pBufferInfo = &buffer;
-        writes[1].pImageInfo = &shadows;
+        writes[1].pImageInfo = writes[3].pImageInfo = &shadows;
         writes[2].pImageInfo = &environment;
         vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(std::size(writes)), writes, 0, nullptr);
         slots_.push_back(std::move(slot));
@@ -533,6 +535,9 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
                          : studioExposure(0.4f);
     frame.shadowTexel = 2.0f * radius / static_cast<float>(quality.shadowSize);
     frame.pixelScale = scene.pixelScale;
+    frame.shadowWorld = 0.5f * frame.shadowTexel * static_cast<float>(quality_.shadowSize);
+    frame.shadowDepth = kShadowDepth * radius;
+    frame.pass = quality.passes > 1 ? scene.pass + 1 : 0;
     if (quality.lightCount() * quality.passes < kFewLights)
         frame.softShadows = 0.8f / static_cast<float>(quality_.shadowSize);
     const StudioMiddle middle = studioMiddle(scene.lightYaw);

@@ -49,6 +49,7 @@ void main() {
     }
     if (!gl_FrontFacing && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
-    vec3 lit = studioShade(material, gatherLight(inPosition, n), gl_FrontFacing ? mapped : -mapped, n, v);
+    Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
+    vec3 lit = studioShade(material, light, gl_FrontFacing ? mapped : -mapped, n, v);
     outColor = vec4(studioTone(material, lit), alpha);
 }

@@ -20,6 +20,7 @@ using mat4 = glm::mat4;
 SUPPLE_HOST_CONST kFrameBinding = 0u;
 SUPPLE_HOST_CONST kShadowBinding = 1u;
 SUPPLE_HOST_CONST kEnvironmentBinding = 2u;
+SUPPLE_HOST_CONST kShadowDepthBinding = 3u; // the image of kShadowBinding
 // Set 1, the figure: what Supple hands out, and two tables the host makes of the cage.
 SUPPLE_HOST_CONST kSurfaceVertexBinding = 0u;
 SUPPLE_HOST_CONST kSurfaceAttributeBinding = 1u;
@@ -115,7 +116,7 @@ SUPPLE_HOST_CONST kLightRim = 1u;
 SUPPLE_HOST_CONST kLightSky = 2u;
 
 struct Light {
-    vec4 direction; // towards the light
+    vec4 direction; // towards the light; w: its cone, a tangent
     vec4 color;     // irradiance on a surface that faces it
     mat4 shadow;    // world to the light's shadow map
 };
@@ -140,9 +141,9 @@ struct FrameUniforms {
     float shadowTexel; // its width in the world
     float pixelScale;  // line widths are multiplied by it
     float softShadows; // how far shadow lookups are spread, in the map; 0: one lookup
-    float unused0;
-    float unused1;
-    float unused2;
+    uint pass;         // of those that make the picture, from 1 on; 0: there is one only
+    float shadowWorld; // half the width of a shadow map in the world
+    float shadowDepth; // its depth
     Light lights[kMaxLights];
 };
 

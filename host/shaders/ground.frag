@@ -16,18 +16,31 @@ void main() {
         return;
     }
     vec3 lit = vec3(0.0), all = vec3(0.0);
+    vec3 noise = pixelNoise(gl_FragCoord.xy);
     vec3 receiver = inPosition + vec3(0.0, frame.shadowTexel, 0.0);
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec4 light = frame.lights[i].color;
+        float weight = max(frame.lights[i].direction.y, 0.0);
         // The rim would throw a long shadow towards the viewer that tells nothing of the figure.
-        float weight = max(frame.lights[i].direction.y, 0.0) * (uint(light.w) == kLightRim ? 0.15 : 1.0);
-        if (weight <= 0.0)
+        if (weight <= 0.0 || uint(light.w) == kLightRim)
             continue;
-        float visible = lightVisibility(i, receiver);
-        // A few directions of sky are no soft shadow yet: far from the figure they fade, near it they hold it down.
-        if (frame.softShadows > 0.0 && uint(light.w) == kLightSky)
-            visible = mix(visible, 1.0, smoothstep(0.15, 0.9, away));
+        bool sky = uint(light.w) == kLightSky;
         all += light.rgb * weight;
+        if (sky && away > kFarthestSkyShadow) {
+            lit += light.rgb * weight;
+            continue;
+        }
+        noise = nextNoise(noise);
+        // What stands above this place is about as far away as the light comes from aside.
+        float aside = sqrt(max(1.0 - frame.lights[i].direction.y * frame.lights[i].direction.y, 0.09));
+        float nearby = frame.target.w * clamp(away / aside, 0.1, 1.2);
+        float visible = areCones()
+                            ? coneVisibility(i, receiver, vec3(0.0, 1.0, 0.0), frame.lights[i].direction.y, noise, nearby)
+                            : lightVisibility(i, receiver);
+        // A few directions of sky are no soft shadow yet: far from the figure they fade, near it they hold it down.
+        if (sky)
+            visible = mix(visible, 1.0,
+                          frame.softShadows > 0.0 ? smoothstep(0.15, 0.9, away) : smoothstep(0.9, kFarthestSkyShadow, away));
         lit += light.rgb * weight * visible;
     }
     if (frame.openSky.w != 0.0) { // near the figure some of the sky is hidden

@@ -1,12 +1,16 @@
 // The studio: a warm key, a cool rim from behind, a soft sky, light from the floor. Each light is one direction of a
 // sampled environment and has its own small shadow map, so that shadows soften with distance and corners darken. What is
 // mirrored are the soft boxes of these lights, walls and floor (host/environment.h).
+#extension GL_EXT_samplerless_texture_functions : require
 #include "pbr.glsl"
 
 layout(set = 0, binding = kShadowBinding) uniform sampler2DArrayShadow shadowMaps;
 layout(set = 0, binding = kEnvironmentBinding) uniform sampler2D environmentMap;
+layout(set = 0, binding = kShadowDepthBinding) uniform texture2DArray shadowDepths;
 
 const float kPi = 3.14159265;
+/// In radii of the scene: parts of a figure hide light from each other from about so far.
+const float kNearby = 0.25;
 
 // Radiance of what is mirrored besides key and rim. Walls and floor are lightest where they meet.
 const vec3 kOverhead = vec3(0.92, 0.95, 1.0);
@@ -30,6 +34,47 @@ float lightVisibility(uint light, vec3 position) {
     return sum * 0.25;
 }
 
+/// Noise needs passes that take it away, and many directions.
+bool areCones() { return frame.pass != 0u && frame.softShadows == 0.0; }
+
+/// What differs from neighbour to neighbour and from pass to pass: interleaved gradient noise (Jimenez, SIGGRAPH 2014) and the
+/// plane's most even sequence (Roberts, 2018). xy: a direction; z: from 0 to 1.
+vec3 pixelNoise(vec2 pixel) {
+    vec2 at = floor(pixel) + 5.588238 * float(frame.pass);
+    vec2 noise = fract(vec2(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))), dot(at, vec2(0.75487767, 0.56984029))));
+    return vec3(cos(2.0 * kPi * noise.x), sin(2.0 * kPi * noise.x), noise.y);
+}
+/// The noise for the next light: a golden angle on.
+vec3 nextNoise(vec3 noise) {
+    return vec3(mat2(-0.737369, 0.675490, -0.675490, -0.737369) * noise.xy, fract(noise.z + 0.754878));
+}
+
+/// at: -1 to 1 in the map.
+float shadowDepthAt(uint light, vec2 at) {
+    float texels = 2.0 * frame.shadowWorld / frame.shadowTexel;
+    vec2 texel = clamp((at * 0.5 + 0.5) * texels, vec2(0.0), vec2(texels - 1.0));
+    return texelFetch(shadowDepths, ivec3(texel, light), 0).x;
+}
+
+/// Soft shadows from few directions: each is a cone, of which a pixel sees one ray. The farther away what hides the light is, the
+/// farther the ray has come from the cone's axis; so shadows are sharp where things touch. nl: of the plane that takes the
+/// shadow. nearby: about how far away what hides the light may be.
+float coneVisibility(uint light, vec3 position, vec3 n, float nl, vec3 noise, float nearby) {
+    mat4 shadow = frame.lights[light].shadow;
+    vec3 at = (shadow * vec4(position, 1.0)).xyz;
+    if (max(abs(at.x), abs(at.y)) > 1.0)
+        return 1.0;
+    vec2 ray = noise.xy * (sqrt(noise.z) * frame.lights[light].direction.w / frame.shadowWorld);
+    // How depth changes along the plane, for a step in the map.
+    float steep = frame.shadowWorld * frame.shadowWorld / (max(nl, 0.2) * frame.shadowDepth);
+    float slope = steep * dot(vec2(dot(vec3(shadow[0].x, shadow[1].x, shadow[2].x), n),
+                                   dot(vec3(shadow[0].y, shadow[1].y, shadow[2].y), n)), ray);
+    float away = (at.z + slope * nearby - shadowDepthAt(light, at.xy + ray * nearby)) * frame.shadowDepth;
+    float met = clamp(away, 0.15 * nearby, 2.0 * nearby);
+    vec2 within = noise.yx * (0.5 * frame.shadowTexel / frame.shadowWorld); // hides the steps of the map
+    return min(at.z + slope * met, 1.0) > shadowDepthAt(light, at.xy + ray * met + within) ? 0.0 : 1.0;
+}
+
 /// What the rig sends to a place: a few numbers that vary slowly, so that dense vertices may carry them.
 struct Incident {
     vec3 sky;   // irradiance
@@ -38,19 +83,29 @@ struct Incident {
     float open; // visible share of the sky
 };
 
-Incident gatherLight(vec3 position, vec3 n) {
+// What of a light a place looks at.
+const uint kLookAlongAxes = 0u; // of the cones: what there is for vertices
+const uint kLookIntoCones = 1u; // with noise
+const uint kLookAsFits = 2u;    // into cones if areCones()
+
+/// look: a constant, so that drivers compile only what is needed. noise: of the pixel.
+Incident gatherLight(vec3 position, vec3 n, uint look, vec3 noise) {
     vec3 sky = vec3(0.0);
     // What faces away from a light is not called hidden from it: it may mirror its edge.
     float seen[3] = float[3](0.02, 0.02, 0.02), all[3] = float[3](0.02, 0.02, 0.02);
     // Receivers step off the surface: along the normal by a good texel, so that a map's own steps cast no shadow.
     vec3 receiver = position + n * (frame.shadowTexel * 1.6);
     for (uint i = 0u; i < frame.lightCount; ++i) {
+        noise = nextNoise(noise);
         float nl = dot(n, frame.lights[i].direction.xyz);
         if (nl <= 0.0)
             continue;
         vec4 color = frame.lights[i].color;
         uint part = uint(color.w);
-        float visible = lightVisibility(i, receiver) * nl;
+        float seenShare = look == kLookIntoCones || (look == kLookAsFits && areCones())
+                              ? coneVisibility(i, receiver, n, nl, noise, kNearby * frame.target.w)
+                              : lightVisibility(i, receiver);
+        float visible = seenShare * nl;
         seen[part] += visible;
         all[part] += nl;
         if (part == kLightSky)
@@ -90,6 +145,12 @@ vec4 environmentAt(vec3 r, float roughness) {
     return mix(environmentLevel(r, sharper), environmentLevel(r, sharper + 1.0), level - sharper);
 }
 
+/// How much of what a surface mirrors is open, if so much of all directions is (Lagarde, "Moving Frostbite to PBR", 2014): a
+/// smooth surface that is looked at straight mirrors little of a corner.
+float mirrorsOpen(float open, float nv, float roughness) {
+    return clamp(pow(nv + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
+}
+
 /// Radiance towards the eye, before the exposure and without emission. n: the normal that is shaded; surface: that of
 /// the surface itself, for which the light was gathered. Both face the viewer's side.
 vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v) {
@@ -104,9 +165,11 @@ vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v
     vec4 seen = environmentAt(r, material.roughness);
     // What looks into the surface, or out of a corner that sees little of the sky, mirrors the figure itself.
     float outwards = clamp(1.0 + dot(r, surface), 0.0, 1.0);
-    float open = mix(0.15, 1.0, light.open) * material.occlusion * outwards * outwards;
-    // Blurred boxes reach round the surface's own horizon.
-    vec2 risen = smoothstep(-0.45, 0.05, vec2(dot(n, frame.keyDirection.xyz), dot(n, frame.rimDirection.xyz)));
+    float open = mirrorsOpen(mix(0.15, 1.0, light.open) * material.occlusion, max(dot(n, v), 0.0), material.roughness) *
+                 outwards * outwards;
+    // The boxes rise above the surface's own horizon. What is below, the figure hides, however blurred it is mirrored: without
+    // this, dark materials had a milky veil where they are looked at from aside.
+    vec2 risen = smoothstep(-0.2, 0.2, vec2(dot(surface, frame.keyDirection.xyz), dot(surface, frame.rimDirection.xyz)));
     seen.xy *= risen * frame.environment.zw;
     vec3 mirrored = keyLight * seen.x + rimLight * seen.y +
                     (kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w)) *

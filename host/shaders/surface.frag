@@ -20,6 +20,7 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
+layout(location = 10) in vec3 inSquares;
 layout(location = 9) in vec4 inTangent; // views of values: x is the value
 
 layout(location = 0) out vec4 outColor;
@@ -65,16 +66,34 @@ float patchHash(uint x) {
     return float((x ^ (x >> 15)) & 0xffffu) / 65535.0;
 }
 
-/// Light tubes all round the viewer: a kink in a stripe is a kink in the surface's normals.
-vec3 zebra(vec3 n, vec3 v) {
-    vec3 r = mat3(frame.view) * reflect(-v, n);
-    float at = acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
-    float width = max(fwidth(at), 1e-4);
-    float stripe = smoothstep(-width, width, abs(fract(at) - 0.5) - 0.25);
+/// Where a place is among light tubes all round the viewer: from one tube to the next it grows by one.
+float amongTubes(vec3 position, vec3 n) {
+    vec3 r = mat3(frame.view) * reflect(normalize(position - frame.eye.xyz), n);
+    return acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
+}
+
+/// Where this pixel is among them, and how far away its neighbours are. A derivative of amongTubes() would not do: pixels beside
+/// the triangle help to take derivatives, and lavapipe reads zeros for them from storage buffers, which the frame is in. So only
+/// what is interpolated is derived, and this pixel looks at the tubes for its neighbours.
+vec2 tubesAt(vec3 n) {
+    float at = amongTubes(inPosition, n);
+    float right = amongTubes(inPosition + dFdx(inPosition), n + dFdx(n));
+    float below = amongTubes(inPosition + dFdy(inPosition), n + dFdy(n));
+    return vec2(at, abs(right - at) + abs(below - at));
+}
+
+/// A kink in a stripe is a kink in the surface's normals.
+vec3 zebra(vec2 tubes, vec3 n, vec3 v) {
+    float width = max(tubes.y, 1e-4);
+    float stripe = smoothstep(-width, width, abs(fract(tubes.x) - 0.5) - 0.25);
     stripe = mix(stripe, 0.5, smoothstep(0.35, 0.9, width));
     float form = 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0);
     return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
 }
+
+/// The edge of a shadow crosses the triangle, or one of its vertices lies inside of another body: what is interpolated from
+/// vertices means little there. The mean of squares is the square of the mean only if all agree.
+bool verticesDisagree() { return strongest(inSquares - inKeyRimOpen * inKeyRimOpen) > 0.02; }
 
 /// front: the surface's own unit normal.
 vec3 normalFromMap(vec3 front) {
@@ -106,8 +125,8 @@ Material paintedMaterial(vec3 albedo) {
 void main() {
     vec3 v = normalize(frame.eye.xyz - inPosition);
     // A vanishing normal (a collapsed pole) takes the triangle's own.
-    vec3 front =
-        dot(inNormal, inNormal) > 1e-6 ? normalize(inNormal) : normalize(cross(dFdx(inPosition), dFdy(inPosition)));
+    vec3 flatNormal = cross(dFdx(inPosition), dFdy(inPosition));
+    vec3 front = normalize(dot(inNormal, inNormal) > 1e-6 ? inNormal : flatNormal);
     bool back = !gl_FrontFacing;
     vec3 n = back ? -front : front;
     vec4 base = baseColorAt(inUvs, inColor);
@@ -123,15 +142,20 @@ void main() {
         if (isShadedFlat(kView))
             flatly *= formShade(kView, n, v);
     }
+    vec2 tubes = kView == kViewZebra ? tubesAt(n) : vec2(0.0);
+    float trim = 1.0, covered = 1.0;
+    if (materialHas(kMaterialTrim)) {
+        trim = trimValue(inTrim);
+        if ((push.flags & kDrawCoverage) != 0u)
+            covered = suppleTrimCoverage(trim, materialData.cutoff);
+    }
     // All that asks for neighbouring pixels is done: some may end here.
     if (isLeftOut(base.a))
         discard;
     float alpha = kView == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (materialHas(kMaterialTrim)) {
-        float value = trimValue(inTrim);
-        if ((push.flags & kDrawCoverage) != 0u)
-            alpha *= suppleTrimCoverage(value, materialData.cutoff);
-        else if (suppleTrimmed(value, materialData.cutoff))
+        alpha *= covered;
+        if ((push.flags & kDrawCoverage) == 0u && suppleTrimmed(trim, materialData.cutoff))
             discard;
     }
 
@@ -139,7 +163,7 @@ void main() {
     if (kView == kViewNormals) {
         color = fromSrgb(front * 0.5 + 0.5);
     } else if (kView == kViewZebra) {
-        color = zebra(n, v);
+        color = zebra(tubes, n, v);
     } else if (isFlatView(kView)) {
         color = flatly;
     } else if (kView == kViewShaded && materialHas(kMaterialUnlit)) {
@@ -148,11 +172,11 @@ void main() {
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
         if (back && !materialHas(kMaterialDoubleSided))
             material.albedo *= 0.35;
-        Incident light;
-        if (kLightPerVertex)
-            light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
-        else
-            light = gatherLight(inPosition, n);
+        Incident light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
+        if (!kLightPerVertex)
+            light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
+        else if (areCones() && verticesDisagree())
+            light = gatherLight(inPosition, n, kLookIntoCones, pixelNoise(gl_FragCoord.xy));
         color = studioTone(material, studioShade(material, light, mapped, n, v));
     }
 

@@ -21,6 +21,7 @@ layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
+layout(location = 10) out vec3 outSquares; // of outKeyRimOpen
 layout(location = 9) out vec4 outTangent; // glTF's TANGENT; views of values: x is the value
 
 // Which ring a sample lies in, counted from the border.
@@ -79,12 +80,13 @@ void main() {
         outTangent = surfaceTangent();
     outTrim = surfaceTrim();
     outSky = vec3(0.0);
-    outKeyRimOpen = vec3(0.0);
+    outKeyRimOpen = outSquares = vec3(0.0);
     if (kLightPerVertex) {
         bool away = dot(outNormal, frame.eye.xyz - position) < 0.0; // its other side is seen
-        Incident light = gatherLight(position, away ? -outNormal : outNormal);
+        Incident light = gatherLight(position, away ? -outNormal : outNormal, kLookAlongAxes, vec3(0.0));
         outSky = light.sky;
         outKeyRimOpen = vec3(light.key, light.rim, light.open);
+        outSquares = outKeyRimOpen * outKeyRimOpen;
     }
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -218,7 +218,8 @@ Result<host::Picture> Stage::drawPasses(host::Scene scene) {
     if (const Status status = renderer_->prepare(scene); !status)
         return status.error();
     host::PictureAverage average(target_.extent().width, target_.extent().height);
-    for (scene.pass = 0; scene.pass < renderer_->quality().passes; ++scene.pass) {
+    const uint32_t passes = scene.quality.value_or(renderer_->quality()).passes;
+    for (scene.pass = 0; scene.pass < passes; ++scene.pass) {
         const Status status = session_.device->submitAndWait(
             [&](VkCommandBuffer commands) { renderer_->record(commands, 0, target_, scene); });
         if (!status)
