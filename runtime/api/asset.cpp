@@ -118,7 +118,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
             return id ? SUPPLE_OK : report(context, id.error());
         };
         if (desc.prepared != nullptr) {
-            return made(context.createAsset(preparedOf(desc.prepared)));
+            return made(context.createAsset(desc.prepared->prepared));
         }
         Result<cage::Character> character = readAsset(kHere, desc);
         return character ? made(context.createAsset(std::move(*character))) : report(context, character.error());
@@ -136,7 +136,7 @@ SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const Su
             return refuse(context, fault->code, kHere, fault->message);
         }
         if (desc.prepared != nullptr) {
-            return reportStatus(context, context.reloadAsset(asset.id, preparedOf(desc.prepared)));
+            return reportStatus(context, context.reloadAsset(asset.id, desc.prepared->prepared));
         }
         Result<cage::Character> character = readAsset(kHere, desc);
         return character ? reportStatus(context, context.reloadAsset(asset.id, std::move(*character)))

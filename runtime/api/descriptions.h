@@ -9,12 +9,15 @@
 #include <memory>
 #include <optional>
 
+/// What a SupplePrepared points to.
+struct SupplePrepared_T {
+    std::shared_ptr<const supple::runtime::Prepared> prepared;
+};
+
 namespace supple::api {
 
 /// Checks a description, which messages call `name`, and takes in whatever version it has. Null if it is sound.
 [[nodiscard]] std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, SuppleAssetDesc& out);
-/// Of a handle that is not null.
-[[nodiscard]] std::shared_ptr<const runtime::Prepared> preparedOf(SupplePrepared handle);
 /// A file in memory or arrays, as a character. `function` begins the messages about structs within the description.
 [[nodiscard]] Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc);
 

@@ -6,10 +6,6 @@
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
-struct SupplePrepared_T {
-    std::shared_ptr<const runtime::Prepared> prepared;
-};
-
 namespace {
 
 constexpr const char* kHere = "supplePrepare";
@@ -70,14 +66,6 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
 }
 
 } // namespace
-
-namespace supple::api {
-
-std::shared_ptr<const runtime::Prepared> preparedOf(SupplePrepared handle) {
-    return handle->prepared;
-}
-
-} // namespace supple::api
 
 SuppleResult supplePrepare(const SupplePrepareDesc* given, SupplePrepared* out) {
     if (out != nullptr) {

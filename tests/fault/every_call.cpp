@@ -111,11 +111,7 @@ private:
         group.rate = 2;
         group.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         const SupplePlannedGroup planned{&group, 0, 0};
-        SuppleAssetDesc read{};
-        read.structSize = sizeof(read);
-        read.name = "another tube whose name is too long to lie in a string itself";
-        read.bytes = tubeFile().data();
-        read.byteCount = tubeFile().size();
+        const SuppleAssetDesc read = tubeDesc("another tube whose name is too long to lie in a string itself");
         SupplePrepareDesc desc{};
         desc.structSize = sizeof(desc);
         desc.mapping = SUPPLE_MAPPING_NARROW;
@@ -140,11 +136,7 @@ private:
     }
 
     void createAssets() {
-        SuppleAssetDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.name = "a tube whose name is too long to lie in a string itself";
-        desc.bytes = tubeFile().data();
-        desc.byteCount = tubeFile().size();
+        SuppleAssetDesc desc = tubeDesc("a tube whose name is too long to lie in a string itself");
         call("suppleCreateAsset, a GLB", [&] { return suppleCreateAsset(handle(), &desc, &tube_); });
 
         const std::vector<std::byte> external = externalFile();

@@ -145,14 +145,7 @@ public:
         describe(desc);
         return desc;
     }
-    [[nodiscard]] static SuppleAssetDesc assetDesc() {
-        SuppleAssetDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.name = "tube";
-        desc.bytes = tubeFile().data();
-        desc.byteCount = tubeFile().size();
-        return desc;
-    }
+    [[nodiscard]] static SuppleAssetDesc assetDesc() { return tubeDesc(); }
     [[nodiscard]] SuppleGroupDesc groupDesc() const {
         SuppleGroupDesc desc{};
         desc.structSize = sizeof(desc);

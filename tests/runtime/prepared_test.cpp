@@ -213,11 +213,7 @@ struct Told {
 };
 Told tryToPrepare(const std::function<void(SupplePrepareDesc&)>& spoil) {
     Told told;
-    SuppleAssetDesc asset{};
-    asset.structSize = sizeof(asset);
-    asset.name = "tube";
-    asset.bytes = tubeFile().data();
-    asset.byteCount = tubeFile().size();
+    const SuppleAssetDesc asset = tubeDesc();
     SupplePrepareDesc desc{};
     desc.structSize = sizeof(desc);
     desc.asset = &asset;

@@ -181,10 +181,7 @@ SupplePrepared prepareTube(SuppleScheme scheme) {
     group.scheme = scheme;
     group.rate = 2;
     const SupplePlannedGroup planned{&group, 0, 0};
-    SuppleAssetDesc asset{};
-    asset.structSize = sizeof(asset);
-    asset.bytes = tubeFile().data();
-    asset.byteCount = tubeFile().size();
+    const SuppleAssetDesc asset = tubeDesc();
     SupplePrepareDesc desc{};
     desc.structSize = sizeof(desc);
     desc.mapping = SUPPLE_MAPPING_NARROW;

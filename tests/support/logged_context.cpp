@@ -104,12 +104,17 @@ const std::vector<std::byte>& tubeFile() {
     return bytes;
 }
 
-SuppleResult createTube(SuppleContext context, SuppleAsset& asset) {
+SuppleAssetDesc tubeDesc(const char* name) {
     SuppleAssetDesc desc{};
     desc.structSize = sizeof(desc);
-    desc.name = "tube";
+    desc.name = name;
     desc.bytes = tubeFile().data();
     desc.byteCount = tubeFile().size();
+    return desc;
+}
+
+SuppleResult createTube(SuppleContext context, SuppleAsset& asset) {
+    const SuppleAssetDesc desc = tubeDesc();
     return suppleCreateAsset(context, &desc, &asset);
 }
 

@@ -65,6 +65,7 @@ inline constexpr SuppleSyncScope kAnyUse{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
 
 /// A tube of quads in a GLB: 3 joints, 4 morph targets with weights of their own, a clip, a material with an image.
 [[nodiscard]] const std::vector<std::byte>& tubeFile();
+[[nodiscard]] SuppleAssetDesc tubeDesc(const char* name = "tube");
 [[nodiscard]] SuppleResult createTube(SuppleContext context, SuppleAsset& asset);
 
 struct SmallGroup {
