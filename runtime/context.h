@@ -64,6 +64,7 @@ public:
     void setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore);
 
     /// Whether draws can leave out parts: their indirect commands then have a first instance.
+    [[nodiscard]] bool isWide() const { return device_->mapping.wide; } ///< gpu/mapping.h
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
     /// Whether a group draws these instances by indirect commands of ranges: those have a first instance if parts hide.
     [[nodiscard]] bool drawsByRanges(const InstanceSet& instances) const;

@@ -375,6 +375,8 @@ Status Run::load() {
                  {"recordMs", times.record},
                  {"firstSubmitMs", times.submit},
                  {"secondSubmitMs", times.secondSubmit},
+                 {"prepareMs", times.prepare},
+                 {"hitchMs", times.hitch},
                  {"untilRecordedUsPerFace", aFace(1e3 * times.untilRecorded())},
                  {"untilDoneUsPerFace", aFace(1e3 * times.untilDone())},
                  {"deformBytesPerFace", aFace(static_cast<double>(loading->bytes.deform))},

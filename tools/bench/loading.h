@@ -17,6 +17,8 @@ struct LoadTimes {
     double record = 0.0;       ///< the first frame, with its uploads
     double submit = 0.0;       ///< until the device is done with it
     double secondSubmit = 0.0; ///< the same of the next frame, which uploads a pose and no tables
+    double prepare = 0.0;      ///< what any thread can do before (supplePrepare), without reading the file
+    double hitch = 0.0;        ///< creating the asset and the group of what was prepared
     [[nodiscard]] double untilRecorded() const { return createAsset + createGroup + record; }
     [[nodiscard]] double untilDone() const { return untilRecorded() + submit; }
 };

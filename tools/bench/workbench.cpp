@@ -2,6 +2,7 @@
 
 #include "runtime/context.h"
 #include "runtime/playback_desc.h"
+#include "runtime/prepare.h"
 #include "tools/common/inside_output.h"
 
 #include <algorithm>
@@ -44,6 +45,21 @@ Result<std::unique_ptr<Workbench>> Workbench::create(const SuppleContextDesc& de
 
 Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
     Result<uint64_t> asset = inside_->context->createAsset(std::move(character));
+    if (!asset) {
+        return asset.error();
+    }
+    return SuppleAsset{*asset};
+}
+
+std::shared_ptr<const runtime::Prepared> Workbench::prepare(cage::Character character,
+                                                            const SuppleGroupDesc& desc) const {
+    const std::shared_ptr<runtime::Prepared> prepared = runtime::Prepared::of(std::move(character));
+    const bool wide = inside_->context->isWide();
+    return runtime::prepareFor(*prepared, {desc, std::nullopt}, wide) ? prepared : nullptr;
+}
+
+Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepared> prepared) {
+    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared));
     if (!asset) {
         return asset.error();
     }

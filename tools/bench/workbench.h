@@ -14,6 +14,10 @@
 #include <supple/supple.h>
 #include <vector>
 
+namespace supple::runtime {
+struct Prepared;
+}
+
 namespace supple::bench {
 
 /// A patch over a face of four sides.
@@ -30,6 +34,10 @@ public:
     Workbench& operator=(const Workbench&) = delete;
 
     [[nodiscard]] Result<SuppleAsset> createAsset(cage::Character character);
+    /// What supplePrepare does of a character that is read, for a group of createGroup. Null: it is refused.
+    [[nodiscard]] std::shared_ptr<const runtime::Prepared> prepare(cage::Character character,
+                                                                   const SuppleGroupDesc& desc) const;
+    [[nodiscard]] Result<SuppleAsset> createAsset(std::shared_ptr<const runtime::Prepared> prepared);
     /// A group with as many instances as it has room for, one where desc.capacity is 0. `desc.asset` is one of
     /// createAsset's. All are in the bind pose; or, with SUPPLE_POSES_PLAYBACK, instance i plays the first clip, in a
     /// loop, from phaseOf(i) of its length on.
