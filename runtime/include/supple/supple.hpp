@@ -231,6 +231,7 @@ public:
     Prepared(const Prepared&) = delete;
     Prepared& operator=(const Prepared&) = delete;
     Prepared(Prepared&& other) noexcept { *this = std::move(other); }
+    /// Exchanges what the two own.
     Prepared& operator=(Prepared&& other) noexcept {
         std::swap(handle_, other.handle_);
         return *this;
@@ -246,7 +247,9 @@ public:
         }
         return result;
     }
-    [[nodiscard]] SupplePrepared handle() const { return handle_; }
+    [[nodiscard]] SupplePrepared handle() const {
+        return handle_;
+    } ///< as the C functions take it; null: it owns nothing
 
 private:
     SupplePrepared handle_ = nullptr;
