@@ -89,7 +89,7 @@ Error PngWriter::failure() const {
 
 Status PngWriter::append(const Picture& rows) {
     State& state = *state_;
-    if (const Status open = state.file.status(); !open) {
+    if (Status open = state.file.status(); !open) {
         return open;
     }
     if (rows.width != state.width || rows.height > state.height - state.written) {

@@ -76,7 +76,7 @@ Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
         return schemes.error();
     }
     for (const SchemeParts& parts : *schemes) {
-        if (const Status status = prepareSurface(prepared, group, parts, wide); !status) {
+        if (Status status = prepareSurface(prepared, group, parts, wide); !status) {
             return status;
         }
     }
