@@ -52,7 +52,7 @@ struct Asset {
     explicit Asset(std::shared_ptr<const Prepared> of);
     /// Prepares the character for itself.
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device, cage::Character character);
-    /// Of what was prepared for anybody.
+    /// Takes what was prepared for anybody.
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device,
                                                                std::shared_ptr<const Prepared> prepared);
     /// Finds or makes the piece of some parts (rising).

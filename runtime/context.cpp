@@ -255,23 +255,23 @@ void Context::retire(uint64_t completedFrame) {
     groups.forEach([&](Group& group) { group.beginFrame(completedFrame); });
 }
 
-Result<uint64_t> Context::createAsset(cage::Character character) {
+void Context::tellWarnings(const cage::Character& character) const {
     for (const std::string& warning : character.warnings) {
         log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING, character.name + ": " + warning);
     }
-    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
-    if (!asset) {
-        return asset.error();
-    }
-    return assets.insert(std::move(*asset));
+}
+
+Result<uint64_t> Context::createAsset(cage::Character character) {
+    tellWarnings(character);
+    return keep(Asset::create(*device_, std::move(character)));
 }
 
 Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared) {
-    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(prepared));
-    if (!asset) {
-        return asset.error();
-    }
-    return assets.insert(std::move(*asset));
+    return keep(Asset::create(*device_, std::move(prepared)));
+}
+
+Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset) {
+    return asset ? Result<uint64_t>(assets.insert(std::move(*asset))) : asset.error();
 }
 
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
@@ -456,17 +456,18 @@ Status Context::setCapacity(uint64_t id, uint32_t capacity) {
 }
 
 Status Context::reloadAsset(uint64_t id, cage::Character character) {
-    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(character));
-    return asset ? reloadAsset(id, std::move(*asset), true) : Status(asset.error());
+    return reload(id, Asset::create(*device_, std::move(character)));
 }
 
 Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared) {
-    Result<std::shared_ptr<Asset>> asset = Asset::create(*device_, std::move(prepared));
-    return asset ? reloadAsset(id, std::move(*asset), false) : Status(asset.error());
+    return reload(id, Asset::create(*device_, std::move(prepared)));
 }
 
-Status Context::reloadAsset(uint64_t id, std::shared_ptr<Asset> asset, bool warns) {
-    const std::shared_ptr<Asset> before = assets.find(id);
+Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made) {
+    if (!made) {
+        return made.error();
+    }
+    const std::shared_ptr<Asset> before = assets.find(id), asset = std::move(*made);
     const AssetMatch match = AssetMatch::of(before->character, asset->character);
     Result<std::vector<Remade>> remade =
         remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
@@ -474,16 +475,15 @@ Status Context::reloadAsset(uint64_t id, std::shared_ptr<Asset> asset, bool warn
     if (!remade) {
         return remade.error();
     }
-    for (size_t w = 0; warns && w < asset->character.warnings.size(); ++w) {
-        log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_ASSET_WARNING,
-            asset->character.name + ": " + asset->character.warnings[w]);
+    if (asset->ownsPrepared) { // else supplePrepare has told them
+        tellWarnings(asset->character);
     }
     for (const Remade& own : *remade) {
         tellNotes(*own.group);
     }
     tellBuiltLate(*asset);
     replace(*remade);
-    assets.replace(id, std::move(asset));
+    assets.replace(id, asset);
     return success();
 }
 

@@ -63,8 +63,8 @@ public:
     /// 0: none. `allowsMore` is asked when an allocation would exceed it.
     void setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore);
 
-    /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool isWide() const { return device_->mapping.wide; } ///< gpu/mapping.h
+    /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
     /// Whether a group draws these instances by indirect commands of ranges: those have a first instance if parts hide.
     [[nodiscard]] bool drawsByRanges(const InstanceSet& instances) const;
@@ -113,7 +113,9 @@ private:
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
     void tellBuiltLate(Asset& asset) const;
-    [[nodiscard]] Status reloadAsset(uint64_t id, std::shared_ptr<Asset> asset, bool warns);
+    [[nodiscard]] Result<uint64_t> keep(Result<std::shared_ptr<Asset>> asset);
+    [[nodiscard]] Status reload(uint64_t id, Result<std::shared_ptr<Asset>> made);
+    void tellWarnings(const cage::Character& character) const;
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none

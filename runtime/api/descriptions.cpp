@@ -24,18 +24,6 @@ constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::group
                                  SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
                                  SUPPLE_GROUP_WINDOWS;
 
-/// Takes a struct in, of whatever version; null if it could be read.
-template <class T>
-std::optional<Error> takeIn(const char* name, const T* from, T& to) {
-    if (from == nullptr) {
-        return Error{ErrorCode::nullPointer, std::string(name) + " is null"};
-    }
-    if (!runtime::readSized(*from, to)) {
-        return Error{ErrorCode::structSize, faultOfSize<T>(name, from->structSize)};
-    }
-    return std::nullopt;
-}
-
 Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
     SuppleFileBytes found{};
     if (files.read(path.c_str(), &found, files.user) == 0) {

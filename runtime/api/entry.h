@@ -124,14 +124,20 @@ SuppleResult withView(SuppleContext handle, SuppleView view, const char* functio
 
 /// Takes a description in, of whatever version; null when it is fit to go on with.
 template <class T>
-std::optional<SuppleResult> takeIn(Context& context, const char* function, const char* name, const T* from, T& to) {
+std::optional<Error> takeIn(const char* name, const T* from, T& to) {
     if (from == nullptr) {
-        return refuse(context, ErrorCode::nullPointer, function, std::string(name) + " is null");
+        return Error{ErrorCode::nullPointer, std::string(name) + " is null"};
     }
     if (!runtime::readSized(*from, to)) {
-        return refuse(context, ErrorCode::structSize, function, faultOfSize<T>(name, from->structSize));
+        return Error{ErrorCode::structSize, faultOfSize<T>(name, from->structSize)};
     }
     return std::nullopt;
+}
+/// The same, told to the context.
+template <class T>
+std::optional<SuppleResult> takeIn(Context& context, const char* function, const char* name, const T* from, T& to) {
+    const std::optional<Error> fault = takeIn(name, from, to);
+    return fault ? std::optional(refuse(context, fault->code, function, fault->message)) : std::nullopt;
 }
 
 /// Whether an out struct can be written.

@@ -59,7 +59,7 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
         if (const Status status =
                 runtime::prepareFor(**prepared, {group.desc, flags}, desc.mapping != SUPPLE_MAPPING_NARROW);
             !status) {
-            return status.error();
+            return here(status.error().code, name + status.error().message);
         }
     }
     return std::shared_ptr<const runtime::Prepared>(*prepared);

@@ -50,7 +50,7 @@ struct FakeVulkan {
     std::vector<std::pair<VkBuffer, VkBuffer>> copies;       ///< from, to
     std::vector<std::pair<uint32_t, uint32_t>> dispatches;   ///< x, y
     std::vector<VkMemoryBarrier2> barriers;                  ///< global ones
-    /// Of buffers, by vkCmdPipelineBarrier2 that has any.
+    /// Barriers of buffers, by vkCmdPipelineBarrier2 that has any.
     std::vector<std::vector<VkBufferMemoryBarrier2>> bufferBarriers;
     std::vector<std::pair<uint32_t, uint32_t>> resets; ///< of queries: first, count
     std::mutex mutex;                                  ///< of `resets`

@@ -263,6 +263,14 @@ TEST(Preparing, FaultsAreNamed) {
                    },
                    SUPPLE_ERROR_ARGUMENT, "supplePrepare: groups[0]: viewFlags without a view"},
                   {[](auto& d) {
+                       static const SuppleScheme kSchemes[] = {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO};
+                       static const SuppleGroupDesc kGroup = withSize({.partSchemes = kSchemes, .partSchemeCount = 2});
+                       static const SupplePlannedGroup kGroups[] = {{&kGroup, 0, 0}};
+                       d.groups = kGroups;
+                       d.groupCount = 1;
+                   },
+                   SUPPLE_ERROR_ARGUMENT, "supplePrepare: groups[0]: tube: 2 schemes for 1 parts"},
+                  {[](auto& d) {
                        static SuppleAssetDesc half = *d.asset;
                        half.byteCount /= 2;
                        d.asset = &half;

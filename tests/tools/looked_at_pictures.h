@@ -13,8 +13,8 @@ struct PictureDifference {
     double mean;    ///< of all channels of all pixels, blurred, in steps of 8 bits
 };
 
-/// Of pictures of one size. Pixels along edges differ from driver to driver, and JPEG adds noise: the blur takes off
-/// both. A line that is missing, and a color that is another, stay.
+/// Compares pictures of one size. Pixels along edges differ from driver to driver, and JPEG adds noise: the blur takes
+/// off both. A line that is missing, and a color that is another, stay.
 [[nodiscard]] PictureDifference differenceOf(const host::Picture& a, const host::Picture& b);
 
 [[nodiscard]] host::Picture partOf(const host::Picture& picture, uint32_t x, uint32_t y, uint32_t width,

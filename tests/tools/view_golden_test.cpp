@@ -21,9 +21,9 @@ namespace {
 constexpr uint32_t kTile = 240; ///< pixels a side
 constexpr uint32_t kColumns = 6;
 constexpr float kMargin = 0.05f;
-/// Of one picture on a sheet, about three times what it takes a driver to reach it: Mesa 22.3 and 25.0 are 0.0002 and
-/// 0.7 apart from the files, lavapipe made to draw as GPUs do 0.005 and 1.0. A zebra with a grey line along every
-/// triangle, which this test was written for, is 0.045 and 3.0 away where it shows least.
+/// How far one picture on a sheet may be away: about three times what it takes a driver to reach it: Mesa 22.3 and 25.0
+/// are 0.0002 and 0.7 apart from the files, lavapipe made to draw as GPUs do 0.005 and 1.0. A zebra with a grey line
+/// along every triangle, which this test was written for, is 0.045 and 3.0 away where it shows least.
 constexpr double kMostChanged = 0.015;
 constexpr double kMostMean = 1.75;
 
