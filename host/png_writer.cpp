@@ -24,20 +24,26 @@ struct PngWriter::State {
     png_structp png = nullptr;
     png_infop info = nullptr;
     char fault[128] = "";
-    std::jmp_buf back;
+    std::jmp_buf back; ///< where run() is
+
+    // libpng jumps back over its own frames alone: nothing of C++ is on the stack there.
+    [[noreturn]] static void fail(png_structp png, png_const_charp message) {
+        auto& state = *static_cast<State*>(png_get_error_ptr(png));
+        std::snprintf(state.fault, sizeof state.fault, "%s", message);
+        std::longjmp(state.back, 1);
+    }
+    /// Runs a step of libpng; false where it, or one before it, fails.
+    template <class Step>
+    bool run(Step&& step) {
+        if (fault[0] != '\0' || setjmp(back) != 0) {
+            return false;
+        }
+        step();
+        return true;
+    }
 };
 
 namespace {
-
-// libpng jumps back over its own frames alone: nothing of C++ is on the stack there.
-
-/// `back` is where the caller has called setjmp.
-template <class State>
-[[noreturn]] void fail(png_structp png, png_const_charp message) {
-    auto& state = *static_cast<State*>(png_get_error_ptr(png));
-    std::snprintf(state.fault, sizeof state.fault, "%s", message);
-    std::longjmp(state.back, 1);
-}
 
 void ignore(png_structp, png_const_charp) {}
 
@@ -47,28 +53,18 @@ void writeBytes(png_structp png, png_bytep bytes, size_t count) {
 
 void flush(png_structp) {}
 
-/// Runs a step of libpng; false where it fails.
-template <class State, class Step>
-bool run(State& state, Step&& step) {
-    if (state.fault[0] != '\0' || setjmp(state.back) != 0) {
-        return false;
-    }
-    step();
-    return true;
-}
-
 } // namespace
 
 PngWriter::PngWriter(std::string path, uint32_t width, uint32_t height, PngAlpha alpha)
     : state_(std::make_unique<State>(std::move(path), width, height)) {
     State& state = *state_;
-    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, fail<State>, ignore);
+    state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, State::fail, ignore);
     state.info = state.png != nullptr ? png_create_info_struct(state.png) : nullptr;
     if (state.info == nullptr) {
         std::snprintf(state.fault, sizeof state.fault, "libpng cannot be used");
         return;
     }
-    run(state, [&] {
+    state.run([&] {
         png_set_write_fn(state.png, &state.file, writeBytes, flush);
         png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         const int color = alpha == PngAlpha::kept ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
@@ -95,7 +91,7 @@ Status PngWriter::append(const Picture& rows) {
     if (rows.width != state.width || rows.height > state.height - state.written) {
         return Error{ErrorCode::argument, state.path + ": rows that do not belong to the picture"};
     }
-    const bool done = run(state, [&] {
+    const bool done = state.run([&] {
         for (uint32_t y = 0; y < rows.height; ++y) {
             png_write_row(state.png, rows.pixel(0, y));
         }
@@ -112,7 +108,7 @@ Status PngWriter::close() {
     if (state.written != state.height) {
         return Error{ErrorCode::argument, state.path + ": rows are missing"};
     }
-    if (!run(state, [&] { png_write_end(state.png, nullptr); })) {
+    if (!state.run([&] { png_write_end(state.png, nullptr); })) {
         return failure();
     }
     return state.file.close();

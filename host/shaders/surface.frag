@@ -20,8 +20,8 @@ layout(location = 5) flat in uint inPatch;
 layout(location = 6) in vec3 inSky;
 layout(location = 7) in vec3 inKeyRimOpen;
 layout(location = 8) in vec3 inTrim;
-layout(location = 10) in vec3 inSquares;
 layout(location = 9) in vec4 inTangent; // views of values: x is the value
+layout(location = 10) in vec3 inSquares;
 
 layout(location = 0) out vec4 outColor;
 

@@ -21,8 +21,8 @@ layout(location = 5) flat out uint outPatch;
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
-layout(location = 10) out vec3 outSquares; // of outKeyRimOpen
 layout(location = 9) out vec4 outTangent; // glTF's TANGENT; views of values: x is the value
+layout(location = 10) out vec3 outSquares; // of outKeyRimOpen
 
 // Which ring a sample lies in, counted from the border.
 uint ringOf(uint index) {
