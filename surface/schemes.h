@@ -6,6 +6,7 @@
 #include "cage/character.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
+#include "surface/table_check.h"
 
 #include <span>
 #include <string>
@@ -41,6 +42,9 @@ struct Scheme {
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
+    /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h). Null: files do not keep
+    /// its tables.
+    void (*check)(TableCheck& check) = nullptr;
 
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }
