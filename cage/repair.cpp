@@ -159,12 +159,18 @@ Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNa
 }
 
 Status reportDamages(Character& character, bool strict) {
+    for (const Damage& damage : character.damages) {
+        character.warnings.push_back(damage.found + "; " + damage.repair);
+    }
+    return strict ? refuseDamages(character) : success();
+}
+
+Status refuseDamages(const Character& character) {
     std::string refusal;
     for (const Damage& damage : character.damages) {
         refusal += (refusal.empty() ? "" : "\n") + oneLine(character.name + ": " + damage.found);
-        character.warnings.push_back(damage.found + "; " + damage.repair);
     }
-    return strict && !refusal.empty() ? Status(Error{ErrorCode::asset, refusal}) : success();
+    return refusal.empty() ? success() : Status(Error{ErrorCode::asset, refusal});
 }
 
 } // namespace supple::cage

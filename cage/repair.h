@@ -33,5 +33,7 @@ namespace supple::cage {
 /// What a reader does at its end with the damage it found and repaired: a warning for each kind; or, if it is `strict`,
 /// a refusal that names all kinds, one per line, each beginning with the character's name.
 [[nodiscard]] Status reportDamages(Character& character, bool strict);
+/// That refusal, or success if nothing was damaged.
+[[nodiscard]] Status refuseDamages(const Character& character);
 
 } // namespace supple::cage

@@ -80,6 +80,7 @@ function(supple_kernel_table target namespace)
     set(enumerators "")
     set(includes "")
     set(table "")
+    set(names "")
     foreach(entry IN LISTS ARGN)
         string(REGEX REPLACE "[./+_]" ";" words ${entry})
         list(REMOVE_ITEM words comp)
@@ -95,6 +96,7 @@ function(supple_kernel_table target namespace)
         string(APPEND enumerators "    ${enumerator},\n")
         string(APPEND includes "#include \"shaders/${name}.h\"\n")
         string(APPEND table "        ${name},\n")
+        string(APPEND names "    \"${entry}\",\n")
     endforeach()
     file(CONFIGURE OUTPUT ${directory}/${namespace}/kernels.h CONTENT "// Made by cmake/supple_shaders.cmake.
 #pragma once
@@ -107,6 +109,9 @@ enum class Kernel : uint32_t {
 ${enumerators}    count
 };
 
+/// What a kernel is called in CMake's list, which outlives its number: \"pm/vertex.comp\". It must be a kernel.
+const char* nameOf(Kernel kernel);
+
 } // namespace supple::${namespace}
 " @ONLY)
     file(CONFIGURE OUTPUT ${directory}/${namespace}/kernels.cpp CONTENT "// Made by cmake/supple_shaders.cmake.
@@ -118,6 +123,12 @@ namespace supple::${namespace} {
 Shaders Shaders::embedded() {
     return {{{
 ${table}    }}};
+}
+
+const char* nameOf(Kernel kernel) {
+    static constexpr const char* kNames[] = {
+${names}    };
+    return kNames[static_cast<uint32_t>(kernel)];
 }
 
 } // namespace supple::${namespace}

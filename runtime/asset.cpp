@@ -106,7 +106,9 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
     }
     if (own != nullptr && !ownsPrepared) {
         builtLate.push_back(std::string("the tables of ") + surface::schemeOf(recipe.scheme).name +
-                            (recipe.wide ? " for the wide mapping" : " for the narrow mapping"));
+                            (!surface::schemeOf(recipe.scheme).ofMapping ? ""
+                             : recipe.wide                               ? " for the wide mapping"
+                                                                         : " for the narrow mapping"));
     }
     schemes.push_back(scheme);
     return scheme;

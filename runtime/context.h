@@ -63,6 +63,8 @@ public:
     /// 0: none. `allowsMore` is asked when an allocation would exceed it.
     void setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore);
 
+    /// What a reader has to say of a character.
+    void tellWarnings(const cage::Character& character) const;
     [[nodiscard]] bool isWide() const { return device_->mapping.wide; } ///< gpu/mapping.h
     /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
@@ -115,7 +117,6 @@ private:
     void tellBuiltLate(Asset& asset) const;
     [[nodiscard]] Result<uint64_t> keep(Result<std::shared_ptr<Asset>> asset);
     [[nodiscard]] Status reload(uint64_t id, Result<std::shared_ptr<Asset>> made);
-    void tellWarnings(const cage::Character& character) const;
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none

@@ -41,15 +41,19 @@ void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& 
 
 std::shared_ptr<Prepared> Prepared::of(cage::Character character) {
     auto prepared = std::make_shared<Prepared>();
-    prepared->deform = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
-    prepared->rig = skinning::makeRig(character);
-    for (size_t part = 0; part < character.parts.size(); ++part) {
-        prepared->parts.push_back(summaryOf(character, part));
-    }
-    prepared->choices = surface::chooseSchemes(character);
-    prepared->jointFrames = skinning::jointFrames(character);
     prepared->character = std::move(character);
+    prepared->choices = surface::chooseSchemes(prepared->character);
+    prepared->follow();
     return prepared;
+}
+
+void Prepared::follow() {
+    deform = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+    rig = skinning::makeRig(character);
+    for (size_t part = 0; part < character.parts.size(); ++part) {
+        parts.push_back(summaryOf(character, part));
+    }
+    jointFrames = skinning::jointFrames(character);
 }
 
 std::shared_ptr<const PreparedPiece> Prepared::pieceOf(const std::vector<uint32_t>& wanted) const {

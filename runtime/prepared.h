@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace supple::runtime {
@@ -48,9 +49,12 @@ struct Prepared {
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
+    std::string madeBy; ///< the command that made the cooked file that it comes from, or empty
 
     /// Without clips, pieces and tables.
     [[nodiscard]] static std::shared_ptr<Prepared> of(cage::Character character);
+    /// Makes what follows from the character in no time: all but choices, clips, pieces and tables.
+    void follow();
 
     /// Finds the piece of some parts (rising), or makes one that is not kept here.
     [[nodiscard]] std::shared_ptr<const PreparedPiece> pieceOf(const std::vector<uint32_t>& parts) const;

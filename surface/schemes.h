@@ -45,6 +45,7 @@ struct Scheme {
     /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h). Null: files do not keep
     /// its tables.
     void (*check)(TableCheck& check) = nullptr;
+    bool ofMapping = false; ///< its tables differ by mapping (Recipe::wide)
 
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/limits.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace supple::cage {
-
-/// Nodes nested deeper than this are refused: every level is a step in which a pose's matrices wait for each other.
-inline constexpr uint32_t kMaxNodeDepth = 1024;
 
 /// Gives the bytes of a file that the asset refers to, or why it cannot, in a few words. `path` is percent-decoded and
 /// relative, with forward slashes, no ".." and no scheme.

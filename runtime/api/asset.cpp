@@ -3,6 +3,7 @@
 #include "cage/trim.h"
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
+#include "runtime/cooked/file.h"
 
 #include <cstddef>
 #include <cstring>
@@ -75,6 +76,20 @@ SuppleResult clipBounds(Context& context, const char* function, const Asset& ass
     return SUPPLE_OK;
 }
 
+/// A cooked file that has tables for the context's mapping. What was said of the character when it was cooked is said
+/// again.
+Result<std::shared_ptr<const runtime::Prepared>> readCookedFor(const Context& context, const SuppleAssetDesc& desc) {
+    const Result<std::shared_ptr<runtime::Prepared>> cooked = readCookedAsset(desc);
+    if (!cooked) {
+        return cooked.error();
+    }
+    if (const Status fits = runtime::checkMapping(**cooked, context.isWide()); !fits) {
+        return fits.error();
+    }
+    context.tellWarnings((*cooked)->character);
+    return std::shared_ptr<const runtime::Prepared>(*cooked);
+}
+
 void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     info.name = from.name.c_str();
     info.alphaMode = static_cast<SuppleAlphaMode>(from.alphaMode);
@@ -120,6 +135,10 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
         if (desc.prepared != nullptr) {
             return made(context.createAsset(desc.prepared->prepared));
         }
+        if (isCooked(desc)) {
+            const auto cooked = readCookedFor(context, desc);
+            return cooked ? made(context.createAsset(*cooked)) : report(context, cooked.error());
+        }
         Result<cage::Character> character = readAsset(kHere, desc);
         return character ? made(context.createAsset(std::move(*character))) : report(context, character.error());
     });
@@ -137,6 +156,11 @@ SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const Su
         }
         if (desc.prepared != nullptr) {
             return reportStatus(context, context.reloadAsset(asset.id, desc.prepared->prepared));
+        }
+        if (isCooked(desc)) {
+            const auto cooked = readCookedFor(context, desc);
+            return cooked ? reportStatus(context, context.reloadAsset(asset.id, *cooked))
+                          : report(context, cooked.error());
         }
         Result<cage::Character> character = readAsset(kHere, desc);
         return character ? reportStatus(context, context.reloadAsset(asset.id, std::move(*character)))

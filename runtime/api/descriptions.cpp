@@ -1,8 +1,10 @@
 #include "runtime/api/descriptions.h"
 
 #include "cage/formats/reader.h"
+#include "cage/repair.h"
 #include "runtime/api/entry.h"
 #include "runtime/asset.h"
+#include "runtime/cooked/file.h"
 #include "runtime/sized.h"
 #include "runtime/vertex_streams.h"
 #include "surface/schemes.h"
@@ -186,6 +188,28 @@ std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, S
         return Error{ErrorCode::nullPointer, "files->read is null"};
     }
     return faultOfClipFiles(out);
+}
+
+bool isCooked(const SuppleAssetDesc& desc) {
+    return desc.bytes != nullptr && runtime::isCooked({static_cast<const std::byte*>(desc.bytes), desc.byteCount});
+}
+
+Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc& desc) {
+    const std::string name = nameOf(desc);
+    if ((desc.flags & ~uint32_t{SUPPLE_ASSET_STRICT}) != 0 || desc.scene != 0 || desc.clipFileCount != 0) {
+        return Error{ErrorCode::argument, name +
+                                              ": it is cooked, and flags other than SUPPLE_ASSET_STRICT, a scene and "
+                                              "clip files are for the file that it is cooked from"};
+    }
+    Result<std::shared_ptr<runtime::Prepared>> prepared =
+        runtime::readCooked({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name);
+    if (!prepared || (desc.flags & SUPPLE_ASSET_STRICT) == 0) {
+        return prepared;
+    }
+    if (const Status sound = cage::refuseDamages((*prepared)->character); !sound) {
+        return sound.error();
+    }
+    return prepared;
 }
 
 Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc) {

@@ -18,7 +18,11 @@ namespace supple::api {
 
 /// Checks a description, which messages call `name`, and takes in whatever version it has. Null if it is sound.
 [[nodiscard]] std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, SuppleAssetDesc& out);
-/// A file in memory or arrays, as a character. `function` begins the messages about structs within the description.
+/// Whether the description has a cooked file (runtime/cooked/file.h).
+[[nodiscard]] bool isCooked(const SuppleAssetDesc& desc);
+/// What a cooked file has. Refuses options that are about reading other files.
+[[nodiscard]] Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc& desc);
+/// Another file in memory or arrays, as a character. `function` begins the messages about structs within the description.
 [[nodiscard]] Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc);
 
 /// A group's description, with copies of the options that it points to.

@@ -2,6 +2,9 @@
 #include "runtime/prepare.h"
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
+#include "runtime/cooked/file.h"
+
+#include <cstring>
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -25,6 +28,9 @@ Result<std::shared_ptr<runtime::Prepared>> readCharacter(const SupplePrepareDesc
     }
     if (asset.prepared != nullptr) {
         return here(ErrorCode::argument, "the asset is prepared already");
+    }
+    if (isCooked(asset)) {
+        return readCookedAsset(asset);
     }
     Result<cage::Character> character = readAsset(kHere, asset);
     if (!character) {
@@ -105,6 +111,27 @@ SuppleResult supplePrepare(const SupplePrepareDesc* given, SupplePrepared* out) 
         return SUPPLE_OK;
     } catch (const std::exception&) {
         return SUPPLE_ERROR_HOST_MEMORY; // nothing else is thrown at us
+    }
+}
+
+SuppleResult suppleSavePrepared(SupplePrepared prepared, const char* madeBy, void* out, size_t* byteCount) {
+    if (prepared == nullptr || byteCount == nullptr) {
+        return SUPPLE_ERROR_ARGUMENT;
+    }
+    try {
+        const std::vector<std::byte> bytes = runtime::writeCooked(*prepared->prepared, madeBy != nullptr ? madeBy : "");
+        const size_t room = *byteCount;
+        *byteCount = bytes.size();
+        if (out == nullptr) {
+            return SUPPLE_OK;
+        }
+        if (room < bytes.size()) {
+            return SUPPLE_ERROR_ARGUMENT;
+        }
+        std::memcpy(out, bytes.data(), bytes.size());
+        return SUPPLE_OK;
+    } catch (const std::exception&) {
+        return SUPPLE_ERROR_HOST_MEMORY;
     }
 }
 

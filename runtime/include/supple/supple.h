@@ -401,7 +401,9 @@ typedef struct SuppleAssetDesc {
     uint32_t structSize;
     uint32_t flags;    /**< SuppleAssetFlags */
     const char* name;  /**< optional; begins every message about the asset */
-    const void* bytes; /**< a .glb or .gltf file, or an .obj file if `name` ends in .obj */
+    /** A .glb or .gltf file; an .obj file if `name` ends in .obj; or a cooked file (suppleSavePrepared), for which scene,
+     * clipFiles and flags other than SUPPLE_ASSET_STRICT must be 0. */
+    const void* bytes;
     size_t byteCount;
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */

@@ -26,7 +26,7 @@ typedef struct SupplePrepareDesc {
     /** The mapping of the context that will make the groups: tables of the other mapping are of no use there. AUTO is
      * WIDE, the mapping of GPUs. */
     SuppleMapping mapping;
-    const SuppleAssetDesc* asset;     /**< the file or the arrays; `prepared` must be null */
+    const SuppleAssetDesc* asset;     /**< the file, which may be cooked, or the arrays; `prepared` must be null */
     const SupplePlannedGroup* groups; /**< groupCount of them; their order does not matter */
     uint32_t groupCount;
     SuppleLogFunction log; /**< optional: errors, and warnings about the file */
@@ -46,6 +46,21 @@ typedef struct SupplePrepareDesc {
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
 SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepared* out);
+/** Turns what was prepared into the bytes of a cooked file: `supple cook` writes them to a disk. They go wherever bytes
+ * of a glTF file go (SuppleAssetDesc.bytes), and nothing is parsed or built then: bytes are checked and copied. They
+ * are the same on every machine, and can be kept in an archive of the host's. Only this version of the format can be
+ * read: a game cooks its characters when it is built, from files that it keeps.
+ *
+ * What the file has are the character with its clips and images, and the tables of the groups that were planned. Tables
+ * of BLEND and FRAGMENTS are not kept: suppleCreateGroup builds them, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Tables
+ * of CATMULL_CLARK and LOOP are for one mapping: a file for both is made by preparing twice, the second time from the
+ * bytes of the first.
+ *
+ * madeBy: optional; the command that makes the file, which messages about a file of another version quote.
+ * out: null, or room for *byteCount bytes. *byteCount becomes the size of the file. Reads what was prepared alone, so
+ * any threads may call it at the same time. SUPPLE_ERROR_ARGUMENT: prepared or byteCount is null, or there is too
+ * little room. */
+SUPPLE_API SuppleResult suppleSavePrepared(SupplePrepared prepared, const char* madeBy, void* out, size_t* byteCount);
 /** Null does nothing. Assets that were made of it keep what they need. */
 SUPPLE_API void suppleDestroyPrepared(SupplePrepared prepared);
 

@@ -1,0 +1,300 @@
+#include "cage/character_check.h"
+
+#include "cage/limits.h"
+#include "cage/message.h"
+#include "cage/trim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace supple::cage {
+
+namespace {
+
+using std::to_string;
+
+bool isFinite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+template <class Vector>
+std::span<const float> numbersOf(const std::vector<Vector>& list) {
+    return {reinterpret_cast<const float*>(list.data()), list.size() * sizeof(Vector) / sizeof(float)}; // NOLINT
+}
+/// Whether all are below the limit.
+bool below(std::span<const uint32_t> list, uint64_t limit) {
+    return std::all_of(list.begin(), list.end(), [&](uint32_t one) { return one < limit; });
+}
+bool belowOrNone(std::span<const uint32_t> list, uint64_t limit) {
+    return std::all_of(list.begin(), list.end(), [&](uint32_t one) { return one < limit || one == kNone; });
+}
+/// Whether the list has a start for each of `count` runs, from 0 on, every run has at least `least`, and all end at
+/// `end`.
+bool startsRise(std::span<const uint32_t> starts, size_t count, uint32_t least, size_t end) {
+    if (starts.size() != count + 1 || starts.front() != 0 || starts.back() != end) {
+        return false;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        if (starts[i + 1] < starts[i] || starts[i + 1] - starts[i] < least) {
+            return false;
+        }
+    }
+    return true;
+}
+bool rises(std::span<const uint32_t> list) {
+    return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+}
+
+/// Gathers faults.
+class Check {
+public:
+    Check(std::string prefix, const Character& character) : prefix_(std::move(prefix)), character_(character) {}
+
+    bool require(bool holds, const std::string& fault) {
+        if (!holds && count_++ < kMostFaults) {
+            faults_ += (faults_.empty() ? "" : "\n") + prefix_ + fault;
+        }
+        return holds;
+    }
+    [[nodiscard]] bool none() const { return faults_.empty(); }
+    [[nodiscard]] Status status() const { return none() ? success() : Status(Error{ErrorCode::asset, faults_}); }
+
+    void cage(const Cage& cage, size_t sourceVertices);
+    void parts();
+    void skeleton();
+    void skin();
+    void morphs();
+    void clips();
+    void materials();
+
+private:
+    void cageCorners(const Cage& cage);
+    void cageFaces(const Cage& cage);
+    void cageMarks(const Cage& cage);
+    void channel(const Channel& channel, const std::string& name);
+    bool texture(const Texture& texture);
+
+    std::string prefix_;
+    const Character& character_;
+    static constexpr size_t kMostFaults = 32;
+    std::string faults_; ///< lines
+    size_t count_ = 0;
+};
+
+void Check::cage(const Cage& cage, size_t sourceVertices) {
+    require(!cage.positions.empty() && cage.positions.size() <= kMaxVertices, "no vertices, or too many");
+    require(faultOfCoordinates(numbersOf(cage.positions).data(), 3 * cage.positions.size()) == nullptr,
+            "a position is not finite or beyond 1e+09");
+    require(cage.sourceVertices.size() == sourceVertices, "sourceVertices are not one a vertex");
+    const bool faces = !cage.faceStarts.empty() && cage.faceVertices.size() <= kMaxCorners &&
+                       startsRise(cage.faceStarts, cage.faceStarts.size() - 1, 3, cage.faceVertices.size()) &&
+                       cage.faceCount() > 0;
+    if (!require(faces, "faces do not divide the corners") ||
+        !require(below(cage.faceVertices, cage.positions.size()), "a corner names no vertex")) {
+        return;
+    }
+    cageCorners(cage);
+    cageFaces(cage);
+    cageMarks(cage);
+}
+
+void Check::cageCorners(const Cage& cage) {
+    const size_t corners = cage.cornerCount();
+    const auto each = [&](size_t size) { return size == 0 || size == corners; };
+    require(each(cage.cornerUvs.size()) && each(cage.cornerUvs1.size()) && each(cage.cornerColors.size()) &&
+                each(cage.cornerNormals.size()) && each(cage.cornerTangents.size()) && each(cage.cornerFaceUvs.size()),
+            "an attribute does not have one value a corner");
+    const size_t triangles = corners - 2 * size_t{cage.faceCount()};
+    require(cage.faceTriangles.empty() || cage.faceTriangles.size() == 3 * triangles,
+            "triangles do not fill the faces");
+    size_t at = 0;
+    bool own = true; // corners of the face itself
+    for (uint32_t f = 0; f < cage.faceCount() && !cage.faceTriangles.empty() && none(); ++f) {
+        for (const size_t end = at + 3 * size_t{cage.sides(f) - 2}; at < end; ++at) {
+            own =
+                own && cage.faceTriangles[at] >= cage.faceStarts[f] && cage.faceTriangles[at] < cage.faceStarts[f + 1];
+        }
+    }
+    require(own, "a triangle has a corner that is none of its face");
+}
+
+void Check::cageFaces(const Cage& cage) {
+    const size_t faces = cage.faceCount();
+    const auto each = [&](size_t size) { return size == 0 || size == faces; };
+    if (!require(each(cage.faceMaterials.size()) && each(cage.faceParts.size()) && each(cage.faceTrimTiles.size()),
+                 "something is not said for each face")) {
+        return;
+    }
+    require(belowOrNone(cage.faceMaterials, character_.materials.size()), "a face has no such material");
+    require(below(cage.faceParts, character_.parts.size()) &&
+                std::is_sorted(cage.faceParts.begin(), cage.faceParts.end()),
+            "parts of faces do not rise");
+    require(belowOrNone(cage.faceTrimTiles, kMaxTrimTiles), "a face has no such trim tile");
+}
+
+void Check::cageMarks(const Cage& cage) {
+    const uint32_t vertices = cage.vertexCount();
+    const bool creases = std::ranges::all_of(
+        cage.creases, [&](const Crease& c) { return c.a < vertices && c.b < vertices && c.sharpness >= 0.0f; });
+    require(creases, "a crease has no such vertices, or no sharpness of 0 and more");
+    const bool sharp = std::ranges::all_of(
+        cage.sharpVertices, [&](const SharpVertex& s) { return s.vertex < vertices && s.sharpness >= 0.0f; });
+    require(sharp, "a sharp vertex is none, or has no sharpness of 0 and more");
+    const bool scalars = std::ranges::all_of(cage.creaseScalars, [&](const CreaseScalar& s) {
+        return s.vertex < vertices && s.toward < vertices && s.alpha >= 0.0f && s.alpha <= 1.0f;
+    });
+    require(scalars, "a crease scalar has no such vertices, or an alpha that is not in [0, 1]");
+    require(below(cage.roundCorners, vertices), "a round corner is no vertex");
+    require(below(cage.holes, cage.faceCount()) && rises(cage.holes), "holes are no faces, or do not rise");
+}
+
+void Check::parts() {
+    const std::vector<Part>& parts = character_.parts;
+    if (!require(!parts.empty(), "no parts")) {
+        return;
+    }
+    const Cage& cage = character_.cage;
+    require(cage.faceParts.size() == (parts.size() > 1 ? cage.faceCount() : cage.faceParts.size()),
+            "parts of faces are not given");
+    for (size_t p = 0; p < parts.size(); ++p) {
+        const Part& part = parts[p];
+        const std::string name = at("part", p) + ": ";
+        const uint32_t end = p + 1 < parts.size() ? parts[p + 1].firstFace : cage.faceCount();
+        require(part.firstFace < end && end <= cage.faceCount() && (p > 0 || part.firstFace == 0), name + "no faces");
+        require(part.node < character_.skeleton.nodes.size(), name + "no such node");
+        require(below(part.joints, character_.skin.joints.size()), name + "no such joint");
+        require(uint64_t{part.firstTarget} + part.targetCount <= character_.morphs.targets.size(),
+                name + "no such morph targets");
+        for (uint32_t f = part.firstFace; f < end && none() && !cage.faceParts.empty(); ++f) {
+            require(cage.faceParts[f] == p, name + "a face is another part's");
+        }
+    }
+}
+
+void Check::skeleton() {
+    const auto& [nodes, parentsFirst] = character_.skeleton;
+    require(!nodes.empty() && parentsFirst.size() == nodes.size() && below(parentsFirst, nodes.size()),
+            "the order of nodes is none");
+    std::vector<uint32_t> depths(none() ? nodes.size() : 0, kNone);
+    for (size_t i = 0; i < depths.size() && none(); ++i) {
+        const Node& node = nodes[parentsFirst[i]];
+        const std::string name = at("node", parentsFirst[i]) + ": ";
+        const bool isRoot = node.parent == kNone;
+        if (!require(depths[parentsFirst[i]] == kNone, name + "twice in the order") ||
+            !require(isRoot || (node.parent < nodes.size() && depths[node.parent] != kNone),
+                     name + "its parent does not come first")) {
+            return;
+        }
+        depths[parentsFirst[i]] = isRoot ? 0 : depths[node.parent] + 1;
+        require(depths[parentsFirst[i]] < kMaxNodeDepth, name + "nested too deep");
+        require(isFinite({&node.translation.x, 3}) && isFinite({&node.rotation[0], 4}) &&
+                    isFinite({&node.scale.x, 3}) && isFinite({&node.matrix[0][0], 16}),
+                name + "not finite");
+    }
+}
+
+void Check::skin() {
+    const auto& [joints, inverseBinds] = character_.skin;
+    require(!joints.empty() && joints.size() == inverseBinds.size() && below(joints, character_.skeleton.nodes.size()),
+            "joints are no nodes, or have no inverse bind matrices");
+    require(isFinite(numbersOf(inverseBinds)), "an inverse bind matrix is not finite");
+    const auto& [starts, influences] = character_.weights;
+    require(startsRise(starts, character_.cage.vertexCount(), 1, influences.size()), "a vertex has no influences");
+    const bool sound = std::ranges::all_of(
+        influences, [&](const Influence& i) { return i.joint < joints.size() && std::isfinite(i.weight); });
+    require(sound, "an influence names no joint, or has no finite weight");
+}
+
+void Check::morphs() {
+    require(character_.morphs.weights.size() == character_.morphs.targets.size() && isFinite(character_.morphs.weights),
+            "morph targets have no finite weights");
+    for (size_t t = 0; t < character_.morphs.targets.size(); ++t) {
+        const MorphTarget& target = character_.morphs.targets[t];
+        const std::string name = at("morph target", t) + ": ";
+        require(target.deltas.size() == target.vertices.size() && isFinite(numbersOf(target.deltas)),
+                name + "displacements are not finite, or not one a vertex");
+        require(below(target.vertices, character_.cage.vertexCount()) && rises(target.vertices),
+                name + "vertices do not rise, or are none");
+    }
+}
+
+void Check::channel(const Channel& channel, const std::string& name) {
+    const size_t values = channel.times.size() * (channel.interpolation == Interpolation::cubicSpline ? 3 : 1);
+    require(channel.node < character_.skeleton.nodes.size(), name + "no such node");
+    require(isFinite(channel.times) && isFinite(channel.values), name + "not finite");
+    require(std::adjacent_find(channel.times.begin(), channel.times.end(), std::greater_equal<>()) ==
+                channel.times.end(),
+            name + "times do not rise");
+    if (!require(values > 0 && channel.values.size() % values == 0, name + "not as many values as keys")) {
+        return;
+    }
+    const size_t width = channel.width(), targets = character_.morphs.targets.size();
+    const bool isWeights = channel.path == ChannelPath::weights;
+    require(isWeights ? width > 0 && channel.firstTarget + width <= targets
+                      : width == (channel.path == ChannelPath::rotation ? 4u : 3u),
+            name + "not as many values as keys");
+}
+
+void Check::clips() {
+    for (size_t c = 0; c < character_.clips.size(); ++c) {
+        const Clip& clip = character_.clips[c];
+        const std::string name = at("clip", c) + " ";
+        require(std::isfinite(clip.duration) && clip.duration >= 0.0, name + "has no duration");
+        for (size_t i = 0; i < clip.channels.size(); ++i) {
+            channel(clip.channels[i], name + at("channel", i) + ": ");
+        }
+        const bool markers = std::ranges::all_of(clip.markers, [](const Marker& m) { return std::isfinite(m.time); });
+        require(markers && std::ranges::is_sorted(clip.markers, {}, &Marker::time),
+                name + "markers: times do not rise");
+    }
+}
+
+bool Check::texture(const Texture& texture) {
+    const auto isImage = [&](uint32_t image) { return image < character_.images.size() || image == kNone; };
+    return isImage(texture.image) && isImage(texture.alternateImage) && texture.uvSet <= 1;
+}
+
+void Check::materials() {
+    for (size_t m = 0; m < character_.materials.size(); ++m) {
+        const Material& material = character_.materials[m];
+        const std::string name = at("material", m) + ": ";
+        require(texture(material.baseColorTexture) && texture(material.metallicRoughnessTexture) &&
+                    texture(material.normalTexture) && texture(material.occlusionTexture) &&
+                    texture(material.emissiveTexture),
+                name + "a texture names no image or no UV set");
+        require(!material.trim || (texture(material.trim->texture) && material.trim->channel <= 3 &&
+                                   material.trim->tiles <= kMaxTrimTiles),
+                name + "its trim names no image, channel or tile");
+    }
+}
+
+} // namespace
+
+Status checkCharacter(const Character& character) {
+    Check check(character.name + ": ", character);
+    check.cage(character.cage, character.cage.vertexCount());
+    if (check.none()) { // what follows counts vertices and faces
+        check.skeleton();
+        check.parts();
+        check.skin();
+        check.morphs();
+        check.clips();
+        check.materials();
+    }
+    return check.status();
+}
+
+Status checkPiece(const Character& character, const CagePiece& piece) {
+    Check check(character.name + ": piece: ", character);
+    check.cage(piece.cage, 0);
+    check.require(piece.faces.size() == piece.cage.faceCount() && below(piece.faces, character.cage.faceCount()),
+                  "its faces are not the whole cage's");
+    check.require(piece.vertices.size() == piece.cage.vertexCount() && rises(piece.vertices) &&
+                      below(piece.vertices, character.cage.vertexCount()),
+                  "its vertices are not the whole cage's");
+    return check.status();
+}
+
+} // namespace supple::cage

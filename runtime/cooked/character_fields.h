@@ -1,0 +1,134 @@
+// The members of a character in the order of a cooked file (cooked/archive.h).
+#pragma once
+
+#include "cage/character.h"
+#include "runtime/cooked/archive.h"
+
+namespace supple::cage {
+
+using runtime::Is;
+
+// Vectors and small structs of numbers lie in lists as they do in memory.
+constexpr bool isValue(Interpolation value) {
+    return value <= Interpolation::cubicSpline;
+}
+constexpr bool isValue(ChannelPath value) {
+    return value <= ChannelPath::weights;
+}
+constexpr bool isValue(AlphaMode value) {
+    return value <= AlphaMode::blend;
+}
+constexpr bool isValue(Wrap value) {
+    return value <= Wrap::mirroredRepeat;
+}
+constexpr bool isValue(Filter value) {
+    return value <= Filter::linearMipmapLinear;
+}
+constexpr bool isValue(TrimDomain value) {
+    return value <= TrimDomain::face;
+}
+constexpr bool isValue(PolygonSource value) {
+    return value <= PolygonSource::arrays;
+}
+constexpr bool isValue(WeldSource value) {
+    return value <= WeldSource::given;
+}
+constexpr bool isValue(UvMode value) {
+    return value <= UvMode::all;
+}
+constexpr bool isValue(MadeFor value) {
+    return value <= MadeFor::none;
+}
+
+template <class A, Is<Cage> T>
+void fields(A& a, T& cage) {
+    a(cage.positions, cage.faceStarts, cage.faceVertices, cage.cornerUvs, cage.cornerUvs1, cage.cornerColors,
+      cage.cornerNormals, cage.cornerTangents, cage.faceTriangles, cage.faceMaterials, cage.faceParts,
+      cage.faceTrimTiles, cage.cornerFaceUvs, cage.sourceVertices, cage.creases, cage.sharpVertices, cage.creaseScalars,
+      cage.roundCorners, cage.holes);
+}
+template <class A, Is<Node> T>
+void fields(A& a, T& node) {
+    a(node.name, node.parent, node.translation, node.rotation, node.scale, node.hasMatrix, node.matrix);
+}
+template <class A, Is<Channel> T>
+void fields(A& a, T& channel) {
+    a(channel.node, channel.path, channel.interpolation, channel.times, channel.values, channel.firstTarget);
+}
+template <class A, Is<Marker> T>
+void fields(A& a, T& marker) {
+    a(marker.name, marker.time);
+}
+template <class A, Is<Clip> T>
+void fields(A& a, T& clip) {
+    a(clip.name, clip.duration, clip.channels, clip.markers);
+}
+template <class A, Is<MorphTarget> T>
+void fields(A& a, T& target) {
+    a(target.name, target.vertices, target.deltas);
+}
+template <class A, Is<Image> T>
+void fields(A& a, T& image) {
+    a(image.name, image.mimeType, image.bytes);
+}
+template <class A, Is<Texture> T>
+void fields(A& a, T& texture) {
+    a(texture.image, texture.alternateImage, texture.uvSet, texture.wrapU, texture.wrapV, texture.magFilter,
+      texture.minFilter, texture.offset, texture.rotation, texture.scale);
+}
+template <class A, Is<Trim> T>
+void fields(A& a, T& trim) {
+    a(trim.domain, trim.texture, trim.channel, trim.cutoff, trim.tiles);
+}
+template <class A, Is<Material> T>
+void fields(A& a, T& material) {
+    a(material.name, material.baseColorFactor, material.baseColorTexture, material.metallicFactor,
+      material.roughnessFactor, material.metallicRoughnessTexture, material.normalTexture, material.normalScale,
+      material.occlusionTexture, material.occlusionStrength, material.emissiveTexture, material.emissiveFactor,
+      material.emissiveStrength, material.unlit, material.alphaMode, material.alphaCutoff, material.doubleSided,
+      material.trim);
+}
+template <class A, Is<Part> T>
+void fields(A& a, T& part) {
+    a(part.name, part.node, part.rigid, part.joints, part.firstFace, part.firstTarget, part.targetCount,
+      part.polygonSource, part.weldSource, part.uvMode, part.madeFor);
+}
+template <class A, Is<Damage> T>
+void fields(A& a, T& damage) {
+    a(damage.found, damage.repair);
+}
+template <class A, Is<Character> T>
+void fields(A& a, T& character) {
+    a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
+      character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
+      character.weights.influences, character.morphs.targets, character.morphs.weights, character.clips,
+      character.materials, character.images, character.warnings, character.damages, character.sourceVertexCount,
+      character.seamVertexCount);
+}
+
+} // namespace supple::cage
+
+namespace supple::runtime {
+
+template <>
+inline constexpr bool kIsPlain<glm::vec2> = true;
+template <>
+inline constexpr bool kIsPlain<glm::vec3> = true;
+template <>
+inline constexpr bool kIsPlain<glm::vec4> = true;
+template <>
+inline constexpr bool kIsPlain<glm::quat> = true;
+template <>
+inline constexpr bool kIsPlain<glm::mat4> = true;
+template <>
+inline constexpr bool kIsPlain<cage::Influence> = true;
+template <>
+inline constexpr bool kIsPlain<cage::Crease> = true;
+template <>
+inline constexpr bool kIsPlain<cage::SharpVertex> = true;
+template <>
+inline constexpr bool kIsPlain<cage::CreaseScalar> = true;
+static_assert(sizeof(cage::Influence) == 8 && sizeof(cage::Crease) == 12 && sizeof(cage::SharpVertex) == 8 &&
+              sizeof(cage::CreaseScalar) == 12);
+
+} // namespace supple::runtime

@@ -1,0 +1,214 @@
+#include "runtime/cooked/file.h"
+
+#include "cage/character_check.h"
+#include "runtime/cooked/table_fields.h"
+#include "surface/schemes.h"
+#include "surface/table_check.h"
+
+#include <algorithm>
+#include <bit>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace supple::runtime {
+
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
+constexpr uint32_t kVersion = 1;
+constexpr uint32_t kByteOrder = 0x01020304;
+
+struct Header {
+    std::array<char, 8> magic = kMagic;
+    uint32_t version = kVersion;
+    uint32_t byteOrder = kByteOrder;
+    uint64_t byteCount = 0;
+    uint64_t hash = 0; ///< XXH3 of what follows
+};
+static_assert(sizeof(Header) == 32);
+
+uint64_t hashOf(std::span<const std::byte> file) {
+    const std::span<const std::byte> hashed = file.subspan(sizeof(Header));
+    return XXH3_64bits(hashed.data(), hashed.size());
+}
+
+std::string howToMakeIt(const std::string& madeBy) {
+    return madeBy.empty() ? "cook it anew" : "make it anew: " + madeBy;
+}
+
+/// The header, if the file is whole, of this version, and nobody has changed it.
+Status checkHeader(std::span<const std::byte> bytes, Reader& reader, std::string& madeBy) {
+    Header header;
+    reader(header.magic, header.version, header.byteOrder, header.byteCount, header.hash, madeBy);
+    if (header.byteOrder != kByteOrder) {
+        return Error{ErrorCode::asset, "cooked on a machine of the other byte order: cook it anew"};
+    }
+    if (header.version != kVersion) {
+        return Error{ErrorCode::asset, "a cooked file of version " + std::to_string(header.version) +
+                                           ", and this is version " + std::to_string(kVersion) + ": " +
+                                           howToMakeIt(madeBy)};
+    }
+    if (reader.fault() || header.byteCount != bytes.size()) {
+        return Error{ErrorCode::asset, "a cooked file of " + std::to_string(header.byteCount) + " bytes, of which " +
+                                           std::to_string(bytes.size()) + " are there"};
+    }
+    if (header.hash != hashOf(bytes)) {
+        return Error{ErrorCode::asset, "the cooked file is damaged: " + howToMakeIt(madeBy)};
+    }
+    return success();
+}
+
+bool keeps(const PreparedTables& tables) {
+    return surface::canCheckTables(tables.recipe.scheme);
+}
+
+constexpr uint32_t kWholeCage = cage::kNone;
+
+uint32_t placeOf(const Prepared& prepared, const std::shared_ptr<const PreparedPiece>& piece) {
+    return piece == nullptr
+               ? kWholeCage
+               : static_cast<uint32_t>(std::ranges::find(prepared.pieces, piece) - prepared.pieces.begin());
+}
+
+void readPieces(Reader& reader, Prepared& prepared) {
+    uint32_t count = 0;
+    reader(count);
+    for (uint32_t i = 0; i < count && !reader.fault(); ++i) {
+        auto piece = std::make_shared<PreparedPiece>();
+        reader(piece->parts, piece->of);
+        const bool parts = !piece->parts.empty() && piece->parts.back() < prepared.character.parts.size() &&
+                           std::ranges::adjacent_find(piece->parts, std::greater_equal<>()) == piece->parts.end();
+        if (!parts) {
+            reader.refuse("a piece of no parts");
+        } else if (const Status sound = cage::checkPiece(prepared.character, piece->of); !reader.fault() && !sound) {
+            reader.refuse(sound.error().message);
+        }
+        prepared.pieces.push_back(std::move(piece));
+    }
+}
+
+/// What debuggers call the kernels.
+void nameKernels(Reader& reader, surface::SchemeId scheme, surface::Tables& tables) {
+    for (surface::Construction& c : tables.constructions) {
+        const auto rows = surface::schemeOf(scheme).kernels;
+        const auto row = std::ranges::find_if(
+            rows, [&](const surface::StageKernel& own) { return own.stage == c.stage && own.kernel == c.kernel; });
+        if (row == rows.end()) {
+            reader.refuse("a kernel of another scheme");
+            return;
+        }
+        c.kernel.name = row->kernel.name;
+    }
+}
+
+void readTables(Reader& reader, Prepared& prepared) {
+    uint32_t count = 0;
+    reader(count);
+    for (uint32_t i = 0; i < count && !reader.fault(); ++i) {
+        auto own = std::make_shared<PreparedTables>();
+        uint32_t place = kWholeCage;
+        reader(own->recipe, place, own->tables);
+        if (reader.fault()) {
+            return;
+        }
+        if (place != kWholeCage && place >= prepared.pieces.size()) {
+            reader.refuse("tables of no piece");
+            return;
+        }
+        own->piece = place != kWholeCage ? prepared.pieces[place] : nullptr;
+        if (!surface::canCheckTables(own->recipe.scheme)) {
+            reader.refuse("tables of a scheme that files do not keep");
+            return;
+        }
+        const cage::Character& character = prepared.character;
+        const surface::TableSource source{own->recipe, prepared.cageOf(own->piece.get()).vertexCount(),
+                                          character.cage.faceCount(), static_cast<uint32_t>(character.parts.size()),
+                                          static_cast<uint32_t>(character.materials.size())};
+        nameKernels(reader, own->recipe.scheme, own->tables);
+        if (const Status sound = surface::checkTables(own->tables, source); !sound) {
+            reader.refuse(sound.error().message);
+        }
+        prepared.tables.push_back(std::move(own));
+    }
+}
+
+} // namespace
+
+bool isCooked(std::span<const std::byte> bytes) {
+    return bytes.size() >= sizeof(Header) && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
+std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy) {
+    std::vector<std::byte> bytes(sizeof(Header));
+    Writer writer(bytes);
+    writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
+    writer(static_cast<uint32_t>(prepared.pieces.size()));
+    for (const auto& piece : prepared.pieces) {
+        writer(piece->parts, piece->of);
+    }
+    writer(static_cast<uint32_t>(std::ranges::count_if(prepared.tables, [](const auto& own) { return keeps(*own); })));
+    for (const auto& own : prepared.tables) {
+        if (keeps(*own)) {
+            writer(own->recipe, placeOf(prepared, own->piece), own->tables);
+        }
+    }
+    Header header;
+    header.byteCount = bytes.size();
+    header.hash = hashOf(bytes);
+    std::memcpy(bytes.data(), &header, sizeof(header));
+    return bytes;
+}
+
+Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, const std::string& name) {
+    const auto refused = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
+    Reader reader(bytes);
+    auto prepared = std::make_shared<Prepared>();
+    if (const Status whole = checkHeader(bytes, reader, prepared->madeBy); !whole) {
+        return refused(whole.error().message);
+    }
+    bool plays = false;
+    reader(prepared->character, prepared->choices, plays);
+    if (reader.fault()) {
+        return refused(*reader.fault());
+    }
+    cage::Character& character = prepared->character;
+    character.name = name;
+    if (const Status sound = cage::checkCharacter(character); !sound) {
+        return sound.error();
+    }
+    if (prepared->choices.size() != character.parts.size()) {
+        return refused("no scheme is chosen for some part");
+    }
+    prepared->follow();
+    if (plays) {
+        prepared->clips = skinning::buildClipTable(character);
+    }
+    readPieces(reader, *prepared);
+    readTables(reader, *prepared);
+    if (!reader.fault() && reader.bytesLeft() > 0) {
+        reader.refuse("more than a character");
+    }
+    if (reader.fault()) {
+        return refused(*reader.fault());
+    }
+    return prepared;
+}
+
+Status checkMapping(const Prepared& prepared, bool wide) {
+    bool has = false, hasOther = false;
+    for (const auto& own : prepared.tables) {
+        if (surface::schemeOf(own->recipe.scheme).ofMapping) {
+            (own->recipe.wide == wide ? has : hasOther) = true;
+        }
+    }
+    if (has || !hasOther) {
+        return success();
+    }
+    return Error{ErrorCode::asset, prepared.character.name + ": cooked for the " + (wide ? "narrow" : "wide") +
+                                       " mapping alone, and this device has the " + (wide ? "wide" : "narrow") +
+                                       " one: " + howToMakeIt(prepared.madeBy) + ", with --mapping " +
+                                       (wide ? "wide" : "narrow") + " or both"};
+}
+
+} // namespace supple::runtime
