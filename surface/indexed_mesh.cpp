@@ -211,10 +211,7 @@ private:
     /// The first table element of a patch's smooth texture coordinates.
     [[nodiscard]] uint32_t uvElement(uint32_t patch, uint32_t set) const {
         const PatchRange& range = rangeOf(tables_, patch);
-        const uint32_t leaves = domainOf(range.patchClass) == Domain::triangle
-                                    ? kIrregularTriangleElements - kTriangleCornerElement
-                                    : kExactRecordElements;
-        const uint32_t each = tables_.uvLeaves ? leaves : uvElements(range.patchClass);
+        const uint32_t each = uvElements(tables_, range.patchClass);
         return range.smoothUvs + each * (tables_.uvSets * (patch - range.firstPatch) + set);
     }
 

@@ -1,5 +1,6 @@
 #include "surface/smooth_uvs.h"
 
+#include "shaders/shared/exact.h"
 #include "shaders/shared/prep.h"
 
 namespace supple::surface {
@@ -75,6 +76,15 @@ void putPatch(PatchClass patchClass, const UvPatch& patch, TableWriter& writer) 
 
 uint32_t uvElements(PatchClass patchClass) {
     return (rowOf(patchClass).coefficients + 1) / 2;
+}
+
+uint32_t uvElements(const Tables& tables, PatchClass patchClass) {
+    if (!tables.uvLeaves) {
+        return uvElements(patchClass);
+    }
+    return domainOf(patchClass) == Domain::triangle
+               ? shared::kIrregularTriangleElements - shared::kTriangleCornerElement
+               : shared::kExactRecordElements;
 }
 
 std::vector<const std::vector<glm::vec2>*> uvSetsOf(const cage::Cage& cage) {

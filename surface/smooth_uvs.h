@@ -21,6 +21,8 @@ struct UvPatch {
 
 /// Table elements of a patch and UV set; 0 of classes that have no such coefficients.
 [[nodiscard]] uint32_t uvElements(PatchClass patchClass);
+/// The same of tables, which may have leaves of texture coordinates (Tables::uvLeaves).
+[[nodiscard]] uint32_t uvElements(const Tables& tables, PatchClass patchClass);
 
 /// The UV sets that a cage has: one entry per corner each.
 [[nodiscard]] std::vector<const std::vector<glm::vec2>*> uvSetsOf(const cage::Cage& cage);

@@ -35,7 +35,9 @@ public:
     void begin(const char* what) { what_ = what; }
 
     /// Whether `count` things from `first` on are within `limit`. If not, this is the fault.
-    bool within(uint64_t first, uint64_t count, uint64_t limit, const char* of);
+    bool within(uint64_t first, uint64_t count, uint64_t limit, const char* of) {
+        return (first <= limit && count <= limit - first) || refuse(first, count, limit, of);
+    }
     /// The same of words and elements (four words) of the tables, coefficients of an instance's pool, and vertices of
     /// the cage.
     bool words(uint64_t first, uint64_t count) { return within(first, count, tables_.words.size(), "words"); }
@@ -45,7 +47,7 @@ public:
         return within(first, count, source_.vertices, "cage vertices");
     }
     /// Whether something else holds that kernels rely on. If not, `fault` is the fault.
-    bool require(bool holds, const char* fault);
+    bool require(bool holds, const char* fault) { return holds || refuse(fault); }
 
     /// A word that words() or elements() has found to be there.
     [[nodiscard]] uint32_t word(uint64_t at) const { return tables_.words[at]; }
@@ -54,10 +56,14 @@ public:
     }
 
     [[nodiscard]] bool failed() const { return fault_.has_value(); }
-    /// "patch records: 12345 is beyond the 800 coefficients"; ErrorCode::asset.
+    /// "patch records: 12345, of 800 coefficients"; ErrorCode::asset.
     [[nodiscard]] Status status() const;
 
 private:
+    /// Notes the first fault. False.
+    bool refuse(uint64_t first, uint64_t count, uint64_t limit, const char* of);
+    bool refuse(const char* fault);
+
     const Tables& tables_;
     const TableSource& source_;
     const char* what_ = "tables";
