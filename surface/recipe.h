@@ -73,7 +73,7 @@ struct Recipe {
     cage::UvMode uvMode = cage::UvMode::all;
     bool lod = false;         ///< the tables have what level of detail needs
     bool indexedMesh = false; ///< patches share the samples on their borders
-    bool wide = false;        ///< for the wide mapping (gpu/mapping.h), if the scheme's tables differ (Scheme::ofMapping)
+    bool wide = false; ///< for the wide mapping (gpu/mapping.h), if the scheme's tables differ (Scheme::ofMapping)
 
     bool operator==(const Recipe&) const = default;
 };

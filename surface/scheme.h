@@ -40,10 +40,9 @@ enum class Stage : uint32_t {
 /// A kernel and what it is specialized to. Only schemes know which kinds a construction kernel has.
 struct KindOfKernel {
     Kernel kernel = Kernel::count;
-    uint32_t kind = 0;     ///< the value of its kKindConstant
-    const char* name = ""; ///< for debuggers
+    uint32_t kind = 0; ///< the value of its kKindConstant
 
-    bool operator==(const KindOfKernel& other) const { return kernel == other.kernel && kind == other.kind; }
+    bool operator==(const KindOfKernel&) const = default;
 };
 
 /// One dispatch of a construction pass.

@@ -104,10 +104,8 @@ void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWri
     (void)writer.element();
     writer.put(lists.words());
     const uint32_t kind = halves ? shared::kHalfWords : shared::kWholeWords;
-    const KindOfKernel kernel =
-        place.fromPool
-            ? KindOfKernel{Kernel::subdivisionIsolateMeshInPool, kind, "supple subdivision, isolate once more"}
-            : KindOfKernel{Kernel::subdivisionIsolate, kind, "supple subdivision, isolate"};
+    const KindOfKernel kernel = place.fromPool ? KindOfKernel{Kernel::subdivisionIsolateMeshInPool, kind}
+                                               : KindOfKernel{Kernel::subdivisionIsolate, kind};
     Construction points{place.stage, kernel, {writer.element(), rows}, rows};
     points.from = place.from;
     points.to = place.to;

@@ -1,6 +1,7 @@
 #include "surface/steps.h"
 
 #include "shaders/shared/specialization.h"
+#include "surface/construction_names.h"
 #include "surface/indexed_mesh.h"
 
 #include <algorithm>
@@ -269,8 +270,8 @@ void addConstructions(ProgramBuilder& builder) {
         if (c.stage == Stage::deepen) { // lod::addSteps()
             continue;
         }
-        const gpu::Kernel kernel =
-            builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}}, c.kernel.name);
+        const gpu::Kernel kernel = builder.kernel(SetKind::construct, c.kernel.kernel, {{kKindConstant, c.kernel.kind}},
+                                                  constructionName(c.kernel));
         Steps& steps = c.stage == Stage::vertex ? builder.program.vertex : builder.program.assemble;
         // No facet kernel of P_m reads what another writes.
         const Order beside = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;

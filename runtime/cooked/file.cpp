@@ -88,20 +88,6 @@ void readPieces(Reader& reader, Prepared& prepared) {
     }
 }
 
-/// What debuggers call the kernels.
-void nameKernels(Reader& reader, surface::SchemeId scheme, surface::Tables& tables) {
-    for (surface::Construction& c : tables.constructions) {
-        const auto rows = surface::schemeOf(scheme).kernels;
-        const auto row = std::ranges::find_if(
-            rows, [&](const surface::StageKernel& own) { return own.stage == c.stage && own.kernel == c.kernel; });
-        if (row == rows.end()) {
-            reader.refuse("a kernel of another scheme");
-            return;
-        }
-        c.kernel.name = row->kernel.name;
-    }
-}
-
 void readTables(Reader& reader, Prepared& prepared) {
     uint32_t count = 0;
     reader(count);
@@ -125,7 +111,6 @@ void readTables(Reader& reader, Prepared& prepared) {
         const surface::TableSource source{own->recipe, prepared.cageOf(own->piece.get()).vertexCount(),
                                           character.cage.faceCount(), static_cast<uint32_t>(character.parts.size()),
                                           static_cast<uint32_t>(character.materials.size())};
-        nameKernels(reader, own->recipe.scheme, own->tables);
         if (const Status sound = surface::checkTables(own->tables, source); !sound) {
             reader.refuse(sound.error().message);
         }

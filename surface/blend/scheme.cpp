@@ -94,8 +94,8 @@ private:
         });
         const auto count = static_cast<uint32_t>(order.size());
         constexpr KindOfKernel kKernels[] = {
-            {Kernel::blendChart, 0, "supple blend, chart"},
-            {Kernel::blendChartMeshInPool, 0, "supple blend, chart of a subdivided cage"}};
+            {Kernel::blendChart, 0},
+            {Kernel::blendChartMeshInPool, 0}};
         tables_.constructions.push_back({mesh_.refined ? Stage::assemble : Stage::vertex,
                                          kKernels[mesh_.refined ? 1 : 0],
                                          {writer_.element(), count},

@@ -36,13 +36,11 @@ uint32_t ChainTables::chainLevels(uint32_t v) const {
 
 /// The variant of the chain kernel that makes limits, chains, or a level of chains.
 KindOfKernel ChainTables::kernelOf(uint32_t makes, Stage stage) const {
-    constexpr const char* kNames[] = {"supple exact limits", "supple exact chains, first level",
-                                      "supple exact chains, level", "supple exact chains"};
     const bool loop = mesh_.subdivision == Subdivision::loop;
     if (stage == Stage::deepen) {
-        return {loop ? Kernel::exactChainLevelsTriangles : Kernel::exactChainLevels, makes, kNames[makes]};
+        return {loop ? Kernel::exactChainLevelsTriangles : Kernel::exactChainLevels, makes};
     }
-    return {loop ? Kernel::exactChainTriangles : Kernel::exactChain, makes, kNames[makes]};
+    return {loop ? Kernel::exactChainTriangles : Kernel::exactChain, makes};
 }
 
 Status ChainTables::checkSizes() const {

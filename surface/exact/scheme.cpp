@@ -24,10 +24,10 @@ using subdivision::Isolation;
 
 constexpr uint32_t kRegular = shared::kRegularFan, kOpen = shared::kFewFan;
 constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::exactVertex, kRegular, "supple exact vertex, regular"},
-    {Kernel::exactVertex, kOpen, "supple exact vertex, creased"},
-    {Kernel::exactVertexMeshInPool, kRegular, "supple exact vertex of a step, regular"},
-    {Kernel::exactVertexMeshInPool, kOpen, "supple exact vertex of a step, creased"},
+    {Kernel::exactVertex, kRegular},
+    {Kernel::exactVertex, kOpen},
+    {Kernel::exactVertexMeshInPool, kRegular},
+    {Kernel::exactVertexMeshInPool, kOpen},
 };
 /// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {

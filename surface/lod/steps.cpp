@@ -1,6 +1,7 @@
 #include "surface/lod/steps.h"
 
 #include "shaders/shared/specialization.h"
+#include "surface/construction_names.h"
 
 #include <iterator>
 
@@ -124,8 +125,8 @@ void addDepths(ProgramBuilder& builder) {
         if (c.stage != Stage::deepen) {
             continue;
         }
-        const gpu::Kernel own =
-            builder.kernel(SetKind::levels, c.kernel.kernel, {{shared::kKindConstant, c.kernel.kind}}, c.kernel.name);
+        const gpu::Kernel own = builder.kernel(SetKind::levels, c.kernel.kernel,
+                                               {{shared::kKindConstant, c.kernel.kind}}, constructionName(c.kernel));
         push = pushFor(builder, depth, c.section.count);
         push.table = c.section.table;
         builder.add(program.deepen, SetKind::levels, own, builder.lanes(push.count), push, depth,

@@ -21,17 +21,17 @@ namespace {
 
 /// By kind of fan.
 constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::pmVertex, shared::kRegularFan, "supple P_m vertex, regular"},
-    {Kernel::pmVertex, shared::kFewFan, "supple P_m vertex"},
-    {Kernel::pmVertex, shared::kManyFan, "supple P_m vertex, many spokes"},
-    {Kernel::pmVertex, shared::kCreasedFan, "supple P_m vertex, creased"},
+    {Kernel::pmVertex, shared::kRegularFan},
+    {Kernel::pmVertex, shared::kFewFan},
+    {Kernel::pmVertex, shared::kManyFan},
+    {Kernel::pmVertex, shared::kCreasedFan},
 };
 /// By class of patches, from polar on.
 constexpr KindOfKernel kFacetKernels[] = {
-    {Kernel::pmFacet, shared::kPolarPatch, "supple P_m facet, polar"},
-    {Kernel::pmFacet, shared::kP3Patch, "supple P_m facet, triangle"},
-    {Kernel::pmFacet, shared::kP4Patch, "supple P_m facet, quad"},
-    {Kernel::pmFacet, shared::kP5Patch, "supple P_m facet, pentagon"},
+    {Kernel::pmFacet, shared::kPolarPatch},
+    {Kernel::pmFacet, shared::kP3Patch},
+    {Kernel::pmFacet, shared::kP4Patch},
+    {Kernel::pmFacet, shared::kP5Patch},
 };
 
 uint32_t fanKind(const Fan& fan) {

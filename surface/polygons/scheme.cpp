@@ -16,9 +16,9 @@ namespace supple::surface::polygons {
 
 namespace {
 
-constexpr KindOfKernel kFaceKernels[] = {{Kernel::polygonsFace, shared::kShortFaces, "supple polygons, faces"},
-                                         {Kernel::polygonsFace, shared::kLongFaces, "supple polygons, long faces"}};
-constexpr KindOfKernel kFrameKernel{Kernel::polygonsFrame, 0, "supple polygons, frames"};
+constexpr KindOfKernel kFaceKernels[] = {{Kernel::polygonsFace, shared::kShortFaces},
+                                         {Kernel::polygonsFace, shared::kLongFaces}};
+constexpr KindOfKernel kFrameKernel{Kernel::polygonsFrame, 0};
 constexpr uint32_t kMostShortSides = 4;
 
 /// The triangles that are drawn, in device order: by material, then as the cage has them.

@@ -21,11 +21,11 @@ namespace {
 
 /// By kind of fan.
 constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::prepVertex, shared::kRegularFan, "supple p-rep vertex, regular"},
-    {Kernel::prepVertex, shared::kFewFan, "supple p-rep vertex"},
-    {Kernel::prepVertex, shared::kManyFan, "supple p-rep vertex, many spokes"},
+    {Kernel::prepVertex, shared::kRegularFan},
+    {Kernel::prepVertex, shared::kFewFan},
+    {Kernel::prepVertex, shared::kManyFan},
 };
-constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0, "supple p-rep edge"};
+constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0};
 
 class Builder {
 public:

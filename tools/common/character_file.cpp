@@ -1,6 +1,8 @@
 #include "tools/common/character_file.h"
 
 #include "cage/formats/reader.h"
+#include "cage/repair.h"
+#include "runtime/cooked/file.h"
 
 #include <charconv>
 #include <filesystem>
@@ -39,6 +41,23 @@ Result<FileInMemory> load(const std::string& path) {
     return FileInMemory{path, parent.empty() ? "." : parent.string(), std::move(*bytes)};
 }
 
+/// The character of a cooked file.
+Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags) {
+    if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.partsApart || flags.scene ||
+        !flags.clipFiles.empty()) {
+        return Error{ErrorCode::argument,
+                     file.path + ": it is cooked: its polygons, parts, scene and clips were chosen then"};
+    }
+    const Result<std::shared_ptr<runtime::Prepared>> cooked = runtime::readCooked(file.bytes, file.path);
+    if (!cooked) {
+        return cooked.error();
+    }
+    if (const Status sound = cage::refuseDamages((*cooked)->character); flags.strict && !sound) {
+        return sound.error();
+    }
+    return CharacterFile{std::move(file), {}, flags, (*cooked)->character};
+}
+
 uint64_t memoryLimit(const ReadOptions& flags) {
     return uint64_t{flags.memoryLimit} << 20;
 }
@@ -67,6 +86,9 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
         clipFiles.push_back(std::move(*clips));
         options.clipFiles.push_back({clipPath, clipFiles.back().bytes, clipFiles.back().directory, nullptr});
     }
+    if (runtime::isCooked(file->bytes)) {
+        return readCookedFile(std::move(*file), flags);
+    }
     Result<cage::Character> character = cage::readCharacter(file->bytes, path, file->directory, options);
     if (!character) {
         return character.error();
@@ -74,30 +96,33 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
     return CharacterFile{std::move(*file), std::move(clipFiles), flags, std::move(*character)};
 }
 
-Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
-    SuppleAssetDesc desc{};
-    desc.structSize = sizeof desc;
-    const auto flag = [&](bool wanted, SuppleAssetFlags value) { desc.flags |= wanted ? uint32_t{value} : 0u; };
+AssetDescription::AssetDescription(const CharacterFile& file) {
+    desc_.structSize = sizeof desc_;
+    const auto flag = [&](bool wanted, SuppleAssetFlags value) { desc_.flags |= wanted ? uint32_t{value} : 0u; };
     flag(file.flags.pairQuads, SUPPLE_ASSET_PAIR_QUADS);
     flag(file.flags.keepTriangles, SUPPLE_ASSET_KEEP_TRIANGLES);
     flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
-    desc.memoryLimit = memoryLimit(file.flags);
-    desc.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
-    desc.name = file.path.c_str();
-    desc.bytes = file.bytes.data();
-    desc.byteCount = file.bytes.size();
-    desc.baseDirectory = file.directory.c_str();
-    std::vector<SuppleClipFile> clipFiles;
+    desc_.memoryLimit = memoryLimit(file.flags);
+    desc_.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
+    desc_.name = file.path.c_str();
+    desc_.bytes = file.bytes.data();
+    desc_.byteCount = file.bytes.size();
+    desc_.baseDirectory = file.directory.c_str();
     for (const FileInMemory& clips : file.clipFiles) {
-        clipFiles.push_back(
+        clipFiles_.push_back(
             {clips.path.c_str(), clips.bytes.data(), clips.bytes.size(), clips.directory.c_str(), nullptr});
     }
-    desc.clipFiles = clipFiles.data();
-    desc.clipFileCount = static_cast<uint32_t>(clipFiles.size());
+    desc_.clipFiles = clipFiles_.data();
+    desc_.clipFileCount = static_cast<uint32_t>(clipFiles_.size());
+}
+
+Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {
+    const AssetDescription description(file);
     SuppleAsset asset{};
-    Status status = context.check(suppleCreateAsset(context.handle(), &desc, &asset), "suppleCreateAsset");
+    Status status =
+        context.check(suppleCreateAsset(context.handle(), &description.desc(), &asset), "suppleCreateAsset");
     if (!status) {
         return status.error();
     }

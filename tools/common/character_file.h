@@ -38,6 +38,20 @@ struct CharacterFile : FileInMemory {
 };
 [[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags = {});
 
+/// The file as Supple takes it.
+class AssetDescription {
+public:
+    /// The file must outlive it.
+    explicit AssetDescription(const CharacterFile& file);
+    AssetDescription(const AssetDescription&) = delete;
+    AssetDescription& operator=(const AssetDescription&) = delete;
+    [[nodiscard]] const SuppleAssetDesc& desc() const { return desc_; }
+
+private:
+    SuppleAssetDesc desc_{};
+    std::vector<SuppleClipFile> clipFiles_;
+};
+
 [[nodiscard]] Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file);
 
 /// The clip of that name, else of that index; SUPPLE_BIND_POSE for an empty text. The error lists the clips there are.

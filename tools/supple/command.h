@@ -48,5 +48,6 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
 void bindBench(CLI::App& app, int& exitCode);
 void bindView(CLI::App& app, int& exitCode);
 void bindConvert(CLI::App& app, int& exitCode);
+void bindCook(CLI::App& app, int& exitCode);
 
 } // namespace supple::tools

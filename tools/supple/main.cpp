@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
     bindBench(app, exitCode);
     bindView(app, exitCode);
     bindConvert(app, exitCode);
+    bindCook(app, exitCode);
 
     try {
         app.parse(argc, argv);

@@ -1,0 +1,67 @@
+#include "surface/construction_names.h"
+
+#include "shaders/shared/exact.h"
+#include "shaders/shared/pm.h"
+#include "shaders/shared/polygons.h"
+#include "shaders/shared/subdivision.h"
+#include "shaders/shared/surface.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace supple::surface {
+
+namespace {
+
+struct Row {
+    KindOfKernel kernel;
+    const char* name = "";
+};
+
+constexpr Row kRows[] = {
+    {{Kernel::prepVertex, shared::kRegularFan}, "supple p-rep vertex, regular"},
+    {{Kernel::prepVertex, shared::kFewFan}, "supple p-rep vertex"},
+    {{Kernel::prepVertex, shared::kManyFan}, "supple p-rep vertex, many spokes"},
+    {{Kernel::prepEdge, 0}, "supple p-rep edge"},
+    {{Kernel::pmVertex, shared::kRegularFan}, "supple P_m vertex, regular"},
+    {{Kernel::pmVertex, shared::kFewFan}, "supple P_m vertex"},
+    {{Kernel::pmVertex, shared::kManyFan}, "supple P_m vertex, many spokes"},
+    {{Kernel::pmVertex, shared::kCreasedFan}, "supple P_m vertex, creased"},
+    {{Kernel::pmFacet, shared::kPolarPatch}, "supple P_m facet, polar"},
+    {{Kernel::pmFacet, shared::kP3Patch}, "supple P_m facet, triangle"},
+    {{Kernel::pmFacet, shared::kP4Patch}, "supple P_m facet, quad"},
+    {{Kernel::pmFacet, shared::kP5Patch}, "supple P_m facet, pentagon"},
+    {{Kernel::exactVertex, shared::kRegularFan}, "supple exact vertex, regular"},
+    {{Kernel::exactVertex, shared::kFewFan}, "supple exact vertex, creased"},
+    {{Kernel::exactVertexMeshInPool, shared::kRegularFan}, "supple exact vertex of a step, regular"},
+    {{Kernel::exactVertexMeshInPool, shared::kFewFan}, "supple exact vertex of a step, creased"},
+    {{Kernel::exactChain, shared::kMakesLimits}, "supple exact limits"},
+    {{Kernel::exactChain, shared::kMakesFirstLevel}, "supple exact chains, first level"},
+    {{Kernel::exactChain, shared::kMakesLevel}, "supple exact chains, level"},
+    {{Kernel::exactChain, shared::kMakesChains}, "supple exact chains"},
+    {{Kernel::exactChainLevels, shared::kMakesLevel}, "supple exact chains, level where it is asked for"},
+    {{Kernel::exactChainTriangles, shared::kMakesLimits}, "supple Loop limits"},
+    {{Kernel::exactChainTriangles, shared::kMakesFirstLevel}, "supple Loop chains, first level"},
+    {{Kernel::exactChainTriangles, shared::kMakesLevel}, "supple Loop chains, level"},
+    {{Kernel::exactChainTriangles, shared::kMakesChains}, "supple Loop chains"},
+    {{Kernel::exactChainLevelsTriangles, shared::kMakesLevel}, "supple Loop chains, level where it is asked for"},
+    {{Kernel::subdivisionIsolate, shared::kHalfWords}, "supple subdivision, isolate"},
+    {{Kernel::subdivisionIsolate, shared::kWholeWords}, "supple subdivision, isolate a large cage"},
+    {{Kernel::subdivisionIsolateMeshInPool, shared::kHalfWords}, "supple subdivision, isolate once more"},
+    {{Kernel::subdivisionIsolateMeshInPool, shared::kWholeWords}, "supple subdivision, isolate a large cage once more"},
+    {{Kernel::blendChart, 0}, "supple blend, chart"},
+    {{Kernel::blendChartMeshInPool, 0}, "supple blend, chart of a subdivided cage"},
+    {{Kernel::polygonsFace, shared::kShortFaces}, "supple polygons, faces"},
+    {{Kernel::polygonsFace, shared::kLongFaces}, "supple polygons, long faces"},
+    {{Kernel::polygonsFrame, 0}, "supple polygons, frames"},
+};
+
+} // namespace
+
+const char* constructionName(const KindOfKernel& kernel) {
+    const auto* row =
+        std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& own) { return own.kernel == kernel; });
+    return row != std::end(kRows) ? row->name : nameOf(kernel.kernel);
+}
+
+} // namespace supple::surface

@@ -1,0 +1,221 @@
+// supple cook: a character file to a cooked file, which is loaded without parsing or building anything. Needs no
+// device.
+#include "host/whole_file.h"
+#include "tools/common/character_file.h"
+#include "tools/supple/command.h"
+#include "tools/supple/options.h"
+#include "tools/supple/output_files.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <supple/supple_prepare.h>
+#include <supple/supple_view.h>
+
+namespace supple::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CookOptions {
+    std::string file;
+    std::string output;
+    std::vector<std::string> schemes{"auto"};
+    std::vector<uint32_t> rates{8};
+    std::vector<std::string> uses{"grids", "levels"};
+    std::string mapping = "both";
+    SurfaceFlags surface; ///< --scheme and --rate are the lists above
+};
+
+struct PreparedDeleter {
+    void operator()(SupplePrepared_T* prepared) const { suppleDestroyPrepared(prepared); }
+};
+using PreparedPointer = std::unique_ptr<SupplePrepared_T, PreparedDeleter>;
+
+struct Told {
+    std::string error = "out of memory"; ///< of which no message can be made
+    bool warns = true;
+};
+void tell(SuppleSeverity severity, SuppleMessage /*id*/, const char* message, void* user) {
+    auto& told = *static_cast<Told*>(user);
+    if (severity == SUPPLE_SEVERITY_ERROR) {
+        told.error = message;
+    } else if (severity == SUPPLE_SEVERITY_WARNING && told.warns) {
+        warn(message);
+    }
+}
+
+/// The groups that are prepared: every scheme at every rate for every use.
+class Plan {
+public:
+    [[nodiscard]] Status fill(const CookOptions& options, const cage::Character& character) {
+        for (const std::string& scheme : options.schemes) {
+            for (const uint32_t rate : options.rates) {
+                for (const std::string& use : options.uses) {
+                    SurfaceFlags surface = options.surface;
+                    surface.scheme = scheme;
+                    surface.rate = rate;
+                    if (const Status added = add(surface, use, character); !added) {
+                        return added;
+                    }
+                }
+            }
+        }
+        for (size_t i = 0; i < groups_.size(); ++i) {
+            planned_[i].desc = &groups_[i]->desc;
+        }
+        return success();
+    }
+    [[nodiscard]] const std::vector<SupplePlannedGroup>& groups() const { return planned_; }
+
+private:
+    struct Group {
+        SuppleGroupDesc desc{};
+        SchemeOptions options;
+    };
+    Status add(const SurfaceFlags& surface, const std::string& use, const cage::Character& character) {
+        auto group = std::make_unique<Group>();
+        group->desc.structSize = sizeof group->desc;
+        if (const Status described = describeSurface(surface, character, group->options, group->desc); !described) {
+            return described;
+        }
+        group->desc.poseSource = SUPPLE_POSES_PLAYBACK;
+        const bool inView = use == "levels";
+        if (!inView) {
+            group->desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS;
+            group->desc.flags |= use == "meshes" ? SUPPLE_GROUP_INDEXED_MESH : 0;
+        }
+        planned_.push_back({nullptr, inView ? 1u : 0u, inView ? SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS : 0u});
+        groups_.push_back(std::move(group));
+        return success();
+    }
+
+    std::vector<std::unique_ptr<Group>> groups_;
+    std::vector<SupplePlannedGroup> planned_;
+};
+
+Result<std::vector<std::byte>> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping,
+                                       const std::string& madeBy, bool warns) {
+    SupplePrepareDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.mapping = mapping;
+    desc.asset = &asset;
+    desc.groups = plan.groups().data();
+    desc.groupCount = static_cast<uint32_t>(plan.groups().size());
+    Told told;
+    told.warns = warns;
+    desc.log = tell;
+    desc.logUser = &told;
+    SupplePrepared made = nullptr;
+    if (supplePrepare(&desc, &made) != SUPPLE_OK) {
+        return Error{ErrorCode::asset, told.error};
+    }
+    const PreparedPointer prepared(made);
+    size_t size = 0;
+    if (suppleSavePrepared(made, madeBy.c_str(), nullptr, &size) != SUPPLE_OK) {
+        return Error{ErrorCode::hostMemory, told.error};
+    }
+    std::vector<std::byte> bytes(size);
+    if (suppleSavePrepared(made, madeBy.c_str(), bytes.data(), &size) != SUPPLE_OK) {
+        return Error{ErrorCode::hostMemory, told.error};
+    }
+    return bytes;
+}
+
+/// For both mappings: what was prepared for one is prepared once more for the other.
+Result<std::vector<std::byte>> cook(const host::CharacterFile& file, const Plan& plan, const CookOptions& options,
+                                    const std::string& madeBy) {
+    const host::AssetDescription source(file);
+    const bool wide = options.mapping != "narrow";
+    Result<std::vector<std::byte>> bytes =
+        prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW, madeBy, true);
+    if (!bytes || options.mapping != "both") {
+        return bytes;
+    }
+    SuppleAssetDesc cooked{};
+    cooked.structSize = sizeof cooked;
+    cooked.name = file.path.c_str();
+    cooked.bytes = bytes->data();
+    cooked.byteCount = bytes->size();
+    return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, madeBy, false);
+}
+
+/// The command line, without the folders, which are this machine's.
+std::string madeByOf(const CookOptions& options) {
+    std::string line = "supple cook " + fs::path(options.file).filename().string() + " -o " +
+                       fs::path(options.output).filename().string();
+    const auto add = [&](const char* flag, const auto& values, auto text) {
+        line += std::string(" ") + flag + " ";
+        for (size_t i = 0; i < values.size(); ++i) {
+            line += (i > 0 ? "," : "") + text(values[i]);
+        }
+    };
+    const auto asIs = [](const std::string& value) { return value; };
+    add("--scheme", options.schemes, asIs);
+    add("--rate", options.rates, [](uint32_t rate) { return std::to_string(rate); });
+    add("--for", options.uses, asIs);
+    return line + " --mapping " + options.mapping;
+}
+
+int runCook(const CookOptions& options) {
+    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
+    if (!file) {
+        return fail(file.error());
+    }
+    Plan plan;
+    if (const Status filled = plan.fill(options, file->character); !filled) {
+        return fail(filled.error());
+    }
+    const Result<std::vector<std::byte>> bytes = cook(*file, plan, options, madeByOf(options));
+    if (!bytes) {
+        return fail(bytes.error());
+    }
+    if (const Status written = host::writeWhole(options.output, *bytes); !written) {
+        return fail(written.error());
+    }
+    std::printf("written %s, %zu bytes\n", printable(options.output).c_str(), bytes->size());
+    for (const std::string& scheme : options.schemes) {
+        if (scheme == "blend" || scheme == "fragments") {
+            note("tables of " + scheme + " are not kept in files: they are built when a group is made");
+        }
+    }
+    return kExitOk;
+}
+
+} // namespace
+
+void bindCook(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<CookOptions>();
+    CLI::App* command = app.add_subcommand("cook", "A character file to one that is loaded without building anything");
+    command->add_option("FILE", options->file, "glTF, GLB, OBJ or a cooked file")->required();
+    command->add_option("-o,--output", options->output, "Cooked file to write")->required()->type_name("OUT.supple");
+    std::vector<std::string> names{"auto"};
+    for (const Scheme& scheme : kSchemes) {
+        names.emplace_back(scheme.name);
+    }
+    command->add_option("--scheme", options->schemes, "Schemes to build tables of")
+        ->delimiter(',')
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
+    command->add_option("--rate", options->rates, "Tessellation rates, for schemes whose tables depend on them")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, 64u))
+        ->capture_default_str();
+    command
+        ->add_option("--for", options->uses,
+                     "What groups will draw: grids at a rate, levels of detail in a view, indexed meshes")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"grids", "levels", "meshes"}))
+        ->capture_default_str();
+    command->add_option("--mapping", options->mapping, "Devices: CPUs are narrow, GPUs wide")
+        ->check(CLI::IsMember({"narrow", "wide", "both"}))
+        ->capture_default_str();
+    bindReading(*command, options->surface.reading);
+    command->callback([options, &exitCode] {
+        checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles), {{"--output", options->output}});
+        exitCode = runCook(*options);
+    });
+}
+
+} // namespace supple::tools
