@@ -44,8 +44,8 @@ bool FanSlots::takeRegular(uint32_t count) {
 }
 
 bool FanSlots::take(uint32_t slot, uint64_t spokes) {
-    const bool follows =
-        check_.within(slot, spokes, count_, "spokes") && check_.require(slot == next_, "spokes do not follow each other");
+    const bool follows = check_.within(slot, spokes, count_, "spokes") &&
+                         check_.require(slot == next_, "spokes do not follow each other");
     next_ += spokes;
     return follows;
 }

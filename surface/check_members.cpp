@@ -9,8 +9,8 @@ namespace supple::surface {
 
 namespace {
 
-/// Coefficients of an instance's pool for each word of the tables: no small file takes large memory. What was found is in
-/// tests/surface/table_check_test.cpp.
+/// Coefficients of an instance's pool for each word of the tables: no small file takes large memory. What was found is
+/// in tests/surface/table_check_test.cpp.
 constexpr uint64_t kMostPoolPerWord = 8;
 
 bool isPatchClass(PatchClass patchClass) {
@@ -19,11 +19,12 @@ bool isPatchClass(PatchClass patchClass) {
 
 bool checkPatch(TableCheck& check, const PatchInfo& patch) {
     const TableSource& source = check.source();
-    bool fits =
-        check.require(isPatchClass(patch.patchClass), "an unknown class") &&
-        check.require(patch.cornerCount == cornerCount(domainOf(patch.patchClass)), "a count of corners not its class's") &&
-        check.within(patch.face, 1, source.faces, "faces") && check.within(patch.part, 1, source.parts, "parts") &&
-        (patch.material == cage::kNone || check.within(patch.material, 1, source.materials, "materials"));
+    bool fits = check.require(isPatchClass(patch.patchClass), "an unknown class") &&
+                check.require(patch.cornerCount == cornerCount(domainOf(patch.patchClass)),
+                              "a count of corners not its class's") &&
+                check.within(patch.face, 1, source.faces, "faces") &&
+                check.within(patch.part, 1, source.parts, "parts") &&
+                (patch.material == cage::kNone || check.within(patch.material, 1, source.materials, "materials"));
     for (const uint32_t corner : patch.corners) {
         fits = fits && (corner == cage::kNone || check.vertices(corner));
     }
@@ -116,13 +117,15 @@ void checkRecipe(TableCheck& check) {
     const Tables& tables = check.tables();
     const Recipe& recipe = check.source().recipe;
     const SchemeId scheme = recipe.scheme;
-    const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop, mesh = scheme == SchemeId::polygons;
+    const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop,
+               mesh = scheme == SchemeId::polygons;
     check.require(!tables.words.empty() && tables.words.size() % 4 == 0, "no whole elements");
-    check.within(tables.uvSets - 1, 1, 2, "UV sets");
+    check.require(tables.uvSets == 1 || tables.uvSets == 2, "neither one UV set nor two");
     check.require(tables.uvMode == cage::UvMode::all || (recipe.attributes && tables.uvMode == recipe.uvMode),
                   "texture coordinates not as the recipe says");
     check.require(tables.uvLeaves == (exact && tables.uvMode != cage::UvMode::all), "leaves of texture coordinates");
-    check.require(tables.mapFrames == (!mesh && !recipe.mapFrames.empty()), "frames of normal maps not as the recipe says");
+    check.require(tables.mapFrames == (!mesh && !recipe.mapFrames.empty()),
+                  "frames of normal maps not as the recipe says");
     check.require(!tables.cornerNormals ||
                       (scheme == SchemeId::prep && recipe.prep.cornerRule == prep::CornerRule::smooth),
                   "corner normals that the scheme does not have");
@@ -136,7 +139,8 @@ void checkRecipe(TableCheck& check) {
 } // namespace
 
 void checkMembers(TableCheck& check) {
-    for (void (*part)(TableCheck&) : {&checkRecipe, &checkPatches, &checkRanges, &checkDraws, &checkPool, &checkStages}) {
+    for (void (*part)(TableCheck&) :
+         {&checkRecipe, &checkPatches, &checkRanges, &checkDraws, &checkPool, &checkStages}) {
         part(check);
         if (check.failed()) {
             return;

@@ -85,7 +85,8 @@ void checkNumbers(TableCheck& check, const PatchRange& range, uint64_t attribute
     }
 }
 
-/// The UV set of each frame. Linear texture coordinates of a set that the cage lacks are zero; smooth ones are not there.
+/// The UV set of each frame. Linear texture coordinates of a set that the cage lacks are zero; smooth ones are not
+/// there.
 void checkMapFrames(TableCheck& check, uint64_t attributes) {
     const Tables& tables = check.tables();
     const uint32_t sets = tables.uvMode == cage::UvMode::all ? 2 : tables.uvSets, each = tables.cornerElements();

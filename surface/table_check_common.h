@@ -1,6 +1,6 @@
-// What the checks of tables share (surface/table_check.h). checkTables() makes the checks of the first part for every scheme,
-// then Scheme::check, which may rely on them: behind them ranges of patches follow each other, have all patches, and their
-// records are in the tables. The second part is for the checks of schemes.
+// What the checks of tables share (surface/table_check.h). checkTables() makes the checks of the first part for every
+// scheme, then Scheme::check, which may rely on them: behind them ranges of patches follow each other, have all
+// patches, and their records are in the tables. The second part is for the checks of schemes.
 #pragma once
 
 #include "surface/table_check.h"
@@ -12,15 +12,16 @@ namespace supple::surface {
 
 // For every scheme.
 
-/// What the library itself reads: enumerators, patches, ranges of patches and of draws, the layout of the pool, and what must
-/// be as the recipe says.
+/// What the library itself reads: enumerators, patches, ranges of patches and of draws, the layout of the pool, and
+/// what must be as the recipe says.
 void checkMembers(TableCheck& check);
 /// Records of regular, perturbed and polar patches: indices of the pool, and of polar ones the weights of their apex.
 void checkBicubicPatches(TableCheck& check);
 /// Numbers of corner attributes, and that these and the smooth texture coordinates are in the tables. Leaves of texture
 /// coordinates (Tables::uvLeaves) are the scheme's own business: they begin at PatchRange::smoothUvs.
 void checkCornerAttributes(TableCheck& check);
-/// MeshTables, and the records of edges. The record of a patch that an edge names is one of a class that has such edges.
+/// MeshTables, and the records of edges. The record of a patch that an edge names is one of a class that has such
+/// edges.
 void checkIndexedMesh(TableCheck& check);
 // lod::checkLevels(), of surface/lod/table_check.h, likewise.
 
@@ -39,16 +40,16 @@ bool checkKernels(TableCheck& check, std::initializer_list<StageKernels> kernels
 
 /// The index of a spoke's next one, as kernels compute it: it may wrap.
 [[nodiscard]] uint32_t nextSpoke(uint32_t spokeWord);
-/// Whether the pool has the limit point of a patch's corner, and the tangents and face coefficients of its spoke and of the
-/// next one (SUPPLE_SPOKE).
+/// Whether the pool has the limit point of a patch's corner, and the tangents and face coefficients of its spoke and of
+/// the next one (SUPPLE_SPOKE).
 bool checkPatchCorner(TableCheck& check, uint32_t point, uint32_t spokeWord);
 
 /// The range whose records include one that begins at an element; null if none does.
 [[nodiscard]] const PatchRange* rangeOfRecord(const Tables& tables, uint64_t element);
 
-/// Fans of p-rep, P_m and the plain vertices of Catmull-Clark. They have slots, one per spoke: a word of the ring, a tangent and
-/// a face coefficient. Slots follow each other in the order in which constructions take the fans, so that no two fans
-/// write the same.
+/// Fans of p-rep, P_m and the plain vertices of Catmull-Clark. They have slots, one per spoke: a word of the ring, a
+/// tangent and a face coefficient. Slots follow each other in the order in which constructions take the fans, so that
+/// no two fans write the same.
 class FanSlots {
 public:
     /// Checks the words of the ring. Their corners are below `vertices`, which also have limit points.
@@ -65,8 +66,8 @@ private:
     TableCheck& check_;
     uint64_t count_ = 0, next_ = 0;
 };
-/// How many spokes the fan has whose weights writeFanWeights() wrote with one of the `openFlags` if it is open; `alwaysOpen`:
-/// without any. 0 if the weights are not in the tables, which is a fault.
+/// How many spokes the fan has whose weights writeFanWeights() wrote with one of the `openFlags` if it is open;
+/// `alwaysOpen`: without any. 0 if the weights are not in the tables, which is a fault.
 uint64_t checkFanWeights(TableCheck& check, uint32_t element, uint32_t openFlag, bool alwaysOpen = false);
 
 } // namespace supple::surface

@@ -2,6 +2,7 @@
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
 #include "surface/build.h"
+#include "surface/pm/kernels.h"
 #include "surface/pm/smooth_uvs.h"
 #include "surface/pm/weights.h"
 #include "surface/valence.h"
@@ -18,21 +19,6 @@
 namespace supple::surface::pm {
 
 namespace {
-
-/// By kind of fan.
-constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::pmVertex, shared::kRegularFan, "supple P_m vertex, regular"},
-    {Kernel::pmVertex, shared::kFewFan, "supple P_m vertex"},
-    {Kernel::pmVertex, shared::kManyFan, "supple P_m vertex, many spokes"},
-    {Kernel::pmVertex, shared::kCreasedFan, "supple P_m vertex, creased"},
-};
-/// By class of patches, from polar on.
-constexpr KindOfKernel kFacetKernels[] = {
-    {Kernel::pmFacet, shared::kPolarPatch, "supple P_m facet, polar"},
-    {Kernel::pmFacet, shared::kP3Patch, "supple P_m facet, triangle"},
-    {Kernel::pmFacet, shared::kP4Patch, "supple P_m facet, quad"},
-    {Kernel::pmFacet, shared::kP5Patch, "supple P_m facet, pentagon"},
-};
 
 uint32_t fanKind(const Fan& fan) {
     if (fan.creased || fan.pinned || !fan.plainEnds()) {

@@ -4,6 +4,7 @@
 #include "surface/borders.h"
 #include "surface/build.h"
 #include "surface/fans.h"
+#include "surface/prep/kernels.h"
 #include "surface/prep/smooth_uvs.h"
 #include "surface/prep/weights.h"
 
@@ -18,14 +19,6 @@
 namespace supple::surface::prep {
 
 namespace {
-
-/// By kind of fan.
-constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::prepVertex, shared::kRegularFan, "supple p-rep vertex, regular"},
-    {Kernel::prepVertex, shared::kFewFan, "supple p-rep vertex"},
-    {Kernel::prepVertex, shared::kManyFan, "supple p-rep vertex, many spokes"},
-};
-constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0, "supple p-rep edge"};
 
 class Builder {
 public:
