@@ -32,7 +32,9 @@ bool checkCubicEdge(TableCheck& check, uint32_t kind, std::span<const uint32_t> 
     if (kind == kPerturbedEdges) {
         fits = fits && check.pool(extra, 4);
     }
-    return fits && ((flags & (kStoredNormalEdge | kSingularEdge)) == 0 || check.pool(extra));
+    const bool singular = kind == kMixedEdges && (flags & kSingularEdge) != 0;
+    const bool hasNormal = check.tables().cornerNormals && (flags & kStoredNormalEdge) != 0;
+    return fits && (!(singular || hasNormal) || check.pool(extra));
 }
 
 bool checkEdge(TableCheck& check, uint32_t kind, std::span<const uint32_t> record) {
