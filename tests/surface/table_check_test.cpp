@@ -218,7 +218,7 @@ TEST(TableCheck, SectionsOfPm) {
         {"ring: it does not begin an element", [](Tables& t) { ++t.ring; }},
         {"patch records: 4294967295 and 1 more, of # elements", [](Tables& t) { t.edgeClasses = ~0u; }},
         {"sectors: spokes do not follow each other", [](Tables& t) { t.constructions[0].section.count = 0; }},
-        {"sectors: 17179869180 and 17 more, of # words", [](Tables& t) { t.constructions[1].section.table = ~0u; }},
+        {"sectors: 17179869180 and 41 more, of # words", [](Tables& t) { t.constructions[1].section.table = ~0u; }},
         {"facets: other records than those of the class", [](Tables& t) { ++t.constructions.back().section.table; }},
         {"facets: other records than those of the class", [](Tables& t) { --t.constructions.back().section.count; }},
     };
@@ -236,7 +236,7 @@ TEST(TableCheck, ClassesOfOtherSchemes) {
     Sample pm = sampleOf(recipe, test::torus(6, 5));
     becomes(pm.tables, PatchClass::blend);
     pm.tables.ranges[0].patchClass = PatchClass::blend;
-    pm.tables.ranges[0].section.table = 0;
+    pm.tables.words.resize(2 * pm.tables.words.size()); // their records are larger
     EXPECT_EQ(pm.check().error().message, "ranges of patches: a class of another scheme");
     Sample polygons = polygonsSample();
     becomes(polygons.tables, PatchClass::p3);
