@@ -1,9 +1,11 @@
-// What builds the tables of each scheme: Scheme::build in the folder of the scheme. surface/schemes.cpp has the rows.
+// What builds the tables of each scheme, and checks those of files: Scheme::build and Scheme::check in the folder of
+// the scheme. surface/schemes.cpp has the rows.
 #pragma once
 
 #include "base/result.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
+#include "surface/table_check.h"
 
 namespace supple::surface {
 
@@ -11,6 +13,7 @@ namespace prep {
 /// Refuses a cage with faces other than quads: "face 12 has 5 sides: p-rep takes quads only". The cage may have
 /// boundaries. Creases are ignored. O(faces).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace prep
 
 namespace pm {
@@ -18,6 +21,7 @@ namespace pm {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 /// See Scheme::boundsMargin.
 [[nodiscard]] float boundsMargin(const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace pm
 
 namespace subdivision {
@@ -48,6 +52,7 @@ namespace polygons {
 /// Takes any cage, manifold or not. Refuses one that is too large for 32-bit indices, with ErrorCode::limit.
 /// O(corners log corners).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace polygons
 
 } // namespace supple::surface

@@ -4,6 +4,8 @@ namespace supple::surface {
 
 namespace {
 
+using namespace shared;
+
 /// A word of the ring: of the facet the vertex itself, the far end and the two far corners.
 bool checkRingWord(TableCheck& check, uint32_t word, uint64_t vertices) {
     const uint32_t facet = SUPPLE_RING_ELEMENT(word);
@@ -12,10 +14,10 @@ bool checkRingWord(TableCheck& check, uint32_t word, uint64_t vertices) {
     }
     const uint32_t* corners = &check.tables().words[size_t{4} * facet];
     const auto vertex = [&](uint32_t which) { return SUPPLE_POINT(corners[SUPPLE_RING_PLACE(word, which)]); };
-    return check.within(vertex(shared::kRingVertex), 1, vertices, "vertices") &&
-           check.within(vertex(shared::kRingFarEnd), 1, vertices, "vertices") &&
-           check.within(vertex(shared::kRingFarCorner), 1, vertices, "vertices") &&
-           check.within(vertex(shared::kRingOtherCorner), 1, vertices, "vertices");
+    return check.within(vertex(kRingVertex), 1, vertices, "vertices") &&
+           check.within(vertex(kRingFarEnd), 1, vertices, "vertices") &&
+           check.within(vertex(kRingFarCorner), 1, vertices, "vertices") &&
+           check.within(vertex(kRingOtherCorner), 1, vertices, "vertices");
 }
 
 } // namespace

@@ -120,7 +120,7 @@ void checkRecipe(TableCheck& check) {
     const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop,
                mesh = scheme == SchemeId::polygons;
     check.require(!tables.words.empty() && tables.words.size() % 4 == 0, "no whole elements");
-    check.within(tables.uvSets - 1, 1, 2, "UV sets");
+    check.require(tables.uvSets == 1 || tables.uvSets == 2, "neither one UV set nor two");
     check.require(tables.uvMode == cage::UvMode::all || (recipe.attributes && tables.uvMode == recipe.uvMode),
                   "texture coordinates not as the recipe says");
     check.require(tables.uvLeaves == (exact && tables.uvMode != cage::UvMode::all), "leaves of texture coordinates");

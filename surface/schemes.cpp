@@ -4,7 +4,9 @@
 #include "cage/trim.h"
 #include "surface/build.h"
 #include "surface/indexed_mesh.h"
+#include "surface/lod/table_check.h"
 #include "surface/lod/tables.h"
+#include "surface/table_check_common.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,8 +20,9 @@ namespace {
 // Margins are a little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
 constexpr Scheme kSchemes[] = {
     {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, kAllUvModes, true,
-     [](const cage::Cage&) { return 0.04f; }}, // 0.0276, at valence 59
-    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin},
+     [](const cage::Cage&) { return 0.04f; }, // 0.0276, at valence 59
+     &prep::check},
+    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
@@ -31,7 +34,7 @@ constexpr Scheme kSchemes[] = {
      true, [](const cage::Cage&) { return 0.001f; }},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
-     [](const cage::Cage&) { return 0.0f; }},
+     [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
 /// No host names it: see drawerOf().
@@ -118,6 +121,27 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
     cage::Cage laid = cage;
     laid.cornerFaceUvs = cage::tileCoordinates(cage);
     return build(recipe, laid);
+}
+
+bool canCheckTables(SchemeId scheme) {
+    return schemeOf(scheme).check != nullptr;
+}
+
+Status checkTables(const Tables& tables, const TableSource& source) {
+    const Scheme& scheme = schemeOf(source.recipe.scheme);
+    const uint32_t rate = scheme.tableRate(source.recipe.rate, source.recipe.lod);
+    TableCheck check(tables, source);
+    check.begin("tables");
+    check.require(scheme.check != nullptr, "files do not keep those of this scheme");
+    check.require(tables.rate == (tables.isolationSteps > 0 ? (rate + 1) / 2 : rate), "made for another rate");
+    // What comes first makes the rest easier to check.
+    for (void (*part)(TableCheck&) : {&checkMembers, &checkBicubicPatches, &checkCornerAttributes, &checkIndexedMesh,
+                                      &lod::checkLevels, scheme.check}) {
+        if (!check.failed()) {
+            part(check);
+        }
+    }
+    return check.status();
 }
 
 } // namespace supple::surface

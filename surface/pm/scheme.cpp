@@ -2,6 +2,7 @@
 #include "shaders/shared/pm.h"
 #include "surface/borders.h"
 #include "surface/build.h"
+#include "surface/pm/kernels.h"
 #include "surface/pm/smooth_uvs.h"
 #include "surface/pm/weights.h"
 #include "surface/valence.h"
@@ -18,21 +19,6 @@
 namespace supple::surface::pm {
 
 namespace {
-
-/// By kind of fan.
-constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::pmVertex, shared::kRegularFan},
-    {Kernel::pmVertex, shared::kFewFan},
-    {Kernel::pmVertex, shared::kManyFan},
-    {Kernel::pmVertex, shared::kCreasedFan},
-};
-/// By class of patches, from polar on.
-constexpr KindOfKernel kFacetKernels[] = {
-    {Kernel::pmFacet, shared::kPolarPatch},
-    {Kernel::pmFacet, shared::kP3Patch},
-    {Kernel::pmFacet, shared::kP4Patch},
-    {Kernel::pmFacet, shared::kP5Patch},
-};
 
 uint32_t fanKind(const Fan& fan) {
     if (fan.creased || fan.pinned || !fan.plainEnds()) {

@@ -3,6 +3,7 @@
 #include "shaders/shared/polygons.h"
 #include "surface/build.h"
 #include "surface/polygons/frames.h"
+#include "surface/polygons/kernels.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>
@@ -16,9 +17,6 @@ namespace supple::surface::polygons {
 
 namespace {
 
-constexpr KindOfKernel kFaceKernels[] = {{Kernel::polygonsFace, shared::kShortFaces},
-                                         {Kernel::polygonsFace, shared::kLongFaces}};
-constexpr KindOfKernel kFrameKernel{Kernel::polygonsFrame, 0};
 constexpr uint32_t kMostShortSides = 4;
 
 /// The triangles that are drawn, in device order: by material, then as the cage has them.

@@ -4,6 +4,7 @@
 #include "surface/borders.h"
 #include "surface/build.h"
 #include "surface/fans.h"
+#include "surface/prep/kernels.h"
 #include "surface/prep/smooth_uvs.h"
 #include "surface/prep/weights.h"
 
@@ -18,14 +19,6 @@
 namespace supple::surface::prep {
 
 namespace {
-
-/// By kind of fan.
-constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::prepVertex, shared::kRegularFan},
-    {Kernel::prepVertex, shared::kFewFan},
-    {Kernel::prepVertex, shared::kManyFan},
-};
-constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0};
 
 class Builder {
 public:

@@ -1,5 +1,6 @@
 // The exact limit surface of Loop against the fragments at their samples, and against its own derivatives.
 #include "tests/support/meshes.h"
+#include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/reference/loop.h"
