@@ -7,9 +7,8 @@
 namespace supple::surface::polygons {
 
 /// By kind of faces.
-inline constexpr KindOfKernel kFaceKernels[] = {
-    {Kernel::polygonsFace, shared::kShortFaces},
-    {Kernel::polygonsFace, shared::kLongFaces}};
+inline constexpr KindOfKernel kFaceKernels[] = {{Kernel::polygonsFace, shared::kShortFaces},
+                                                {Kernel::polygonsFace, shared::kLongFaces}};
 inline constexpr KindOfKernel kFrameKernel{Kernel::polygonsFrame, 0};
 
 } // namespace supple::surface::polygons
