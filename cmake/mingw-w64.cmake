@@ -10,7 +10,7 @@ set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 
 set(_headers ${CMAKE_BINARY_DIR}/mingw-headers)
 file(MAKE_DIRECTORY ${_headers}/include ${_headers}/share/cmake)
-foreach(_header glm vulkan vk_video nlohmann)
+foreach(_header glm vulkan vk_video nlohmann xxhash.h)
     if(EXISTS /usr/include/${_header} AND NOT EXISTS ${_headers}/include/${_header})
         file(CREATE_LINK /usr/include/${_header} ${_headers}/include/${_header} SYMBOLIC)
     endif()

@@ -136,3 +136,13 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
 void suppleDestroyContext(SuppleContext context) {
     delete context;
 }
+
+SuppleResult suppleGetMapping(SuppleContext handle, SuppleMapping* out) {
+    return guarded(handle, "suppleGetMapping", [&](Context& context) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, "suppleGetMapping", "out is null");
+        }
+        *out = context.isWide() ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW;
+        return SUPPLE_OK;
+    });
+}

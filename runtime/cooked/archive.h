@@ -166,6 +166,7 @@ private:
                 std::memcpy(list.data(), bytes.data(), bytes.size());
             }
         } else {
+            list.clear();
             // One after the other: none takes less than a byte.
             for (uint64_t i = 0; i < count && !fault_; ++i) {
                 take(list.emplace_back());

@@ -120,6 +120,16 @@ private:
         desc.groupCount = 1;
         SupplePrepared prepared = nullptr;
         call("supplePrepare", [&] { return supplePrepare(&desc, &prepared); });
+        std::vector<std::byte> cooked(1 << 20);
+        size_t size = cooked.size();
+        call("suppleSavePrepared", [&] { return suppleSavePrepared(prepared, nullptr, cooked.data(), &size); });
+        SuppleAssetDesc fromFile{};
+        fromFile.structSize = sizeof(fromFile);
+        fromFile.bytes = cooked.data();
+        fromFile.byteCount = size;
+        SuppleAsset loaded{};
+        call("suppleCreateAsset, cooked", [&] { return suppleCreateAsset(handle(), &fromFile, &loaded); });
+        call("suppleDestroyAsset, cooked", [&] { return suppleDestroyAsset(handle(), loaded); });
         SuppleAssetDesc given{};
         given.structSize = sizeof(given);
         given.prepared = prepared;
@@ -360,6 +370,8 @@ private:
         ready("suppleGetViewStatistics", [&] { return suppleGetViewStatistics(handle(), view_, &statistics); });
         SuppleBufferRange range{};
         ready("suppleGetInstanceBounds", [&] { return suppleGetInstanceBounds(handle(), groups_[0], &range); });
+        SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
+        call("suppleGetMapping", [&] { return suppleGetMapping(handle(), &mapping); });
         uint64_t ticks = 0;
         ready("suppleGetTimingOrigin", [&] { return suppleGetTimingOrigin(handle(), &ticks); });
         uint32_t count = 0;

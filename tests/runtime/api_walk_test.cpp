@@ -484,6 +484,23 @@ void preparing(Rows& r) {
     });
     r.refuse(kPrepare, "desc of a later version, with something in it", kSilent,
              [=](World& w) { return prepare(w, w.grown(good(w), 1)); });
+    constexpr const char* kSave = "suppleSavePrepared";
+    const auto save = [=](World& w, bool prepared, size_t room, bool counted) {
+        const SupplePrepareDesc desc = good(w);
+        SupplePrepared made = nullptr;
+        EXPECT_EQ(supplePrepare(&desc, &made), SUPPLE_OK);
+        size_t size = room;
+        const SuppleResult result = suppleSavePrepared(prepared ? made : nullptr, "supple cook",
+                                                       room > 0 ? w.plain<uint8_t>(room) : nullptr,
+                                                       counted ? &size : nullptr);
+        suppleDestroyPrepared(made);
+        return result;
+    };
+    r.accept(kSave, "the size alone", [=](World& w) { return save(w, true, 0, true); });
+    r.accept(kSave, "valid", [=](World& w) { return save(w, true, size_t{1} << 20, true); });
+    r.refuse(kSave, "too little room", kSilent, [=](World& w) { return save(w, true, 64, true); });
+    r.refuse(kSave, "prepared null", kSilent, [=](World& w) { return save(w, false, 64, true); });
+    r.refuse(kSave, "byteCount null", kSilent, [=](World& w) { return save(w, true, 64, false); });
     for (const size_t size : {size_t{0}, size_t{4}, sizeof(SupplePrepareDesc) - 1}) {
         r.refuse(kPrepare, "desc->structSize " + std::to_string(size), kSilent, [=](World& w) {
             SupplePrepareDesc desc = good(w);
@@ -498,6 +515,17 @@ void contexts(Rows& r) {
     r.accept("suppleDestroyContext", "null context", [](World&) {
         suppleDestroyContext(nullptr);
         return SUPPLE_OK;
+    });
+    constexpr const char* kMapping = "suppleGetMapping";
+    r.nullContext(kMapping,
+                  [](World& w, SuppleContext c) { return suppleGetMapping(c, w.plain<SuppleMapping>(1)); });
+    r.refuse(kMapping, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetMapping(w.handle(), nullptr); });
+    r.accept(kMapping, "valid", [](World& w) {
+        auto* const mapping = w.plain<SuppleMapping>(1);
+        const SuppleResult result = suppleGetMapping(w.handle(), mapping);
+        EXPECT_NE(*mapping, SUPPLE_MAPPING_AUTO);
+        return result;
     });
     const auto create = [](World& w, const SuppleContextDesc* desc) {
         SuppleContext* const out = w.newHandle<SuppleContext>();

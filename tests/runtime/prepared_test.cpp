@@ -91,6 +91,18 @@ SuppleAsset assetOf(CrowdContext& context, SupplePrepared prepared) {
     return asset;
 }
 
+/// The bytes of a cooked file.
+std::vector<std::byte> saved(SupplePrepared prepared) {
+    size_t size = 0;
+    EXPECT_EQ(suppleSavePrepared(prepared, "supple cook wren.glb", nullptr, &size), SUPPLE_OK);
+    std::vector<std::byte> bytes(size);
+    size_t tooFew = size - 1;
+    EXPECT_EQ(suppleSavePrepared(prepared, "", bytes.data(), &tooFew), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSavePrepared(prepared, "supple cook wren.glb", bytes.data(), &size), SUPPLE_OK);
+    EXPECT_EQ(size, bytes.size());
+    return bytes;
+}
+
 size_t notPrepared(CrowdContext& context) {
     size_t count = 0;
     for (const LogLine& line : context.takeLines()) {
@@ -175,6 +187,61 @@ TEST_F(PreparedCharacters, AreDrawnWithTheSameBits) {
             EXPECT_EQ(notPrepared(other), 0u);
         }
     }
+}
+
+TEST_F(PreparedCharacters, AreTheSameFromAFile) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        const SupplePrepared prepared = prepareWren(mapping, true);
+        ASSERT_NE(prepared, nullptr);
+        const SuppleAsset expected = assetOf(own, prepared);
+        const std::vector<std::byte> file = saved(prepared);
+        suppleDestroyPrepared(prepared);
+        const SuppleAsset cooked = own.createAsset(file, "wren");
+        for (const Plan& plan : plans()) {
+            SCOPED_TRACE(plan.name);
+            const std::vector<std::byte> bits = bitsOf(own, expected, plan);
+            EXPECT_FALSE(bits.empty());
+            own.takeLines();
+            EXPECT_TRUE(bitsOf(own, cooked, plan) == bits);
+            // Files do not keep the tables of these two.
+            const bool isBuilt = plan.desc.scheme == SUPPLE_SCHEME_FRAGMENTS || plan.desc.scheme == SUPPLE_SCHEME_BLEND;
+            EXPECT_EQ(notPrepared(own) > 0, isBuilt);
+        }
+        // A reload takes it, too.
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.bytes = file.data();
+        desc.byteCount = file.size();
+        EXPECT_EQ(suppleReloadAsset(own.handle(), expected, &desc), SUPPLE_OK);
+        EXPECT_FALSE(bitsOf(own, expected, plans()[0]).empty());
+        EXPECT_EQ(notPrepared(own), 0u);
+    }
+}
+
+TEST_F(PreparedCharacters, AFileOfTheOtherMappingIsRefusedByName) {
+    CrowdContext& narrow = context(SUPPLE_MAPPING_NARROW);
+    const SupplePrepared prepared = prepareWren(SUPPLE_MAPPING_WIDE, true);
+    const std::vector<std::byte> file = saved(prepared);
+    suppleDestroyPrepared(prepared);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.name = "wren.supple";
+    desc.bytes = file.data();
+    desc.byteCount = file.size();
+    SuppleAsset asset{};
+    narrow.takeLines();
+    EXPECT_EQ(suppleCreateAsset(narrow.handle(), &desc, &asset), SUPPLE_ERROR_ASSET);
+    std::vector<LogLine> lines = narrow.takeLines();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0].text, "wren.supple: cooked for the wide mapping alone, and this device has the narrow one: make it "
+                             "anew: supple cook wren.glb, with --mapping narrow or both");
+    desc.flags = SUPPLE_ASSET_PAIR_QUADS;
+    EXPECT_EQ(suppleCreateAsset(narrow.handle(), &desc, &asset), SUPPLE_ERROR_ARGUMENT);
+    lines = narrow.takeLines();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_TRUE(lines[0].text.starts_with("wren.supple: it is cooked, and flags other than")) << lines[0].text;
 }
 
 TEST_F(PreparedCharacters, WhatWasNotPlannedIsBuiltAndSaid) {

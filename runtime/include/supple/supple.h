@@ -301,6 +301,9 @@ typedef struct SuppleContextDesc {
 SUPPLE_API SuppleResult suppleCreateContext(const SuppleContextDesc* desc, SuppleContext* out);
 /** Also frees all assets, groups and views. No command buffer that uses them may be pending. Null is allowed. */
 SUPPLE_API void suppleDestroyContext(SuppleContext context);
+/** Fills out: NARROW or WIDE, whichever AUTO has come to. Characters that are prepared for the context are prepared for
+ * this one. */
+SUPPLE_API SuppleResult suppleGetMapping(SuppleContext context, SuppleMapping* out);
 
 /* ---------------------------------------------------------------------------------------------------- assets */
 

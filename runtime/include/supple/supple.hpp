@@ -165,6 +165,7 @@ public:
         return filled(out, [&](uint32_t* to, uint32_t* count) { return suppleGetTimingSurfaces(handle_, to, count); });
     }
     /// The device's tick that timings count from.
+    [[nodiscard]] SuppleResult mapping(SuppleMapping& out) const { return suppleGetMapping(handle_, &out); }
     [[nodiscard]] SuppleResult timingOrigin(uint64_t& ticks) const { return suppleGetTimingOrigin(handle_, &ticks); }
 
 private:
@@ -246,6 +247,18 @@ public:
             out = std::move(made);
         }
         return result;
+    }
+    /// The bytes of a cooked file; `out` becomes as long as they are. `madeBy` may be null.
+    template <class Bytes>
+    [[nodiscard]] SuppleResult save(const char* madeBy, Bytes& out) const {
+        static_assert(sizeof(*out.data()) == 1);
+        size_t size = 0;
+        const SuppleResult result = suppleSavePrepared(handle_, madeBy, nullptr, &size);
+        if (result != SUPPLE_OK) {
+            return result;
+        }
+        out.resize(size);
+        return suppleSavePrepared(handle_, madeBy, out.data(), &size);
     }
     [[nodiscard]] SupplePrepared handle() const {
         return handle_;

@@ -23,8 +23,8 @@ typedef struct SupplePlannedGroup {
 /** What to prepare. All pointers are needed during the call only. */
 typedef struct SupplePrepareDesc {
     uint32_t structSize;
-    /** The mapping of the context that will make the groups: tables of the other mapping are of no use there. AUTO is
-     * WIDE, the mapping of GPUs. */
+    /** The mapping of the context that will make the groups (suppleGetMapping): tables of the other mapping are of no use
+     * there. AUTO is WIDE, the mapping of GPUs. */
     SuppleMapping mapping;
     const SuppleAssetDesc* asset;     /**< the file, which may be cooked, or the arrays; `prepared` must be null */
     const SupplePlannedGroup* groups; /**< groupCount of them; their order does not matter */

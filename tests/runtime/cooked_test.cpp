@@ -1,0 +1,168 @@
+// Cooked files: they keep all that was prepared, and whatever is done to one, it is read or refused with a message.
+#include "cage/formats/reader.h"
+#include "runtime/cooked/file.h"
+#include "runtime/prepare.h"
+#include "surface/schemes.h"
+#include "tests/support/sample_assets.h"
+#include "tests/support/shared_assets.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace supple::runtime {
+namespace {
+
+constexpr size_t kHeaderBytes = 32, kVersionAt = 8, kOrderAt = 12, kHashAt = 24;
+
+/// With tables of everything that files keep, for both mappings.
+std::shared_ptr<Prepared> prepareAll(const std::string& path) {
+    Result<cage::Character> character = cage::readGltfFile(path);
+    EXPECT_TRUE(character.ok()) << path;
+    std::shared_ptr<Prepared> prepared = Prepared::of(std::move(*character));
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_LOOP,
+                                      SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_POLYGONS}) {
+        for (const uint32_t flags : {0u, uint32_t{SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS},
+                                     uint32_t{SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_INDEXED_MESH}}) {
+            SuppleGroupDesc desc{};
+            desc.structSize = sizeof(desc);
+            desc.scheme = scheme;
+            desc.flags = flags;
+            desc.rate = 4;
+            desc.poseSource = SUPPLE_POSES_PLAYBACK;
+            for (const bool wide : {false, true}) {
+                // Not every scheme takes every character.
+                (void)prepareFor(*prepared, {desc, std::nullopt}, wide);
+                (void)prepareFor(*prepared, {desc, flags == 0 ? std::optional(0u) : std::nullopt}, wide);
+            }
+        }
+    }
+    EXPECT_FALSE(prepared->tables.empty());
+    return prepared;
+}
+
+/// Makes the header right for what follows.
+void sign(std::vector<std::byte>& file) {
+    const uint64_t size = file.size(), hash = XXH3_64bits(file.data() + kHeaderBytes, file.size() - kHeaderBytes);
+    std::memcpy(file.data() + kHashAt - sizeof(size), &size, sizeof(size));
+    std::memcpy(file.data() + kHashAt, &hash, sizeof(hash));
+}
+
+std::string refusalOf(std::span<const std::byte> file) {
+    const auto read = readCooked(file, "hero.supple");
+    return read ? "" : read.error().message;
+}
+
+TEST(Cooked, FilesKeepWhatWasPrepared) {
+    for (const std::string& path : test::allCharacters()) {
+        SCOPED_TRACE(path);
+        const std::shared_ptr<Prepared> prepared = prepareAll(path);
+        const std::vector<std::byte> file = writeCooked(*prepared, "supple cook");
+        const Result<std::shared_ptr<Prepared>> read = readCooked(file, prepared->character.name);
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        // All members that are written, to the bit.
+        EXPECT_TRUE(writeCooked(**read, "supple cook") == file);
+        // Those that follow from them.
+        EXPECT_TRUE((*read)->deform.words == prepared->deform.words);
+        EXPECT_EQ((*read)->deform.firstInfluences, prepared->deform.firstInfluences);
+        EXPECT_TRUE((*read)->rig.maskJoints == prepared->rig.maskJoints);
+        EXPECT_TRUE((*read)->jointFrames.bindIsSingular == prepared->jointFrames.bindIsSingular);
+        EXPECT_EQ((*read)->parts.size(), prepared->parts.size());
+        EXPECT_TRUE((*read)->clips->words == prepared->clips->words);
+        EXPECT_EQ((*read)->madeBy, "supple cook");
+        for (const auto& own : prepared->tables) {
+            const auto isSame = [&](const std::shared_ptr<const PreparedTables>& other) {
+                return other->recipe == own->recipe && (other->piece == nullptr) == (own->piece == nullptr) &&
+                       (own->piece == nullptr || other->piece->parts == own->piece->parts) &&
+                       other->tables.words == own->tables.words && other->tables.notes == own->tables.notes;
+            };
+            EXPECT_TRUE(std::ranges::any_of((*read)->tables, isSame)) << surface::schemeOf(own->recipe.scheme).name;
+        }
+    }
+}
+
+TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
+    const std::shared_ptr<Prepared> prepared = prepareAll(test::kPip);
+    const std::vector<std::byte> file = writeCooked(*prepared, "supple cook pip.glb -o pip.supple");
+    ASSERT_TRUE(isCooked(file));
+    EXPECT_EQ(refusalOf(file), "");
+    std::vector<std::byte> other = file;
+    other[kVersionAt] = std::byte{9};
+    EXPECT_EQ(refusalOf(other), "hero.supple: a cooked file of version 9, and this is version 1: make it anew: supple cook "
+                                "pip.glb -o pip.supple");
+    other = file;
+    std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);
+    EXPECT_EQ(refusalOf(other), "hero.supple: cooked on a machine of the other byte order: cook it anew");
+    other = file;
+    other[file.size() / 2] ^= std::byte{1};
+    EXPECT_EQ(refusalOf(other), "hero.supple: the cooked file is damaged: make it anew: supple cook pip.glb -o pip.supple");
+    other = file;
+    other.pop_back();
+    EXPECT_EQ(refusalOf(other), "hero.supple: a cooked file of " + std::to_string(file.size()) + " bytes, of which " +
+                                    std::to_string(file.size() - 1) + " are there");
+    other = file;
+    other.push_back(std::byte{0});
+    sign(other);
+    EXPECT_TRUE(refusalOf(other).ends_with("more than a character")) << refusalOf(other);
+    for (size_t size = kHeaderBytes; size < file.size(); size += 1 + size / 16) {
+        other.assign(file.begin(), file.begin() + static_cast<ptrdiff_t>(size));
+        sign(other);
+        EXPECT_TRUE(refusalOf(other).starts_with("hero.supple: ")) << size;
+    }
+}
+
+/// Words of a file, one after the other: it is read or refused, and what is read can be used.
+TEST(Cooked, AnyWordMayBeAnything) {
+    const std::shared_ptr<Prepared> prepared = prepareAll(test::kPip);
+    const std::vector<std::byte> file = writeCooked(*prepared, "");
+    std::minstd_rand random(1);
+    size_t refused = 0;
+    for (int i = 0; i < 400; ++i) {
+        std::vector<std::byte> other = file;
+        const size_t at = kHeaderBytes + random() % (file.size() - kHeaderBytes - 4);
+        const uint32_t values[] = {0u, 1u, 0xFFFFFFFFu, 0x80000000u, static_cast<uint32_t>(random())};
+        std::memcpy(other.data() + at, &values[random() % 5], 4);
+        sign(other);
+        const auto read = readCooked(other, "hero.supple");
+        refused += read ? 0 : 1;
+        if (!read) {
+            EXPECT_TRUE(read.error().message.starts_with("hero.supple: ")) << read.error().message;
+        }
+    }
+    EXPECT_GT(refused, 20u);
+}
+
+TEST(Cooked, ACharacterThatLeadsNowhereIsRefusedByName) {
+    const auto refusal = [](const std::function<void(Prepared&)>& spoil) {
+        Result<cage::Character> character = cage::readGltfFile(test::kPip);
+        std::shared_ptr<Prepared> prepared = Prepared::of(std::move(*character));
+        spoil(*prepared);
+        return refusalOf(writeCooked(*prepared, ""));
+    };
+    EXPECT_EQ(refusal([](Prepared&) {}), "");
+    const std::string name = "hero.supple: ";
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.cage.faceVertices[7] = p.character.cage.vertexCount(); }),
+              name + "a corner names no vertex");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.cage.faceStarts[1] = 2; }), name + "faces do not divide the corners");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.weights.influences[3].joint = 1000; }),
+              name + "an influence names no joint, or has no finite weight");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.skeleton.nodes[0].parent = 0; }).substr(0, 20), name + "node 0:");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.clips[0].channels[0].node = 10'000; }),
+              name + "clip 0 channel 0: no such node");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.clips[0].channels[0].values.pop_back(); }),
+              name + "clip 0 channel 0: not as many values as keys");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.materials[0].baseColorTexture.image = 99; }),
+              name + "material 0: a texture names no image or no UV set");
+    EXPECT_EQ(refusal([](Prepared& p) { p.choices.clear(); }), name + "no scheme is chosen for some part");
+    // All at once.
+    EXPECT_EQ(refusal([](Prepared& p) {
+                  p.character.parts[0].node = 10'000;
+                  p.character.skin.joints[0] = 10'000;
+              }),
+              name + "part 0: no such node\n" + name + "joints are no nodes, or have no inverse bind matrices");
+}
+
+} // namespace
+} // namespace supple::runtime
