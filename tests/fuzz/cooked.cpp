@@ -29,7 +29,7 @@ std::vector<std::byte> signedCopy(const uint8_t* data, size_t size) {
     return file;
 }
 
-std::vector<uint8_t> bytesOf(const runtime::Prepared& prepared) {
+std::vector<uint8_t> fileOf(const runtime::Prepared& prepared) {
     const std::vector<std::byte> file = runtime::writeCooked(prepared, "fuzz");
     std::vector<uint8_t> bytes(file.size());
     std::memcpy(bytes.data(), file.data(), file.size());
@@ -47,14 +47,14 @@ std::vector<uint8_t> cook(const uint8_t* data, size_t size, Random& random) {
     desc.structSize = sizeof(desc);
     desc.scheme = static_cast<SuppleScheme>(random() % 8);
     desc.rate = 1 + random() % 4;
-    desc.poseSource = random() % 2 == 0 ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_HOST;
+    desc.poseSource = random() % 2 == 0 ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
     const bool inView = random() % 2 == 0;
     if (!inView) {
         desc.flags = (random() % 2 == 0 ? SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS : 0u) |
-                     (random() % 2 == 0 ? SUPPLE_GROUP_INDEXED_MESH : 0u);
+                     (random() % 2 == 0 ? uint32_t{SUPPLE_GROUP_INDEXED_MESH} : 0u);
     }
     (void)runtime::prepareFor(*prepared, {desc, inView ? std::optional(0u) : std::nullopt}, random() % 2 == 0);
-    return bytesOf(*prepared);
+    return fileOf(*prepared);
 }
 
 /// A word that leads somewhere, or nowhere.
@@ -78,11 +78,10 @@ uint32_t wordLike(uint32_t word, Random& random) {
 /// Spoils words of the tables, or of the lists of the character, in a file that is sound otherwise.
 std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
     cage::Character& character = prepared.character;
-    std::vector<std::vector<uint32_t>*> lists = {&character.cage.faceStarts,    &character.cage.faceVertices,
-                                                 &character.cage.faceTriangles, &character.cage.faceMaterials,
-                                                 &character.cage.faceParts,     &character.cage.holes,
-                                                 &character.skin.joints,        &character.weights.starts,
-                                                 &character.skeleton.parentsFirst};
+    std::vector<std::vector<uint32_t>*> lists = {
+        &character.cage.faceStarts,    &character.cage.faceVertices, &character.cage.faceTriangles,
+        &character.cage.faceMaterials, &character.cage.faceParts,    &character.cage.holes,
+        &character.skin.joints,        &character.weights.starts,    &character.skeleton.parentsFirst};
     std::vector<std::shared_ptr<runtime::PreparedTables>> copies;
     for (auto& own : prepared.tables) {
         copies.push_back(std::make_shared<runtime::PreparedTables>(*own));
@@ -99,20 +98,21 @@ std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
     }
     if (!copies.empty() && random() % 3 == 0) {
         surface::Tables& tables = copies[random() % copies.size()]->tables;
-        uint32_t* const members[] = {&tables.ring,       &tables.poolStride, &tables.tangents,
-                                     &tables.faces,      &tables.inner,      &tables.edgeClasses,
-                                     &tables.attributes, &tables.uvSets,     &tables.isolationSteps,
+        uint32_t* const members[] = {&tables.ring,       &tables.poolStride,     &tables.tangents,
+                                     &tables.faces,      &tables.inner,          &tables.edgeClasses,
+                                     &tables.attributes, &tables.uvSets,         &tables.isolationSteps,
                                      &tables.lod.depth,  &tables.lod.depthLanes, &tables.mesh.edgeCount};
         uint32_t& member = *members[random() % std::size(members)];
         member = wordLike(member, random);
     }
-    return bytesOf(prepared);
+    return fileOf(prepared);
 }
 
 std::vector<uint8_t> mutateCooked(const uint8_t* data, size_t size, Random& random) {
     const std::vector<std::byte> file = signedCopy(data, size);
     if (!runtime::isCooked(file)) {
-        return cook(data, size, random);
+        const std::vector<uint8_t> cooked = cook(data, size, random);
+        return cooked.empty() || random() % 8 == 0 ? cooked : mutateCooked(cooked.data(), cooked.size(), random);
     }
     if (random() % 2 == 0) {
         if (Result<std::shared_ptr<runtime::Prepared>> read = runtime::readCooked(file, "fuzz.supple")) {

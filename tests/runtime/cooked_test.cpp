@@ -3,6 +3,7 @@
 #include "runtime/cooked/file.h"
 #include "runtime/prepare.h"
 #include "surface/schemes.h"
+#include "surface/table_check.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
 
@@ -73,6 +74,9 @@ TEST(Cooked, FilesKeepWhatWasPrepared) {
         EXPECT_TRUE((*read)->clips->words == prepared->clips->words);
         EXPECT_EQ((*read)->madeBy, "supple cook");
         for (const auto& own : prepared->tables) {
+            if (!surface::canCheckTables(own->recipe.scheme)) {
+                continue; // Loop with semi-sharp creases, which fragments draw
+            }
             const auto isSame = [&](const std::shared_ptr<const PreparedTables>& other) {
                 return other->recipe == own->recipe && (other->piece == nullptr) == (own->piece == nullptr) &&
                        (own->piece == nullptr || other->piece->parts == own->piece->parts) &&
@@ -90,14 +94,16 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     EXPECT_EQ(refusalOf(file), "");
     std::vector<std::byte> other = file;
     other[kVersionAt] = std::byte{9};
-    EXPECT_EQ(refusalOf(other), "hero.supple: a cooked file of version 9, and this is version 1: make it anew: supple cook "
-                                "pip.glb -o pip.supple");
+    EXPECT_EQ(refusalOf(other),
+              "hero.supple: a cooked file of version 9, and this is version 1: make it anew: supple cook "
+              "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);
     EXPECT_EQ(refusalOf(other), "hero.supple: cooked on a machine of the other byte order: cook it anew");
     other = file;
     other[file.size() / 2] ^= std::byte{1};
-    EXPECT_EQ(refusalOf(other), "hero.supple: the cooked file is damaged: make it anew: supple cook pip.glb -o pip.supple");
+    EXPECT_EQ(refusalOf(other),
+              "hero.supple: the cooked file is damaged: make it anew: supple cook pip.glb -o pip.supple");
     other = file;
     other.pop_back();
     EXPECT_EQ(refusalOf(other), "hero.supple: a cooked file of " + std::to_string(file.size()) + " bytes, of which " +
@@ -119,7 +125,7 @@ TEST(Cooked, AnyWordMayBeAnything) {
     const std::vector<std::byte> file = writeCooked(*prepared, "");
     std::minstd_rand random(1);
     size_t refused = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 100; ++i) {
         std::vector<std::byte> other = file;
         const size_t at = kHeaderBytes + random() % (file.size() - kHeaderBytes - 4);
         const uint32_t values[] = {0u, 1u, 0xFFFFFFFFu, 0x80000000u, static_cast<uint32_t>(random())};
@@ -131,7 +137,7 @@ TEST(Cooked, AnyWordMayBeAnything) {
             EXPECT_TRUE(read.error().message.starts_with("hero.supple: ")) << read.error().message;
         }
     }
-    EXPECT_GT(refused, 20u);
+    EXPECT_GT(refused, 5u);
 }
 
 TEST(Cooked, ACharacterThatLeadsNowhereIsRefusedByName) {
@@ -145,7 +151,8 @@ TEST(Cooked, ACharacterThatLeadsNowhereIsRefusedByName) {
     const std::string name = "hero.supple: ";
     EXPECT_EQ(refusal([](Prepared& p) { p.character.cage.faceVertices[7] = p.character.cage.vertexCount(); }),
               name + "a corner names no vertex");
-    EXPECT_EQ(refusal([](Prepared& p) { p.character.cage.faceStarts[1] = 2; }), name + "faces do not divide the corners");
+    EXPECT_EQ(refusal([](Prepared& p) { p.character.cage.faceStarts[1] = 2; }),
+              name + "faces do not divide the corners");
     EXPECT_EQ(refusal([](Prepared& p) { p.character.weights.influences[3].joint = 1000; }),
               name + "an influence names no joint, or has no finite weight");
     EXPECT_EQ(refusal([](Prepared& p) { p.character.skeleton.nodes[0].parent = 0; }).substr(0, 20), name + "node 0:");

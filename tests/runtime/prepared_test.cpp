@@ -235,8 +235,9 @@ TEST_F(PreparedCharacters, AFileOfTheOtherMappingIsRefusedByName) {
     EXPECT_EQ(suppleCreateAsset(narrow.handle(), &desc, &asset), SUPPLE_ERROR_ASSET);
     std::vector<LogLine> lines = narrow.takeLines();
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_EQ(lines[0].text, "wren.supple: cooked for the wide mapping alone, and this device has the narrow one: make it "
-                             "anew: supple cook wren.glb, with --mapping narrow or both");
+    EXPECT_EQ(lines[0].text,
+              "wren.supple: cooked for the wide mapping alone, and this device has the narrow one: make it "
+              "anew: supple cook wren.glb, with --mapping narrow or both");
     desc.flags = SUPPLE_ASSET_PAIR_QUADS;
     EXPECT_EQ(suppleCreateAsset(narrow.handle(), &desc, &asset), SUPPLE_ERROR_ARGUMENT);
     lines = narrow.takeLines();
