@@ -190,6 +190,7 @@ TEST(TableCheck, LayoutAndRecipe) {
          }},
         {"tables: levels of detail not as the recipe says", [](Tables& t) { t.lod = {}; }},
         {"tables: an indexed mesh not as the recipe says", [](Tables& t) { t.mesh = {}; }},
+        {"constructions: too many", [](Tables& t) { t.constructions.resize(65, t.constructions[0]); }},
         {"constructions: an unknown stage", [](Tables& t) { t.constructions[0].stage = static_cast<Stage>(3); }},
         {"constructions: an unknown kernel", [](Tables& t) { t.constructions[0].kernel.kernel = Kernel::count; }},
         {"constructions: a kernel that the scheme does not run there",
@@ -275,6 +276,10 @@ TEST(TableCheck, Levels) {
          [](Tables& t) { t.lod.edges[0].borders = Borders::charts; }},
         {"edges with levels: no record of a patch", [](Tables& t) { t.lod.edges[0].borders = Borders::halves; }},
         {"edges with levels: they do not follow each other", [](Tables& t) { t.lod.edges[0].first = 1; }},
+        {"edges with levels: they do not follow each other",
+         [](Tables& t) {
+             t.lod.edges.push_back({Borders::cubics, t.lod.edgeCount, t.lod.edges[0].section});
+         }},
         {"edges with levels: another number of edges", [](Tables& t) { t.lod.edgeCount = 1u << 30; }},
         {"edges with levels: 4294967295 and 36 more, of # elements",
          [](Tables& t) { t.lod.edges[0].section.table = ~0u; }},
