@@ -1,10 +1,12 @@
 // What checks tables from files: all tables that are built pass, and whatever does not fit is refused.
 #include "surface/table_check.h"
 
+#include "cage/gltf/reader.h"
 #include "shaders/shared/surface.h"
 #include "surface/schemes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
+#include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/table_cases.h"
 
@@ -81,6 +83,31 @@ TEST(TableCheck, TablesThatAreBuiltPass) {
                     schemeOf(scheme).name, mostPoolPerWord);
         EXPECT_LT(mostPoolPerWord, 4.0); // half of what is refused
     }
+}
+
+TEST(TableCheck, TablesOfCharactersPass) {
+    size_t checked = 0;
+    for (const std::string& path : test::allCharacters()) {
+        const Result<cage::Character> character = cage::readGltfFile(path);
+        ASSERT_TRUE(character.ok()) << character.error().message;
+        const cage::Cage& cage = character->cage;
+        for (const SchemeId scheme : checkedSchemes()) {
+            const std::vector<Recipe> recipes = test::recipesOf(scheme);
+            Recipe recipe = recipes[7 * checked % recipes.size()];
+            recipe.mapFrames = recipe.mapFrames.empty() ? recipe.mapFrames : cage::mapFramesOf(*character);
+            const Result<Tables> tables = buildTables(recipe, cage);
+            if (!tables) {
+                continue;
+            }
+            const TableSource source{recipe, cage.vertexCount(), cage.faceCount(),
+                                     static_cast<uint32_t>(character->parts.size()),
+                                     static_cast<uint32_t>(character->materials.size())};
+            const Status status = checkTables(*tables, source);
+            EXPECT_TRUE(status.ok()) << path << ", " << test::nameOf(recipe) << ": " << status.error().message;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 8u);
 }
 
 /// Tables of P_m with whatever it can have, and of polygons.
