@@ -12,6 +12,8 @@ namespace {
 /// Coefficients of an instance's pool for each word of the tables: no small file takes large memory. What was found is
 /// in tests/surface/table_check_test.cpp.
 constexpr uint64_t kMostPoolPerWord = 8;
+/// Each is a dispatch. Catmull-Clark has one for every level of chains, and a few others.
+constexpr size_t kMostConstructions = 64;
 
 bool isPatchClass(PatchClass patchClass) {
     return static_cast<size_t>(patchClass) < std::size(kPatchClasses);
@@ -105,6 +107,7 @@ void checkPool(TableCheck& check) {
 
 void checkStages(TableCheck& check) {
     check.begin("constructions");
+    check.require(check.tables().constructions.size() <= kMostConstructions, "too many");
     for (const Construction& construction : check.tables().constructions) {
         check.require(construction.stage <= Stage::deepen, "an unknown stage");
         check.require(construction.kernel.kernel < Kernel::count, "an unknown kernel");

@@ -24,10 +24,7 @@ bool checkSideOfRecord(TableCheck& check, uint32_t kind, std::span<const uint32_
 
 /// The border's cubic, what lies inside, and what more the flags and the kind ask for.
 bool checkCubicEdge(TableCheck& check, uint32_t kind, std::span<const uint32_t> record) {
-    bool fits = true;
-    for (const uint32_t index : record.first(8)) {
-        fits = fits && check.pool(index);
-    }
+    bool fits = check.poolAll(record.first(8));
     const uint32_t flags = record[10], extra = record[11];
     if (kind == kPerturbedEdges) {
         fits = fits && check.pool(extra, 4);

@@ -3,6 +3,8 @@
 #include "surface/smooth_uvs.h"
 #include "surface/table_check_common.h"
 
+#include <algorithm>
+
 namespace supple::surface {
 
 namespace {
@@ -19,8 +21,13 @@ bool checkPolarPatch(TableCheck& check, std::span<const uint32_t> record) {
 }
 
 bool checkQuad(TableCheck& check, std::span<const uint32_t> record) {
-    return checkPatchCorner(check, record[0], record[4]) && checkPatchCorner(check, record[1], record[5]) &&
-           checkPatchCorner(check, record[2], record[6]) && checkPatchCorner(check, record[3], record[7]);
+    const Tables& tables = check.tables();
+    uint32_t last = 0;
+    for (const uint32_t spoke : record.subspan(4, 4)) {
+        last = std::max({last, SUPPLE_SPOKE(spoke), nextSpoke(spoke)});
+    }
+    return check.poolAll(record.first(4)) && check.pool(uint64_t{tables.tangents} + last) &&
+           check.pool(uint64_t{tables.faces} + last);
 }
 
 /// Four coefficients an edge.
@@ -100,15 +107,10 @@ void checkMapFrames(TableCheck& check, uint64_t attributes) {
 
 } // namespace
 
-uint32_t nextSpoke(uint32_t spokeWord) {
-    return SUPPLE_NEXT_SPOKE(spokeWord);
-}
-
 bool checkPatchCorner(TableCheck& check, uint32_t point, uint32_t spokeWord) {
     const Tables& tables = check.tables();
-    const uint64_t spoke = SUPPLE_SPOKE(spokeWord), next = nextSpoke(spokeWord);
-    return check.pool(point) && check.pool(tables.tangents + spoke) && check.pool(tables.tangents + next) &&
-           check.pool(tables.faces + spoke) && check.pool(tables.faces + next);
+    const uint64_t last = std::max(SUPPLE_SPOKE(spokeWord), nextSpoke(spokeWord));
+    return check.pool(point) && check.pool(tables.tangents + last) && check.pool(tables.faces + last);
 }
 
 const PatchRange* rangeOfRecord(const Tables& tables, uint64_t element) {

@@ -7,6 +7,7 @@
 #include "surface/recipe.h"
 #include "surface/scheme.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -43,6 +44,8 @@ public:
     bool words(uint64_t first, uint64_t count) { return within(first, count, tables_.words.size(), "words"); }
     bool elements(uint64_t first, uint64_t count) { return within(first, count, tables_.words.size() / 4, "elements"); }
     bool pool(uint64_t first, uint64_t count = 1) { return within(first, count, tables_.poolStride, "coefficients"); }
+    /// Coefficients of an instance's pool, one for each index.
+    bool poolAll(std::span<const uint32_t> indices) { return pool(*std::max_element(indices.begin(), indices.end())); }
     bool vertices(uint64_t first, uint64_t count = 1) {
         return within(first, count, source_.vertices, "cage vertices");
     }

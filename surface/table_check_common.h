@@ -3,6 +3,7 @@
 // patches, and their records are in the tables. The second part is for the checks of schemes.
 #pragma once
 
+#include "shaders/shared/surface.h"
 #include "surface/table_check.h"
 
 #include <initializer_list>
@@ -39,7 +40,10 @@ struct StageKernels {
 bool checkKernels(TableCheck& check, std::initializer_list<StageKernels> kernels);
 
 /// The index of a spoke's next one, as kernels compute it: it may wrap.
-[[nodiscard]] uint32_t nextSpoke(uint32_t spokeWord);
+[[nodiscard]] inline uint32_t nextSpoke(uint32_t spokeWord) {
+    using namespace shared; // the macro's constants
+    return SUPPLE_NEXT_SPOKE(spokeWord);
+}
 /// Whether the pool has the limit point of a patch's corner, and the tangents and face coefficients of its spoke and of
 /// the next one (SUPPLE_SPOKE).
 bool checkPatchCorner(TableCheck& check, uint32_t point, uint32_t spokeWord);

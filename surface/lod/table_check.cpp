@@ -27,17 +27,19 @@ bool checkLevelEdge(TableCheck& check, Borders borders, std::span<const uint32_t
     if (borders != Borders::cubics) {
         return checkSide(check, borders, edge);
     }
-    return check.pool(edge[0]) && check.pool(edge[1]) && check.pool(edge[2]) && check.pool(edge[3]);
+    return check.poolAll(edge);
 }
 
 void checkLevelEdges(TableCheck& check) {
     check.begin("edges with levels");
     const LodTables& lod = check.tables().lod;
     uint64_t next = 0;
+    const uint64_t table = lod.edges.front().section.table;
     for (const LodTables::Edges& edges : lod.edges) {
         const Section& section = edges.section;
         if (!check.require(edges.borders < Borders::charts, "a kind that files do not keep") ||
-            !check.require(edges.first == next && section.count > 0, "they do not follow each other") ||
+            !check.require(edges.first == next && section.table == table + next && section.count > 0,
+                           "they do not follow each other") ||
             !check.elements(section.table, section.count)) {
             return;
         }

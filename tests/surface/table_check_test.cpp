@@ -1,10 +1,12 @@
 // What checks tables from files: all tables that are built pass, and whatever does not fit is refused.
 #include "surface/table_check.h"
 
+#include "cage/gltf/reader.h"
 #include "shaders/shared/surface.h"
 #include "surface/schemes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
+#include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/table_cases.h"
 
@@ -81,6 +83,31 @@ TEST(TableCheck, TablesThatAreBuiltPass) {
                     schemeOf(scheme).name, mostPoolPerWord);
         EXPECT_LT(mostPoolPerWord, 4.0); // half of what is refused
     }
+}
+
+TEST(TableCheck, TablesOfCharactersPass) {
+    size_t checked = 0;
+    for (const std::string& path : test::allCharacters()) {
+        const Result<cage::Character> character = cage::readGltfFile(path);
+        ASSERT_TRUE(character.ok()) << character.error().message;
+        const cage::Cage& cage = character->cage;
+        for (const SchemeId scheme : checkedSchemes()) {
+            const std::vector<Recipe> recipes = test::recipesOf(scheme);
+            Recipe recipe = recipes[7 * checked % recipes.size()];
+            recipe.mapFrames = recipe.mapFrames.empty() ? recipe.mapFrames : cage::mapFramesOf(*character);
+            const Result<Tables> tables = buildTables(recipe, cage);
+            if (!tables) {
+                continue;
+            }
+            const TableSource source{recipe, cage.vertexCount(), cage.faceCount(),
+                                     static_cast<uint32_t>(character->parts.size()),
+                                     static_cast<uint32_t>(character->materials.size())};
+            const Status status = checkTables(*tables, source);
+            EXPECT_TRUE(status.ok()) << path << ", " << test::nameOf(recipe) << ": " << status.error().message;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 8u);
 }
 
 /// Tables of P_m with whatever it can have, and of polygons.
@@ -190,6 +217,7 @@ TEST(TableCheck, LayoutAndRecipe) {
          }},
         {"tables: levels of detail not as the recipe says", [](Tables& t) { t.lod = {}; }},
         {"tables: an indexed mesh not as the recipe says", [](Tables& t) { t.mesh = {}; }},
+        {"constructions: too many", [](Tables& t) { t.constructions.resize(65, t.constructions[0]); }},
         {"constructions: an unknown stage", [](Tables& t) { t.constructions[0].stage = static_cast<Stage>(3); }},
         {"constructions: an unknown kernel", [](Tables& t) { t.constructions[0].kernel.kernel = Kernel::count; }},
         {"constructions: a kernel that the scheme does not run there",
@@ -275,6 +303,10 @@ TEST(TableCheck, Levels) {
          [](Tables& t) { t.lod.edges[0].borders = Borders::charts; }},
         {"edges with levels: no record of a patch", [](Tables& t) { t.lod.edges[0].borders = Borders::halves; }},
         {"edges with levels: they do not follow each other", [](Tables& t) { t.lod.edges[0].first = 1; }},
+        {"edges with levels: they do not follow each other",
+         [](Tables& t) {
+             t.lod.edges.push_back({Borders::cubics, t.lod.edgeCount, t.lod.edges[0].section});
+         }},
         {"edges with levels: another number of edges", [](Tables& t) { t.lod.edgeCount = 1u << 30; }},
         {"edges with levels: 4294967295 and 36 more, of # elements",
          [](Tables& t) { t.lod.edges[0].section.table = ~0u; }},
