@@ -34,11 +34,13 @@ namespace exact {
 /// Catmull-Clark by patches of one quad each. Refuses a vertex with more faces than 16 bits number the points of its
 /// chain: "vertex 7 has 6000 faces: ..". O(corners + classes of vertices).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace exact
 
 namespace loop {
 /// Loop by patches of one triangle each. Refuses semi-sharp creases, and what exact::build() does.
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace loop
 
 namespace blend {

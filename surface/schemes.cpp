@@ -27,11 +27,11 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
-     [](const cage::Cage&) { return 0.001f; }},
+     [](const cage::Cage&) { return 0.001f; }, &loop::check},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
     {SchemeId::catmullClark, "Catmull-Clark", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes,
-     true, [](const cage::Cage&) { return 0.001f; }},
+     true, [](const cage::Cage&) { return 0.001f; }, &exact::check},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},

@@ -77,6 +77,12 @@ std::vector<uint32_t> rowsByLength(const Stencils& stencils) {
 
 } // namespace
 
+KindOfKernel stencilKernel(bool fromPool, uint32_t numbers) {
+    return fromPool
+               ? KindOfKernel{Kernel::subdivisionIsolateMeshInPool, numbers, "supple subdivision, isolate once more"}
+               : KindOfKernel{Kernel::subdivisionIsolate, numbers, "supple subdivision, isolate"};
+}
+
 void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables) {
     constexpr uint32_t kHalves = 0x10000;
     const uint32_t rows = stencils.rows();
@@ -103,11 +109,7 @@ void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWri
     }
     (void)writer.element();
     writer.put(lists.words());
-    const uint32_t kind = halves ? shared::kHalfWords : shared::kWholeWords;
-    const KindOfKernel kernel =
-        place.fromPool
-            ? KindOfKernel{Kernel::subdivisionIsolateMeshInPool, kind, "supple subdivision, isolate once more"}
-            : KindOfKernel{Kernel::subdivisionIsolate, kind, "supple subdivision, isolate"};
+    const KindOfKernel kernel = stencilKernel(place.fromPool, halves ? shared::kHalfWords : shared::kWholeWords);
     Construction points{place.stage, kernel, {writer.element(), rows}, rows};
     points.from = place.from;
     points.to = place.to;

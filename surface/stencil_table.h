@@ -15,6 +15,9 @@ struct StencilPlace {
     uint32_t to = 0;       ///< pool index of its first vertex
 };
 
+/// The kernel that reads them. `numbers`: shared::kHalfWords or kWholeWords.
+[[nodiscard]] KindOfKernel stencilKernel(bool fromPool, uint32_t numbers);
+
 /// Adds the records that shaders/subdivision/isolate.comp reads, and their construction.
 void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables);
 

@@ -1,6 +1,7 @@
 #include "surface/exact/chain_tables.h"
 
 #include "shaders/shared/subdivision.h"
+#include "surface/exact/kernels.h"
 #include "surface/exact/window.h"
 
 #include <algorithm>
@@ -34,15 +35,8 @@ uint32_t ChainTables::chainLevels(uint32_t v) const {
     return needs_[v] == VertexNeeds::chain ? lastLevel_ - kFirstChainLevel + 1 : 0;
 }
 
-/// The variant of the chain kernel that makes limits, chains, or a level of chains.
 KindOfKernel ChainTables::kernelOf(uint32_t makes, Stage stage) const {
-    constexpr const char* kNames[] = {"supple exact limits", "supple exact chains, first level",
-                                      "supple exact chains, level", "supple exact chains"};
-    const bool loop = mesh_.subdivision == Subdivision::loop;
-    if (stage == Stage::deepen) {
-        return {loop ? Kernel::exactChainLevelsTriangles : Kernel::exactChainLevels, makes, kNames[makes]};
-    }
-    return {loop ? Kernel::exactChainTriangles : Kernel::exactChain, makes, kNames[makes]};
+    return chainKernel(mesh_.subdivision, makes, stage);
 }
 
 Status ChainTables::checkSizes() const {

@@ -5,6 +5,7 @@
 #include "surface/build.h"
 #include "surface/exact/chain_tables.h"
 #include "surface/exact/corners.h"
+#include "surface/exact/kernels.h"
 #include "surface/exact/needed_rows.h"
 #include "surface/exact/smooth_uvs.h"
 #include "surface/exact/window.h"
@@ -22,13 +23,6 @@ namespace {
 
 using subdivision::Isolation;
 
-constexpr uint32_t kRegular = shared::kRegularFan, kOpen = shared::kFewFan;
-constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::exactVertex, kRegular, "supple exact vertex, regular"},
-    {Kernel::exactVertex, kOpen, "supple exact vertex, creased"},
-    {Kernel::exactVertexMeshInPool, kRegular, "supple exact vertex of a step, regular"},
-    {Kernel::exactVertexMeshInPool, kOpen, "supple exact vertex of a step, creased"},
-};
 /// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
 FanWeights openWeights(uint32_t facets) {
     FanWeights w;
@@ -194,7 +188,7 @@ private:
         }
         for (const bool closed : {true, false}) {
             Construction vertices{
-                meshStage(), kVertexKernels[(closed ? 0 : 1) + (steps() ? 2 : 0)], {writer_.element(), 0}, 0};
+                meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
             for (const uint32_t r : order_) {
                 const Run& run = corners_.runs()[r];
                 if (run.closed != closed) {
