@@ -136,6 +136,7 @@ bool ChainCheck::takeBlocks(const Section& section, uint32_t makes) {
         !check_.elements(section.table, section.count / shared::kBlockLanes)) {
         return false;
     }
+    last_ = {};
     for (uint64_t block = 0; block < section.count / shared::kBlockLanes; ++block) {
         if (!takeBlock(check_.element(section.table + block), makes)) {
             return false;
@@ -154,12 +155,21 @@ bool ChainCheck::takeBlock(std::span<const uint32_t> block, uint32_t makes) {
     const uint64_t vertex = (block[1] - first) / kVertexElements;
     if (!check_.within(vertex, count, firstAlike_.size(), "vertices") ||
         !check_.require(firstAlike_[vertex + count - 1] <= vertex, "vertices of several fans, or without chains") ||
-        !check_.require(check_.element(block[1])[1] == block[0], "another fan than that of its vertices")) {
+        !check_.require(check_.element(block[1])[1] == block[0], "another fan than that of its vertices") ||
+        !follows(vertex, count, block[3], makes == shared::kMakesChains)) {
         return false;
     }
     CheckedFan fan;
     return readFan(block[0], fan) &&
            (makes == shared::kMakesChains ? checkWholeChains(block, fan) : checkLevel(block, fan, makes));
+}
+
+/// Blocks do not overlap. With this no file can make kernels go round a large fan for every block.
+bool ChainCheck::follows(uint64_t vertex, uint64_t count, uint32_t item, bool whole) {
+    const bool goesOn = !whole && vertex == last_.vertex && count == last_.count;
+    const bool follows = goesOn ? item == last_.nextItem : vertex >= last_.vertex + last_.count && (whole || item == 0);
+    last_ = {vertex, count, uint64_t{item} + shared::kBlockLanes};
+    return check_.require(follows, "blocks do not follow each other");
 }
 
 /// They are made in workgroup memory. All blocks of a workgroup have the same barriers.

@@ -33,6 +33,7 @@ private:
     [[nodiscard]] bool checkRuns(uint64_t element, uint64_t spokes);
     [[nodiscard]] bool checkSteps(uint64_t element, uint64_t spokes);
     [[nodiscard]] bool takeBlock(std::span<const uint32_t> block, uint32_t makes);
+    [[nodiscard]] bool follows(uint64_t vertex, uint64_t count, uint32_t item, bool whole);
     [[nodiscard]] bool checkWholeChains(std::span<const uint32_t> block, const CheckedFan& fan);
     [[nodiscard]] bool checkLevel(std::span<const uint32_t> block, const CheckedFan& fan, uint32_t makes);
 
@@ -44,6 +45,11 @@ private:
     Section vertices_;
     /// By vertex: the first of those before it that have the same fan and chains, as it has; or that it has none.
     std::vector<uint32_t> firstAlike_;
+    /// The last block: its first vertex, how many it has, and the first item that it leaves to the next.
+    struct BlockPlace {
+        uint64_t vertex = 0, count = 0, nextItem = 0;
+    };
+    BlockPlace last_;
 };
 
 } // namespace supple::surface::exact

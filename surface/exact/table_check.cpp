@@ -63,6 +63,11 @@ private:
                               ? checkClasses(check_, {loopRegular, loopIrregular})
                               : checkClasses(check_, {regular, irregular, irregularSharp, creased});
         check_.begin("tables");
+        // A step, plain vertices, points of level 1, limits, whole chains, then levels.
+        const uint64_t most = uint64_t{7} + lastLevel_;
+        if (!check_.within(0, tables_.constructions.size(), most, "constructions")) {
+            return false;
+        }
         // Kernels look for the length of a chain even where there is none.
         return fits && check_.elements(0, shared::kWindowElements) && checkMesh();
     }
