@@ -1,4 +1,5 @@
-// How the readers and writers of cage/ word their messages: they name the element, count and quote in one way.
+// How the readers of cage/ and the writers of tools/gltf/ word their messages: they name the element, count and quote
+// in one way.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// How a reader or writer of cage/ stops: it throws a Refusal, and its public function turns that into an Error. No
-// Refusal leaves a public function.
+// How a reader of cage/, or a writer of tools/gltf/, stops: it throws a Refusal, and its public function turns that
+// into an Error. No Refusal leaves a public function.
 #pragma once
 
 #include "base/result.h"

@@ -39,6 +39,8 @@ install(FILES ${host_shaders} DESTINATION ${shader_directory} COMPONENT developm
 # The headers cite documents.
 install(DIRECTORY ${supple_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/supple COMPONENT development
     FILES_MATCHING PATTERN "*.md" PATTERN "*.schema.json" PATTERN "images/*")
+# If the target docs was built.
+install(FILES ${supple_BINARY_DIR}/docs/api.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/supple COMPONENT development OPTIONAL)
 
 # ---- for find_package
 

@@ -14,7 +14,7 @@ import sys
 
 DOCS = pathlib.Path(__file__).parent.parent / "docs"
 PLOTS = ("bench_sphere_points.svg", "bench_pip_points.svg", "bench_pip_frame.svg")
-BEGIN, END = "### Results: lavapipe on two cores", "### What was tried"
+BEGIN, END = "### Results: lavapipe on two cores", "#### The same on two cores"
 
 
 def blocks(text):

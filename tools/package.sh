@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 install_missing "${supple_packages[@]}" "${supple_deb_packages[@]}"
 cmake --preset deb "$@"
-cmake --build build/deb --target supple supple_other supple_command -j "$(nproc)"
+cmake --build build/deb --target supple supple_other supple_command docs -j "$(nproc)"
 rm -rf build/deb/packages
 (cd build/deb && cpack -B "$PWD/packages")
 for package in build/deb/packages/*.deb; do

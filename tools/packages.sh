@@ -25,6 +25,7 @@ supple_test_packages=(
 # To make Debian packages: tools/package.sh, not the tests.
 supple_deb_packages=(
     dpkg-dev fakeroot lintian
+    doxygen python3
 )
 
 # install_missing PACKAGE...: installs those that are not there yet; asks nothing and does nothing when all are.

@@ -1,9 +1,9 @@
 // Parts that are sewn together, and what is left open.
-#include "cage/gltf/writer.h"
 #include "cage/sew.h"
 #include "cage/topology.h"
 #include "tests/cage/face_lists.h"
 #include "tests/cage/gltf/reading.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <random>

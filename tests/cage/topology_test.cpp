@@ -1,6 +1,6 @@
-#include "cage/procedural.h"
 #include "cage/topology.h"
 #include "tests/support/meshes.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Poses that move vertices beyond SUPPLE_MAX_COORDINATE, up to what is not finite: the other instances do not see it,
 // and the next pose brings the surface back.
-#include "cage/gltf/writer.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/rigged_tube.h"
+#include "tools/gltf/writer.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -32,7 +32,7 @@ FLOORS = [line.split() for line in """
     runtime/include/
     runtime/
     host/
-    tools/common/ tools/reference/
+    tools/common/ tools/gltf/ tools/reference/
     samples/ tools/bench/ tools/creature/
     tools/supple/
     tests/

@@ -1,7 +1,6 @@
 // Calls of the public API in any order, most of them right: the input chooses which, of what and when, whether groups
 // have threads of their own in a frame, and whether the device is lost on the way. Every call comes back with a result
 // that it may have, and what is destroyed leaves no memory on the device.
-#include "cage/gltf/writer.h"
 #include "host/context.h"
 #include "host/device.h"
 #include "tests/fault/vulkan_faults.h"
@@ -9,6 +8,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/support/recorder.h"
 #include "tests/support/rigged_tube.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <map>

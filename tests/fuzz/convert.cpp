@@ -1,8 +1,8 @@
 // What is read is written and read again: the same cage, skeleton and clips.
 #include "cage/gltf/reader.h"
-#include "cage/gltf/writer.h"
 #include "cage/topology.h"
 #include "tests/fuzz/target.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,5 @@
 // Patches that show their backs: what a view with SUPPLE_VIEW_BACK_FACES leaves out against one without.
 #include "cage/gltf/reader.h"
-#include "cage/procedural.h"
 #include "surface/lod/grid.h"
 #include "surface/schemes.h"
 #include "tests/support/gpu_comparison.h"
@@ -8,6 +7,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // What the API tells of clips beside their names: markers, and the boxes that hold their cages and surfaces.
-#include "cage/gltf/writer.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cmath>

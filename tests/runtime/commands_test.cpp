@@ -1,6 +1,5 @@
 // What a frame records: as many commands for two instances as for a hundred, whatever the group; and the same bits
 // where the device's limit of workgroups splits dispatches.
-#include "cage/procedural.h"
 #include "tests/support/depth_pyramid.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
@@ -8,6 +7,7 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <cstring>
 #include <functional>

@@ -1,6 +1,5 @@
 // The contract with the host: what crosses per frame, barriers, failures that leave everything usable, refusals.
 #include "cage/gltf/reader.h"
-#include "cage/procedural.h"
 #include "skinning/pose.h"
 #include "tests/cage/gltf/builder.h"
 #include "tests/support/gpu_surface.h"
@@ -9,6 +8,7 @@
 #include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/common/cage_arrays.h"
+#include "tools/common/procedural.h"
 
 #include <cmath>
 #include <cstddef>

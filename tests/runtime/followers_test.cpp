@@ -1,11 +1,11 @@
 // Groups that draw the instances of another group (SuppleGroupDesc.instancesOf): a second view, another scheme or rate.
-#include "cage/procedural.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <array>
 #include <cstring>

@@ -1,11 +1,11 @@
 // Groups that are not recorded in every frame: the shader of the other frames finds no motion, as docs/integration.md
 // says.
-#include "cage/procedural.h"
 #include "host/pipelines.h"
 #include "shaders/motion_comp.h"
 #include "shaders/motion_comp_VERTEX_24.h"
 #include "tests/support/crowd.h"
 #include "tests/support/shader_range.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,7 +1,6 @@
 // SUPPLE_GROUP_INDEXED_MESH against the same group without: every sample of every patch by the index buffer, its
 // position to the bit, its normal, its attributes; and the mesh: closed where the cage's surface is.
 #include "cage/features.h"
-#include "cage/procedural.h"
 #include "surface/grid.h"
 #include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
@@ -10,6 +9,7 @@
 #include "tests/support/pm_zoo.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tools/common/procedural.h"
 
 #include <gtest/gtest.h>
 #include <map>

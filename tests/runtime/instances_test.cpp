@@ -1,8 +1,8 @@
 // Instances that come and go: handles, slots, who is listed and drawn, what is written, and frames in flight.
-#include "cage/procedural.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/sample_assets.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <cstring>

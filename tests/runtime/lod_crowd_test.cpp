@@ -1,6 +1,5 @@
 // Views of many instances: budgets that do not suffice, one level an instance, windows, split dispatches, and the
 // device's budget against the CPU's.
-#include "cage/procedural.h"
 #include "shaders/shared/lod.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
@@ -10,6 +9,7 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,6 @@
 // Subdivision in views: which rate instances take, what is evaluated, listed and drawn of each, against groups of that
 // rate alone.
 #include "cage/gltf/reader.h"
-#include "cage/procedural.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_budget.h"
@@ -10,6 +9,7 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <bit>

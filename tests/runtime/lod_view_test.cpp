@@ -1,6 +1,5 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/gltf/reader.h"
-#include "cage/procedural.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/corner_weights.h"
 #include "tests/support/exact_quads.h"
@@ -11,6 +10,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 #include "tools/reference/exact.h"
 
 #include <glm/gtc/matrix_transform.hpp>

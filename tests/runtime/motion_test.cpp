@@ -1,11 +1,11 @@
 // Where every surface vertex was: SUPPLE_GROUP_MOTION against the frames before, by the bits; changes of rate; frames
 // that are cancelled.
-#include "cage/procedural.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,9 +1,9 @@
 // Depth pyramids: how the shader for hosts makes them, and what they hide of a view's groups.
-#include "cage/procedural.h"
 #include "tests/support/depth_pyramid.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <cstdio>
 #include <cstring>

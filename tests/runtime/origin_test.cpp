@@ -1,10 +1,10 @@
 // Large worlds: coordinates that begin near the camera (suppleSetOrigin, suppleSetPosition).
-#include "cage/procedural.h"
 #include "tests/support/crowd.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,10 +1,10 @@
 // What supple.h says of all outputs, whatever the scheme and tessellation: how they are aligned, which way round
 // triangles go, and what memory callbacks are told.
-#include "cage/gltf/writer.h"
-#include "cage/procedural.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <fstream>

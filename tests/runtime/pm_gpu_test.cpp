@@ -1,10 +1,10 @@
 // P_m on the device: against the stored vectors, against the reference, and the bits its patches share.
-#include "cage/procedural.h"
 #include "tests/support/corner_weights.h"
 #include "tests/support/pm_gpu.h"
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
 #include "tests/support/pm_zoo.h"
+#include "tools/common/procedural.h"
 #include "tools/reference/pm.h"
 
 #include <cstdio>

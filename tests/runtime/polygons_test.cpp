@@ -1,7 +1,5 @@
 // The scheme polygons on the device: against the file read a second way and skinned plainly, against its own frames in
 // double, and its contract.
-#include "cage/gltf/writer.h"
-#include "cage/procedural.h"
 #include "cage/tangents.h"
 #include "cage/triangulation.h"
 #include "surface/polygons/frames.h"
@@ -15,6 +13,8 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <array>

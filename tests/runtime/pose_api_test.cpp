@@ -1,7 +1,6 @@
 // Posing through the public interface: layers, masks, root motion, morph weights; what it refuses, what it allocates
 // and what crosses to the device.
 #include "cage/gltf/reader.h"
-#include "cage/gltf/writer.h"
 #include "skinning/layers.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/gpu_surface.h"
@@ -10,6 +9,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/gltf/writer.h"
 
 #include <cmath>
 #include <cstring>

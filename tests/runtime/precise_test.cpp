@@ -1,6 +1,5 @@
 // `precise` where it matters: the static check on every shader that feeds a position, and mutations that take `precise`
 // from one helper: the static check must see each, and the bits of shared borders must show it.
-#include "cage/procedural.h"
 #include "cage/topology.h"
 #include "runtime/context.h"
 #include "surface/grid.h"
@@ -8,6 +7,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/spirv_precise.h"
 #include "tools/common/cage_arrays.h"
+#include "tools/common/procedural.h"
 
 #include <cstring>
 #include <filesystem>

@@ -1,11 +1,11 @@
 // What the GPU writes against the CPU: p-rep coefficients, positions, normals, border bits, both mappings.
-#include "cage/procedural.h"
 #include "cage/topology.h"
 #include "surface/grid.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
+#include "tools/common/procedural.h"
 #include "tools/reference/prep.h"
 
 #include <cstring>

@@ -1,11 +1,11 @@
 // Groups that are made anew under their handles: another capacity, another version of their asset.
-#include "cage/procedural.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,8 +1,8 @@
 // A character cut into mesh nodes that share a skin is, on the device, the character in one mesh.
 #include "cage/character.h"
 #include "cage/gltf/reader.h"
-#include "cage/gltf/writer.h"
 #include "tests/support/gpu_comparison.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // Tangents of surface vertices (docs/tangents.md) against differences of positions and texture coordinates, which know
 // nothing of schemes; and their signs.
-#include "cage/procedural.h"
 #include "cage/tangents.h"
 #include "surface/grid.h"
 #include "tests/support/crowd.h"
@@ -11,6 +10,7 @@
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
 #include "tools/common/character_file.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <cmath>

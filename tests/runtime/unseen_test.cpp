@@ -1,10 +1,10 @@
 // Views in which nothing is drawn: in the first frame, in later ones, in turns with others; in memory that was used
 // before.
-#include "cage/procedural.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <cstdlib>

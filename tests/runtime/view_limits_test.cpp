@@ -1,9 +1,9 @@
 // What views and their groups refuse, and that the groups of a view lie where hosts can bind them.
-#include "cage/procedural.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

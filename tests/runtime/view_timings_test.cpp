@@ -1,10 +1,10 @@
 // What suppleGetTimings has of views: an entry a pass, however many passes there are, and whether the budget was
 // enough.
-#include "cage/procedural.h"
 #include "tests/support/depth_pyramid.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/test_view.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <cstring>

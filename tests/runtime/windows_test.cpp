@@ -1,12 +1,12 @@
 // Groups that are larger than what the device can bind at a time: a host draws them window by window, or creation is
 // refused and names the largest capacity.
-#include "cage/procedural.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
+#include "tools/common/procedural.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "tests/support/crowd.h"
 
-#include "cage/gltf/writer.h"
 #include "tools/common/cage_arrays.h"
+#include "tools/gltf/writer.h"
 
 #include <cstring>
 #include <fstream>

@@ -1,8 +1,8 @@
 #include "tests/support/logged_context.h"
 
-#include "cage/gltf/writer.h"
 #include "cage/materials.h"
 #include "tests/support/rigged_tube.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

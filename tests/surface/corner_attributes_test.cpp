@@ -1,6 +1,6 @@
 // Corner attributes in the tables: every patch corner finds its own, whether its number is a half word or a whole one.
-#include "cage/procedural.h"
 #include "surface/schemes.h"
+#include "tools/common/procedural.h"
 
 #include <bit>
 #include <gtest/gtest.h>

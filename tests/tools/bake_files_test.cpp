@@ -1,11 +1,11 @@
 // supple bake into GLB and PLY as a user runs it: what other programs read there is what the OBJ holds, patch by patch.
 #include "cage/formats/reader.h"
-#include "cage/gltf/writer.h"
 #include "host/picture.h"
 #include "tests/support/shared_assets.h"
 #include "tests/tools/baked_files.h"
 #include "tests/tools/command_runner.h"
 #include "tests/tools/obj_file.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // supple convert as a user runs it: what it writes reads back, poses alike and satisfies Khronos' validator.
 #include "cage/formats/reader.h"
-#include "cage/gltf/writer.h"
 #include "tests/support/characters.h"
 #include "tests/tools/command_runner.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cstdio>

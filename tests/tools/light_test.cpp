@@ -1,10 +1,10 @@
 // Light on figures, where it went wrong: a small body that stands in a large one had black teeth round it, because
 // vertices of the large one that lie inside of the small one are dark, and their darkness was spread over whole
 // triangles.
-#include "cage/procedural.h"
 #include "host/picture.h"
 #include "tests/tools/command_runner.h"
 #include "tests/tools/looked_at_pictures.h"
+#include "tools/common/procedural.h"
 
 #include <glm/glm.hpp>
 #include <sstream>

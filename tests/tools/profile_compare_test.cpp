@@ -1,5 +1,4 @@
 // What supple profile takes for a change, on numbers that are known; and what it makes of them.
-#include "tools/supple/charts.h"
 #include "tools/supple/profile_compare.h"
 #include "tools/supple/profile_html.h"
 #include "tools/supple/profile_report.h"
@@ -153,18 +152,6 @@ TEST(ProfileHtml, IsOnePageWithAllOfIt) {
     EXPECT_EQ(page.find("nan"), std::string::npos);
     EXPECT_EQ(page.find("base64", page.find("base64") + 1), std::string::npos) << "a picture stands once";
     EXPECT_LT(page.size(), 300000u);
-}
-
-TEST(ProfileHtml, ChartsTakeAnything) {
-    EXPECT_NE(toSvg(StackedBars{}).find("</svg>"), std::string::npos);
-    EXPECT_EQ(toSvg(Histogram{}), "");
-    EXPECT_EQ(toSvg(SweepLines{"rate", "ms", {4.0}, {{"deform", {1.0}}}}), "") << "one value makes no line";
-    for (const std::string& svg :
-         {toSvg(StackedBars{{{"a", {0.0, 0.0}}}, "ms", {}}), toSvg(Histogram{{1.0, 1.0}, "ms", {{"median", 1.0}}}),
-          toSvg(SweepLines{"rate", "ms", {4.0, 8.0}, {{"a", {0.0, 2.0}}, {"b", {0.0, 0.0}}}}), toSvg(ShareBar{})}) {
-        EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;
-        EXPECT_EQ(svg.find("inf"), std::string::npos) << svg;
-    }
 }
 
 TEST(ProfileSpans, OverlapsCountOnce) {

@@ -1,6 +1,5 @@
 // Trimmed surfaces: the contour is where the image says, to the pixel, for every scheme and at every rate; light falls
 // through the holes; multisampling covers what the contour leaves. Drawn under the validation layer.
-#include "cage/gltf/writer.h"
 #include "cage/materials.h"
 #include "cage/single_joint.h"
 #include "host/surface_renderer.h"
@@ -8,6 +7,7 @@
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
 #include "tools/common/figure_file.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 
 #include "bench_characters.h"
 #include "cage/formats/reader.h"
-#include "cage/procedural.h"
 #include "runtime/asset.h"
 #include "surface/schemes.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,10 +1,10 @@
 #include "tools/bench/classical.h"
 
-#include "cage/gltf/writer.h"
 #include "tools/bench/dense_mesh.h"
 #include "tools/bench/playing_group.h"
 #include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,19 +7,6 @@
 
 namespace supple::bench {
 
-/// Lines over rates, which stand at equal distances.
-struct LinePlot {
-    struct Line {
-        std::string name;
-        std::vector<double> values; ///< one a label; not finite: no point there
-    };
-    std::string title, yTitle;
-    std::vector<std::string> labels; ///< of the x axis
-    std::vector<Line> lines;
-    bool logarithmic = false; ///< the y axis
-};
-[[nodiscard]] std::string toSvg(const LinePlot& plot);
-
 struct Picture {
     std::string fileName, svg;
 };

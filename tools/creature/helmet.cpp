@@ -1,9 +1,9 @@
 // supple_helmet OUT.glb: makes the trimmed sample prop, always to the same bytes: a creased shell with an opening for
 // the face, and a visor before it with slits and breathing holes that turns up. All holes are trims.
 
-#include "cage/gltf/writer.h"
 #include "cage/materials.h"
-#include "cage/procedural.h"
+#include "tools/common/procedural.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <array>

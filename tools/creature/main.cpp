@@ -5,8 +5,8 @@
 #include "pip_model.h"
 #include "skeleton.h"
 
-#include "cage/gltf/writer.h"
 #include "surface/pm/mesh.h"
+#include "tools/gltf/writer.h"
 
 #include <cstdio>
 #include <cstring>

@@ -3,7 +3,7 @@
 #include "wren_assemble.h"
 #include "wren_clips.h"
 
-#include "cage/gltf/writer.h"
+#include "tools/gltf/writer.h"
 
 #include <cstdio>
 #include <fstream>

@@ -1,9 +1,9 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
-#include "cage/gltf/writer.h"
 #include "host/whole_file.h"
 #include "surface/choice.h"
 #include "surface/scheme.h"
 #include "tools/common/character_file.h"
+#include "tools/gltf/writer.h"
 #include "tools/supple/baked_mesh.h"
 #include "tools/supple/baked_obj.h"
 #include "tools/supple/baked_ply.h"

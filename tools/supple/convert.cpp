@@ -1,8 +1,8 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
-#include "cage/gltf/writer.h"
 #include "cage/normal_creases.h"
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
+#include "tools/gltf/writer.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
 #include "tools/supple/output_files.h"

@@ -1,7 +1,7 @@
 #include "tools/supple/profile_html.h"
 
+#include "tools/common/charts.h"
 #include "tools/common/formatted.h"
-#include "tools/supple/charts.h"
 #include "tools/supple/memory_report.h"
 #include "tools/supple/profile_report.h"
 
@@ -15,8 +15,7 @@ namespace supple::tools {
 namespace {
 
 constexpr const char* kStyle = R"(
-:root{--paper:#fff;--ink:#1c2026;--soft:#5d6672;--grid:#dfe3e8;--card:#f5f7f9;--mark:#c0392b;
---c0:#0072b2;--c1:#e69f00;--c2:#009e73;--c3:#cc79a7;--c4:#56b4e9;--c5:#d55e00;--c6:#7a6fd0;--c7:#a3a13b;--c8:#8a8f98;--c9:#4a5568}
+:root{--card:#f5f7f9}
 @media(prefers-color-scheme:dark){:root{--paper:#14171b;--ink:#e7eaee;--soft:#9aa4b0;--grid:#2c333b;--card:#1d2228;--mark:#ff7b6b;
 --c0:#4aa8e0;--c1:#f0b73f;--c2:#33c49a;--c3:#e0a0c4;--c4:#8fd0f7;--c5:#f58b4c;--c6:#a79df0;--c7:#c9c75f;--c8:#aab1bb;--c9:#74829a}}
 body{margin:0 auto;padding:24px;max-width:1000px;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
@@ -29,17 +28,15 @@ table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font
 td,th{padding:3px 8px;text-align:right;border-bottom:1px solid var(--grid)}th{color:var(--soft);font-weight:500}
 td:first-child,th:first-child{text-align:left;white-space:nowrap}
 i{display:inline-block;width:10px;height:10px;border-radius:2px;margin-right:7px}
-svg{width:100%;height:auto;display:block;font:12px system-ui,sans-serif;fill:var(--soft)}
-.grid{stroke:var(--grid);fill:none}.tick{stroke:var(--ink);fill:none}path.mark{stroke:var(--mark);stroke-dasharray:5 3;fill:none}
-text.mark{fill:var(--mark);paint-order:stroke;stroke:var(--paper);stroke-width:4px}.bar{fill:var(--c0)}.line{fill:none;stroke-width:2}
+svg{width:100%;height:auto;display:block}
 .slower{color:var(--mark);font-weight:600}.faster{color:var(--c2);font-weight:600}
 code{background:var(--card);padding:1px 5px;border-radius:4px;overflow-wrap:anywhere}
 )";
 
 std::string styles() {
-    std::string css = kStyle;
+    std::string css = ":root{" + lightChartColors() + "}" + kStyle + chartRules();
     for (size_t i = 0; i < kChartColors; ++i) {
-        css += formatted(".c%zu{fill:var(--c%zu);background:var(--c%zu)}.sc%zu{stroke:var(--c%zu)}\n", i, i, i, i, i);
+        css += formatted("i.c%zu{background:var(--c%zu)}\n", i, i);
     }
     return css;
 }
@@ -221,7 +218,10 @@ std::string sweepOf(std::span<const ProfileRun> runs, uint32_t ProfileRun::*swep
         }
         std::sort(alike.begin(), alike.end(),
                   [&](const ProfileRun* a, const ProfileRun* b) { return a->*swept < b->*swept; });
-        SweepLines lines{name, "ms", {}, {}};
+        LineChart lines;
+        lines.unit = "ms";
+        lines.xName = name;
+        lines.logarithmic = true;
         for (const ProfileRun* run : alike) {
             const RunSummary summary = summarizeRun(*run);
             const auto put = [&](const PassSummary& pass) {
@@ -238,6 +238,7 @@ std::string sweepOf(std::span<const ProfileRun> runs, uint32_t ProfileRun::*swep
             }
             put(summary.total);
             lines.x.push_back(run->*swept);
+            lines.labels.push_back(std::to_string(run->*swept));
         }
         for (ChartSeries& series : lines.series) {
             series.values.resize(lines.x.size(), 0.0);

@@ -1,5 +1,4 @@
 // Files with several meshes: parts of one character, with one palette and one list of morph targets.
-#include "cage/gltf/writer.h"
 #include "cage/parts.h"
 #include "cage/sew.h"
 #include "cage/topology.h"
@@ -7,6 +6,7 @@
 #include "tests/cage/gltf/reading.h"
 #include "tests/support/characters.h"
 #include "tests/support/meshes.h"
+#include "tools/gltf/writer.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "tests/support/prep_vectors.h"
 #include "tests/support/shared_assets.h"
 
-#include "cage/procedural.h"
+#include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,8 +4,8 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
 
-#include "cage/procedural.h"
 #include "surface/build.h"
+#include "tools/common/procedural.h"
 
 #include <functional>
 

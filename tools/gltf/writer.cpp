@@ -1,13 +1,13 @@
-#include "cage/gltf/writer.h"
+#include "tools/gltf/writer.h"
 
 #include "cage/corner_normals.h"
-#include "cage/gltf/material_writer.h"
-#include "cage/gltf/mesh_writer.h"
-#include "cage/gltf/packer.h"
-#include "cage/gltf/still_mesh_writer.h"
 #include "cage/message.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
+#include "tools/gltf/material_writer.h"
+#include "tools/gltf/mesh_writer.h"
+#include "tools/gltf/packer.h"
+#include "tools/gltf/still_mesh_writer.h"
 
 #include <algorithm>
 #include <cmath>

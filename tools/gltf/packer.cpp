@@ -1,4 +1,4 @@
-#include "cage/gltf/packer.h"
+#include "tools/gltf/packer.h"
 
 #include "cage/refusal.h"
 

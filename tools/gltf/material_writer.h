@@ -1,10 +1,10 @@
-// Writes a character's materials into a glTF document. Private to cage/gltf/.
+// Writes a character's materials into a glTF document. Private to tools/gltf/.
 #pragma once
 
 #include "cage/character.h"
-#include "cage/gltf/packer.h"
-#include "cage/gltf/written_json.h"
 #include "cage/message.h"
+#include "tools/gltf/packer.h"
+#include "tools/gltf/written_json.h"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "cage/gltf/material_writer.h"
+#include "tools/gltf/material_writer.h"
 
 #include "cage/gltf/image_header.h"
 

@@ -1,8 +1,8 @@
-// The mesh of a GLB that is being written. Private to cage/gltf/.
+// The mesh of a GLB that is being written. Private to tools/gltf/.
 #pragma once
 
-#include "cage/gltf/packer.h"
-#include "cage/gltf/writer.h"
+#include "tools/gltf/packer.h"
+#include "tools/gltf/writer.h"
 
 #include <glm/glm.hpp>
 #include <span>

@@ -1,4 +1,4 @@
-#include "cage/gltf/still_mesh_writer.h"
+#include "tools/gltf/still_mesh_writer.h"
 
 #include "cage/materials.h"
 

@@ -1,4 +1,4 @@
-#include "cage/gltf/mesh_writer.h"
+#include "tools/gltf/mesh_writer.h"
 
 #include "cage/limits.h"
 #include "cage/materials.h"

@@ -1,7 +1,7 @@
-// The binary side of a GLB that is being written: arrays become bufferViews and accessors. Private to cage/gltf/.
+// The binary side of a GLB that is being written: arrays become bufferViews and accessors. Private to tools/gltf/.
 #pragma once
 
-#include "cage/gltf/written_json.h"
+#include "tools/gltf/written_json.h"
 
 #include <cstddef>
 #include <cstdint>

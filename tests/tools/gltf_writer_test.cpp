@@ -1,4 +1,4 @@
-#include "cage/gltf/writer.h"
+#include "tools/gltf/writer.h"
 
 #include "cage/formats/reader.h"
 #include "cage/obj/reader.h"

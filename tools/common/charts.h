@@ -1,4 +1,4 @@
-// Charts of a report, as SVG that stands inside a page: its colors are the page's (var(--c0), var(--ink), ..).
+// Charts as SVG. They stand inside a page, whose colors they take (var(--c0), var(--ink), ..), or alone as a file.
 #pragma once
 
 #include <cstddef>
@@ -31,13 +31,18 @@ struct Histogram {
 };
 [[nodiscard]] std::string toSvg(const Histogram& chart);
 
-/// Lines over a quantity that was swept; both axes are logarithmic.
-struct SweepLines {
-    std::string xName, unit;
-    std::vector<double> x;
-    std::vector<ChartSeries> series; ///< a value for each x
+/// Lines over columns. Series are named beside their last points. A chart of less than two columns is empty.
+struct LineChart {
+    std::string title; ///< may be empty
+    std::string unit;  ///< of the values
+    std::string xName; ///< may be empty
+    std::vector<std::string> labels;
+    std::vector<double> x;           ///< where columns stand, logarithmically, rising from above 0; or empty: evenly
+    std::vector<ChartSeries> series; ///< a value for each label; not finite or not above 0: no point there
+    bool logarithmic = false;        ///< the values' axis
+    double height = 250.0;           ///< below the title; the width of all charts is 900
 };
-[[nodiscard]] std::string toSvg(const SweepLines& chart);
+[[nodiscard]] std::string toSvg(const LineChart& chart);
 
 /// One bar, cut into shares.
 struct ShareBar {
@@ -49,6 +54,15 @@ struct ShareBar {
 inline constexpr size_t kChartColors = 10;
 /// The class of a series in the page's style sheet.
 [[nodiscard]] std::string colorClass(size_t series);
+/// The colors on white, as CSS declares them: --c0 to --c9, --ink, --soft, --grid, --mark and --paper. A page may
+/// declare others beside them, for the dark.
+[[nodiscard]] std::string lightChartColors();
+/// The rules for charts, which take these colors.
+[[nodiscard]] std::string chartRules();
+
+/// The chart as a file of its own, on white: with its rules and colors inside.
+[[nodiscard]] std::string standalone(const std::string& svg);
+
 /// & < > " as HTML has them.
 [[nodiscard]] std::string escaped(const std::string& text);
 

@@ -1,4 +1,4 @@
-#include "cage/procedural.h"
+#include "tools/common/procedural.h"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,9 @@
-// A mesh that nothing deforms, of a GLB that is being written. Private to cage/gltf/.
+// A mesh that nothing deforms, of a GLB that is being written. Private to tools/gltf/.
 #pragma once
 
-#include "cage/gltf/packer.h"
-#include "cage/gltf/writer.h"
 #include "cage/still_mesh.h"
+#include "tools/gltf/packer.h"
+#include "tools/gltf/writer.h"
 
 namespace supple::cage::gltf {
 

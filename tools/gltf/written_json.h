@@ -1,4 +1,4 @@
-// JSON of a glTF file that is written. Private to cage/gltf/.
+// JSON of a glTF file that is written. Private to tools/gltf/.
 #pragma once
 
 #include <nlohmann/json.hpp>
