@@ -119,11 +119,11 @@ void Timings::cancelFrame() {
     current_->timers.clear();
 }
 
-Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount) {
+Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount) {
     Recording recording;
     if (timestamps_) {
         const auto wanted = static_cast<uint32_t>(
-            std::min<uint64_t>(uint64_t{surfaceCount} * kMostEntries, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+            std::min<uint64_t>(uint64_t{surfaceCount} * (kMostEntries + stageCount), uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
         if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
             return recording;
         }

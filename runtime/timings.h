@@ -39,10 +39,10 @@ enum class Pass : uint32_t {
 };
 inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
 [[nodiscard]] const char* passName(Pass pass);
-/// The most entries that a group can have in a frame, for each of its surfaces. Pose comes up to three times, bounds
-/// again for occlusion, level for patches, deform for several surfaces, and attributes if some of these have levels and
-/// others rates.
-inline constexpr size_t kMostEntries = kPassCount + 6;
+/// The most entries that a group can have in a frame, for each of its surfaces, beside one for every cage stage. Pose
+/// comes up to three times, bounds again for occlusion, level for patches, and attributes if some surfaces have levels
+/// and others rates.
+inline constexpr size_t kMostEntries = kPassCount + 4;
 
 class Timings {
 public:
@@ -78,7 +78,7 @@ public:
         std::chrono::steady_clock::time_point passBegin_;
     };
     /// Makes room for as many passes as groups can have that have so many surfaces together.
-    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount);
+    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount);
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }

@@ -107,8 +107,8 @@ typedef struct SuppleContext_T* SuppleContext;
 typedef struct SuppleAsset {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleAsset;
-/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to no
- * context. */
+/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to
+ * no context. */
 typedef struct SupplePrepared_T* SupplePrepared;
 /** Instances of one asset with one scheme (SuppleScheme) and the same options. They go through each pass together. */
 typedef struct SuppleGroup {
@@ -260,8 +260,8 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
-/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order and
- * on any threads. It returns when all of these calls have returned. It must not call Supple. */
+/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order
+ * and on any threads. It returns when all of these calls have returned. It must not call Supple. */
 typedef void (*SuppleRunJobsFunction)(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData,
                                       void* user);
 
@@ -288,10 +288,11 @@ typedef struct SuppleContextDesc {
     const void* enabledFeatures;
     const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
-    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups call
-     * it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver and
-     * debug messengers at the same time, and pipelineCache must not be VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED.
-     * If a job is not run, the call that needs it fails with SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
+    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups
+     * call it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver
+     * and debug messengers at the same time, and pipelineCache must not be
+     * VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED. If a job is not run, the call that needs it fails with
+     * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
 } SuppleContextDesc;
@@ -389,8 +390,8 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything is
- * copied before the call returns.
+/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything
+ * is copied before the call returns.
  *
  * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
  * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
@@ -1011,6 +1012,11 @@ typedef struct SuppleRecordDesc {
      * barrier follows the passes, and the host must place its own. With SUPPLE_CONTEXT_ASYNC_COMPUTE neither scope has
      * the draws of drawQueueFamily: semaphores and suppleGetAcquireBarriers are for these. */
     SuppleSyncScope after;
+    /** The host's time in seconds, within plus or minus SUPPLE_MAX_TIME: the same for all groups of a frame. What moves
+     * by itself, with what it remembers of each instance, gets the time that has passed since the group was recorded
+     * last. If the time has not risen since then, it stands still. Nothing in this version moves by itself, so it may
+     * be 0. Clips play by suppleSetTime. */
+    double time;
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
@@ -1155,8 +1161,8 @@ typedef struct SuppleVertexStreams {
      * to the normal, in octahedral coordinates (x in snorm16 in the low half, y in the 15 bits above), and the sign w
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
-     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map whose
-     * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
+     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map
+     * whose green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
      * (suppleSetTransform) keeps w: negate it. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
@@ -1241,19 +1247,19 @@ SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup g
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,   /**< 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1, /**< 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,     /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,        /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,        /**< 25 */
-    SUPPLE_PATCH_P5 = 5,        /**< 31 */
-    SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
-    SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
-    SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
-    SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
+    SUPPLE_PATCH_REGULAR = 0,          /**< 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1,        /**< 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,            /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,               /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,               /**< 25 */
+    SUPPLE_PATCH_P5 = 5,               /**< 31 */
+    SUPPLE_PATCH_FRAGMENT = 6,         /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_LOOP = 7,             /**< none, LOOP by refinement: a quarter of a triangle */
+    SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11,       /**< none, CATMULL_CLARK: a quad of leaves */
+    SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
     SUPPLE_PATCH_CREASED = 13,
     SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
