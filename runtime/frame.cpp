@@ -232,7 +232,7 @@ struct Work {
 };
 
 struct Row {
-    Pass pass;
+    SupplePass pass;
     bool (*wants)(Group&);
     Work work;
     Behind behind = Behind::compute;
@@ -240,32 +240,33 @@ struct Row {
 };
 
 constexpr Row kPasses[] = {
-    {Pass::upload, always, recordUpload, Behind::uploads},
-    {Pass::attributes, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
-    {Pass::pose, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
-    {Pass::pose, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
-    {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
-    {Pass::deform, always, {}},
-    {Pass::bounds, hasBounds, recordBounds, Behind::bounds},
-    {Pass::bounds, readsBounds, recordBoundsReadback, Behind::readback, false},
-    {Pass::bounds,
+    {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::uploads},
+    {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
+    {SUPPLE_PASS_DEFORM, always, {}},
+    {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
+    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false},
+    {SUPPLE_PASS_BOUNDS,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
      recordOcclusion},
-    {Pass::bounds, isInView, recordSizes, Behind::nothing, false},
-    {Pass::list, isInView, recordList, Behind::arguments},
-    {Pass::vertex, constructs<Stage::vertex>, recordStage<Stage::vertex>},
-    {Pass::assemble, constructs<Stage::assemble>, recordStage<Stage::assemble>},
-    {Pass::patch, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>, Behind::nothing},
-    {Pass::level, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
-    {Pass::level, isInView, recordPatchLevels},
-    {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
-    {Pass::place, isInView, recordPlaces, Behind::places},
-    {Pass::place, isInView, recordReadback, Behind::readback, false},
-    {Pass::assemble, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
-    {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
+    {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::nothing, false},
+    {SUPPLE_PASS_LIST, isInView, recordList, Behind::arguments},
+    {SUPPLE_PASS_VERTEX, constructs<Stage::vertex>, recordStage<Stage::vertex>},
+    {SUPPLE_PASS_ASSEMBLE, constructs<Stage::assemble>, recordStage<Stage::assemble>},
+    {SUPPLE_PASS_PATCH, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>,
+     Behind::nothing},
+    {SUPPLE_PASS_LEVEL, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
+    {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
+    {SUPPLE_PASS_SOLVE, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
+    {SUPPLE_PASS_PLACE, isInView, recordPlaces, Behind::places},
+    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},
+    {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
+    {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
-    {Pass::evaluate, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
-    {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
+    {SUPPLE_PASS_EVALUATE, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
+    {SUPPLE_PASS_MOTION, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
      Behind::nothing},
 };
 
@@ -321,7 +322,7 @@ void recordBarrier(const Frame& frame, Behind behind) {
 
 /// Times what a pass records of a group.
 struct Timed {
-    Pass pass;
+    SupplePass pass;
     Timings::Recording& timing;
 
     template <class Record>

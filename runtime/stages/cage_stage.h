@@ -87,7 +87,7 @@ public:
 };
 
 struct CageStageRow {
-    Pass pass;               ///< its label, and the timings that it counts in
+    SupplePass pass;         ///< its label, and the timings that it counts in
     bool perSurface = false; ///< recorded for each surface of a group, else once
     /// Whether a group has the stage.
     bool (*wants)(const CageStageDesc&);

@@ -15,6 +15,6 @@ struct DeformKernels final : CageKernels {
 [[nodiscard]] bool wantsDeform(const CageStageDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels);
 
-inline constexpr CageStageRow kDeformRow{Pass::deform, false, wantsDeform, makeDeformKernels, makeDeform};
+inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM, false, wantsDeform, makeDeformKernels, makeDeform};
 
 } // namespace supple::runtime

@@ -8,6 +8,6 @@ namespace supple::runtime {
 [[nodiscard]] bool wantsGather(const CageStageDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels);
 
-inline constexpr CageStageRow kGatherRow{Pass::deform, true, wantsGather, makeDeformKernels, makeGather};
+inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM, true, wantsGather, makeDeformKernels, makeGather};
 
 } // namespace supple::runtime

@@ -1,5 +1,7 @@
 #include "runtime/stages/instance_state.h"
 
+#include <algorithm>
+
 namespace supple::runtime {
 
 Status InstanceState::create(const gpu::Device& device, uint32_t capacity, VkDeviceSize bytes, const char* name) {
@@ -44,6 +46,7 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
         return count * bytes_;
     };
     VkDeviceSize written = 0;
+    std::span<const uint32_t> slots = frame.newSlots;
     if (start_.due()) {
         start_.record(frame.number);
         if (moved_ != nullptr && movedCount_ > 0) {
@@ -51,14 +54,15 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
             written += movedCount_ * bytes_;
         }
         written += zero(movedCount_, capacity_ - movedCount_);
-        if (!frame.newSlots.empty() && frame.newSlots.front() < movedCount_) {
+        // Of those that have moved, some may be new since then.
+        slots = slots.first(static_cast<size_t>(std::ranges::lower_bound(slots, movedCount_) - slots.begin()));
+        if (!slots.empty()) {
             gpu::memoryBarrier(*device_, frame.commands,
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
         }
     }
     // Slots side by side at once.
-    const std::span<const uint32_t> slots = frame.newSlots;
     for (size_t first = 0, end = 0; first < slots.size(); first = end) {
         while (end < slots.size() && slots[end] - slots[first] == end - first) {
             ++end;

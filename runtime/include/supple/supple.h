@@ -91,7 +91,7 @@ extern "C" {
 #define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
 #define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
-#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see suppleGetTimingSurfaces */
+#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see SuppleTiming.surface */
 #define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
@@ -1285,37 +1285,62 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /* ---------------------------------------------------------------------------------------------------- timings */
 
+/** The passes of a frame. Later versions may add some, with new numbers. */
+typedef enum SupplePass {
+    SUPPLE_PASS_ALL = 0, /**< suppleSetBudget: all passes together. No timing has it */
+    SUPPLE_PASS_UPLOAD = 1,
+    SUPPLE_PASS_ATTRIBUTES = 2,
+    SUPPLE_PASS_POSE = 3,
+    SUPPLE_PASS_DEFORM = 4,
+    SUPPLE_PASS_BOUNDS = 5,
+    SUPPLE_PASS_LIST = 6,
+    SUPPLE_PASS_VERTEX = 7,
+    SUPPLE_PASS_ASSEMBLE = 8,
+    SUPPLE_PASS_PATCH = 9,
+    SUPPLE_PASS_LEVEL = 10,
+    SUPPLE_PASS_SOLVE = 11,
+    SUPPLE_PASS_PLACE = 12,
+    SUPPLE_PASS_EVALUATE = 13,
+    SUPPLE_PASS_MOTION = 14,
+    SUPPLE_PASS_SHORTFALL = 15, /**< no pass: see SuppleTiming.pass */
+    SUPPLE_PASS_MAX_ENUM = 0x7FFFFFFF
+} SupplePass;
+
+/** The name of a pass, in static storage: "deform", for example. */
+SUPPLE_API const char* suppleGetPassName(SupplePass pass);
+
 /** What a pass cost, for one group and frame. Its time is that from the end of what was recorded before it to its own
  * end, so it includes the barrier before it. Draws of the host are in no pass, also if they are in the same command
  * buffer. On a GPU, work of the host that runs at the same time takes its share of the device. */
 typedef struct SuppleTiming {
-    /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
-     * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
-     * it as well), list, level (twice), solve (once per view) and place; and assemble once more, with the levels of
-     * chains that views ask for, if patches of catmull-clark or loop have chains. If a group has several surfaces,
-     * passes that work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each.
-     * An entry `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was
-     * not enough (SuppleViewStatistics.shortfall). */
-    const char* pass;
+    /** Upload, attributes, pose (up to three times), deform, vertex, assemble, patch, evaluate, motion. Groups of a
+     * view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level
+     * (twice), solve (once per view) and place; and assemble once more, with the levels of chains that views ask for,
+     * if patches of catmull-clark or loop have chains. If a group has several surfaces, passes that work on surfaces
+     * have an entry for each, and deform has one more for each. An entry SHORTFALL is no pass and takes no time. It
+     * follows solve only in frames in which the view's budget was not enough (SuppleViewStatistics.shortfall). */
+    SupplePass pass;
+    /** The surface of the group that the entry is about: SuppleSurfaceInfo has its parts. Parts of one surface go
+     * through each pass together, so there are no times for each of them. SUPPLE_NO_SURFACE: the whole group. */
+    uint32_t surface;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 if the queue has no timestamps */
     double gpuEnd;
     double cpuRecord; /**< nanoseconds of CPU time for recording the pass */
     /** How many elements the pass wrote, and how many bytes. Both are 0 if only the device knows, as in groups of a
-     * view: SuppleViewStatistics has what the whole view wrote. `shortfall`: how many instances are missing, and how
+     * view: SuppleViewStatistics has what the whole view wrote. SHORTFALL: how many instances are missing, and how
      * many bytes of surface vertices had no room. Missing instances count at their coarsest. */
     uint64_t points;
     uint64_t bytes; /**< see points */
 } SuppleTiming;
 
-/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
- * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
-SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
-/** The surface of its group that each entry of suppleGetTimings is about, in the same order: SuppleSurfaceInfo has its
- * parts. SUPPLE_NO_SURFACE: the entry is about the whole group. Parts of one surface go through each pass together, so
- * there are no times for each of them. Fills out and count. SUPPLE_NOT_READY as suppleGetTimings. Never waits. */
-SUPPLE_API SuppleResult suppleGetTimingSurfaces(SuppleContext context, uint32_t* out, uint32_t* count);
+/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. timingSize is
+ * sizeof(SuppleTiming): entries are as many bytes apart. The struct may grow in later versions: a caller of an older
+ * one gets what it knows. Fills out and count. SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits.
+ * Errors: timingSize is of no version. */
+SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, uint32_t timingSize, SuppleTiming* out,
+                                         uint32_t* count);
 /** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. It stays as long as the context
  * does. With VK_EXT_calibrated_timestamps a host lays the timings beside its own clock (docs/profiling.md).
  * SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. Never waits. */
@@ -1331,13 +1356,13 @@ typedef struct SuppleBudget {
     uint64_t framesOver;     /**< measured frames above the limit */
 } SuppleBudget;
 
-/** Gives a pass a limit in nanoseconds of GPU time per frame, for all groups together. pass is a name as in
- * SuppleTiming, or null for all passes together. 0 removes the limit. If a measured frame exceeds it and the one before
- * did not, Supple logs a warning (SUPPLE_MESSAGE_BUDGET). The first frame of a group also uploads its tables, so set
- * budgets after it. Errors: no such pass; nanoseconds is negative or not finite. */
-SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, const char* pass, double nanoseconds);
+/** Gives a pass a limit in nanoseconds of GPU time per frame, for all groups together. 0 removes the limit. If a
+ * measured frame exceeds it and the one before did not, Supple logs a warning (SUPPLE_MESSAGE_BUDGET). The first frame
+ * of a group also uploads its tables, so set budgets after it. Errors: no such pass; nanoseconds is negative or not
+ * finite. */
+SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, SupplePass pass, double nanoseconds);
 /** Fills out. SUPPLE_NOT_READY: the pass has no budget. */
-SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, const char* pass, SuppleBudget* out);
+SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, SupplePass pass, SuppleBudget* out);
 
 /* ---------------------------------------------------------------------------------------------------- memory */
 
