@@ -39,7 +39,7 @@ MemoryUse StaticBuffers::use() const {
     return use;
 }
 
-VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+VkDeviceSize StaticBuffers::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (recorded_) {
         return 0;
     }
@@ -57,13 +57,13 @@ VkDeviceSize StaticBuffers::recordUpload(VkCommandBuffer commandBuffer, uint64_t
     return bytes;
 }
 
-void StaticBuffers::cancelUpload(uint64_t frame) {
+void StaticBuffers::cancelFrame(uint64_t frame) {
     if (recorded_ && !released_ && recordedFrame_ == frame) {
         recorded_ = false;
     }
 }
 
-void StaticBuffers::releaseStaging(uint64_t completedFrame) {
+void StaticBuffers::beginFrame(uint64_t completedFrame) {
     if (!recorded_ || released_ || recordedFrame_ > completedFrame) {
         return;
     }

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include "gpu/frame_member.h"
 #include "gpu/memory.h"
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct StaticRequest {
     std::span<const std::byte> bytes; ///< copied to staging memory at once
 };
 
-class StaticBuffers {
+class StaticBuffers final : public FrameMember {
 public:
     [[nodiscard]] static Result<StaticBuffers> create(const Device& device, std::span<const StaticRequest> requests);
 
@@ -26,13 +27,12 @@ public:
     [[nodiscard]] MemoryUse use() const;
     [[nodiscard]] bool empty() const { return count_ == 0; }
 
-    /// Records the copies if that has not been done; returns the bytes copied. The caller puts the barrier after it.
-    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
-    [[nodiscard]] bool uploadPending() const { return count_ > 0 && !recorded_; }
-    /// The command buffers of `frame` will never run: what was recorded in it is due again.
-    void cancelUpload(uint64_t frame);
+    [[nodiscard]] bool staticsPending() const override { return count_ > 0 && !recorded_; }
+    /// Records the copies if that has not been done; returns the bytes copied.
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    void cancelFrame(uint64_t frame) override;
     /// Frees the staging memory once the frame that uploaded is complete.
-    void releaseStaging(uint64_t completedFrame);
+    void beginFrame(uint64_t completedFrame) override;
 
 private:
     const Device* owner_ = nullptr;

@@ -47,8 +47,10 @@ gpu::RunJobs runJobsOf(const SuppleContextDesc& desc) {
 
 } // namespace
 
-Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders) {
+Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders,
+                                                 std::span<const CageStageRow> stages) {
     auto context = std::make_unique<Context>();
+    context->stages_ = CageStageTable(stages);
     context->log_ = desc.log;
     context->logUser_ = desc.logUser;
     context->framesInFlight_ = desc.framesInFlight == 0 ? 2 : desc.framesInFlight;
@@ -80,11 +82,6 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     const gpu::Device& d = *context->device_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
 
-    Result<skinning::DeformPass> deform = skinning::DeformPass::create(d, *context->pipelines_);
-    if (!deform) {
-        return deform.error();
-    }
-    context->deform_ = std::move(*deform);
     Result<surface::Passes> passes = surface::Passes::create(d, *context->pipelines_, shaders);
     if (!passes) {
         return passes.error();
@@ -225,34 +222,34 @@ void Context::forViews(F&& visit) {
     }
 }
 
+template <class F>
+void Context::forMembers(F&& visit) {
+    visit(pairs_);
+    groups.forEach(visit);
+    forViews(visit);
+    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
+    for (const Retired<Group>& group : retired_) {
+        visit(*group.object);
+    }
+}
+
 Status Context::cancelFrame() {
     if (Status open = checkOpen("suppleCancelFrame"); !open) {
         return open;
     }
     frameOpen_ = false;
-    pairs_.cancelUpload(frame_);
-    groups.forEach([this](Group& group) { group.cancelFrame(frame_); });
-    forViews([this](View& view) { view.cancelFrame(frame_); });
-    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
-    for (const Retired<Group>& group : retired_) {
-        group.object->cancelFrame(frame_);
-    }
+    forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
     timings.cancelFrame();
     return success();
 }
 
 void Context::retire(uint64_t completedFrame) {
     std::erase_if(retired_, [&](const Retired<Group>& group) { return group.lastFrame <= completedFrame; });
-    forViews([&](View& view) {
-        view.beginFrame(completedFrame);
-        view.releaseStaging(completedFrame);
-    });
     // Those that groups still use stay, as groups may be recorded again.
     std::erase_if(retiredViews_, [&](const Retired<View>& view) {
         return view.object.use_count() == 1 && view.lastFrame <= completedFrame;
     });
-    pairs_.releaseStaging(completedFrame);
-    groups.forEach([&](Group& group) { group.beginFrame(completedFrame); });
+    forMembers([&](gpu::FrameMember& member) { member.beginFrame(completedFrame); });
 }
 
 void Context::tellWarnings(const cage::Character& character) const {
@@ -338,7 +335,8 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;
     GroupShared shared;
     shared.device = device_.get();
-    shared.deform = &deform_;
+    shared.pipelines = pipelines_.get();
+    shared.stages = &stages_;
     shared.pose = pose_.get();
     shared.surface = &surface_;
     shared.pairs = &pairs_;

@@ -9,7 +9,6 @@
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
 #include "runtime/view.h"
-#include "skinning/deform_pass.h"
 #include "skinning/pose_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
@@ -33,9 +32,10 @@ public:
     Context() = default;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
-    /// `shaders`: tests put mutated code in.
+    /// `shaders`, `stages`: tests put mutated code and stages of their own in. `stages` must outlive the context.
     [[nodiscard]] static Result<std::unique_ptr<Context>>
-    create(const SuppleContextDesc& desc, const surface::Shaders& shaders = surface::Shaders::embedded());
+    create(const SuppleContextDesc& desc, const surface::Shaders& shaders = surface::Shaders::embedded(),
+           std::span<const CageStageRow> stages = cageStageRows());
 
     void log(SuppleSeverity severity, SuppleMessage message, const std::string& text) const;
     /// Once the device is lost, nothing that needs it is tried again.
@@ -108,6 +108,8 @@ private:
     [[nodiscard]] Status prepareBounds(); ///< sees to it that bounds_ is there
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
+    template <class F>
+    void forMembers(F&& visit); ///< all that takes part in frames (gpu::FrameMember), those in flight too
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
     [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
     /// Why a group that follows another cannot be recorded; null if it can.
@@ -132,7 +134,6 @@ private:
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
-    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, Group& group);
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
@@ -145,7 +146,7 @@ private:
     glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
-    skinning::DeformPass deform_;
+    CageStageTable stages_;
     std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view or group with bounds
     std::unique_ptr<OcclusionPass> occlusion_; ///< and by the first with occlusion
     std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device

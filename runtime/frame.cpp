@@ -35,6 +35,7 @@ struct Frame {
     VkCommandBuffer commands;
     uint64_t number = 0;
     uint32_t framesInFlight = 2;
+    double time = 0.0;       ///< the host's, in seconds
     Group* groups = nullptr; ///< linked (Group::Link)
     Context& context;
 
@@ -66,7 +67,7 @@ struct Frame {
 
 PassCost recordUpload(const Frame& frame, Group& group) {
     const VkDeviceSize statics = frame.context.recordPendingStatics(frame.commands, group);
-    PassCost cost = group.recordUpload(frame.commands, frame.number, frame.context.origin());
+    PassCost cost = group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin()});
     cost.bytes += statics;
     if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
         cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
@@ -96,10 +97,6 @@ bool poses(Group& group) {
 template <Playback::Part part>
 PassCost recordPose(const Frame& frame, Group& group) {
     return poses<part>(group) ? group.poses().recordPart(frame.commands, part, group.windows()) : PassCost{};
-}
-
-PassCost recordDeform(const Frame& frame, Group& group) {
-    return group.recordDeform(frame.commands);
 }
 
 PassCost recordBounds(const Frame& frame, Group& group) {
@@ -222,17 +219,20 @@ bool constructs(Group& group) {
 /// What stands behind a pass: who may read what it wrote.
 enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, directions, scratch };
 
-/// What a pass records: for every group, or for every surface of it.
+/// What a pass records: for every group, or for every surface of it. Nothing: it stands for the table of cage stages
+/// (runtime/stages/cage_stages.h).
 struct Work {
+    constexpr Work() = default;
     constexpr Work(PassCost (*record)(const Frame&, Group&)) : ofGroup(record) {}          // NOLINT
     constexpr Work(PassCost (*record)(const Frame&, Tessellation&)) : ofSurface(record) {} // NOLINT
 
     PassCost (*ofGroup)(const Frame&, Group&) = nullptr;
     PassCost (*ofSurface)(const Frame&, Tessellation&) = nullptr;
+    [[nodiscard]] constexpr bool isCageStages() const { return ofGroup == nullptr && ofSurface == nullptr; }
 };
 
 struct Row {
-    Pass pass;
+    SupplePass pass;
     bool (*wants)(Group&);
     Work work;
     Behind behind = Behind::compute;
@@ -240,33 +240,33 @@ struct Row {
 };
 
 constexpr Row kPasses[] = {
-    {Pass::upload, always, recordUpload, Behind::uploads},
-    {Pass::attributes, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
-    {Pass::pose, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
-    {Pass::pose, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
-    {Pass::pose, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
-    {Pass::deform, always, recordDeform},
-    {Pass::deform, anySurface<&Tessellation::gathers>, recordSurface<&Tessellation::recordGather>},
-    {Pass::bounds, hasBounds, recordBounds, Behind::bounds},
-    {Pass::bounds, readsBounds, recordBoundsReadback, Behind::readback, false},
-    {Pass::bounds,
+    {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::uploads},
+    {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
+    {SUPPLE_PASS_DEFORM, always, {}},
+    {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
+    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false},
+    {SUPPLE_PASS_BOUNDS,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
      recordOcclusion},
-    {Pass::bounds, isInView, recordSizes, Behind::nothing, false},
-    {Pass::list, isInView, recordList, Behind::arguments},
-    {Pass::vertex, constructs<Stage::vertex>, recordStage<Stage::vertex>},
-    {Pass::assemble, constructs<Stage::assemble>, recordStage<Stage::assemble>},
-    {Pass::patch, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>, Behind::nothing},
-    {Pass::level, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
-    {Pass::level, isInView, recordPatchLevels},
-    {Pass::solve, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
-    {Pass::place, isInView, recordPlaces, Behind::places},
-    {Pass::place, isInView, recordReadback, Behind::readback, false},
-    {Pass::assemble, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
-    {Pass::attributes, anySurface<&Tessellation::writesLevelAttributes>,
+    {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::nothing, false},
+    {SUPPLE_PASS_LIST, isInView, recordList, Behind::arguments},
+    {SUPPLE_PASS_VERTEX, constructs<Stage::vertex>, recordStage<Stage::vertex>},
+    {SUPPLE_PASS_ASSEMBLE, constructs<Stage::assemble>, recordStage<Stage::assemble>},
+    {SUPPLE_PASS_PATCH, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>,
+     Behind::nothing},
+    {SUPPLE_PASS_LEVEL, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
+    {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
+    {SUPPLE_PASS_SOLVE, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
+    {SUPPLE_PASS_PLACE, isInView, recordPlaces, Behind::places},
+    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},
+    {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
+    {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
-    {Pass::evaluate, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
-    {Pass::motion, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
+    {SUPPLE_PASS_EVALUATE, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
+    {SUPPLE_PASS_MOTION, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
      Behind::nothing},
 };
 
@@ -320,30 +320,67 @@ void recordBarrier(const Frame& frame, Behind behind) {
     }
 }
 
+/// Times what a pass records of a group.
+struct Timed {
+    SupplePass pass;
+    Timings::Recording& timing;
+
+    template <class Record>
+    void operator()(const Group& group, uint32_t surface, Record&& record) const {
+        timing.beginPass();
+        const PassCost cost = record();
+        if (cost.bytes > 0 || cost.onDevice) {
+            timing.endPass(pass, group.link.handle, surface, cost);
+        }
+    }
+};
+
 void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
     if (row.timed) {
         frame.device.beginLabel(frame.commands, passName(row.pass));
     }
+    const Timed timed{row.pass, timing};
     frame.forEach([&](Group& group) {
-        const auto time = [&](uint32_t surface, auto&& record) {
-            timing.beginPass();
-            const PassCost cost = record();
-            if (cost.bytes > 0 || cost.onDevice) {
-                timing.endPass(row.pass, group.link.handle, surface, cost);
-            }
-        };
         if (row.work.ofGroup != nullptr) {
-            time(SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); });
+            timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); });
             return;
         }
         for (uint32_t surface = 0; surface < group.surfaces().size(); ++surface) {
-            time(surface, [&] { return row.work.ofSurface(frame, group.surfaces()[surface]); });
+            timed(group, surface, [&] { return row.work.ofSurface(frame, group.surfaces()[surface]); });
         }
     });
     if (row.timed) {
         frame.device.endLabel(frame.commands);
     }
     recordBarrier(frame, row.behind);
+}
+
+void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
+    frame.device.beginLabel(frame.commands, passName(row.pass));
+    const Timed timed{row.pass, timing};
+    frame.forEach([&](Group& group) {
+        const auto record = [&](uint32_t surface) {
+            timed(group, surface, [&] { return group.stages().record(frame.commands, stage, surface); });
+        };
+        const auto surfaces = static_cast<uint32_t>(group.surfaces().size());
+        for (uint32_t surface = 0; row.perSurface && surface < surfaces; ++surface) {
+            record(surface);
+        }
+        if (!row.perSurface) {
+            record(SUPPLE_NO_SURFACE);
+        }
+    });
+    frame.device.endLabel(frame.commands);
+    frame.computeBarrier();
+}
+
+/// The stages that some group has, each a pass of its own.
+void recordCageStages(const Frame& frame, std::span<const CageStageRow> rows, Timings::Recording& timing) {
+    for (size_t stage = 0; stage < rows.size(); ++stage) {
+        if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
+            recordCageStage(frame, stage, rows[stage], timing);
+        }
+    }
 }
 
 } // namespace
@@ -409,14 +446,9 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
     return first;
 }
 
-VkDeviceSize Context::recordStatics(VkCommandBuffer commandBuffer, Group& group) {
-    const VkDeviceSize ofView = group.view() != nullptr ? group.view()->recordStatics(commandBuffer, frame_) : 0;
-    return pairs_.recordUpload(commandBuffer, frame_) + ofView + group.recordStatics(commandBuffer, frame_);
-}
-
 VkDeviceSize Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
     const std::scoped_lock lock(uploads_);
-    return group.staticsPending() ? recordStatics(commandBuffer, group) : 0;
+    return group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -427,7 +459,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
     bool recorded = false;
     groups.forEach([&](Group& group) {
         if (group.staticsPending()) {
-            recordStatics(commandBuffer, group);
+            group.recordStatics(commandBuffer, frame_);
             recorded = true;
         }
     });
@@ -456,7 +488,9 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
                                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
     gpu::memoryBarrier(*device_, commandBuffer, kAll, kFirst);
     for (const SuppleGroup& handle : wanted) {
-        groups.find(handle.id)->recordWarmUp(commandBuffer, frame_);
+        Group& group = *groups.find(handle.id);
+        group.noteRecorded(frame_);
+        group.recordWarmUp(commandBuffer);
     }
     gpu::memoryBarrier(*device_, commandBuffer, kFirst, kAll);
     return success();
@@ -471,7 +505,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return linked.error();
     }
     const gpu::Device& device = *device_;
-    const Frame frame{device, commandBuffer, frame_, framesInFlight_, *linked, *this};
+    const Frame frame{device, commandBuffer, frame_, framesInFlight_, desc.time, *linked, *this};
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
@@ -482,10 +516,12 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;
         frame.forEach([&](Group& group) { surfaces += static_cast<uint32_t>(group.surfaces().size()); });
-        timing = timings.open(commandBuffer, surfaces);
+        timing = timings.open(commandBuffer, surfaces, static_cast<uint32_t>(stages_.rows().size()));
     }
     for (const Row& row : kPasses) {
-        if (row.wants == always || frame.any(row.wants)) {
+        if (row.work.isCageStages()) {
+            recordCageStages(frame, stages_.rows(), timing);
+        } else if (row.wants == always || frame.any(row.wants)) {
             recordPass(frame, row, timing);
         }
     }

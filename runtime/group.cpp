@@ -54,7 +54,6 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     TessellationDesc tessellation;
     tessellation.device = shared.device;
     tessellation.passes = shared.surface;
-    tessellation.deform = shared.deform;
     tessellation.bounds = shared.bounds;
     tessellation.pairs = shared.pairs;
     tessellation.view = shared.view;
@@ -72,6 +71,11 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->desc_.blend = nullptr;
     group->desc_.partSchemes = nullptr;
     Status status = group->createInstances(shared);
+    const bool deforms = shared.instances == nullptr && desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
+    status = status ? group->stages_.create(*shared.stages, *shared.pipelines,
+                                            {shared.device, group->asset_.get(), &group->desc_, group->instances_.get(),
+                                             &group->surfaces_, shared.framesInFlight, deforms})
+                    : status;
     status = status ? group->createListing(shared) : status;
     status = status ? group->createRest(shared) : status;
     if (!status) {
@@ -93,6 +97,7 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
     group.origin_ = origin_;
     if (!follows()) {
         group.instances_->takeOver(*instances_, match);
+        group.stages_.takeOver(stages_, slots().end(), match);
     }
     return made;
 }
@@ -109,8 +114,8 @@ Status Group::createInstances(const GroupShared& shared) {
         return success();
     }
     Result<std::shared_ptr<InstanceSet>> instances =
-        InstanceSet::create({shared.device, shared.deform, shared.pose, asset_, desc_.poseSource, skinningOf(desc_),
-                             desc_.capacity, shared.firstGeneration, shared.framesInFlight, shared.handsOver});
+        InstanceSet::create({shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
+                             shared.firstGeneration, shared.framesInFlight, shared.handsOver});
     if (!instances) {
         return instances.error();
     }
@@ -128,7 +133,7 @@ Status Group::createListing(const GroupShared& shared) {
                                            "capacity is " +
                                            std::to_string(device.limits.maxTexelBufferElements / lists)};
     }
-    const BoundBytes bound = surfaces_.boundBytes();
+    const BoundBytes bound = surfaces_.boundBytes().with(stages_.boundBytes());
     Result<InstanceWindows> windows =
         InstanceWindows::layOut(device, capacity, bound.with(instances_->boundBytes(false)));
     if (windows && windows->count() > 1) {
@@ -147,8 +152,7 @@ Status Group::createListing(const GroupShared& shared) {
 }
 
 Status Group::createRest(const GroupShared& shared) {
-    const bool gathers = surfaces_.any([](const Tessellation& surface) { return surface.gathers(); });
-    Status status = gathers ? shared.deform->prepareGather() : success();
+    Status status = success();
     for (const auto& surface : surfaces_) {
         status = status ? surface->join(windows()) : status;
     }
@@ -158,6 +162,7 @@ Status Group::createRest(const GroupShared& shared) {
 
     gpu::BufferPlan device(buffers_), staging(staging_);
     listing_.plan(device, staging, shared.framesInFlight);
+    stages_.plan(device, staging);
     for (const auto& surface : surfaces_) {
         surface->plan(device, staging);
     }
@@ -169,12 +174,38 @@ Status Group::createRest(const GroupShared& shared) {
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
     status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
+    status = status ? stages_.createSets(instances_->cages(), listing_) : status;
     status = status ? createVisibility() : status;
-    clear_.renew(hasBounds());
-    for (const auto& surface : surfaces_) {
-        status = status ? surface->createSets(*instances_, listing_, *visibility_) : status;
+    for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
+        status = status ? surfaces_[surface].createSets(stages_.cagesOf(surface), listing_, *visibility_) : status;
+    }
+    if (status) {
+        addMembers(shared);
     }
     return status;
+}
+
+void Group::addMembers(const GroupShared& shared) {
+    addMember(*shared.pairs);
+    addMember(asset_->buffers);
+    addMember(asset_->clips);
+    if (!follows()) {
+        addMember(*instances_);
+    }
+    addMember(stages_);
+    if (view_ != nullptr) {
+        addMember(*culling_);
+        addMember(*view_);
+    }
+    if (listedBounds_ != nullptr) {
+        addMember(*listedBounds_);
+    }
+    if (boundsReadback_ != nullptr) {
+        addMember(*boundsReadback_);
+    }
+    for (const auto& surface : surfaces_) {
+        addMember(*surface);
+    }
 }
 
 void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging) {
@@ -250,6 +281,7 @@ void Group::fill(SuppleGroupInfo& info) const {
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
+    use += stages_.memoryUse();
     if (boundsReadback_ != nullptr) {
         use += boundsReadback_->memoryUse();
     }
@@ -260,20 +292,6 @@ gpu::MemoryUse Group::memoryUse() const {
         use += surface->memoryUse();
     }
     return use;
-}
-
-void Group::recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame) {
-    lastRecordedFrame_ = frame;
-    if (!follows()) {
-        instances_->recordWarmUp(commandBuffer);
-    }
-    if (culling_ != nullptr) {
-        culling_->recordWarmUp(commandBuffer);
-        view_->recordWarmUp(commandBuffer);
-    }
-    for (const auto& surface : surfaces_) {
-        surface->recordWarmUp(commandBuffer);
-    }
 }
 
 void Group::fill(SuppleSurfaceInfo& info, uint32_t index) const {
@@ -288,36 +306,17 @@ void Group::fill(SuppleSurfaceInfo& info, uint32_t index) const {
     info.patchCoefficients = {patches.buffer(), 0, patches.size(), 16};
 }
 
-bool Group::staticsPending() const {
-    return asset_->buffers.uploadPending() || asset_->clips.uploadPending() || clear_.due() ||
-           surfaces_.any([](const Tessellation& surface) { return surface.staticsPending(); }) ||
-           (view_ != nullptr && view_->staticsPending());
-}
-
 VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     lastRecordedFrame_ = frame;
-    if (clear_.due()) {
-        clear_.record(frame);
-        if (culling_ != nullptr) {
-            culling_->recordClear(commandBuffer);
-        } else {
-            listedBounds_->recordClear(commandBuffer);
-        }
-    }
-    VkDeviceSize bytes =
-        asset_->buffers.recordUpload(commandBuffer, frame) + asset_->clips.recordUpload(commandBuffer, frame);
-    for (const auto& surface : surfaces_) {
-        bytes += surface->recordStatics(commandBuffer, frame);
-    }
-    return bytes;
+    return FrameMembers::recordStatics(commandBuffer, frame);
 }
 
-PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
-    passesFrame_ = lastRecordedFrame_ = frame;
+PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
+    passesFrame_ = lastRecordedFrame_ = frame.number;
     const bool changed = listing_.changed(slots());
-    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame, origin);
-    const glm::vec3 step(origin - origin_);
-    origin_ = origin;
+    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
+    const glm::vec3 step(frame.origin - origin_);
+    origin_ = frame.origin;
     if (changed) {
         visibility_->list(slots(), listing_);
     }
@@ -326,13 +325,10 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, cons
     }
     for (const auto& surface : surfaces_) {
         surface->setPastStep(step);
-        cost.bytes += surface->recordUpload(commandBuffer, frame, changed);
+        cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
+    cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     return cost;
-}
-
-PassCost Group::recordDeform(VkCommandBuffer commandBuffer) const {
-    return follows() ? PassCost{} : instances_->recordDeform(commandBuffer, windows());
 }
 
 PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
@@ -373,35 +369,9 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
 }
 
 void Group::cancelFrame(uint64_t frame) {
-    asset_->buffers.cancelUpload(frame);
-    asset_->clips.cancelUpload(frame);
-    if (!follows()) {
-        instances_->cancelFrame(frame);
-    }
-    for (const auto& surface : surfaces_) {
-        surface->cancelFrame(frame);
-    }
-    clear_.cancel(frame);
-    if (boundsReadback_ != nullptr) {
-        boundsReadback_->cancelFrame(frame);
-    }
+    FrameMembers::cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();
-    }
-}
-
-void Group::releaseStaging(uint64_t completedFrame) {
-    asset_->buffers.releaseStaging(completedFrame);
-    asset_->clips.releaseStaging(completedFrame);
-    for (const auto& surface : surfaces_) {
-        surface->releaseStaging(completedFrame);
-    }
-}
-
-void Group::beginFrame(uint64_t completedFrame) {
-    releaseStaging(completedFrame);
-    if (boundsReadback_ != nullptr) {
-        boundsReadback_->beginFrame(completedFrame);
     }
 }
 

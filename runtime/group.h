@@ -11,6 +11,7 @@
 #include "runtime/culling/listed_bounds.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
+#include "runtime/stages/cage_stages.h"
 #include "runtime/surfaces.h"
 #include "runtime/transfers.h"
 #include "runtime/view.h"
@@ -23,20 +24,21 @@ namespace supple::runtime {
 /// What the group borrows from its context.
 struct GroupShared {
     const gpu::Device* device = nullptr;
-    skinning::DeformPass* deform = nullptr;
+    gpu::Pipelines* pipelines = nullptr;
+    CageStageTable* stages = nullptr;
     skinning::PosePass* pose = nullptr; ///< for groups that play on the device
     surface::Passes* surface = nullptr;
-    const gpu::StaticBuffers* pairs = nullptr; ///< of parameters
-    BoundsPass* bounds = nullptr;              ///< for groups with bounds
-    const OcclusionPass* occlusion = nullptr;  ///< for groups of views with occlusion
-    std::shared_ptr<View> view;                ///< of the description
-    std::shared_ptr<InstanceSet> instances;    ///< of the group that this one follows; null: it has its own
+    gpu::StaticBuffers* pairs = nullptr;      ///< of parameters
+    BoundsPass* bounds = nullptr;             ///< for groups with bounds
+    const OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;               ///< of the description
+    std::shared_ptr<InstanceSet> instances;   ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1; ///< of the instances
     bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
 };
 
-class Group {
+class Group final : public gpu::FrameMembers {
 public:
     [[nodiscard]] static Result<std::shared_ptr<Group>> create(const GroupShared& shared, std::shared_ptr<Asset> asset,
                                                                const SuppleGroupDesc& desc);
@@ -68,6 +70,8 @@ public:
     [[nodiscard]] bool follows() const { return leader() != 0; }
     [[nodiscard]] InstanceSlots& slots() { return instances_->slots(); }
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
+    /// What makes the cages of its surfaces.
+    [[nodiscard]] CageStages& stages() { return stages_; }
     [[nodiscard]] Surfaces& surfaces() { return surfaces_; }
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     // Null if the group belongs to no view.
@@ -84,17 +88,17 @@ public:
     [[nodiscard]] float boundsMargin() const;
 
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
-    /// Static tables and first-use clears. The caller sees to it that no other thread does the same: the asset's tables
-    /// are shared.
-    [[nodiscard]] bool staticsPending() const;
-    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
+    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    /// What a frame is for all groups that are recorded in it.
+    struct FrameInfo {
+        uint64_t number = 0;
+        double time = 0.0;      ///< the host's, in seconds
+        glm::dvec3 origin{0.0}; ///< where the coordinates of the device begin
+    };
     /// This frame's poses, its list of instances and what to draw of them.
-    /// `origin`: where the coordinates of the device begin in this frame.
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
-    /// Context::recordWarmUp.
-    void recordWarmUp(VkCommandBuffer commandBuffer, uint64_t frame);
-    /// Nothing if the group follows another.
-    PassCost recordDeform(VkCommandBuffer commandBuffer) const;
+    PassCost recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame);
+    /// Notes that the frame has something of the group. recordStatics() and recordUpload() do so themselves.
+    void noteRecorded(uint64_t frame) { lastRecordedFrame_ = frame; }
     /// If hasBounds().
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
@@ -115,9 +119,7 @@ public:
     /// The last frame that has the group's passes, and the last that has anything of it.
     [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
-    void cancelFrame(uint64_t frame);
-    void releaseStaging(uint64_t completedFrame);
-    void beginFrame(uint64_t completedFrame);
+    void cancelFrame(uint64_t frame) override;
 
     /// The groups of a suppleRecord are linked, so that each handle is resolved once and nothing is allocated. Valid
     /// while that call records.
@@ -135,6 +137,8 @@ private:
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
     void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
     [[nodiscard]] Status createVisibility();
+    /// What frames concern: once all of it is there.
+    void addMembers(const GroupShared& shared);
 
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
@@ -152,8 +156,8 @@ private:
     Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view
     std::unique_ptr<ListedBounds> listedBounds_; ///< if it belongs to none and has bounds
     std::unique_ptr<BoundsReadback> boundsReadback_;
+    CageStages stages_;
     Surfaces surfaces_;
-    RecordedOnce clear_; ///< of what bounds and culling remember from frame to frame
     uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
     bool outputsAsked_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see

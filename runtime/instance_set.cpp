@@ -18,10 +18,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->desc_ = desc;
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
-    if (desc.source != SUPPLE_POSES_CAGE_BUFFER) {
-        status = desc.deform->prepare(desc.mode, desc.asset->firstInfluences != 0);
-    }
-    if (status && desc.source == SUPPLE_POSES_PLAYBACK) {
+    if (desc.source == SUPPLE_POSES_PLAYBACK) {
         status = desc.pose->prepare(desc.mode);
         status = status ? desc.asset->makeClips(*desc.device) : status;
     }
@@ -50,6 +47,8 @@ Status InstanceSet::makeBuffers(bool windowed) {
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
     poses_ = makePoseSource(
         desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity, desc_.framesInFlight});
+    addMember(*poses_);
+    addMember(userData_);
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
     gpu::BufferPlan device(buffers_), staging(staging_);
@@ -65,19 +64,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
 
 Status InstanceSet::createSets(const InstanceListing& listing) {
     const VkBuffer list = listing.buffer().buffer();
-    Status status = poses_->create({palettes_.buffer(), list, listing.passBytes(), listing.windows().size});
-    if (!status || palettes_.buffer() == VK_NULL_HANDLE) {
-        return status;
-    }
-    return deformSets_.create({desc_.device,
-                               &desc_.deform->layout(),
-                               &listing.windows(),
-                               desc_.asset->buffers.buffer(0),
-                               desc_.asset->buffers.size(0),
-                               {palettes_.buffer(), layout_.stride},
-                               {cages_.buffer(), cageStride_},
-                               list,
-                               listing.passBytes()});
+    return poses_->create({palettes_.buffer(), list, listing.passBytes(), listing.windows().size});
 }
 
 void InstanceSet::takeOver(InstanceSet& other, const AssetMatch& match) {
@@ -99,7 +86,7 @@ void InstanceSet::fill(SuppleGroupInfo& output) const {
 }
 
 void InstanceSet::addTransfers(Transfers& transfers) const {
-    if (!deformSets_.empty()) {
+    if (desc_.source != SUPPLE_POSES_CAGE_BUFFER) {
         transfers.add(cages_.buffer());
     }
     // What the host writes on the device is its own to hand over.
@@ -112,41 +99,8 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
 PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
     poses_->setOrigin(origin, slots_.end());
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
-    const VkDeviceSize data = userData_.recordUpload(*desc_.device, commandBuffer, desc_.handsOver, slots_.end());
-    dataFrame_ = data > 0 ? frame : dataFrame_;
-    cost.bytes += data;
+    cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
     return cost;
-}
-
-void InstanceSet::cancelFrame(uint64_t frame) {
-    poses_->cancelUpload(frame);
-    if (dataFrame_ == frame) {
-        userData_.markAll();
-    }
-}
-
-void InstanceSet::recordWarmUp(VkCommandBuffer commandBuffer) const {
-    poses_->recordWarmUp(commandBuffer);
-    if (!deformSets_.empty()) {
-        gpu::computeBarrier(*desc_.device, commandBuffer);
-        shared::DeformPush push{}; // of no instances
-        push.firstInfluences = desc_.asset->firstInfluences;
-        desc_.deform->record(commandBuffer, deformSets_[0], layout_.mode, push);
-    }
-}
-
-PassCost InstanceSet::recordDeform(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const {
-    if (deformSets_.empty()) {
-        return {};
-    }
-    const uint32_t vertices = desc_.asset->character.cage.vertexCount();
-    windows.forEach([&](uint32_t w) {
-        desc_.deform->record(commandBuffer, deformSets_[w], layout_.mode,
-                             {vertices, windows.firstEntry(w), windows.listed[w].count, layout_.stride, cageStride_,
-                              layout_.morphWeights, desc_.asset->firstInfluences});
-    });
-    const uint64_t points = uint64_t{vertices} * windows.visible;
-    return {points, points * gpu::kVec4Bytes};
 }
 
 } // namespace supple::runtime

@@ -3,7 +3,6 @@
 
 #include "gpu/buffer_plan.h"
 #include "runtime/asset.h"
-#include "runtime/deform_sets.h"
 #include "runtime/instance_listing.h"
 #include "runtime/instance_slots.h"
 #include "runtime/pose_source.h"
@@ -16,11 +15,10 @@
 
 namespace supple::runtime {
 
-class InstanceSet {
+class InstanceSet final : public gpu::FrameMembers {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        skinning::DeformPass* deform = nullptr;
         skinning::PosePass* pose = nullptr; ///< null unless instances play on the device
         std::shared_ptr<Asset> asset;
         SupplePoseSource source = SUPPLE_POSES_SET;
@@ -36,7 +34,7 @@ public:
     [[nodiscard]] BoundBytes boundBytes(bool windowed) const;
     /// Behind create(). `windowed`: there are several windows.
     [[nodiscard]] Status makeBuffers(bool windowed);
-    /// `listing`: of the group that deforms the instances. It must outlive the set, or not record any more.
+    /// `listing`: of the group that poses the instances. It must outlive the set, or not record any more.
     [[nodiscard]] Status createSets(const InstanceListing& listing);
 
     [[nodiscard]] InstanceSlots& slots() { return slots_; }
@@ -51,6 +49,8 @@ public:
 
     [[nodiscard]] uint32_t cageStride() const { return cageStride_; }
     [[nodiscard]] const gpu::PlannedBuffer& cages() const { return cages_; }
+    [[nodiscard]] const gpu::PlannedBuffer& palettes() const { return palettes_; }
+    [[nodiscard]] const skinning::PoseLayout& poseLayout() const { return layout_; }
     [[nodiscard]] gpu::MemoryUse memoryUse() const {
         gpu::MemoryUse use = buffers_.use();
         use += staging_.use();
@@ -58,8 +58,6 @@ public:
         return use;
     }
     [[nodiscard]] uint32_t capacity() const { return desc_.capacity; }
-    /// Context::recordWarmUp.
-    void recordWarmUp(VkCommandBuffer commandBuffer) const;
     void fill(SuppleGroupInfo& output) const;
     void addTransfers(Transfers& transfers) const;
 
@@ -67,8 +65,6 @@ public:
     void takeOver(InstanceSet& other, const AssetMatch& match);
     /// This frame's poses and user data.
     PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
-    PassCost recordDeform(VkCommandBuffer commandBuffer, const InstanceWindows& windows) const;
-    void cancelFrame(uint64_t frame);
 
 private:
     Desc desc_;
@@ -80,8 +76,6 @@ private:
     gpu::BufferSet buffers_, staging_;
     gpu::PlannedBuffer palettes_, cages_;
     UserData userData_;
-    uint64_t dataFrame_ = 0; ///< the last that uploaded user data
-    DeformSets deformSets_;  ///< none if the host fills the cages
 };
 
 } // namespace supple::runtime

@@ -42,6 +42,7 @@ public:
     void forget(uint32_t slot) {
         note(true);
         ++slots_[slot].life;
+        ++slots_[slot].birth;
     }
 
     [[nodiscard]] uint32_t capacity() const { return static_cast<uint32_t>(slots_.size()); }
@@ -52,6 +53,8 @@ public:
     /// Rises when an instance begins anew in the slot: created or forgotten. What a list remembers of another life is
     /// not the instance's past. Never 0.
     [[nodiscard]] uint32_t life(uint32_t slot) const { return slots_[slot].life; }
+    /// The same, but it stays when the instance moves to other slots by takeOver(): for what moves with it.
+    [[nodiscard]] uint32_t birth(uint32_t slot) const { return slots_[slot].birth; }
     /// Rises with every change of what lists of instances hold.
     [[nodiscard]] uint64_t version() const { return version_; }
     /// Whether a visible instance hides the part.
@@ -60,7 +63,7 @@ public:
 private:
     struct Slot {
         uint32_t generation = 1;
-        uint32_t life = 1;
+        uint32_t life = 1, birth = 1;
         bool live = false;
         bool visible = true;
         uint32_t priority = 0;

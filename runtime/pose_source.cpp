@@ -86,7 +86,7 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t) override {
         return {0, playback_.recordUpload(commandBuffer, frame)};
     }
-    void cancelUpload(uint64_t frame) override { playback_.cancelUpload(frame); }
+    void cancelFrame(uint64_t frame) override { playback_.cancelUpload(frame); }
     [[nodiscard]] bool has(Playback::Part part) const override {
         return part != Playback::Part::roots || playback_.hasRoots();
     }

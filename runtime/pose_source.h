@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/buffer_plan.h"
+#include "gpu/frame_member.h"
 #include "runtime/asset.h"
 #include "runtime/host_poses.h"
 #include "runtime/instance_windows.h"
@@ -14,7 +15,7 @@
 namespace supple::runtime {
 
 /// The base class is a source that the host fills on the device by itself: nothing is set, uploaded or computed.
-class PoseSource {
+class PoseSource : public gpu::FrameMember {
 public:
     PoseSource() = default;
     virtual ~PoseSource() = default;
@@ -53,11 +54,8 @@ public:
     virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, uint32_t /*end*/) {
         return {};
     }
-    virtual void cancelUpload(uint64_t /*frame*/) {}
     /// The pose pass has three parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
-    /// Context::recordWarmUp.
-    virtual void recordWarmUp(VkCommandBuffer /*commandBuffer*/) const {}
     virtual PassCost recordPart(VkCommandBuffer /*commandBuffer*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {
         return {};

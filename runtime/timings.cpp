@@ -1,16 +1,18 @@
 #include "runtime/timings.h"
 
+#include "runtime/sized.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <span>
 
 namespace supple::runtime {
 
-const char* passName(Pass pass) {
-    constexpr const char* kNames[kPassCount] = {"upload", "attributes", "pose",     "deform", "bounds",
-                                                "list",   "vertex",     "assemble", "patch",  "level",
-                                                "solve",  "place",      "evaluate", "motion"};
-    return kNames[static_cast<size_t>(pass)];
+static_assert(kPassCount == SUPPLE_PASS_SHORTFALL + 1, "add the name of the pass");
+
+const char* passName(SupplePass pass) {
+    const uint32_t index = rawValue(pass);
+    return index < kPassCount ? kPassNames[index] : "unknown SupplePass";
 }
 
 Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
@@ -18,11 +20,9 @@ Status Timings::create(const gpu::Device& device, uint32_t framesInFlight) {
     tickMask_ = device.timestampValidBits >= 64 ? ~0ull : (1ull << device.timestampValidBits) - 1;
     tickPeriod_ = static_cast<double>(device.limits.timestampPeriod);
     latest_.reserve(SUPPLE_MAX_TIMINGS);
-    latestSurfaces_.reserve(SUPPLE_MAX_TIMINGS);
     for (uint32_t i = 0; i < framesInFlight; ++i) {
         auto slot = std::make_unique<Slot>();
         slot->entries.resize(SUPPLE_MAX_TIMINGS);
-        slot->surfaces.resize(SUPPLE_MAX_TIMINGS);
         slot->marks.resize(SUPPLE_MAX_TIMINGS);
         slot->solved.resize(SUPPLE_MAX_TIMINGS);
         if (timestamps_) {
@@ -64,16 +64,13 @@ Result<bool> Timings::collect(Slot& slot, const std::function<Shortfall(const Vi
         }
     }
     latest_.clear();
-    latestSurfaces_.clear();
     for (size_t i = 0; i < count && latest_.size() < SUPPLE_MAX_TIMINGS; ++i) {
         latest_.push_back(slot.entries[i]);
-        latestSurfaces_.push_back(slot.surfaces[i]);
         const Shortfall own = slot.solved[i] != nullptr ? shortfall(slot.solved[i], slot.frame) : Shortfall{};
         if (own.any && latest_.size() < SUPPLE_MAX_TIMINGS) {
             const SuppleTiming& solve = slot.entries[i];
-            latest_.push_back(
-                {"shortfall", solve.group, solve.frame, solve.gpuEnd, solve.gpuEnd, 0.0, own.instances, own.bytes});
-            latestSurfaces_.push_back(SUPPLE_NO_SURFACE);
+            latest_.push_back({SUPPLE_PASS_SHORTFALL, SUPPLE_NO_SURFACE, solve.group, solve.frame, solve.gpuEnd,
+                               solve.gpuEnd, 0.0, own.instances, own.bytes});
         }
     }
     return true;
@@ -119,11 +116,11 @@ void Timings::cancelFrame() {
     current_->timers.clear();
 }
 
-Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount) {
+Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount) {
     Recording recording;
     if (timestamps_) {
         const auto wanted = static_cast<uint32_t>(
-            std::min<uint64_t>(uint64_t{surfaceCount} * kMostEntries, uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+            std::min<uint64_t>(uint64_t{surfaceCount} * (kMostEntries + stageCount), uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
         if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
             return recording;
         }
@@ -141,7 +138,7 @@ void Timings::Recording::beginPass() {
     }
 }
 
-void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint32_t surface, const PassCost& cost) {
+void Timings::Recording::endPass(SupplePass pass, SuppleGroup group, uint32_t surface, const PassCost& cost) {
     if (timings_ == nullptr) {
         return;
     }
@@ -155,8 +152,7 @@ void Timings::Recording::endPass(Pass pass, SuppleGroup group, uint32_t surface,
     if (timings_->timestamps_) {
         slot.timers.mark(commandBuffer_, ++mark_);
     }
-    slot.entries[entry] = {passName(pass), group, slot.frame, 0.0, 0.0, cpu, cost.points, cost.bytes};
-    slot.surfaces[entry] = surface;
+    slot.entries[entry] = {pass, surface, group, slot.frame, 0.0, 0.0, cpu, cost.points, cost.bytes};
     slot.marks[entry] = mark_;
     slot.solved[entry] = cost.solved;
 }
@@ -168,42 +164,28 @@ void Timings::Recording::end() {
     timings_ = nullptr;
 }
 
-size_t Timings::budgetIndex(const char* pass) {
-    if (pass == nullptr) {
-        return kPassCount;
-    }
-    for (size_t i = 0; i < kPassCount; ++i) {
-        if (std::string_view(pass) == passName(static_cast<Pass>(i))) {
-            return i;
-        }
-    }
-    return kPassCount + 1;
-}
-
-bool Timings::setBudget(const char* pass, double nanoseconds) {
-    const size_t index = budgetIndex(pass);
-    if (index > kPassCount) {
+bool Timings::setBudget(SupplePass pass, double nanoseconds) {
+    if (budget(pass) == nullptr) {
         return false;
     }
-    budgets_[index] = {};
-    budgets_[index].limit = nanoseconds;
+    budgets_[pass] = {};
+    budgets_[pass].limit = nanoseconds;
     return true;
 }
 
-const SuppleBudget* Timings::budget(const char* pass) const {
-    const size_t index = budgetIndex(pass);
-    return index > kPassCount ? nullptr : &budgets_[index];
+const SuppleBudget* Timings::budget(SupplePass pass) const {
+    return rawValue(pass) >= kPassCount || pass == SUPPLE_PASS_SHORTFALL ? nullptr : &budgets_[pass];
 }
 
 void Timings::judge(const std::function<void(const char*)>& warn) {
-    for (size_t i = 0; i <= kPassCount; ++i) {
+    for (size_t i = 0; i < kPassCount; ++i) {
         SuppleBudget& budget = budgets_[i];
         if (budget.limit <= 0.0) {
             continue;
         }
         double spent = 0.0;
         for (const SuppleTiming& timing : latest_) {
-            if (i == kPassCount || std::string_view(timing.pass) == passName(static_cast<Pass>(i))) {
+            if (i == SUPPLE_PASS_ALL || timing.pass == i) {
                 spent += timing.gpuEnd - timing.gpuBegin;
             }
         }
@@ -216,8 +198,7 @@ void Timings::judge(const std::function<void(const char*)>& warn) {
             if (!wasOver) {
                 char text[128];
                 std::snprintf(text, sizeof(text), "frame %llu: %s took %.3f ms of its %.3f",
-                              static_cast<unsigned long long>(latest_.front().frame),
-                              i == kPassCount ? "all passes" : passName(static_cast<Pass>(i)), spent * 1e-6,
+                              static_cast<unsigned long long>(latest_.front().frame), kPassNames[i], spent * 1e-6,
                               budget.limit * 1e-6);
                 warn(text);
             }

@@ -11,38 +11,24 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace supple::runtime {
 
-/// The passes of a frame, in order.
-enum class Pass : uint32_t {
-    upload,
-    attributes,
-    pose,
-    deform,
-    bounds,
-    list,
-    vertex,
-    assemble,
-    patch,
-    level,
-    solve,
-    place,
-    evaluate,
-    motion,
-    count
-};
-inline constexpr size_t kPassCount = static_cast<size_t>(Pass::count);
-[[nodiscard]] const char* passName(Pass pass);
-/// The most entries that a group can have in a frame, for each of its surfaces. Pose comes up to three times, bounds
-/// again for occlusion, level for patches, deform for several surfaces, and attributes if some of these have levels and
-/// others rates.
-inline constexpr size_t kMostEntries = kPassCount + 6;
+/// By SupplePass. That of all passes together stands in warnings.
+inline constexpr const char* kPassNames[] = {"all passes", "upload",   "attributes", "pose",     "deform", "bounds",
+                                             "list",       "vertex",   "assemble",   "patch",    "level",  "solve",
+                                             "place",      "evaluate", "motion",     "shortfall"};
+inline constexpr size_t kPassCount = std::size(kPassNames);
+[[nodiscard]] const char* passName(SupplePass pass);
+/// The most entries that a group can have in a frame, for each of its surfaces, beside one for every cage stage. Pose
+/// comes up to three times, bounds again for occlusion, level for patches, and attributes if some surfaces have levels
+/// and others rates. Two of the names are no passes.
+inline constexpr size_t kMostEntries = kPassCount - 2 + 4;
 
 class Timings {
 public:
@@ -66,7 +52,7 @@ public:
     public:
         void beginPass();
         /// `surface`: of the group, or SUPPLE_NO_SURFACE.
-        void endPass(Pass pass, SuppleGroup group, uint32_t surface, const PassCost& cost);
+        void endPass(SupplePass pass, SuppleGroup group, uint32_t surface, const PassCost& cost);
         /// Behind the last pass.
         void end();
 
@@ -78,26 +64,23 @@ public:
         std::chrono::steady_clock::time_point passBegin_;
     };
     /// Makes room for as many passes as groups can have that have so many surfaces together.
-    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount);
+    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount);
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }
-    /// The surface of each of these, or SUPPLE_NO_SURFACE.
-    [[nodiscard]] const std::vector<uint32_t>& latestSurfaces() const { return latestSurfaces_; }
     /// In ticks: the first timestamp. Nothing before that.
     [[nodiscard]] std::optional<uint64_t> origin() const { return origin_; }
 
-    /// False: no such pass. Null stands for all passes together; 0 takes the budget away.
-    [[nodiscard]] bool setBudget(const char* pass, double nanoseconds);
+    /// False: no such pass. 0 takes the budget away.
+    [[nodiscard]] bool setBudget(SupplePass pass, double nanoseconds);
     /// Null: no such pass. limit 0: it has no budget.
-    [[nodiscard]] const SuppleBudget* budget(const char* pass) const;
+    [[nodiscard]] const SuppleBudget* budget(SupplePass pass) const;
 
 private:
     struct Slot {
         gpu::Timers timers;
         uint64_t frame = 0;
         std::vector<SuppleTiming> entries; ///< SUPPLE_MAX_TIMINGS, of which `count` are in use
-        std::vector<uint32_t> surfaces;    ///< per entry
         std::vector<uint32_t> marks;       ///< per entry: the timestamp that ends it; the one before begins it
         std::vector<const View*> solved;   ///< per entry, or null; not to be read: it may be gone
         std::atomic<uint32_t> count = 0;
@@ -106,7 +89,6 @@ private:
     [[nodiscard]] Result<bool> collect(Slot& slot, const std::function<Shortfall(const View*, uint64_t)>& shortfall);
     void judge(const std::function<void(const char*)>& warn);
     [[nodiscard]] double nanoseconds(uint64_t ticks) const;
-    [[nodiscard]] static size_t budgetIndex(const char* pass);
 
     std::vector<std::unique_ptr<Slot>> slots_;
     Slot* current_ = nullptr;
@@ -115,8 +97,7 @@ private:
     double tickPeriod_ = 1.0;
     std::optional<uint64_t> origin_; ///< first tick seen: differences are integers, which doubles could not hold
     std::vector<SuppleTiming> latest_;
-    std::vector<uint32_t> latestSurfaces_;
-    std::array<SuppleBudget, kPassCount + 1> budgets_{}; ///< the last: all passes
+    std::array<SuppleBudget, kPassCount> budgets_{}; ///< by SupplePass
 };
 
 } // namespace supple::runtime

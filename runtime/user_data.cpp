@@ -34,13 +34,20 @@ void UserData::markAll() {
     endChanged_ = static_cast<uint32_t>(values_.size());
 }
 
-VkDeviceSize UserData::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool all,
+void UserData::cancelFrame(uint64_t frame) {
+    if (frame_ == frame) {
+        markAll();
+    }
+}
+
+VkDeviceSize UserData::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame, bool all,
                                     uint32_t slots) {
     const uint32_t first = all ? 0 : firstChanged_, end = all ? std::max(slots, endChanged_) : endChanged_;
     firstChanged_ = endChanged_ = 0;
     if (first == end) {
         return 0;
     }
+    frame_ = frame;
     const VkDeviceSize at = first * sizeof(Value), bytes = (end - first) * sizeof(Value);
     std::memcpy(staging_.next() + at, values_.data() + first, bytes);
     return staging_.recordCopy(device, commandBuffer, at, buffer_.buffer(), at, bytes);

@@ -54,9 +54,7 @@ void VertexStreams::plan(gpu::BufferPlan& plan, StreamSet set, SuppleVertexForma
     forEachStream([&](Stream stream, const StreamRow& row) {
         const VkDeviceSize count = row.written == Written::perFrame ? stride * capacity : vertices;
         buffers_[static_cast<size_t>(stream)] =
-            plan.add({row.name, set.has(stream) ? count * bytes(stream) : 0,
-                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+            plan.add({row.name, set.has(stream) ? count * bytes(stream) : 0, row.usage,
                       stream == Stream::vertices ? gpu::MemoryPurpose::vertices : gpu::MemoryPurpose::streams});
     });
 }

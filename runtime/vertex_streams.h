@@ -21,8 +21,9 @@ enum class Written : uint32_t {
 };
 
 struct StreamRow {
-    const char* name;   ///< for debuggers and messages
-    uint32_t bytes;     ///< per surface vertex; 0: by vertex format
+    const char* name; ///< for debuggers and messages
+    uint32_t bytes;   ///< per surface vertex; 0: by vertex format
+    VkBufferUsageFlags usage;
     Written written;    ///< in groups; a view's streams are all written in every frame
     uint32_t groupFlag; ///< SuppleGroupFlags that ask for it; 0: always there
     uint32_t viewFlag;  ///< SuppleViewFlags
@@ -30,21 +31,26 @@ struct StreamRow {
     uint32_t attribute; ///< shared::kOutput..., if only cages that have it fill the stream; else 0
     SuppleBufferRange SuppleVertexStreams::*output; ///< null: hosts do not see it
 };
+/// What hosts may do with streams: draw, read and copy them.
+inline constexpr VkBufferUsageFlags kStreamUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                   VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 /// To add a stream, add a row, the binding, the member of the output, and the shader that writes it
 /// (docs/architecture.md).
 inline constexpr StreamRow kStreams[kStreamCount] = {
-    {"supple surface vertices", 0, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0, &SuppleVertexStreams::vertices},
-    {"supple previous positions", 12, Written::perFrame, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION,
+    {"supple surface vertices", 0, kStreamUsage, Written::perFrame, 0, 0, shared::kSurfaceBinding, 0,
+     &SuppleVertexStreams::vertices},
+    {"supple previous positions", 12, kStreamUsage, Written::perFrame, SUPPLE_GROUP_MOTION, SUPPLE_VIEW_MOTION,
      shared::kSurfaceBinding, 0, &SuppleVertexStreams::previousPositions},
-    {"supple tangents", 4, Written::perFrame, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS, shared::kTangentBinding, 0,
-     &SuppleVertexStreams::tangents},
-    {"supple surface attributes", 16, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES,
+    {"supple tangents", 4, kStreamUsage, Written::perFrame, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS,
+     shared::kTangentBinding, 0, &SuppleVertexStreams::tangents},
+    {"supple surface attributes", 16, kStreamUsage, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_ATTRIBUTES,
      shared::kAttributeBinding, 0, &SuppleVertexStreams::attributes},
-    {"supple second UV set", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_UVS1, shared::kUv1Binding,
-     shared::kOutputUvs1, &SuppleVertexStreams::uvs1},
-    {"supple face UVs", 8, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_FACE_UVS, shared::kFaceUvBinding,
-     shared::kOutputFaceUvs, &SuppleVertexStreams::faceUvs},
-    {"supple tangent directions", 4, Written::static_, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS,
+    {"supple second UV set", 8, kStreamUsage, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_UVS1,
+     shared::kUv1Binding, shared::kOutputUvs1, &SuppleVertexStreams::uvs1},
+    {"supple face UVs", 8, kStreamUsage, Written::static_, SUPPLE_GROUP_ATTRIBUTES, SUPPLE_VIEW_FACE_UVS,
+     shared::kFaceUvBinding, shared::kOutputFaceUvs, &SuppleVertexStreams::faceUvs},
+    {"supple tangent directions", 4, kStreamUsage, Written::static_, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS,
      shared::kDirectionOutputBinding, shared::kOutputDirections, nullptr},
 };
 

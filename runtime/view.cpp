@@ -99,6 +99,10 @@ Status View::createBuffers() {
         return statics.error();
     }
     static_ = std::move(*statics);
+    clear_.add(device, words_, kLodSolution * VkDeviceSize{4}, (kLodRecords - kLodSolution) * VkDeviceSize{4});
+    addMember(clear_);
+    addMember(static_);
+    addMember(indicesRelease_);
     const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
@@ -260,16 +264,6 @@ uint32_t View::room() const {
     return budget() > padding ? budget() - padding : 0;
 }
 
-VkDeviceSize View::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
-    if (clear_.due()) {
-        clear_.record(frame);
-        // Histograms, which the solver clears from then on.
-        device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodSolution * VkDeviceSize{4},
-                                  (kLodRecords - kLodSolution) * VkDeviceSize{4}, 0);
-    }
-    return static_.recordUpload(commandBuffer, frame);
-}
-
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedFrame_ = frame;
     if (indicesRelease_.due()) { // they are on the device by now
@@ -395,6 +389,7 @@ std::optional<SuppleViewStatistics> View::statisticsOf(uint64_t completedFrame) 
 }
 
 void View::beginFrame(uint64_t completedFrame) {
+    FrameMembers::beginFrame(completedFrame);
     for (size_t i = 0; i < solved_.size(); ++i) {
         if (solved_[i].frame > newest_.frame && solved_[i].frame <= completedFrame) {
             newest_ = read(i);
@@ -403,9 +398,7 @@ void View::beginFrame(uint64_t completedFrame) {
 }
 
 void View::cancelFrame(uint64_t frame) {
-    static_.cancelUpload(frame);
-    clear_.cancel(frame);
-    indicesRelease_.cancel(frame);
+    FrameMembers::cancelFrame(frame);
     for (Solved& solved : solved_) {
         solved.frame = solved.frame == frame ? 0 : solved.frame;
     }

@@ -18,7 +18,7 @@
 
 namespace supple::runtime {
 
-class View {
+class View final : public gpu::FrameMembers {
 public:
     /// `passes` must outlive the view.
     [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, surface::Passes& passes,
@@ -55,11 +55,8 @@ public:
     /// Whether vertices of such groups count in the budget.
     [[nodiscard]] bool countsRates() const { return groupsWithoutRuns_ > 0 && camera_.vertexBudget > 0; }
 
-    [[nodiscard]] bool staticsPending() const { return static_.uploadPending() || clear_.due(); }
-    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
-    /// Context::recordWarmUp.
-    void recordWarmUp(VkCommandBuffer commandBuffer) const;
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const;
@@ -71,9 +68,8 @@ public:
     /// instances were seen (Culling::countOffset).
     void recordReadback(VkCommandBuffer commandBuffer);
     void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group);
-    void beginFrame(uint64_t completedFrame);
-    void cancelFrame(uint64_t frame);
-    void releaseStaging(uint64_t completedFrame) { static_.releaseStaging(completedFrame); }
+    void beginFrame(uint64_t completedFrame) override;
+    void cancelFrame(uint64_t frame) override;
     /// What the frame hands over with the first of its groups. Of the words only those that hosts read: the others must
     /// keep what is in them from frame to frame.
     void addTransfers(Transfers& transfers) const;
@@ -123,7 +119,8 @@ private:
     uint32_t groupsWithoutRuns_ = 0;
     uint64_t verticesWithoutRuns_ = 0;
     uint32_t forms_ = 0; ///< bits of those that runs have
-    RecordedOnce clear_, indicesRelease_;
+    ZeroedOnce clear_;   ///< of histograms, which the solver clears from then on
+    RecordedOnce indicesRelease_;
     uint64_t recordedFrame_ = 0;
     struct Solved {
         uint64_t frame = 0;

@@ -64,6 +64,12 @@ SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, c
         if ((desc.flags & ~uint32_t{SUPPLE_RECORD_TIMINGS | SUPPLE_RECORD_NO_ENTRY_BARRIER}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
+        if (!std::isfinite(desc.time)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
+        }
+        if (std::abs(desc.time) > SUPPLE_MAX_TIME) {
+            return refuse(context, ErrorCode::range, kHere, "time is beyond SUPPLE_MAX_TIME");
+        }
         return reportStatus(context, context.record(commandBuffer, desc));
     });
 }

@@ -1,35 +1,47 @@
 // supple.h, timings.
 #include "runtime/api/entry.h"
 
+#include <cstring>
+
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
 namespace {
 
-/// What there is of each entry of the newest frame that was timed.
-template <class T>
-SuppleResult fillTimings(Context& context, const char* call, const std::vector<T>& latest, T* out, uint32_t* count) {
-    if (count == nullptr) {
-        return refuse(context, ErrorCode::nullPointer, call, "count is null");
-    }
-    if (latest.empty()) {
-        *count = 0;
-        return SUPPLE_NOT_READY;
-    }
-    return fillArray(latest.data(), latest.size(), out, count);
+SuppleResult refusePass(Context& context, const char* function, SupplePass pass) {
+    return refuse(context, ErrorCode::range, function,
+                  "pass " + std::to_string(runtime::rawValue(pass)) + " has no budget: it must be one of SupplePass");
 }
 
 } // namespace
 
-SuppleResult suppleGetTimings(SuppleContext handle, SuppleTiming* out, uint32_t* count) {
-    return guarded(handle, "suppleGetTimings", [&](Context& context) {
-        return fillTimings(context, "suppleGetTimings", context.timings.latest(), out, count);
-    });
+const char* suppleGetPassName(SupplePass pass) {
+    return runtime::passName(pass);
 }
 
-SuppleResult suppleGetTimingSurfaces(SuppleContext handle, uint32_t* out, uint32_t* count) {
-    return guarded(handle, "suppleGetTimingSurfaces", [&](Context& context) {
-        return fillTimings(context, "suppleGetTimingSurfaces", context.timings.latestSurfaces(), out, count);
+SuppleResult suppleGetTimings(SuppleContext handle, uint32_t timingSize, SuppleTiming* out, uint32_t* count) {
+    constexpr const char* kHere = "suppleGetTimings";
+    return guarded(handle, kHere, [&](Context& context) {
+        if (count == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "count is null");
+        }
+        if (!runtime::isPossibleSize<SuppleTiming>(timingSize) || timingSize % alignof(SuppleTiming) != 0) {
+            return refuse(context, ErrorCode::structSize, kHere,
+                          "timingSize is " + std::to_string(timingSize) + ": set it to sizeof(SuppleTiming)");
+        }
+        const std::vector<SuppleTiming>& latest = context.timings.latest();
+        const auto total = static_cast<uint32_t>(latest.size());
+        const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
+        for (uint32_t i = 0; i < n; ++i) {
+            auto* const to = reinterpret_cast<std::byte*>(out) + size_t{i} * timingSize;
+            std::memset(to, 0, timingSize);
+            std::memcpy(to, &latest[i], std::min<size_t>(timingSize, sizeof(SuppleTiming)));
+        }
+        *count = total;
+        if (total == 0) {
+            return SUPPLE_NOT_READY;
+        }
+        return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
     });
 }
 
@@ -43,7 +55,7 @@ SuppleResult suppleGetTimingOrigin(SuppleContext handle, uint64_t* ticks) {
     });
 }
 
-SuppleResult suppleSetBudget(SuppleContext handle, const char* pass, double nanoseconds) {
+SuppleResult suppleSetBudget(SuppleContext handle, SupplePass pass, double nanoseconds) {
     return guarded(handle, "suppleSetBudget", [&](Context& context) {
         if (!std::isfinite(nanoseconds)) {
             return refuse(context, ErrorCode::notFinite, "suppleSetBudget", "nanoseconds is not finite");
@@ -51,20 +63,18 @@ SuppleResult suppleSetBudget(SuppleContext handle, const char* pass, double nano
         if (nanoseconds < 0.0) {
             return refuse(context, ErrorCode::range, "suppleSetBudget", "nanoseconds is negative");
         }
-        return context.timings.setBudget(pass, nanoseconds)
-                   ? SUPPLE_OK
-                   : refuse(context, ErrorCode::range, "suppleSetBudget", std::string("no pass ") + pass);
+        return context.timings.setBudget(pass, nanoseconds) ? SUPPLE_OK : refusePass(context, "suppleSetBudget", pass);
     });
 }
 
-SuppleResult suppleGetBudget(SuppleContext handle, const char* pass, SuppleBudget* out) {
+SuppleResult suppleGetBudget(SuppleContext handle, SupplePass pass, SuppleBudget* out) {
     return guarded(handle, "suppleGetBudget", [&](Context& context) {
         if (const auto fault = checkOut(context, "suppleGetBudget", out)) {
             return *fault;
         }
         const SuppleBudget* budget = context.timings.budget(pass);
         if (budget == nullptr) {
-            return refuse(context, ErrorCode::range, "suppleGetBudget", std::string("no pass ") + pass);
+            return refusePass(context, "suppleGetBudget", pass);
         }
         runtime::writeSized(*budget, *out);
         return budget->limit > 0.0 ? SUPPLE_OK : SUPPLE_NOT_READY;

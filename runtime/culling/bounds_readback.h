@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "gpu/buffer_plan.h"
+#include "gpu/frame_member.h"
 #include "runtime/instance_slots.h"
 #include "runtime/instance_windows.h"
 #include "supple/supple.h"
@@ -15,7 +16,7 @@ namespace supple::runtime {
 
 /// A ring of copies, one more than there are frames in flight: whatever is recorded, the newest completed copy stays.
 /// Recording and reading allocate nothing.
-class BoundsReadback {
+class BoundsReadback final : public gpu::FrameMember {
 public:
     BoundsReadback(const gpu::Device& device, uint32_t capacity, uint32_t framesInFlight);
     [[nodiscard]] Status create();
@@ -23,8 +24,8 @@ public:
 
     /// Behind the bounds of the instances that are listed now, once they may be copied. `bounds`: by slot.
     void record(VkCommandBuffer commandBuffer, uint64_t frame, VkBuffer bounds, const InstanceSlots& slots);
-    void beginFrame(uint64_t completedFrame) { completedFrame_ = completedFrame; }
-    void cancelFrame(uint64_t frame);
+    void beginFrame(uint64_t completedFrame) override { completedFrame_ = completedFrame; }
+    void cancelFrame(uint64_t frame) override;
 
     struct Box {
         SuppleBounds bounds{};

@@ -109,6 +109,8 @@ void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 }
 
 Status Culling::createSets(const Buffers& buffers) {
+    clear_.add(*device_, states_);
+    addMember(clear_);
     boundsSets_.resize(windows_->count());
     Status status = allocateSets(*device_, pass_->boundsLayout(), "supple bounds", boundsPool_, boundsSets_);
     status = status ? allocateSets(*device_, pass_->listLayout(), "supple list", listPool_, {&listSet_, 1}) : status;
@@ -210,10 +212,6 @@ SuppleBufferRange Culling::bounds() const {
 void Culling::addTransfers(Transfers& transfers) const {
     transfers.add(list_.buffer());
     transfers.add(bounds_.buffer());
-}
-
-void Culling::recordClear(VkCommandBuffer commandBuffer) const {
-    device_->vk.CmdFillBuffer(commandBuffer, states_.buffer(), 0, VK_WHOLE_SIZE, 0);
 }
 
 PassCost Culling::recordBounds(VkCommandBuffer commandBuffer) const {

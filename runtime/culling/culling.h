@@ -8,6 +8,7 @@
 #include "runtime/culling/bounds_pass.h"
 #include "runtime/culling/occlusion_pass.h"
 #include "runtime/culling/visibility.h"
+#include "runtime/recorded_once.h"
 #include "surface/lod/instance.h"
 
 #include <array>
@@ -19,7 +20,7 @@
 namespace supple::runtime {
 
 /// Recording allocates nothing.
-class Culling final : public Visibility {
+class Culling final : public Visibility, public gpu::FrameMembers {
 public:
     /// What is dispatched and drawn for the instances of one rate.
     struct Rate {
@@ -66,12 +67,9 @@ public:
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
 
-    /// Context::recordWarmUp.
-    void recordWarmUp(VkCommandBuffer commandBuffer) const {
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override {
         pass_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
     }
-    /// Once, before anything else.
-    void recordClear(VkCommandBuffer commandBuffer) const;
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
     /// frame uses any more; `generation` tells whether that set has this pyramid.
@@ -145,6 +143,7 @@ private:
 
     gpu::PlannedBuffer bounds_, states_, list_, table_;
     ChangeStaging tables_, masks_;
+    ZeroedOnce clear_; ///< of states_
     gpu::DescriptorPoolHandle boundsPool_, listPool_, occlusionPool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> boundsSets_; ///< by window

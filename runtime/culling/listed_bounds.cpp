@@ -22,6 +22,8 @@ void ListedBounds::plan(gpu::BufferPlan& device) {
 
 Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
     const gpu::Device& device = *desc_.device;
+    clear_.add(device, rest_);
+    addMember(clear_);
     const gpu::ComputeLayout& layout = desc_.pass->boundsLayout();
     const InstanceWindows& windows = *desc_.windows;
     Result<gpu::DescriptorPoolHandle> pool =
@@ -64,11 +66,6 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
 
 SuppleBufferRange ListedBounds::bounds() const {
     return {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
-}
-
-void ListedBounds::recordClear(VkCommandBuffer commandBuffer) const {
-    // A view of zeros has no planes and no limits: it sees everything, and levels are 0.
-    desc_.device->vk.CmdFillBuffer(commandBuffer, rest_.buffer(), 0, VK_WHOLE_SIZE, 0);
 }
 
 PassCost ListedBounds::record(VkCommandBuffer commandBuffer) const {

@@ -7,6 +7,7 @@
 #include "runtime/culling/bounds_pass.h"
 #include "runtime/instance_windows.h"
 #include "runtime/pass_cost.h"
+#include "runtime/recorded_once.h"
 #include "supple/supple.h"
 
 #include <vector>
@@ -14,7 +15,7 @@
 namespace supple::runtime {
 
 /// Recording allocates nothing.
-class ListedBounds {
+class ListedBounds final : public gpu::FrameMembers {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
@@ -28,8 +29,6 @@ public:
     /// When the plan is carried out. `list`: all visible instances of the group by slot, capacity entries.
     [[nodiscard]] Status createSets(VkBuffer cages, VkBuffer list);
 
-    /// Once, before anything else.
-    void recordClear(VkCommandBuffer commandBuffer) const;
     PassCost record(VkCommandBuffer commandBuffer) const;
 
     [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot, as of Culling
@@ -38,6 +37,7 @@ private:
     Desc desc_;
     gpu::PlannedBuffer bounds_;
     gpu::PlannedBuffer rest_; ///< what the pass reads and writes for views: a view that sees everything, and states
+    ZeroedOnce clear_;        ///< of rest_: a view of zeros has no planes and no limits, and levels are 0
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     std::vector<VkDescriptorSet> sets_; ///< by window

@@ -54,11 +54,12 @@ Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
     return status;
 }
 
-Status OneRate::createSets(const InstanceSet& instances, const InstanceListing& listing, const Visibility& visibility) {
+Status OneRate::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+                           const Visibility& visibility) {
     const Status made = createIndices(indexData_);
     indexData_ = {};
     rates_.front().instances = visibility.list().slots();
-    return made ? OwnVertices::createSets(instances, listing, visibility) : made;
+    return made ? OwnVertices::createSets(cages, listing, visibility) : made;
 }
 
 void OneRate::fillGrid(SuppleGridOutput& output) const {

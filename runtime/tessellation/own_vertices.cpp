@@ -116,24 +116,12 @@ void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
     }
 }
 
-bool OwnVertices::staticsPending() const {
-    return Tessellation::staticsPending() || indices_.uploadPending();
-}
-
-VkDeviceSize OwnVertices::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
-    return Tessellation::recordStatics(commandBuffer, frame) + indices_.recordUpload(commandBuffer, frame);
-}
-
-void OwnVertices::cancelFrame(uint64_t frame) {
-    Tessellation::cancelFrame(frame);
-    indices_.cancelUpload(frame);
-    indicesRelease_.cancel(frame);
-    attributes_.cancel(frame);
-}
-
-void OwnVertices::releaseStaging(uint64_t completedFrame) {
-    Tessellation::releaseStaging(completedFrame);
-    indices_.releaseStaging(completedFrame);
+Status OwnVertices::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+                               const Visibility& visibility) {
+    addMember(indices_);
+    addMember(indicesRelease_);
+    addMember(attributes_);
+    return Tessellation::createSets(cages, listing, visibility);
 }
 
 VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {

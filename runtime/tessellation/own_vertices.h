@@ -19,10 +19,8 @@ public:
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
-    [[nodiscard]] bool staticsPending() const override;
-    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
-    void cancelFrame(uint64_t frame) override;
-    void releaseStaging(uint64_t completedFrame) override;
+    [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+                                    const Visibility& visibility) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     [[nodiscard]] bool attributesDue() const override { return attributes_.due(); }
     PassCost recordAttributes(VkCommandBuffer commandBuffer, uint64_t frame) override;

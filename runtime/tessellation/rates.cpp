@@ -27,16 +27,12 @@ public:
     void setLadder(Ladder ladder) override;
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Needs cullingNeeds() const override;
-    [[nodiscard]] Status createSets(const InstanceSet& instances, const InstanceListing& listing,
+    [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
-    [[nodiscard]] bool staticsPending() const override;
-    VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
-    void cancelFrame(uint64_t frame) override;
-    void releaseStaging(uint64_t completedFrame) override;
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
@@ -182,11 +178,13 @@ Culling::Needs Rates::cullingNeeds() const {
     return needs;
 }
 
-Status Rates::createSets(const InstanceSet& instances, const InstanceListing& listing, const Visibility& visibility) {
+Status Rates::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+                         const Visibility& visibility) {
     Status status = createIndices(indexData_);
     indexData_ = {};
-    status = status ? OwnVertices::createSets(instances, listing, visibility) : status;
+    status = status ? OwnVertices::createSets(cages, listing, visibility) : status;
     for (Rate& rate : own_) {
+        addMember(rate.scheme->buffers);
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
     for (uint32_t r = 0; status && r < rates_.size(); ++r) {
@@ -216,33 +214,6 @@ uint32_t Rates::scratchStride() const {
         most = std::max(most, rate.program.scratchStride);
     }
     return most;
-}
-
-bool Rates::staticsPending() const {
-    return OwnVertices::staticsPending() ||
-           std::any_of(own_.begin(), own_.end(), [](const Rate& rate) { return rate.scheme->buffers.uploadPending(); });
-}
-
-VkDeviceSize Rates::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
-    VkDeviceSize bytes = OwnVertices::recordStatics(commandBuffer, frame);
-    for (const Rate& rate : own_) {
-        bytes += rate.scheme->buffers.recordUpload(commandBuffer, frame); // nothing the second time
-    }
-    return bytes;
-}
-
-void Rates::cancelFrame(uint64_t frame) {
-    OwnVertices::cancelFrame(frame);
-    for (const Rate& rate : own_) {
-        rate.scheme->buffers.cancelUpload(frame);
-    }
-}
-
-void Rates::releaseStaging(uint64_t completedFrame) {
-    OwnVertices::releaseStaging(completedFrame);
-    for (const Rate& rate : own_) {
-        rate.scheme->buffers.releaseStaging(completedFrame);
-    }
 }
 
 void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {

@@ -55,9 +55,6 @@ Tessellation::Tessellation(TessellationDesc desc)
     : desc_(std::move(desc)), askedRate_(askedRate(desc_.group)), scheme_(std::make_shared<SchemeTables>()) {
     scheme_->prepared = std::make_shared<PreparedTables>();
     wanted_ = wantedBy(desc_);
-    if (desc_.piece != nullptr) {
-        gathered_.emplace(*desc_.deform, *desc_.piece);
-    }
     evaluation_.cageStride = InstanceSet::cageStrideOf(cage().vertexCount());
 }
 
@@ -203,19 +200,19 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     const VkBufferUsageFlags sizes = program_.deepen.empty() ? 0 : VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     scratch_ = device.add(
         {"supple scratch", n * scratchStride() * gpu::kVec4Bytes, kScratch | sizes, gpu::MemoryPurpose::scratch});
-    if (gathered_) {
-        gathered_->plan(device, desc_.group.capacity);
-    }
 }
 
-Status Tessellation::createSets(const InstanceSet& instances, const InstanceListing& listing,
+Status Tessellation::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                 const Visibility& visibility) {
-    instances_ = &instances;
+    cages_ = cages;
     listing_ = &listing;
     visibility_ = &visibility;
-    clear_.renew(pools_[0].size() > 0);
-    const Status gathers = gathered_ ? gathered_->createSets(*desc_.device, instances, listing) : success();
-    return !gathers ? gathers : makeSets(sets_, *scheme_, program_);
+    for (const gpu::PlannedBuffer& pool : pools_) {
+        clear_.add(*desc_.device, pool);
+    }
+    addMember(clear_);
+    addMember(scheme_->buffers);
+    return makeSets(sets_, *scheme_, program_);
 }
 
 Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, const surface::Program& program) const {
@@ -247,8 +244,7 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
         // shaders/subdivision/net.glsl).
         bind(kCageBinding, kCageTexelBinding, pools_[1 - which.pool], poolStride, "supple pool");
     } else {
-        const gpu::PlannedBuffer& cages = gathered_ ? gathered_->cages() : instances_->cages();
-        bind(kCageBinding, kCageTexelBinding, cages, evaluation_.cageStride, "supple deformed cage");
+        bind(kCageBinding, kCageTexelBinding, cages_, evaluation_.cageStride, "supple deformed cage");
     }
     if (scratch_.size() > 0) {
         bind(kScratchBinding, kScratchTexelBinding, scratch_, scratchStride(), "supple scratch");
@@ -267,46 +263,7 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
 
 void Tessellation::addTransfers(Transfers&, uint64_t) const {}
 
-bool Tessellation::staticsPending() const {
-    return scheme_->buffers.uploadPending() || clear_.due() ||
-           (desc_.piece != nullptr && desc_.piece->vertices.uploadPending());
-}
-
-VkDeviceSize Tessellation::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
-    if (clear_.due()) {
-        clear_.record(frame);
-        // The zero coefficient, and the slots that no stage writes.
-        for (const gpu::PlannedBuffer& pool : pools_) {
-            if (pool.size() > 0) {
-                desc_.device->vk.CmdFillBuffer(commandBuffer, pool.buffer(), 0, VK_WHOLE_SIZE, 0);
-            }
-        }
-    }
-    const VkDeviceSize ofPiece =
-        desc_.piece != nullptr ? desc_.piece->vertices.recordUpload(commandBuffer, frame) : VkDeviceSize{0};
-    return ofPiece + scheme_->buffers.recordUpload(commandBuffer, frame);
-}
-
-void Tessellation::cancelFrame(uint64_t frame) {
-    scheme_->buffers.cancelUpload(frame);
-    if (desc_.piece != nullptr) {
-        desc_.piece->vertices.cancelUpload(frame);
-    }
-    clear_.cancel(frame);
-}
-
-void Tessellation::releaseStaging(uint64_t completedFrame) {
-    scheme_->buffers.releaseStaging(completedFrame);
-    if (desc_.piece != nullptr) {
-        desc_.piece->vertices.releaseStaging(completedFrame);
-    }
-}
-
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer) const {
-    if (gathered_) {
-        gpu::computeBarrier(*desc_.device, commandBuffer);
-        gathered_->recordWarmUp(commandBuffer);
-    }
     recordWarmUp(commandBuffer, program_, sets_);
 }
 
@@ -326,10 +283,6 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Pr
     if (writesMotion()) {
         nothing(program.motion, sets.at({0, 1, true}));
     }
-}
-
-PassCost Tessellation::recordGather(VkCommandBuffer commandBuffer) const {
-    return gathered_ ? gathered_->record(commandBuffer, windows()) : PassCost{};
 }
 
 VkDeviceSize Tessellation::recordUpload(VkCommandBuffer, uint64_t, bool) {

@@ -10,7 +10,6 @@
 #include "gpu/buffer_plan.h"
 #include "runtime/asset.h"
 #include "runtime/culling/culling.h"
-#include "runtime/gathered_cage.h"
 #include "runtime/instance_set.h"
 #include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
@@ -35,7 +34,6 @@ inline constexpr uint32_t kVertexPadding = 64;
 struct TessellationDesc {
     const gpu::Device* device = nullptr;
     surface::Passes* passes = nullptr;
-    const skinning::DeformPass* deform = nullptr;
     BoundsPass* bounds = nullptr; ///< groups of a view
     const gpu::StaticBuffers* pairs = nullptr;
     std::shared_ptr<View> view; ///< null, or the group's
@@ -52,7 +50,7 @@ struct TessellationDesc {
 };
 
 /// The base class has what all have in common: tables, program, coefficients, descriptor sets, construction.
-class Tessellation {
+class Tessellation : public gpu::FrameMembers {
 public:
     /// Builds the tables, prepares the pipelines and lays out an instance; refuses what the scheme cannot take.
     [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& asked);
@@ -64,6 +62,8 @@ public:
     [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables(); }
     [[nodiscard]] SuppleScheme schemeId() const { return desc_.group.scheme; }
     [[nodiscard]] const std::vector<uint32_t>& parts() const { return desc_.parts; }
+    /// Those parts; null: all of the asset's.
+    [[nodiscard]] AssetPiece* piece() const { return desc_.piece.get(); }
     /// The scheme polygons, which is not tessellated.
     [[nodiscard]] bool isMesh() const {
         return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe().scheme).isMesh();
@@ -100,13 +100,13 @@ public:
     /// Groups of a view.
     [[nodiscard]] virtual Culling::Needs cullingNeeds() const { return {}; }
     virtual void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
-    /// When the plans are carried out. `visibility` is the group's Culling if it belongs to a view.
-    [[nodiscard]] virtual Status createSets(const InstanceSet& instances, const InstanceListing& listing,
+    /// When the plans are carried out. `cages`: the deformed cages of all parts, or of the piece. `visibility` is the
+    /// group's Culling if it belongs to a view.
+    [[nodiscard]] virtual Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                             const Visibility& visibility);
 
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
-    /// Context::recordWarmUp.
-    virtual void recordWarmUp(VkCommandBuffer commandBuffer) const;
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     // Output; the API asks for what a tessellation of this kind has.
     [[nodiscard]] virtual SuppleTessellation kind() const = 0;
     /// Null without surface vertices.
@@ -120,16 +120,7 @@ public:
     /// What prepareRate() made ready. The next fillGrid() tells of it.
     virtual void takeRate() {}
 
-    // Uploads and clears that are recorded once.
-    [[nodiscard]] virtual bool staticsPending() const;
-    virtual VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame);
-    virtual void cancelFrame(uint64_t frame);
-    virtual void releaseStaging(uint64_t completedFrame);
-
     // The passes of a frame. What their dispatches need between them they record themselves.
-    [[nodiscard]] bool gathers() const { return gathered_.has_value(); }
-    /// The deformed vertices of its parts.
-    PassCost recordGather(VkCommandBuffer commandBuffer) const;
     /// How far the origin of the coordinates has moved since the group's last recording.
     void setPastStep(const glm::vec3& step) { pastStep_ = step; }
     /// `changed`: the list of instances has.
@@ -214,11 +205,10 @@ protected:
     uint32_t askedRate_ = 8;
     std::string rateNote_, uvNote_;
     std::shared_ptr<SchemeTables> scheme_;
-    std::optional<GatheredCage> gathered_; ///< if it has a piece
     surface::Evaluation evaluation_;
     surface::Program program_;
     StreamSet wanted_;
-    const InstanceSet* instances_ = nullptr;
+    gpu::PlannedBuffer cages_; ///< the group's
     const InstanceListing* listing_ = nullptr;
     const Visibility* visibility_ = nullptr;
     std::array<gpu::PlannedBuffer, 2> pools_; ///< motion: the pools take turns
@@ -226,7 +216,7 @@ protected:
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
     glm::vec3 pastStep_{0.0f};
-    RecordedOnce clear_;
+    ZeroedOnce clear_; ///< the zero coefficient, and the slots that no stage writes
 
 private:
     [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;

@@ -270,18 +270,19 @@ static void printTimings(SuppleContext context) {
     SuppleBudget budget = {0};
     uint32_t count = 64;
     uint32_t i;
-    const SuppleResult result = suppleGetTimings(context, timings, &count);
+    const SuppleResult result = suppleGetTimings(context, sizeof timings[0], timings, &count);
     if (result != SUPPLE_OK && result != SUPPLE_INCOMPLETE) {
         printf("no timings: %s\n", suppleResultString(result));
         return;
     }
     for (i = 0; i < count; ++i) {
         printf("frame %lu %-10s gpu %8.3f ms, recorded in %6.3f ms, %7lu points, %8lu bytes\n",
-               (unsigned long)timings[i].frame, timings[i].pass, (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6,
-               timings[i].cpuRecord * 1e-6, (unsigned long)timings[i].points, (unsigned long)timings[i].bytes);
+               (unsigned long)timings[i].frame, suppleGetPassName(timings[i].pass),
+               (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6, timings[i].cpuRecord * 1e-6,
+               (unsigned long)timings[i].points, (unsigned long)timings[i].bytes);
     }
     budget.structSize = sizeof budget;
-    CHECK_SUPPLE(suppleGetBudget(context, NULL, &budget));
+    CHECK_SUPPLE(suppleGetBudget(context, SUPPLE_PASS_ALL, &budget));
     printf("budget of a frame %.1f ms: worst %.3f ms, exceeded in %lu of %lu frames\n", budget.limit * 1e-6,
            budget.worst * 1e-6, (unsigned long)budget.framesOver, (unsigned long)budget.framesMeasured);
 }
@@ -423,7 +424,7 @@ int main(int argc, char** argv) {
     asset = options.characterPath != NULL ? loadCharacter(context, options.characterPath) : createCube(context);
     info.structSize = sizeof info;
     CHECK_SUPPLE(suppleGetAssetInfo(context, asset, &info));
-    CHECK_SUPPLE(suppleSetBudget(context, NULL, 50e6));
+    CHECK_SUPPLE(suppleSetBudget(context, SUPPLE_PASS_ALL, 50e6));
 
     for (i = 0; i < THREADS; ++i) {
         createCrowd(context, asset, schemes[i], &crowds[i]);

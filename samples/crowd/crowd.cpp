@@ -208,20 +208,20 @@ std::vector<std::string> Crowd::report() const {
     }
     if (context_.timings(timings_) != SUPPLE_OK)
         return lines;
-    std::vector<std::pair<const char*, double>> passes; // in the order of the frame
+    std::vector<std::pair<SupplePass, double>> passes; // in the order of the frame
     double total = 0.0;
     for (const SuppleTiming& timing : timings_) {
         const double ms = 1e-6 * (timing.gpuEnd - timing.gpuBegin);
         total += ms;
-        const auto found = std::find_if(passes.begin(), passes.end(),
-                                        [&](const auto& pass) { return std::strcmp(pass.first, timing.pass) == 0; });
+        const auto found =
+            std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == timing.pass; });
         if (found == passes.end())
             passes.emplace_back(timing.pass, ms);
         else
             found->second += ms;
     }
-    for (const auto& [name, ms] : passes) {
-        std::snprintf(text, sizeof text, "%-10s %8.3f ms", name, ms);
+    for (const auto& [pass, ms] : passes) {
+        std::snprintf(text, sizeof text, "%-10s %8.3f ms", suppleGetPassName(pass), ms);
         lines.emplace_back(text);
     }
     std::snprintf(text, sizeof text, "%-10s %8.3f ms", "in all", total);

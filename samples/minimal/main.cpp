@@ -140,8 +140,8 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
     std::vector<SuppleTiming> timings;
     check(context.timings(timings), "timings");
     for (const SuppleTiming& timing : timings)
-        std::printf("%-10s %8.3f ms %9llu points\n", timing.pass, (timing.gpuEnd - timing.gpuBegin) * 1e-6,
-                    static_cast<unsigned long long>(timing.points));
+        std::printf("%-10s %8.3f ms %9llu points\n", suppleGetPassName(timing.pass),
+                    (timing.gpuEnd - timing.gpuBegin) * 1e-6, static_cast<unsigned long long>(timing.points));
 }
 
 } // namespace

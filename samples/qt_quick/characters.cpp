@@ -200,7 +200,7 @@ void Characters::report(Report& out) const {
     if (context_.timings(timings_) != SUPPLE_OK)
         return;
     for (const SuppleTiming& timing : timings_) {
-        const QString name = QString::fromLatin1(timing.pass);
+        const QString name = QString::fromLatin1(suppleGetPassName(timing.pass));
         if (out.passes.isEmpty() || out.passes.last().name != name) // a pass may have several entries
             out.passes.append({name, 0.0});
         out.passes.last().milliseconds += (timing.gpuEnd - timing.gpuBegin) * 1e-6;

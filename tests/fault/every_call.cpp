@@ -317,11 +317,11 @@ private:
         uint32_t count = 0;
         call("suppleGetClipMarkers", [&] { return suppleGetClipMarkers(handle(), tube_, 0, nullptr, &count); });
         call(
-            "suppleGetTimings", [&] { return suppleGetTimings(handle(), nullptr, &count); }, SUPPLE_NOT_READY);
-        call("suppleSetBudget", [&] { return suppleSetBudget(handle(), "evaluate", 1e9); });
+            "suppleGetTimings", [&] { return suppleGetTimings(handle(), sizeof(SuppleTiming), nullptr, &count); },
+            SUPPLE_NOT_READY);
+        call("suppleSetBudget", [&] { return suppleSetBudget(handle(), SUPPLE_PASS_EVALUATE, 1e9); });
         call(
-            "suppleSetBudget, of no pass",
-            [&] { return suppleSetBudget(handle(), "a pass of a long name, for a budget", 1e6); },
+            "suppleSetBudget, of no pass", [&] { return suppleSetBudget(handle(), SUPPLE_PASS_MAX_ENUM, 1e6); },
             SUPPLE_ERROR_ARGUMENT);
         call("suppleSetMemoryBudget", [&] { return suppleSetMemoryBudget(handle(), 0, nullptr, nullptr); });
         // Mistakes need memory for what is said about them.
@@ -364,7 +364,8 @@ private:
                              [&](auto* out) { return suppleGetViewMemory(handle(), view_, out); });
         get<SuppleMemoryUse>("suppleGetContextMemory",
                              [&](auto* out) { return suppleGetContextMemory(handle(), out); });
-        get<SuppleBudget>("suppleGetBudget", [&](auto* out) { return suppleGetBudget(handle(), "evaluate", out); });
+        get<SuppleBudget>("suppleGetBudget",
+                          [&](auto* out) { return suppleGetBudget(handle(), SUPPLE_PASS_EVALUATE, out); });
         SuppleViewStatistics statistics{};
         statistics.structSize = sizeof(statistics);
         ready("suppleGetViewStatistics", [&] { return suppleGetViewStatistics(handle(), view_, &statistics); });
@@ -375,7 +376,6 @@ private:
         uint64_t ticks = 0;
         ready("suppleGetTimingOrigin", [&] { return suppleGetTimingOrigin(handle(), &ticks); });
         uint32_t count = 0;
-        ready("suppleGetTimingSurfaces", [&] { return suppleGetTimingSurfaces(handle(), nullptr, &count); });
         ready("suppleGetPatches", [&] { return suppleGetPatches(handle(), groups_[0], 0, nullptr, &count); });
         ready("suppleGetClipMarkersBetween",
               [&] { return suppleGetClipMarkersBetween(handle(), tube_, 0, 0.0, 1.0, 0, nullptr, &count); });

@@ -24,10 +24,10 @@ TEST(StaticBuffers, AreUploadedOnce) {
     test::FakeVulkan vulkan;
     Result<StaticBuffers> buffers = makeBuffers(vulkan.device);
     ASSERT_TRUE(buffers.ok()) << buffers.error().message;
-    EXPECT_TRUE(buffers->uploadPending());
-    EXPECT_EQ(buffers->recordUpload(test::kCommands, 1), kPositions.size() + kFaces.size());
-    EXPECT_FALSE(buffers->uploadPending());
-    EXPECT_EQ(buffers->recordUpload(test::kCommands, 2), 0u);
+    EXPECT_TRUE(buffers->staticsPending());
+    EXPECT_EQ(buffers->recordStatics(test::kCommands, 1), kPositions.size() + kFaces.size());
+    EXPECT_FALSE(buffers->staticsPending());
+    EXPECT_EQ(buffers->recordStatics(test::kCommands, 2), 0u);
     EXPECT_EQ(vulkan.copies.size(), 2u);
 
     const test::FakeVulkan::BoundBuffer& faces = vulkan.buffers.at(buffers->buffer(2));
@@ -39,12 +39,12 @@ TEST(StaticBuffers, AreUploadedAgainWhereTheFrameNeverRan) {
     test::FakeVulkan vulkan;
     Result<StaticBuffers> buffers = makeBuffers(vulkan.device);
     ASSERT_TRUE(buffers.ok()) << buffers.error().message;
-    ASSERT_GT(buffers->recordUpload(test::kCommands, 4), 0u);
-    buffers->cancelUpload(3);
-    EXPECT_FALSE(buffers->uploadPending()) << "another frame's";
-    buffers->cancelUpload(4);
-    EXPECT_TRUE(buffers->uploadPending());
-    EXPECT_GT(buffers->recordUpload(test::kCommands, 5), 0u);
+    ASSERT_GT(buffers->recordStatics(test::kCommands, 4), 0u);
+    buffers->cancelFrame(3);
+    EXPECT_FALSE(buffers->staticsPending()) << "another frame's";
+    buffers->cancelFrame(4);
+    EXPECT_TRUE(buffers->staticsPending());
+    EXPECT_GT(buffers->recordStatics(test::kCommands, 5), 0u);
 }
 
 TEST(StaticBuffers, FreeTheirStagingMemoryWhenTheFrameIsComplete) {
@@ -52,15 +52,15 @@ TEST(StaticBuffers, FreeTheirStagingMemoryWhenTheFrameIsComplete) {
     Result<StaticBuffers> buffers = makeBuffers(vulkan.device);
     ASSERT_TRUE(buffers.ok()) << buffers.error().message;
     EXPECT_EQ(vulkan.memory.size(), 2u);
-    buffers->releaseStaging(9);
+    buffers->beginFrame(9);
     EXPECT_EQ(vulkan.memory.size(), 2u) << "nothing is uploaded yet";
-    ASSERT_GT(buffers->recordUpload(test::kCommands, 10), 0u);
-    buffers->releaseStaging(9);
+    ASSERT_GT(buffers->recordStatics(test::kCommands, 10), 0u);
+    buffers->beginFrame(9);
     EXPECT_EQ(vulkan.memory.size(), 2u) << "the frame may still run";
-    buffers->releaseStaging(10);
+    buffers->beginFrame(10);
     EXPECT_EQ(vulkan.memory.size(), 1u);
-    buffers->cancelUpload(10);
-    EXPECT_FALSE(buffers->uploadPending()) << "a complete frame is not cancelled";
+    buffers->cancelFrame(10);
+    EXPECT_FALSE(buffers->staticsPending()) << "a complete frame is not cancelled";
 }
 
 } // namespace

@@ -281,9 +281,9 @@ TEST(Allocation, FramesTakeNoMemory) {
         }
         const std::vector<float> ones(3, 1.0f);
         // Never kept, never always broken: warnings come and go.
-        ASSERT_EQ(suppleSetBudget(handle, nullptr, 1e5), SUPPLE_OK);
-        ASSERT_EQ(suppleSetBudget(handle, "evaluate", 1e-3), SUPPLE_OK);
-        ASSERT_EQ(suppleSetBudget(handle, "deform", 1e12), SUPPLE_OK);
+        ASSERT_EQ(suppleSetBudget(handle, SUPPLE_PASS_ALL, 1e5), SUPPLE_OK);
+        ASSERT_EQ(suppleSetBudget(handle, SUPPLE_PASS_EVALUATE, 1e-3), SUPPLE_OK);
+        ASSERT_EQ(suppleSetBudget(handle, SUPPLE_PASS_DEFORM, 1e12), SUPPLE_OK);
         for (int i = 0; i < 3; ++i) { // uploads; then their staging memory goes
             context.evaluate(all, SUPPLE_RECORD_TIMINGS);
         }
@@ -343,11 +343,11 @@ TEST(Allocation, FramesTakeNoMemory) {
                 const float data[4] = {static_cast<float>(n), 0.0f, 0.0f, 1.0f};
                 ok(suppleSetUserData(handle, groups[0].instances[n % kCapacity], data));
                 uint32_t room = SUPPLE_MAX_TIMINGS;
-                ok(suppleGetTimings(handle, timings.data(), &room));
+                ok(suppleGetTimings(handle, sizeof(SuppleTiming), timings.data(), &room));
                 SuppleBudget budget{};
                 budget.structSize = sizeof(budget);
-                ok(suppleGetBudget(handle, "evaluate", &budget));
-                ok(suppleSetBudget(handle, "motion", static_cast<double>(n + 1)));
+                ok(suppleGetBudget(handle, SUPPLE_PASS_EVALUATE, &budget));
+                ok(suppleSetBudget(handle, SUPPLE_PASS_MOTION, static_cast<double>(n + 1)));
             };
             poses();
             ASSERT_TRUE(device

@@ -1813,34 +1813,35 @@ void frames(Rows& r) {
 
 void measurements(Rows& r) {
     constexpr const char* kTimings = "suppleGetTimings";
-    r.nullContext(kTimings,
-                  [](World& w, SuppleContext c) { return suppleGetTimings(c, w.plain<SuppleTiming>(2), w.number(2)); });
-    r.refuse(kTimings, "count null", SUPPLE_MESSAGE_NULL_POINTER,
-             [](World& w) { return suppleGetTimings(w.handle(), w.plain<SuppleTiming>(2), nullptr); });
+    r.nullContext(kTimings, [](World& w, SuppleContext c) {
+        return suppleGetTimings(c, sizeof(SuppleTiming), w.plain<SuppleTiming>(2), w.number(2));
+    });
+    r.refuse(kTimings, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetTimings(w.handle(), sizeof(SuppleTiming), w.plain<SuppleTiming>(2), nullptr);
+    });
     for (const Phase phase : {Phase::fresh, Phase::begun}) {
         r.add(
             kTimings, "nothing timed", SUPPLE_NOT_READY, kSilent,
             [](World& w) {
                 uint32_t count = 2;
                 auto* const out = w.plain<SuppleTiming>(2);
-                const SuppleResult result = suppleGetTimings(w.handle(), out, &count);
+                const SuppleResult result = suppleGetTimings(w.handle(), sizeof(SuppleTiming), out, &count);
                 EXPECT_EQ(count, 0u);
                 EXPECT_EQ(out->group.id, 0xA5A5A5A5A5A5A5A5ull);
                 return result;
             },
             phase);
     }
-    constexpr const char* kSurfaces = "suppleGetTimingSurfaces";
-    r.nullContext(kSurfaces, [](World& w, SuppleContext c) {
-        return suppleGetTimingSurfaces(c, w.plain<uint32_t>(2), w.number(2));
-    });
-    r.refuse(kSurfaces, "count null", SUPPLE_MESSAGE_NULL_POINTER,
-             [](World& w) { return suppleGetTimingSurfaces(w.handle(), w.plain<uint32_t>(2), nullptr); });
-    r.add(kSurfaces, "nothing timed", SUPPLE_NOT_READY, kSilent, [](World& w) {
-        uint32_t count = 2;
-        const SuppleResult result = suppleGetTimingSurfaces(w.handle(), w.plain<uint32_t>(2), &count);
-        EXPECT_EQ(count, 0u);
-        return result;
+    for (const size_t size : {size_t{0}, sizeof(SuppleTiming) - 8, sizeof(SuppleTiming) + 4, size_t{1} << 20}) {
+        r.refuse(kTimings, "timingSize " + std::to_string(size), SUPPLE_MESSAGE_STRUCT_SIZE, [=](World& w) {
+            return suppleGetTimings(w.handle(), static_cast<uint32_t>(size), w.plain<SuppleTiming>(2), w.number(2));
+        });
+    }
+    r.accept("suppleGetPassName", "", [](World&) {
+        EXPECT_STREQ(suppleGetPassName(SUPPLE_PASS_UPLOAD), "upload");
+        EXPECT_STREQ(suppleGetPassName(SUPPLE_PASS_MOTION), "motion");
+        EXPECT_STREQ(suppleGetPassName(SUPPLE_PASS_MAX_ENUM), "unknown SupplePass");
+        return SUPPLE_OK;
     });
     constexpr const char* kOrigin = "suppleGetTimingOrigin";
     r.nullContext(kOrigin, [](World& w, SuppleContext c) { return suppleGetTimingOrigin(c, w.plain<uint64_t>(1)); });
@@ -1854,32 +1855,33 @@ void measurements(Rows& r) {
     });
     constexpr const char* kSet = "suppleSetBudget";
     constexpr const char* kGet = "suppleGetBudget";
-    r.nullContext(kSet, [](World&, SuppleContext c) { return suppleSetBudget(c, "deform", 1.0); });
+    r.nullContext(kSet, [](World&, SuppleContext c) { return suppleSetBudget(c, SUPPLE_PASS_DEFORM, 1.0); });
     for (const double value : {double{kNan}, double{kInfinity}, -double{kInfinity}}) {
         r.refuse(kSet, "nanoseconds " + std::to_string(value), SUPPLE_MESSAGE_NOT_FINITE,
-                 [=](World& w) { return suppleSetBudget(w.handle(), "deform", value); });
+                 [=](World& w) { return suppleSetBudget(w.handle(), SUPPLE_PASS_DEFORM, value); });
     }
     r.refuse(kSet, "nanoseconds negative", SUPPLE_MESSAGE_OUT_OF_RANGE,
-             [](World& w) { return suppleSetBudget(w.handle(), "deform", -1.0); });
-    for (const char* pass : {"", "Deform", "deform ", "supple"}) {
-        r.refuse(kSet, std::string("pass '") + pass + "'", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleSetBudget(w.handle(), SUPPLE_PASS_DEFORM, -1.0); });
+    for (const SupplePass pass : {SUPPLE_PASS_SHORTFALL, SUPPLE_PASS_MAX_ENUM}) {
+        r.refuse(kSet, "pass " + std::to_string(pass), SUPPLE_MESSAGE_OUT_OF_RANGE,
                  [=](World& w) { return suppleSetBudget(w.handle(), pass, 1.0); });
-        r.refuse(kGet, std::string("pass '") + pass + "'", SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+        r.refuse(kGet, "pass " + std::to_string(pass), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
             return suppleGetBudget(w.handle(), pass, w.watched<SuppleBudget>(sizeof(SuppleBudget)));
         });
     }
     r.accept(kSet, "valid, and taken away", [](World& w) {
-        EXPECT_EQ(suppleSetBudget(w.handle(), nullptr, 1e9), SUPPLE_OK);
+        EXPECT_EQ(suppleSetBudget(w.handle(), SUPPLE_PASS_ALL, 1e9), SUPPLE_OK);
         SuppleBudget* const out = w.watched<SuppleBudget>(sizeof(SuppleBudget));
-        EXPECT_EQ(suppleGetBudget(w.handle(), nullptr, out), SUPPLE_OK);
+        EXPECT_EQ(suppleGetBudget(w.handle(), SUPPLE_PASS_ALL, out), SUPPLE_OK);
         EXPECT_EQ(out->limit, 1e9);
-        return suppleSetBudget(w.handle(), nullptr, 0.0);
+        return suppleSetBudget(w.handle(), SUPPLE_PASS_ALL, 0.0);
     });
     r.nullContext(kGet, [](World& w, SuppleContext c) {
-        return suppleGetBudget(c, "deform", w.watched<SuppleBudget>(sizeof(SuppleBudget)));
+        return suppleGetBudget(c, SUPPLE_PASS_DEFORM, w.watched<SuppleBudget>(sizeof(SuppleBudget)));
     });
     r.output<SuppleBudget>(
-        kGet, [](World& w, SuppleBudget* out) { return suppleGetBudget(w.handle(), "deform", out); }, SUPPLE_NOT_READY);
+        kGet, [](World& w, SuppleBudget* out) { return suppleGetBudget(w.handle(), SUPPLE_PASS_DEFORM, out); },
+        SUPPLE_NOT_READY);
 }
 
 void memoryUses(Rows& r) {

@@ -41,7 +41,7 @@ protected:
         if (!timestamps) {
             GTEST_SKIP() << "the queue has no timestamps";
         }
-        for (const char* pass : {static_cast<const char*>(nullptr), "deform", "evaluate"}) {
+        for (const SupplePass pass : {SUPPLE_PASS_ALL, SUPPLE_PASS_DEFORM, SUPPLE_PASS_EVALUATE}) {
             ASSERT_EQ(suppleSetBudget(context->handle(), pass, 0.0), SUPPLE_OK);
         }
         frame(1); // what the test before timed is none of this one's
@@ -53,7 +53,7 @@ protected:
         context->evaluate({&group, 1}, flags);
         currentWrappedVulkan().ticksAPass = ticks;
     }
-    [[nodiscard]] SuppleBudget budget(const char* pass, SuppleResult wanted = SUPPLE_OK) const {
+    [[nodiscard]] SuppleBudget budget(SupplePass pass, SuppleResult wanted = SUPPLE_OK) const {
         SuppleBudget out{};
         out.structSize = sizeof(out);
         EXPECT_EQ(suppleGetBudget(context->handle(), pass, &out), wanted);
@@ -70,7 +70,7 @@ protected:
 };
 
 TEST_F(Budget, OneWarningEachTimeAPassComesToExceedIt) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
     const struct {
         uint64_t ticks;
         uint32_t warnings; ///< when the frame after it begins
@@ -83,7 +83,7 @@ TEST_F(Budget, OneWarningEachTimeAPassComesToExceedIt) {
     }
     context->beginFrame();
     EXPECT_EQ(warnings(), 0u);
-    const SuppleBudget b = budget("evaluate");
+    const SuppleBudget b = budget(SUPPLE_PASS_EVALUATE);
     EXPECT_DOUBLE_EQ(b.limit, 100.0 * period);
     EXPECT_DOUBLE_EQ(b.latest, 120.0 * period);
     EXPECT_DOUBLE_EQ(b.worst, 170.0 * period);
@@ -92,7 +92,7 @@ TEST_F(Budget, OneWarningEachTimeAPassComesToExceedIt) {
 }
 
 TEST_F(Budget, TheWarningNamesFrameAndPass) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), "deform", 100.0 * period), SUPPLE_OK);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_DEFORM, 100.0 * period), SUPPLE_OK);
     frame(300);
     const uint64_t slow = context->frame;
     context->beginFrame();
@@ -104,34 +104,34 @@ TEST_F(Budget, TheWarningNamesFrameAndPass) {
         << lines[0].text;
 }
 
-TEST_F(Budget, NullIsAllPassesTogether) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), nullptr, 1.0 * period), SUPPLE_OK);
+TEST_F(Budget, OfAllPassesTogether) {
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_ALL, 1.0 * period), SUPPLE_OK);
     frame(50);
     context->beginFrame();
     EXPECT_EQ(warnings(), 1u);
     uint32_t passes = 0;
-    ASSERT_EQ(suppleGetTimings(context->handle(), nullptr, &passes), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings(context->handle(), sizeof(SuppleTiming), nullptr, &passes), SUPPLE_OK);
     EXPECT_GE(passes, 4u);
-    EXPECT_DOUBLE_EQ(budget(nullptr).latest, 50.0 * passes * period);
-    EXPECT_EQ(budget("evaluate", SUPPLE_NOT_READY).framesMeasured, 0u) << "the others have none";
+    EXPECT_DOUBLE_EQ(budget(SUPPLE_PASS_ALL).latest, 50.0 * passes * period);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE, SUPPLE_NOT_READY).framesMeasured, 0u) << "the others have none";
 }
 
 TEST_F(Budget, FramesThatWereNotTimedAreNotCounted) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
     frame(150);
     frame(150, 0);
     frame(150, 0);
     frame(150);
     context->beginFrame();
-    EXPECT_EQ(budget("evaluate").framesMeasured, 2u);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesMeasured, 2u);
     EXPECT_EQ(warnings(), 1u) << "the timed frame before was over as well";
 }
 
 TEST_F(Budget, FramesThatCompleteTogetherAreAllCounted) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
     // Whatever slots the frames take.
     for (uint64_t turn = 0; turn < 3; ++turn) {
-        ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
+        ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
         context->beginFrame();
         const uint64_t before = context->frame;
         for (uint64_t f = 1; f <= 2; ++f) {
@@ -145,45 +145,45 @@ TEST_F(Budget, FramesThatCompleteTogetherAreAllCounted) {
         currentWrappedVulkan().ticksAPass = 150;
         context->frame = before + 2;
         context->beginFrame();
-        EXPECT_EQ(budget("evaluate").framesMeasured, 2u) << turn;
-        EXPECT_EQ(budget("evaluate").framesOver, 2u) << turn;
+        EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesMeasured, 2u) << turn;
+        EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesOver, 2u) << turn;
         EXPECT_EQ(warnings(), 1u) << turn;
         uint32_t count = 1;
         SuppleTiming timing{};
-        EXPECT_EQ(suppleGetTimings(context->handle(), &timing, &count), SUPPLE_INCOMPLETE);
+        EXPECT_EQ(suppleGetTimings(context->handle(), sizeof(SuppleTiming), &timing, &count), SUPPLE_INCOMPLETE);
         EXPECT_EQ(timing.frame, before + 2) << "the newest";
     }
 }
 
 TEST_F(Budget, ZeroTakesItAwayAndSettingItBeginsAnew) {
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
     frame(150);
     frame(150);
-    EXPECT_EQ(budget("evaluate").framesOver, 1u);
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 0.0), SUPPLE_OK);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesOver, 1u);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 0.0), SUPPLE_OK);
     frame(150);
-    EXPECT_EQ(budget("evaluate", SUPPLE_NOT_READY).limit, 0.0);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE, SUPPLE_NOT_READY).limit, 0.0);
     warnings();
     frame(150);
     context->beginFrame();
     EXPECT_EQ(warnings(), 0u);
-    ASSERT_EQ(suppleSetBudget(context->handle(), "evaluate", 100.0 * period), SUPPLE_OK);
-    EXPECT_EQ(budget("evaluate").framesMeasured, 0u);
+    ASSERT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_EVALUATE, 100.0 * period), SUPPLE_OK);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesMeasured, 0u);
     frame(150);
     context->beginFrame();
     EXPECT_EQ(warnings(), 1u);
-    EXPECT_EQ(budget("evaluate").framesMeasured, 1u);
+    EXPECT_EQ(budget(SUPPLE_PASS_EVALUATE).framesMeasured, 1u);
 }
 
 TEST_F(Budget, UnknownPassesAreRefused) {
-    EXPECT_EQ(suppleSetBudget(context->handle(), "evaluation", 1.0), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSetBudget(context->handle(), SUPPLE_PASS_SHORTFALL, 1.0), SUPPLE_ERROR_ARGUMENT);
     SuppleBudget out{};
     out.structSize = sizeof(out);
-    EXPECT_EQ(suppleGetBudget(context->handle(), "", &out), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleGetBudget(context->handle(), SUPPLE_PASS_MAX_ENUM, &out), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(context->takeCount(SUPPLE_MESSAGE_OUT_OF_RANGE), 2u);
-    for (const char* pass :
-         {"upload", "attributes", "pose", "deform", "vertex", "assemble", "patch", "evaluate", "motion"}) {
-        EXPECT_EQ(suppleSetBudget(context->handle(), pass, 1e9), SUPPLE_OK) << pass;
+    for (uint32_t number = SUPPLE_PASS_UPLOAD; number < SUPPLE_PASS_SHORTFALL; ++number) {
+        const auto pass = static_cast<SupplePass>(number);
+        EXPECT_EQ(suppleSetBudget(context->handle(), pass, 1e9), SUPPLE_OK) << suppleGetPassName(pass);
         EXPECT_EQ(budget(pass).limit, 1e9);
         EXPECT_EQ(suppleSetBudget(context->handle(), pass, 0.0), SUPPLE_OK);
     }

@@ -387,7 +387,7 @@ TEST(Contract, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(suppleGetGroupInfo(context, c.group, &output.info), SUPPLE_ERROR_ARGUMENT) << "structSize is 0";
     EXPECT_EQ(host::getGroupOutput(context, {12345}, output), SUPPLE_ERROR_ARGUMENT);
     uint32_t count = 0;
-    EXPECT_EQ(suppleGetTimings(context, nullptr, &count), SUPPLE_NOT_READY);
+    EXPECT_EQ(suppleGetTimings(context, sizeof(SuppleTiming), nullptr, &count), SUPPLE_NOT_READY);
     EXPECT_TRUE((*created)->evaluate({&c.group, 1}).ok()) << "and it still works";
 }
 
@@ -828,13 +828,13 @@ TEST(Contract, TimingsNameEveryPassAndNeverBlock) {
         ASSERT_TRUE((*created)->evaluate({&c.group, 1}, SUPPLE_RECORD_TIMINGS).ok());
     }
     uint32_t count = 0;
-    ASSERT_EQ(suppleGetTimings((*created)->handle(), nullptr, &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings((*created)->handle(), sizeof(SuppleTiming), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);
-    ASSERT_EQ(suppleGetTimings((*created)->handle(), timings.data(), &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings((*created)->handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     std::vector<std::string> passes;
     double end = 0.0;
     for (const SuppleTiming& t : timings) {
-        passes.emplace_back(t.pass);
+        passes.emplace_back(suppleGetPassName(t.pass));
         EXPECT_GE(t.gpuEnd, t.gpuBegin);
         EXPECT_GE(t.gpuBegin, end) << "passes follow each other";
         end = t.gpuEnd;

@@ -324,7 +324,7 @@ void addOutputs(std::vector<Mistake>& rows) {
                     }});
     rows.push_back({"timings before a timed frame is complete", [](Scene& s) {
                         uint32_t count = 0;
-                        return suppleGetTimings(s.context(), nullptr, &count);
+                        return suppleGetTimings(s.context(), sizeof(SuppleTiming), nullptr, &count);
                     }});
     rows.push_back({"a group is drawn, but never recorded", [](Scene& s) {
                         auto out = Scene::asking<SuppleGridOutput>();

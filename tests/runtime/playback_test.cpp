@@ -1136,14 +1136,14 @@ TEST_F(PlaybackOnGpu, IsAPassOfItsOwn) {
     own.beginFrame();
     SuppleTiming timings[16];
     uint32_t count = 16;
-    ASSERT_EQ(suppleGetTimings(own.handle(), timings, &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings(own.handle(), sizeof(SuppleTiming), timings, &count), SUPPLE_OK);
     ASSERT_GE(count, 3u);
-    EXPECT_STREQ(timings[0].pass, "pose") << "nothing was uploaded";
+    EXPECT_EQ(timings[0].pass, SUPPLE_PASS_POSE) << "nothing was uploaded";
     EXPECT_EQ(timings[0].points, 0u) << "local matrices, of which poses are made";
     EXPECT_GE(timings[0].gpuEnd, timings[0].gpuBegin);
-    EXPECT_STREQ(timings[1].pass, "pose");
+    EXPECT_EQ(timings[1].pass, SUPPLE_PASS_POSE);
     EXPECT_EQ(timings[1].points, 2u * 3u);
-    EXPECT_STREQ(timings[2].pass, "deform");
+    EXPECT_EQ(timings[2].pass, SUPPLE_PASS_DEFORM);
 }
 
 TEST_F(PlaybackOnGpu, WhatItDoesNotTakeIsRefused) {

@@ -298,26 +298,25 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
     own.evaluate({&group, 1}, SUPPLE_RECORD_TIMINGS);
     own.beginFrame();
     uint32_t count = 0;
-    ASSERT_EQ(suppleGetTimings(own.handle(), nullptr, &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings(own.handle(), sizeof(SuppleTiming), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);
-    ASSERT_EQ(suppleGetTimings(own.handle(), timings.data(), &count), SUPPLE_OK);
-    std::vector<uint32_t> surfaces(count);
-    ASSERT_EQ(suppleGetTimingSurfaces(own.handle(), surfaces.data(), &count), SUPPLE_OK);
-    ASSERT_EQ(count, timings.size());
+    ASSERT_EQ(suppleGetTimings(own.handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     // The surfaces of a pass follow each other, each with an entry of its own.
     std::vector<std::string> passes;
     std::map<std::string, std::vector<uint32_t>> surfacesOf;
     double end = 0.0;
     for (size_t i = 0; i < timings.size(); ++i) {
         const SuppleTiming& timing = timings[i];
-        const bool next = i > 0 && surfaces[i] != SUPPLE_NO_SURFACE && surfaces[i - 1] != SUPPLE_NO_SURFACE &&
-                          surfaces[i] > surfaces[i - 1] && passes.back() == timing.pass;
+        const char* const name = suppleGetPassName(timing.pass);
+        const uint32_t before = i > 0 ? timings[i - 1].surface : SUPPLE_NO_SURFACE;
+        const bool next = timing.surface != SUPPLE_NO_SURFACE && before != SUPPLE_NO_SURFACE &&
+                          timing.surface > before && passes.back() == name;
         if (!next) {
-            passes.emplace_back(timing.pass);
+            passes.emplace_back(name);
         }
-        surfacesOf[timing.pass].push_back(surfaces[i]);
-        EXPECT_GE(timing.gpuBegin, end) << timing.pass;
-        EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << timing.pass;
+        surfacesOf[name].push_back(timing.surface);
+        EXPECT_GE(timing.gpuBegin, end) << name;
+        EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << name;
         end = timing.gpuEnd;
     }
     const std::vector<std::string> expected = {

@@ -117,14 +117,14 @@ std::vector<std::vector<std::byte>> run(LoggedContext& context, uint32_t groupCo
         // What was timed is of every group, and of this frame alone.
         if (frame > 1) {
             uint32_t count = 0;
-            EXPECT_EQ(suppleGetTimings(context.handle(), nullptr, &count), SUPPLE_OK);
+            EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(SuppleTiming), nullptr, &count), SUPPLE_OK);
             std::vector<SuppleTiming> timings(count);
-            EXPECT_EQ(suppleGetTimings(context.handle(), timings.data(), &count), SUPPLE_OK);
+            EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
             uint32_t evaluations = 0;
             for (const SuppleTiming& timing : timings) {
                 EXPECT_EQ(timing.frame, context.frame - 1);
                 EXPECT_GE(timing.gpuEnd, timing.gpuBegin);
-                evaluations += std::string(timing.pass) == "evaluate" ? 1 : 0;
+                evaluations += timing.pass == SUPPLE_PASS_EVALUATE ? 1 : 0;
             }
             EXPECT_EQ(evaluations, groupCount);
         }

@@ -6,6 +6,7 @@
 #include "tests/support/wrapped_vulkan.h"
 
 #include <algorithm>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
@@ -15,12 +16,41 @@ namespace {
 
 std::vector<SuppleTiming> timingsOf(SuppleContext context) {
     uint32_t count = 0;
-    if (suppleGetTimings(context, nullptr, &count) != SUPPLE_OK) {
+    if (suppleGetTimings(context, sizeof(SuppleTiming), nullptr, &count) != SUPPLE_OK) {
         return {};
     }
     std::vector<SuppleTiming> timings(count);
-    EXPECT_EQ(suppleGetTimings(context, timings.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetTimings(context, sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     return timings;
+}
+
+/// An older and a newer caller's array: entries lie as far apart as it says.
+TEST(Timings, EntriesMayGrow) {
+    LoggedContext context(*testDevice());
+    ASSERT_EQ(context.result(), SUPPLE_OK);
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    const SmallGroup small = createGroup(context.handle(), asset);
+    context.evaluate({&small.group, 1}, SUPPLE_RECORD_TIMINGS);
+    context.beginFrame();
+    const std::vector<SuppleTiming> timings = timingsOf(context.handle());
+    ASSERT_GE(timings.size(), 3u);
+    struct Newer {
+        SuppleTiming known;
+        uint64_t more;
+    };
+    std::vector<Newer> newer(timings.size() + 1);
+    std::memset(newer.data(), 0xA5, newer.size() * sizeof(Newer));
+    uint32_t count = 2;
+    EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(Newer), &newer[0].known, &count), SUPPLE_INCOMPLETE);
+    EXPECT_EQ(count, timings.size());
+    EXPECT_EQ(newer[2].more, 0xA5A5A5A5A5A5A5A5ull) << "there was room for two";
+    EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(Newer), &newer[0].known, &count), SUPPLE_OK);
+    for (size_t i = 0; i < timings.size(); ++i) {
+        EXPECT_EQ(std::memcmp(&newer[i].known, &timings[i], sizeof(SuppleTiming)), 0) << i;
+        EXPECT_EQ(newer[i].more, 0u) << "what this version does not know";
+    }
+    EXPECT_EQ(newer.back().more, 0xA5A5A5A5A5A5A5A5ull);
 }
 
 /// Frames of which two are in flight, on a device that says it is of this type: each frame's timings arrive.
@@ -112,7 +142,7 @@ TEST_F(DrawnTimings, EveryPassOfEveryGroupHasItsOwnTime) {
     for (int frame = 0; frame < 6; ++frame) {
         own.beginFrame();
         for (const SuppleTiming& timing : timingsOf(own.handle())) {
-            double& entry = least.try_emplace({timing.pass, timing.group.id}, 1e30).first->second;
+            double& entry = least.try_emplace({suppleGetPassName(timing.pass), timing.group.id}, 1e30).first->second;
             entry = std::min(entry, timing.gpuEnd - timing.gpuBegin);
         }
         ASSERT_TRUE(testDevice()

@@ -25,9 +25,9 @@ INSTANTIATE_TEST_SUITE_P(Mappings, ViewTimings, testing::Values(SUPPLE_MAPPING_N
 std::vector<SuppleTiming> timingsOf(CrowdContext& context) {
     context.beginFrame();
     uint32_t count = 0;
-    EXPECT_EQ(suppleGetTimings(context.handle(), nullptr, &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(SuppleTiming), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);
-    EXPECT_EQ(suppleGetTimings(context.handle(), timings.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetTimings(context.handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     for (const SuppleTiming& timing : timings) {
         EXPECT_EQ(timing.frame, context.frame - 1);
     }
@@ -38,7 +38,7 @@ std::vector<std::string> passesOf(const std::vector<SuppleTiming>& timings, Supp
     std::vector<std::string> passes;
     for (const SuppleTiming& timing : timings) {
         if (timing.group.id == group.id) {
-            passes.emplace_back(timing.pass);
+            passes.emplace_back(suppleGetPassName(timing.pass));
         }
     }
     return passes;
@@ -87,8 +87,8 @@ TEST_P(ViewTimings, EveryPassOfEveryGroupIsDelivered) {
             const std::vector<SuppleTiming> timings = timingsOf(context);
             double end = 0.0;
             for (const SuppleTiming& timing : timings) {
-                EXPECT_GE(timing.gpuBegin, end) << timing.pass;
-                EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << timing.pass;
+                EXPECT_GE(timing.gpuBegin, end) << suppleGetPassName(timing.pass);
+                EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << suppleGetPassName(timing.pass);
                 end = timing.gpuEnd;
             }
             for (size_t g = 0; g < count; ++g) {
@@ -142,7 +142,7 @@ TEST_P(ViewTimings, AShortfallShowsInEveryFrameThatHasOne) {
             needed = std::max(needed, statistics.vertexCount);
             uint32_t here = 0;
             for (size_t i = 0; i < timings.size(); ++i) {
-                if (std::string(timings[i].pass) != "shortfall") {
+                if (timings[i].pass != SUPPLE_PASS_SHORTFALL) {
                     continue;
                 }
                 ++here;
@@ -151,7 +151,7 @@ TEST_P(ViewTimings, AShortfallShowsInEveryFrameThatHasOne) {
                 EXPECT_EQ(timings[i].bytes, uint64_t{statistics.wantedVertexCount - statistics.vertexCount} * 24);
                 EXPECT_EQ(timings[i].gpuBegin, timings[i].gpuEnd);
                 EXPECT_GT(i, 0u);
-                EXPECT_STREQ(timings[i > 0 ? i - 1 : 0].pass, "solve");
+                EXPECT_EQ(timings[i > 0 ? i - 1 : 0].pass, SUPPLE_PASS_SOLVE);
                 EXPECT_EQ(timings[i > 0 ? i - 1 : 0].gpuEnd, timings[i].gpuBegin);
             }
             EXPECT_EQ(here, statistics.shortfall);

@@ -150,11 +150,11 @@ uint64_t CrowdContext::uploadedFor(SuppleGroup group) {
     beginFrame(); // the one before is complete
     std::array<SuppleTiming, 16> timings{};
     auto count = static_cast<uint32_t>(timings.size());
-    EXPECT_EQ(suppleGetTimings(handle(), timings.data(), &count), SUPPLE_OK);
+    EXPECT_EQ(suppleGetTimings(handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     uint64_t bytes = 0;
     for (uint32_t t = 0; t < count; ++t) {
         // If nothing is uploaded, the frame has no entry at all.
-        const bool counts = timings[t].frame + 1 == frame && std::strcmp(timings[t].pass, "upload") == 0;
+        const bool counts = timings[t].frame + 1 == frame && timings[t].pass == SUPPLE_PASS_UPLOAD;
         bytes += counts ? timings[t].bytes : 0;
     }
     return bytes;

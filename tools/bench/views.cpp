@@ -24,15 +24,16 @@ struct FrameTimes {
     explicit FrameTimes(const std::vector<SuppleTiming>& timings) {
         double begin = 0.0, end = 0.0;
         for (const SuppleTiming& one : timings) {
-            if (std::string_view(one.pass) == "shortfall") { // is no pass
+            if (one.pass == SUPPLE_PASS_SHORTFALL) { // is no pass
                 continue;
             }
             begin = passes.empty() ? one.gpuBegin : std::min(begin, one.gpuBegin);
             end = std::max(end, one.gpuEnd);
+            const char* const name = suppleGetPassName(one.pass);
             const auto known =
-                std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == one.pass; });
+                std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == name; });
             if (known == passes.end()) {
-                passes.emplace_back(one.pass, 1e-6 * (one.gpuEnd - one.gpuBegin));
+                passes.emplace_back(name, 1e-6 * (one.gpuEnd - one.gpuBegin));
             } else {
                 known->second += 1e-6 * (one.gpuEnd - one.gpuBegin);
             }

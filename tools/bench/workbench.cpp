@@ -171,7 +171,7 @@ void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
             computeBarrier(commands);
         }
     }
-    group.recordDeform(commands);
+    group.stages().record(commands, 0); // deform
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {

@@ -95,7 +95,7 @@ private:
 };
 
 Profiler::Profiler(Session& session, const ProfileOptions& options)
-    : session_(session), options_(options), timings_(kMaxTimings), timingSurfaces_(kMaxTimings) {}
+    : session_(session), options_(options), timings_(kMaxTimings) {}
 
 double Profiler::now() const {
     return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_).count();
@@ -228,7 +228,7 @@ Status Profiler::collect(const ProfileStage& stage, ProfileRun& run) {
         }
     }
     uint32_t count = static_cast<uint32_t>(timings_.size());
-    const SuppleResult result = suppleGetTimings(context(), timings_.data(), &count);
+    const SuppleResult result = suppleGetTimings(context(), sizeof(SuppleTiming), timings_.data(), &count);
     if (result == SUPPLE_NOT_READY) {
         return success();
     }
@@ -239,20 +239,16 @@ Status Profiler::collect(const ProfileStage& stage, ProfileRun& run) {
         return success();
     }
     collected_ = timings_[0].frame;
-    if (Status status = check(suppleGetTimingSurfaces(context(), timingSurfaces_.data(), &count), // as many
-                              "suppleGetTimingSurfaces");
-        !status) {
-        return status;
-    }
     for (uint32_t i = 0; i < count; ++i) {
         const SuppleTiming& timing = timings_[i];
-        if (std::string_view(timing.pass) == "shortfall") { // is no pass; the view's statistics have it
+        if (timing.pass == SUPPLE_PASS_SHORTFALL) { // is no pass; the view's statistics have it
             continue;
         }
         for (auto sample = run.frames.rbegin(); sample != run.frames.rend(); ++sample) {
             if (sample->frame == timing.frame) {
-                sample->passes.push_back({timing.pass, timing.gpuBegin, timing.gpuEnd, timing.cpuRecord, timing.points,
-                                          timing.bytes, stage.surfaceOf(timing.group, timingSurfaces_[i])});
+                sample->passes.push_back({suppleGetPassName(timing.pass), timing.gpuBegin, timing.gpuEnd,
+                                          timing.cpuRecord, timing.points, timing.bytes,
+                                          stage.surfaceOf(timing.group, timing.surface)});
                 break;
             }
         }

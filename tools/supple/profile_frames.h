@@ -40,7 +40,6 @@ private:
     uint64_t frame_ = 0;
     uint64_t collected_ = 0; ///< whose timings came in last
     std::vector<SuppleTiming> timings_;
-    std::vector<uint32_t> timingSurfaces_; ///< of each
 };
 
 } // namespace supple::tools

@@ -474,26 +474,25 @@ Status ViewStage::readPartShares() {
 
 void ViewStage::readTimings() {
     std::vector<SuppleTiming> timings(kMostTimings);
-    std::vector<uint32_t> surfaces(timings.size());
     uint32_t count = kMostTimings;
-    if (settings.timingsPaused || suppleGetTimings(context_.handle(), timings.data(), &count) != SUPPLE_OK ||
-        suppleGetTimingSurfaces(context_.handle(), surfaces.data(), &count) != SUPPLE_OK)
+    if (settings.timingsPaused ||
+        suppleGetTimings(context_.handle(), sizeof(SuppleTiming), timings.data(), &count) != SUPPLE_OK)
         return;
     std::vector<std::pair<std::string, double>> byPass, byPart; // in the order of the frame
     for (uint32_t i = 0; i < count; ++i) {
         const double time = (timings[i].gpuEnd - timings[i].gpuBegin) * 1e-6;
-        byPass.emplace_back(timings[i].pass, time);
+        byPass.emplace_back(suppleGetPassName(timings[i].pass), time);
         if (!hasFigure() || timings[i].group.id != group_->handle().id)
             continue; // the group before this one
-        if (surfaces[i] == SUPPLE_NO_SURFACE) {
+        if (timings[i].surface == SUPPLE_NO_SURFACE) {
             byPart.emplace_back("the whole", time);
             continue;
         }
-        for (uint32_t part = 0; part < partShares_[surfaces[i]].size(); ++part) {
+        for (uint32_t part = 0; part < partShares_[timings[i].surface].size(); ++part) {
             const std::string& name = figure_->partNames()[part];
-            if (partShares_[surfaces[i]][part] > 0.0f)
+            if (partShares_[timings[i].surface][part] > 0.0f)
                 byPart.emplace_back(name.empty() ? "part " + std::to_string(part) : name,
-                                    time * static_cast<double>(partShares_[surfaces[i]][part]));
+                                    time * static_cast<double>(partShares_[timings[i].surface][part]));
         }
     }
     passTimes_.add(timings[0].frame, byPass);

@@ -91,7 +91,7 @@ extern "C" {
 #define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
 #define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
 #define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
-#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see suppleGetTimingSurfaces */
+#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see SuppleTiming.surface */
 #define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
 #define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
 #define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
@@ -107,8 +107,8 @@ typedef struct SuppleContext_T* SuppleContext;
 typedef struct SuppleAsset {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleAsset;
-/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to no
- * context. */
+/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to
+ * no context. */
 typedef struct SupplePrepared_T* SupplePrepared;
 /** Instances of one asset with one scheme (SuppleScheme) and the same options. They go through each pass together. */
 typedef struct SuppleGroup {
@@ -260,8 +260,8 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
-/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order and
- * on any threads. It returns when all of these calls have returned. It must not call Supple. */
+/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order
+ * and on any threads. It returns when all of these calls have returned. It must not call Supple. */
 typedef void (*SuppleRunJobsFunction)(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData,
                                       void* user);
 
@@ -288,10 +288,11 @@ typedef struct SuppleContextDesc {
     const void* enabledFeatures;
     const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
-    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups call
-     * it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver and
-     * debug messengers at the same time, and pipelineCache must not be VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED.
-     * If a job is not run, the call that needs it fails with SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
+    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups
+     * call it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver
+     * and debug messengers at the same time, and pipelineCache must not be
+     * VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED. If a job is not run, the call that needs it fails with
+     * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
 } SuppleContextDesc;
@@ -392,8 +393,8 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything is
- * copied before the call returns.
+/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything
+ * is copied before the call returns.
  *
  * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
  * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
@@ -1016,6 +1017,11 @@ typedef struct SuppleRecordDesc {
      * barrier follows the passes, and the host must place its own. With SUPPLE_CONTEXT_ASYNC_COMPUTE neither scope has
      * the draws of drawQueueFamily: semaphores and suppleGetAcquireBarriers are for these. */
     SuppleSyncScope after;
+    /** The host's time in seconds, within plus or minus SUPPLE_MAX_TIME: the same for all groups of a frame. What moves
+     * by itself, with what it remembers of each instance, gets the time that has passed since the group was recorded
+     * last. If the time has not risen since then, it stands still. Nothing in this version moves by itself, so it may
+     * be 0. Clips play by suppleSetTime. */
+    double time;
 } SuppleRecordDesc;
 
 /** Records the passes of the groups, outside a render pass, for the visible instances as they are set now. Each group
@@ -1160,8 +1166,8 @@ typedef struct SuppleVertexStreams {
      * to the normal, in octahedral coordinates (x in snorm16 in the low half, y in the 15 bits above), and the sign w
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
-     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map whose
-     * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
+     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map
+     * whose green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
      * (suppleSetTransform) keeps w: negate it. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
@@ -1246,19 +1252,19 @@ SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup g
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,   /**< 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1, /**< 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,     /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,        /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,        /**< 25 */
-    SUPPLE_PATCH_P5 = 5,        /**< 31 */
-    SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
-    SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
-    SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
-    SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
+    SUPPLE_PATCH_REGULAR = 0,          /**< 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1,        /**< 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,            /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,               /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,               /**< 25 */
+    SUPPLE_PATCH_P5 = 5,               /**< 31 */
+    SUPPLE_PATCH_FRAGMENT = 6,         /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_LOOP = 7,             /**< none, LOOP by refinement: a quarter of a triangle */
+    SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11,       /**< none, CATMULL_CLARK: a quad of leaves */
+    SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
     SUPPLE_PATCH_CREASED = 13,
     SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
@@ -1284,37 +1290,62 @@ SUPPLE_API SuppleResult suppleGetPatches(SuppleContext context, SuppleGroup grou
 
 /* ---------------------------------------------------------------------------------------------------- timings */
 
+/** The passes of a frame. Later versions may add some, with new numbers. */
+typedef enum SupplePass {
+    SUPPLE_PASS_ALL = 0, /**< suppleSetBudget: all passes together. No timing has it */
+    SUPPLE_PASS_UPLOAD = 1,
+    SUPPLE_PASS_ATTRIBUTES = 2,
+    SUPPLE_PASS_POSE = 3,
+    SUPPLE_PASS_DEFORM = 4,
+    SUPPLE_PASS_BOUNDS = 5,
+    SUPPLE_PASS_LIST = 6,
+    SUPPLE_PASS_VERTEX = 7,
+    SUPPLE_PASS_ASSEMBLE = 8,
+    SUPPLE_PASS_PATCH = 9,
+    SUPPLE_PASS_LEVEL = 10,
+    SUPPLE_PASS_SOLVE = 11,
+    SUPPLE_PASS_PLACE = 12,
+    SUPPLE_PASS_EVALUATE = 13,
+    SUPPLE_PASS_MOTION = 14,
+    SUPPLE_PASS_SHORTFALL = 15, /**< no pass: see SuppleTiming.pass */
+    SUPPLE_PASS_MAX_ENUM = 0x7FFFFFFF
+} SupplePass;
+
+/** The name of a pass, in static storage: "deform", for example. */
+SUPPLE_API const char* suppleGetPassName(SupplePass pass);
+
 /** What a pass cost, for one group and frame. Its time is that from the end of what was recorded before it to its own
  * end, so it includes the barrier before it. Draws of the host are in no pass, also if they are in the same command
  * buffer. On a GPU, work of the host that runs at the same time takes its share of the device. */
 typedef struct SuppleTiming {
-    /** A name in static storage: upload, attributes, pose (up to three times), deform, vertex, assemble, patch,
-     * evaluate, motion. Groups of a view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have
-     * it as well), list, level (twice), solve (once per view) and place; and assemble once more, with the levels of
-     * chains that views ask for, if patches of catmull-clark or loop have chains. If a group has several surfaces,
-     * passes that work on surfaces have an entry for each (suppleGetTimingSurfaces), and deform has one more for each.
-     * An entry `shortfall` is no pass and takes no time. It follows solve only in frames in which the view's budget was
-     * not enough (SuppleViewStatistics.shortfall). */
-    const char* pass;
+    /** Upload, attributes, pose (up to three times), deform, vertex, assemble, patch, evaluate, motion. Groups of a
+     * view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level
+     * (twice), solve (once per view) and place; and assemble once more, with the levels of chains that views ask for,
+     * if patches of catmull-clark or loop have chains. If a group has several surfaces, passes that work on surfaces
+     * have an entry for each, and deform has one more for each. An entry SHORTFALL is no pass and takes no time. It
+     * follows solve only in frames in which the view's budget was not enough (SuppleViewStatistics.shortfall). */
+    SupplePass pass;
+    /** The surface of the group that the entry is about: SuppleSurfaceInfo has its parts. Parts of one surface go
+     * through each pass together, so there are no times for each of them. SUPPLE_NO_SURFACE: the whole group. */
+    uint32_t surface;
     SuppleGroup group; /**< of suppleRecord */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 if the queue has no timestamps */
     double gpuEnd;
     double cpuRecord; /**< nanoseconds of CPU time for recording the pass */
     /** How many elements the pass wrote, and how many bytes. Both are 0 if only the device knows, as in groups of a
-     * view: SuppleViewStatistics has what the whole view wrote. `shortfall`: how many instances are missing, and how
+     * view: SuppleViewStatistics has what the whole view wrote. SHORTFALL: how many instances are missing, and how
      * many bytes of surface vertices had no room. Missing instances count at their coarsest. */
     uint64_t points;
     uint64_t bytes; /**< see points */
 } SuppleTiming;
 
-/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. Fills out and count.
- * SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits. */
-SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, SuppleTiming* out, uint32_t* count);
-/** The surface of its group that each entry of suppleGetTimings is about, in the same order: SuppleSurfaceInfo has its
- * parts. SUPPLE_NO_SURFACE: the entry is about the whole group. Parts of one surface go through each pass together, so
- * there are no times for each of them. Fills out and count. SUPPLE_NOT_READY as suppleGetTimings. Never waits. */
-SUPPLE_API SuppleResult suppleGetTimingSurfaces(SuppleContext context, uint32_t* out, uint32_t* count);
+/** The passes of the newest completed frame that was recorded with SUPPLE_RECORD_TIMINGS. timingSize is
+ * sizeof(SuppleTiming): entries are as many bytes apart. The struct may grow in later versions: a caller of an older
+ * one gets what it knows. Fills out and count. SUPPLE_NOT_READY: there is no such frame, and *count is 0. Never waits.
+ * Errors: timingSize is of no version. */
+SUPPLE_API SuppleResult suppleGetTimings(SuppleContext context, uint32_t timingSize, SuppleTiming* out,
+                                         uint32_t* count);
 /** The timestamp of the device, in its ticks, that gpuBegin and gpuEnd count from. It stays as long as the context
  * does. With VK_EXT_calibrated_timestamps a host lays the timings beside its own clock (docs/profiling.md).
  * SUPPLE_NOT_READY: nothing was timed yet, and *ticks is 0. Never waits. */
@@ -1330,13 +1361,13 @@ typedef struct SuppleBudget {
     uint64_t framesOver;     /**< measured frames above the limit */
 } SuppleBudget;
 
-/** Gives a pass a limit in nanoseconds of GPU time per frame, for all groups together. pass is a name as in
- * SuppleTiming, or null for all passes together. 0 removes the limit. If a measured frame exceeds it and the one before
- * did not, Supple logs a warning (SUPPLE_MESSAGE_BUDGET). The first frame of a group also uploads its tables, so set
- * budgets after it. Errors: no such pass; nanoseconds is negative or not finite. */
-SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, const char* pass, double nanoseconds);
+/** Gives a pass a limit in nanoseconds of GPU time per frame, for all groups together. 0 removes the limit. If a
+ * measured frame exceeds it and the one before did not, Supple logs a warning (SUPPLE_MESSAGE_BUDGET). The first frame
+ * of a group also uploads its tables, so set budgets after it. Errors: no such pass; nanoseconds is negative or not
+ * finite. */
+SUPPLE_API SuppleResult suppleSetBudget(SuppleContext context, SupplePass pass, double nanoseconds);
 /** Fills out. SUPPLE_NOT_READY: the pass has no budget. */
-SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, const char* pass, SuppleBudget* out);
+SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, SupplePass pass, SuppleBudget* out);
 
 /* ---------------------------------------------------------------------------------------------------- memory */
 

@@ -121,13 +121,15 @@ public:
         return suppleRecordWarmUp(handle_, commandBuffer, groups.data(), static_cast<uint32_t>(groups.size()));
     }
     [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, Span<const SuppleGroup> groups,
-                                      SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0) const {
+                                      SuppleSyncScope before, SuppleSyncScope after, uint32_t flags = 0,
+                                      double time = 0.0) const {
         SuppleRecordDesc desc = sized<SuppleRecordDesc>();
         desc.flags = flags;
         desc.groups = groups.data();
         desc.groupCount = static_cast<uint32_t>(groups.size());
         desc.before = before;
         desc.after = after;
+        desc.time = time;
         return suppleRecord(handle_, commandBuffer, &desc);
     }
     /// The barriers that take over what the groups' last record() released, into `out` (resized).
@@ -138,12 +140,12 @@ public:
             return suppleGetAcquireBarriers(handle_, groups.data(), groupCount, use, to, count);
         });
     }
-    /// The limit of a pass's time on the device; a null pass means all together.
-    [[nodiscard]] SuppleResult setBudget(const char* pass, double nanoseconds) const {
+    /// The limit of a pass's time on the device.
+    [[nodiscard]] SuppleResult setBudget(SupplePass pass, double nanoseconds) const {
         return suppleSetBudget(handle_, pass, nanoseconds);
     }
     /// How well a pass has kept to its limit.
-    [[nodiscard]] SuppleResult budget(const char* pass, SuppleBudget& out) const {
+    [[nodiscard]] SuppleResult budget(SupplePass pass, SuppleBudget& out) const {
         out = sized<SuppleBudget>();
         return suppleGetBudget(handle_, pass, &out);
     }
@@ -158,11 +160,9 @@ public:
     }
     /// The newest completed frame's passes, into `out` (resized; its capacity is reused). SUPPLE_NOT_READY empties it.
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
-        return filled(out, [&](SuppleTiming* to, uint32_t* count) { return suppleGetTimings(handle_, to, count); });
-    }
-    /// The surface of its group that each timing is of, or SUPPLE_NO_SURFACE.
-    [[nodiscard]] SuppleResult timingSurfaces(std::vector<uint32_t>& out) const {
-        return filled(out, [&](uint32_t* to, uint32_t* count) { return suppleGetTimingSurfaces(handle_, to, count); });
+        return filled(out, [&](SuppleTiming* to, uint32_t* count) {
+            return suppleGetTimings(handle_, sizeof(SuppleTiming), to, count);
+        });
     }
     /// The device's tick that timings count from.
     [[nodiscard]] SuppleResult mapping(SuppleMapping& out) const { return suppleGetMapping(handle_, &out); }

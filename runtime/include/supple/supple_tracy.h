@@ -37,7 +37,6 @@ typedef struct SuppleTracy {
     uint64_t frame;                                  /**< whose passes were collected last */
     double hostNow;                                  /**< of the last calibration */
     SuppleTiming timings[SUPPLE_TRACY_MOST_TIMINGS]; /**< of that frame */
-    uint32_t surfaces[SUPPLE_TRACY_MOST_TIMINGS];    /**< of each of them */
 } SuppleTracy;
 
 /** Adds a GPU context to Tracy's timeline. id is its number there. Contexts that Tracy makes itself count from 0, so
@@ -85,20 +84,20 @@ static inline void suppleTracyCalibrate(SuppleTracy* tracy, double deviceNow, do
 }
 
 /* One pass. Tracy is told when it began and ended, after the fact. */
-static inline void suppleTracyZone(SuppleTracy* tracy, const SuppleTiming* timing, uint32_t surface) {
+static inline void suppleTracyZone(SuppleTracy* tracy, const SuppleTiming* timing) {
     char where[64];
     struct ___tracy_gpu_zone_begin_data begin;
     struct ___tracy_gpu_zone_end_data end;
     struct ___tracy_gpu_time_data time;
-    int length = surface == SUPPLE_NO_SURFACE
+    const char* name = suppleGetPassName(timing->pass);
+    int length = timing->surface == SUPPLE_NO_SURFACE
                      ? snprintf(where, sizeof where, "group %llu", (unsigned long long)timing->group.id)
                      : snprintf(where, sizeof where, "group %llu, surface %u", (unsigned long long)timing->group.id,
-                                (unsigned)surface);
+                                (unsigned)timing->surface);
     memset(&begin, 0, sizeof begin);
     memset(&end, 0, sizeof end);
     memset(&time, 0, sizeof time);
-    begin.srcloc =
-        ___tracy_alloc_srcloc_name(0, "supple", 6, where, (size_t)length, timing->pass, strlen(timing->pass), 0);
+    begin.srcloc = ___tracy_alloc_srcloc_name(0, "supple", 6, where, (size_t)length, name, strlen(name), 0);
     begin.queryId = tracy->query++;
     begin.context = tracy->id;
     ___tracy_emit_gpu_zone_begin_alloc_serial(begin);
@@ -115,22 +114,21 @@ static inline void suppleTracyZone(SuppleTracy* tracy, const SuppleTiming* timin
 }
 
 static inline void suppleTracyCollect(SuppleTracy* tracy, SuppleContext context) {
-    uint32_t i, count = SUPPLE_TRACY_MOST_TIMINGS, surfaces = SUPPLE_TRACY_MOST_TIMINGS;
+    uint32_t i, count = SUPPLE_TRACY_MOST_TIMINGS;
 #ifdef TRACY_ON_DEMAND
     if (!___tracy_connected()) {
         return;
     }
 #endif
-    if (!tracy->hasBegun || suppleGetTimings(context, tracy->timings, &count) < SUPPLE_OK || count == 0 ||
-        suppleGetTimingSurfaces(context, tracy->surfaces, &surfaces) < SUPPLE_OK ||
-        tracy->timings[0].frame == tracy->frame) {
+    if (!tracy->hasBegun || suppleGetTimings(context, sizeof tracy->timings[0], tracy->timings, &count) < SUPPLE_OK ||
+        count == 0 || tracy->timings[0].frame == tracy->frame) {
         return;
     }
     tracy->frame = tracy->timings[0].frame;
     count = count < SUPPLE_TRACY_MOST_TIMINGS ? count : SUPPLE_TRACY_MOST_TIMINGS;
     for (i = 0; i < count; ++i) {
-        if (strcmp(tracy->timings[i].pass, "shortfall") != 0) { /* which is no pass */
-            suppleTracyZone(tracy, &tracy->timings[i], tracy->surfaces[i]);
+        if (tracy->timings[i].pass != SUPPLE_PASS_SHORTFALL) { /* which is no pass */
+            suppleTracyZone(tracy, &tracy->timings[i]);
         }
     }
 }

@@ -102,16 +102,14 @@ TEST_F(TracyTest, EveryPassIsAZoneOnceWithItsOwnTimes) {
     suppleTracyCollect(&tracy_, context_->handle());
     suppleTracyCollect(&tracy_, context_->handle()); // the same frame again
     uint32_t count = 0;
-    ASSERT_EQ(suppleGetTimings(context_->handle(), nullptr, &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings(context_->handle(), sizeof(SuppleTiming), nullptr, &count), SUPPLE_OK);
     std::vector<SuppleTiming> timings(count);
-    std::vector<uint32_t> surfaces(count);
-    ASSERT_EQ(suppleGetTimings(context_->handle(), timings.data(), &count), SUPPLE_OK);
-    ASSERT_EQ(suppleGetTimingSurfaces(context_->handle(), surfaces.data(), &count), SUPPLE_OK);
+    ASSERT_EQ(suppleGetTimings(context_->handle(), sizeof(SuppleTiming), timings.data(), &count), SUPPLE_OK);
     ASSERT_EQ(told.zones.size(), timings.size());
     for (size_t i = 0; i < timings.size(); ++i) {
-        EXPECT_EQ(told.zones[i].name, timings[i].pass);
-        EXPECT_EQ(told.zones[i].function,
-                  "group " + std::to_string(group_.id) + (surfaces[i] == SUPPLE_NO_SURFACE ? "" : ", surface 0"));
+        EXPECT_EQ(told.zones[i].name, suppleGetPassName(timings[i].pass));
+        EXPECT_EQ(told.zones[i].function, "group " + std::to_string(group_.id) +
+                                              (timings[i].surface == SUPPLE_NO_SURFACE ? "" : ", surface 0"));
         EXPECT_EQ(told.times.at(told.zones[i].begin), static_cast<int64_t>(timings[i].gpuBegin));
         EXPECT_EQ(told.times.at(told.zones[i].end), static_cast<int64_t>(timings[i].gpuEnd));
     }

@@ -1,4 +1,4 @@
-#include "runtime/deform_sets.h"
+#include "runtime/stages/deform_sets.h"
 
 #include "shaders/shared/deform.h"
 

@@ -1,0 +1,99 @@
+// A stage between the joint palettes and the surfaces: it makes the deformed cages of a group's instances, or changes
+// them, or hands them on. docs/architecture.md tells how to add one.
+#pragma once
+
+#include "gpu/buffer_plan.h"
+#include "gpu/frame_member.h"
+#include "gpu/pipelines.h"
+#include "runtime/asset_match.h"
+#include "runtime/instance_set.h"
+#include "runtime/pass_cost.h"
+#include "runtime/surfaces.h"
+#include "runtime/timings.h"
+
+#include <memory>
+#include <span>
+
+namespace supple::runtime {
+
+/// What the stages of a group are made from. All pointers must outlive them.
+struct CageStageDesc {
+    const gpu::Device* device = nullptr;
+    const Asset* asset = nullptr;
+    const SuppleGroupDesc* group = nullptr; ///< without the caller's pointers
+    const InstanceSet* instances = nullptr;
+    const Surfaces* surfaces = nullptr;
+    uint32_t framesInFlight = 2;
+    /// The instances are the group's own, and Supple deforms their cages. Otherwise a stage must not change cages.
+    bool deforms = false;
+};
+
+/// What a stage binds once the plans are carried out.
+struct CageBuffers {
+    VkBuffer from = VK_NULL_HANDLE; ///< the cages as the stage before left them
+    VkBuffer to = VK_NULL_HANDLE;   ///< where the stage writes; `from` unless it writesApart()
+    uint32_t stride = 0;            ///< vertices from one instance to the next, in both
+    const InstanceListing* listing = nullptr;
+};
+
+/// What a stage is told of a frame.
+struct CageFrame {
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    uint64_t number = 0;
+    /// Since the group's last recording, by the host's time (SuppleRecordDesc.time); never negative. 0 in the first.
+    double seconds = 0.0;
+    const InstanceWindows& windows; ///< which instances are listed
+    /// Slots of listed instances that have no past here, rising: created, teleported or shown again. A new capacity or
+    /// a reloaded asset makes no instance new.
+    std::span<const uint32_t> newSlots;
+    uint32_t surface = SUPPLE_NO_SURFACE; ///< which to work on (CageStageRow::perSurface)
+};
+
+/// A stage of one group. FrameMember has what it uploads once, its warm-up, and the ends of frames.
+class CageStage : public gpu::FrameMembers {
+public:
+    virtual ~CageStage() = default;
+
+    // Creation, in this order.
+    /// What it binds of an instance, beside cages.
+    [[nodiscard]] virtual BoundBytes boundBytes() const { return {}; }
+    /// It cannot change cages in place: it reads other vertices than the one that it writes.
+    [[nodiscard]] virtual bool writesApart() const { return false; }
+    virtual void plan(gpu::BufferPlan& /*device*/, gpu::BufferPlan& /*staging*/) {}
+    [[nodiscard]] virtual Status createSets(const CageBuffers& buffers) = 0;
+    /// Takes over what the same stage of another group keeps of the instances in the first `count` slots: they go on
+    /// where they were. What is not taken over must begin anew.
+    virtual void takeOver(CageStage& /*other*/, uint32_t /*count*/, const AssetMatch& /*match*/) {}
+
+    [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
+    /// The cages that a surface is made from; null: those that all surfaces have.
+    [[nodiscard]] virtual const gpu::PlannedBuffer* cagesOf(uint32_t /*surface*/) const { return nullptr; }
+
+    // Recording. Allocates nothing.
+    /// With the uploads of the frame: copies and fills, before the barrier that lets stages read them. The bytes. Here
+    /// the stage forgets `newSlots`.
+    virtual VkDeviceSize recordUpload(const CageFrame& /*frame*/) { return 0; }
+    /// Barriers stand before and behind it.
+    virtual PassCost record(const CageFrame& frame) = 0;
+};
+
+/// What a stage has once per context: layouts and pipelines.
+class CageKernels {
+public:
+    CageKernels() = default;
+    virtual ~CageKernels() = default;
+    CageKernels(const CageKernels&) = delete;
+    CageKernels& operator=(const CageKernels&) = delete;
+};
+
+struct CageStageRow {
+    SupplePass pass;         ///< its label, and the timings that it counts in
+    bool perSurface = false; ///< recorded for each surface of a group, else once
+    /// Whether a group has the stage.
+    bool (*wants)(const CageStageDesc&);
+    /// Called for the first group that wants it. Rows with the same function share what it makes.
+    Result<std::unique_ptr<CageKernels>> (*makeKernels)(const gpu::Device&, gpu::Pipelines&);
+    Result<std::unique_ptr<CageStage>> (*make)(const CageStageDesc&, CageKernels&);
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,81 @@
+#include "runtime/stages/deform.h"
+
+#include "runtime/stages/deform_sets.h"
+
+namespace supple::runtime {
+
+namespace {
+
+class Deform final : public CageStage {
+public:
+    Deform(const CageStageDesc& desc, const skinning::DeformPass& pass)
+        : device_(desc.device), asset_(desc.asset), instances_(desc.instances), pass_(&pass) {}
+
+    [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
+        const skinning::PoseLayout& layout = instances_->poseLayout();
+        stride_ = buffers.stride;
+        return sets_.create({device_,
+                             &pass_->layout(),
+                             &buffers.listing->windows(),
+                             asset_->buffers.buffer(0),
+                             asset_->buffers.size(0),
+                             {instances_->palettes().buffer(), layout.stride},
+                             {buffers.to, stride_},
+                             buffers.listing->buffer().buffer(),
+                             buffers.listing->passBytes()});
+    }
+
+    void recordWarmUp(VkCommandBuffer commandBuffer) const override {
+        gpu::computeBarrier(*device_, commandBuffer);
+        shared::DeformPush push{}; // of no instances
+        push.firstInfluences = asset_->firstInfluences;
+        pass_->record(commandBuffer, sets_[0], instances_->skinning(), push);
+    }
+
+    PassCost record(const CageFrame& frame) override {
+        const skinning::PoseLayout& layout = instances_->poseLayout();
+        const uint32_t vertices = asset_->character.cage.vertexCount();
+        frame.windows.forEach([&](uint32_t w) {
+            pass_->record(frame.commands, sets_[w], layout.mode,
+                          {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride, stride_,
+                           layout.morphWeights, asset_->firstInfluences});
+        });
+        const uint64_t points = uint64_t{vertices} * frame.windows.visible;
+        return {points, points * gpu::kVec4Bytes};
+    }
+
+private:
+    const gpu::Device* device_;
+    const Asset* asset_;
+    const InstanceSet* instances_;
+    const skinning::DeformPass* pass_;
+    uint32_t stride_ = 0;
+    DeformSets sets_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
+    Result<skinning::DeformPass> pass = skinning::DeformPass::create(device, pipelines);
+    if (!pass) {
+        return pass.error();
+    }
+    auto kernels = std::make_unique<DeformKernels>();
+    kernels->pass = std::move(*pass);
+    return std::unique_ptr<CageKernels>(std::move(kernels));
+}
+
+bool wantsDeform(const CageStageDesc& desc) {
+    return desc.deforms;
+}
+
+Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels) {
+    skinning::DeformPass& pass = static_cast<DeformKernels&>(kernels).pass;
+    const Status prepared = pass.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
+    if (!prepared) {
+        return prepared.error();
+    }
+    return std::unique_ptr<CageStage>(std::make_unique<Deform>(desc, pass));
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,20 @@
+// The first stage: joint palettes and morph weights deform the rest cage (skinning/deform_pass.h).
+#pragma once
+
+#include "runtime/stages/cage_stage.h"
+#include "skinning/deform_pass.h"
+
+namespace supple::runtime {
+
+struct DeformKernels final : CageKernels {
+    skinning::DeformPass pass;
+};
+[[nodiscard]] Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device,
+                                                                     gpu::Pipelines& pipelines);
+
+[[nodiscard]] bool wantsDeform(const CageStageDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels);
+
+inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM, false, wantsDeform, makeDeformKernels, makeDeform};
+
+} // namespace supple::runtime
