@@ -1,6 +1,7 @@
 #include "cage/repair.h"
 
 #include "cage/message.h"
+#include "cage/refusal.h"
 #include "cage/repair/draft.h"
 #include "cage/repair/faces.h"
 #include "cage/repair/fans.h"
@@ -158,13 +159,15 @@ Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNa
     }
 }
 
-Status reportDamages(Character& character, bool strict) {
-    std::string refusal;
+void reportDamages(Character& character, bool strict) {
+    Refusal refusal{ErrorCode::asset, {}};
     for (const Damage& damage : character.damages) {
-        refusal += (refusal.empty() ? "" : "\n") + oneLine(character.name + ": " + damage.found);
+        refusal.faults.push_back(damage.found);
         character.warnings.push_back(damage.found + "; " + damage.repair);
     }
-    return strict && !refusal.empty() ? Status(Error{ErrorCode::asset, refusal}) : success();
+    if (strict && !refusal.faults.empty()) {
+        throw refusal;
+    }
 }
 
 } // namespace supple::cage

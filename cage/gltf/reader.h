@@ -3,6 +3,8 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/skeleton.h"
+#include "cage/split/cage.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,9 +16,6 @@
 
 namespace supple::cage {
 
-/// Nodes nested deeper than this are refused: every level is a step in which a pose's matrices wait for each other.
-inline constexpr uint32_t kMaxNodeDepth = 1024;
-
 /// Gives the bytes of a file that the asset refers to, or why it cannot, in a few words. `path` is percent-decoded and
 /// relative, with forward slashes, no ".." and no scheme.
 using FileReader = std::function<Result<std::vector<std::byte>>(const std::string& path)>;
@@ -27,13 +26,6 @@ struct ClipFile {
     std::span<const std::byte> bytes; ///< needed while the character is read
     std::string baseDirectory;        ///< as readGltf()'s
     FileReader readFile;              ///< as GltfOptions::readFile
-};
-
-/// Whether the triangles of a mesh are paired into quads (cage/triangle_pairs.h), if the file says nothing of polygons.
-enum class Pairing {
-    whereClean, ///< if nearly all of them make good quads, as those of a mesh do that was drawn in quads
-    always,     ///< all that do not fold
-    never
 };
 
 struct GltfOptions {

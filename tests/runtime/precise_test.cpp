@@ -2,6 +2,7 @@
 // from one helper: the static check must see each, and the bits of shared borders must show it.
 #include "cage/procedural.h"
 #include "cage/topology.h"
+#include "runtime/arrays/character_arrays.h"
 #include "runtime/context.h"
 #include "surface/grid.h"
 #include "tests/support/gpu_surface.h"

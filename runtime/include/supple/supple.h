@@ -10,9 +10,9 @@
  *
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
- * This header is in the order of use. supple_prepare.h (characters read on any thread), supple_view.h (level of detail,
- * culling) and supple_playback.h (layers of clips, root motion, clips that the device plays) are for hosts that need
- * them. This header includes all three at its end.
+ * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
+ * any thread), supple_view.h (level of detail, culling) and supple_playback.h (layers of clips, root motion, clips that
+ * the device plays) are for hosts that need them. This header includes all four at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -107,8 +107,8 @@ typedef struct SuppleContext_T* SuppleContext;
 typedef struct SuppleAsset {
     uint64_t id; /**< 0 is never a valid handle */
 } SuppleAsset;
-/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to no
- * context. */
+/** A character that is read, with the tables of its groups, before a context needs it: supple_prepare.h. It belongs to
+ * no context. */
 typedef struct SupplePrepared_T* SupplePrepared;
 /** Instances of one asset with one scheme (SuppleScheme) and the same options. They go through each pass together. */
 typedef struct SuppleGroup {
@@ -260,8 +260,8 @@ typedef struct SuppleMemoryCallbacks {
     void* user;
 } SuppleMemoryCallbacks;
 
-/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order and
- * on any threads. It returns when all of these calls have returned. It must not call Supple. */
+/** Work for the host's threads. The function calls job(jobData, i) exactly once for every i below count, in any order
+ * and on any threads. It returns when all of these calls have returned. It must not call Supple. */
 typedef void (*SuppleRunJobsFunction)(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData,
                                       void* user);
 
@@ -288,10 +288,11 @@ typedef struct SuppleContextDesc {
     const void* enabledFeatures;
     const SuppleMemoryCallbacks* memory; /**< optional; copied. Null: Supple calls vkAllocateMemory */
     uint32_t drawQueueFamily;            /**< with SUPPLE_CONTEXT_ASYNC_COMPUTE: see suppleGetAcquireBarriers */
-    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups call
-     * it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver and
-     * debug messengers at the same time, and pipelineCache must not be VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED.
-     * If a job is not run, the call that needs it fails with SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
+    /** Optional: makes pipelines on the host's threads. suppleCreateGroup, suppleCreateView and what changes groups
+     * call it, on the calling thread. A job makes one pipeline. So several threads may call the allocator, the driver
+     * and debug messengers at the same time, and pipelineCache must not be
+     * VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED. If a job is not run, the call that needs it fails with
+     * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
 } SuppleContextDesc;
@@ -336,7 +337,23 @@ typedef struct SuppleCageDesc {
     uint32_t holeCount; /**< entries of holes: faces that shape their neighbours but are not drawn */
     const uint32_t* holes;
     const uint32_t* faceTrimTiles; /**< optional: per face a trim tile or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
+    /** Optional: per face a material of the character or SUPPLE_NO_MATERIAL. A bare cage (SuppleAssetDesc.cage) has no
+     * materials. */
+    const uint32_t* faceMaterials;
+    const float* cornerNormals; /**< optional: 3 per corner, normalised. One without a direction: the corner is flat */
+    /** Optional: 4 per corner, x y z and the sign of the bitangent. One without a direction: that of the texture
+     * coordinates instead. Without cornerNormals, they are not looked at. */
+    const float* cornerTangents;
+    const float* cornerColors; /**< optional: 4 per corner, linear RGBA */
+    /** Optional: how SUPPLE_SCHEME_POLYGONS cuts faces into triangles. 3 per triangle, which are corners counted over
+     * all faces; a face of n corners has n - 2 triangles; face after face. */
+    const uint32_t* faceTriangles;
+    uint32_t roundCornerCount;
+    const uint32_t* roundCorners; /**< vertices that round the boundary off if they have one face; rising */
 } SuppleCageDesc;
+
+/** A whole character as arrays: supple_character.h. */
+typedef struct SuppleCharacterDesc SuppleCharacterDesc;
 
 /** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
@@ -347,13 +364,14 @@ typedef enum SuppleAssetFlags {
     /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
      * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
-    /** Parts of a glTF file stay apart. Without this flag, parts are sewn together where their boundaries coincide in
-     * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
+    /** Parts of a glTF file or of a character from arrays stay apart. Without this flag, parts are sewn together where
+     * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
+     * other. */
     SUPPLE_ASSET_PARTS_APART = 4,
     /** Plain triangles of a glTF file stay as they are. Not together with SUPPLE_ASSET_PAIR_QUADS. */
     SUPPLE_ASSET_KEEP_TRIANGLES = 8,
-    /** Edges of a file whose normals are split become hard creases (sharpness 10), so that smooth schemes keep the hard
-     * edges of the file. Edges of the boundary and corners without a normal are left as they are. */
+    /** Edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth schemes
+     * keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are. */
     SUPPLE_ASSET_CREASES_FROM_NORMALS = 16
 } SuppleAssetFlags;
 
@@ -389,8 +407,8 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything is
- * copied before the call returns.
+/** Either a file in memory (`bytes`), or arrays (`cage`, `character`), or what was prepared of one of these
+ * (`prepared`). Everything is copied before the call returns.
  *
  * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
  * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
@@ -405,7 +423,8 @@ typedef struct SuppleAssetDesc {
     size_t byteCount;
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
-    const SuppleCageDesc* cage;
+    const SuppleCageDesc*
+        cage;       /**< a bare cage: a character of one part with one joint, which is called as the asset */
     uint32_t scene; /**< which scene of a glTF file: its number + 1; 0: the one that the file names, else the first */
     uint32_t clipFileCount;
     /** clipFileCount glTF files whose clips follow those of the asset's own file, which must be glTF as well. A clip
@@ -416,9 +435,10 @@ typedef struct SuppleAssetDesc {
      * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
      * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
-    /** Instead of bytes or cage: what supplePrepare made. Then all members above but structSize must be 0. It need not
-     * outlive the call. */
+    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize must be 0.
+     * It need not outlive the call. */
     SupplePrepared prepared;
+    const SuppleCharacterDesc* character; /**< instead of bytes or cage */
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -1155,8 +1175,8 @@ typedef struct SuppleVertexStreams {
      * to the normal, in octahedral coordinates (x in snorm16 in the low half, y in the 15 bits above), and the sign w
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
-     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map whose
-     * green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
+     * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map
+     * whose green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
      * (suppleSetTransform) keeps w: negate it. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
@@ -1241,19 +1261,19 @@ SUPPLE_API SuppleResult suppleGetGridOutput(SuppleContext context, SuppleGroup g
 
 /** Classes of patches: how many coefficients a patch has, and their order (docs/prep.md, docs/pm.md). */
 typedef enum SupplePatchClass {
-    SUPPLE_PATCH_REGULAR = 0,   /**< 16: bicubic, g[i + 4 j] */
-    SUPPLE_PATCH_PERTURBED = 1, /**< 32, p-rep: 16 g, then 16 h */
-    SUPPLE_PATCH_POLAR = 2,     /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
-    SUPPLE_PATCH_P3 = 3,        /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
-    SUPPLE_PATCH_P4 = 4,        /**< 25 */
-    SUPPLE_PATCH_P5 = 5,        /**< 31 */
-    SUPPLE_PATCH_FRAGMENT = 6,  /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,                              /**< none, LOOP by refinement: a quarter of a triangle */
-    SUPPLE_PATCH_BLEND = 8,                             /**< none: a face of the cage, or of the subdivided cage */
-    SUPPLE_PATCH_BLEND_SHARP = 9,                       /**< none: with sharp edges */
-    SUPPLE_PATCH_TRIANGLE = 10,                         /**< none, POLYGONS: a triangle, as it is */
-    SUPPLE_PATCH_IRREGULAR = 11,                        /**< none, CATMULL_CLARK: a quad of leaves */
-    SUPPLE_PATCH_IRREGULAR_SHARP = 12,                  /**< none, CATMULL_CLARK: with sharp edges */
+    SUPPLE_PATCH_REGULAR = 0,          /**< 16: bicubic, g[i + 4 j] */
+    SUPPLE_PATCH_PERTURBED = 1,        /**< 32, p-rep: 16 g, then 16 h */
+    SUPPLE_PATCH_POLAR = 2,            /**< 13, P_m: 12 as a bicubic's, then the apex for the whole row j = 3 */
+    SUPPLE_PATCH_P3 = 3,               /**< 19, P_m: b004, then for each edge b300 b210 b120 b211 b121 b112 */
+    SUPPLE_PATCH_P4 = 4,               /**< 25 */
+    SUPPLE_PATCH_P5 = 5,               /**< 31 */
+    SUPPLE_PATCH_FRAGMENT = 6,         /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
+    SUPPLE_PATCH_LOOP = 7,             /**< none, LOOP by refinement: a quarter of a triangle */
+    SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
+    SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
+    SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
+    SUPPLE_PATCH_IRREGULAR = 11,       /**< none, CATMULL_CLARK: a quad of leaves */
+    SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
     SUPPLE_PATCH_CREASED = 13,
     SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
@@ -1392,7 +1412,8 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 }
 #endif
 
-#include "supple_playback.h" /* IWYU pragma: export */
-#include "supple_prepare.h"  /* IWYU pragma: export */
-#include "supple_view.h"     /* IWYU pragma: export */
+#include "supple_character.h" /* IWYU pragma: export */
+#include "supple_playback.h"  /* IWYU pragma: export */
+#include "supple_prepare.h"   /* IWYU pragma: export */
+#include "supple_view.h"      /* IWYU pragma: export */
 #endif
