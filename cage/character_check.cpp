@@ -2,6 +2,7 @@
 
 #include "cage/limits.h"
 #include "cage/message.h"
+#include "cage/skeleton.h"
 #include "cage/trim.h"
 
 #include <algorithm>

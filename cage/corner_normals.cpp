@@ -28,6 +28,11 @@ glm::vec3 unitNormal(const glm::dvec3& given) {
     return unitOr(given, glm::dvec3(0.0));
 }
 
+glm::vec4 unitTangent(const glm::dvec4& given) {
+    const glm::vec3 direction = unitNormal(glm::dvec3(given));
+    return direction == glm::vec3(0.0f) ? glm::vec4(0.0f) : glm::vec4(direction, given.w < 0.0 ? -1.0f : 1.0f);
+}
+
 std::vector<glm::vec3> deformedCornerNormals(const Cage& cage, std::span<const glm::vec3> positions) {
     const std::vector<uint32_t> groups = smoothGroups(cage);
     std::vector<glm::dvec3> sums(cage.cornerCount(), glm::dvec3(0.0));

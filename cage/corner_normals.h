@@ -22,6 +22,9 @@ namespace supple::cage {
 /// already; zero if it is no direction.
 [[nodiscard]] glm::vec3 unitNormal(const glm::dvec3& given);
 
+/// The same of a tangent and the sign of its bitangent, as Cage::cornerTangents keeps them.
+[[nodiscard]] glm::vec4 unitTangent(const glm::dvec4& given);
+
 /// Whether two unit normals are the same to a degree. Exporters write the same normal twice on the two sides of a seam,
 /// but may round it differently.
 [[nodiscard]] bool normalsAgree(const glm::vec3& a, const glm::vec3& b);

@@ -12,9 +12,6 @@ namespace supple::cage {
 inline constexpr uint64_t kMaxVertices = 1u << 24;
 inline constexpr uint64_t kMaxCorners = 3u << 24;
 
-/// Nodes nested deeper than this are refused: every level is a step in which a pose's matrices wait for each other.
-inline constexpr uint32_t kMaxNodeDepth = 1024;
-
 /// Coordinates beyond this are refused: a normal is a product of two lengths, and its length one of four, which must be
 /// a float still.
 inline constexpr float kMaxCoordinate = 1e9f;

@@ -18,6 +18,19 @@ namespace supple::cage {
             &material.occlusionTexture, &material.emissiveTexture};
 }
 
+/// Leaves out what a texture names of images that have no bytes; an alternate image then takes the place of the image.
+/// A texture without an image is none.
+inline void dropMissingImages(Texture& texture, std::span<const Image> images) {
+    const auto present = [&](uint32_t image) { return image != kNone && !images[image].bytes.empty() ? image : kNone; };
+    const uint32_t core = present(texture.image);
+    const uint32_t alternate = present(texture.alternateImage);
+    texture.image = core != kNone ? core : alternate;
+    texture.alternateImage = core != kNone ? alternate : kNone;
+    if (!texture.exists()) {
+        texture = {};
+    }
+}
+
 /// How many UV sets its textures and its trim need.
 [[nodiscard]] inline uint32_t uvSetsOf(const Material& material) {
     uint32_t sets = 0;

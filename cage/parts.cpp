@@ -344,7 +344,9 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
     CageNames names;
     for (PartCage& part : parts) {
         names.parts.push_back(part.element);
-        appendTo(names.cornerVertices, part.cage.faceVertices);
+        for (const uint32_t v : part.cage.faceVertices) {
+            names.cornerVertices.push_back(part.namesBySource ? part.cage.sourceVertices[v] : v);
+        }
         part.part.firstFace = character.cage.faceCount();
         part.part.rigid = isRigid(part.weights);
         appendDisplacements(part, character.cage.vertexCount(), character.morphs);

@@ -22,8 +22,9 @@ struct PartCage {
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
     std::vector<Damage> damages;
-    std::string element;  ///< what messages call it: "mesh 0"
-    std::string whyEmpty; ///< why the cage has no faces
+    std::string element;        ///< what messages call it: "mesh 0"
+    bool namesBySource = false; ///< messages about its cage call vertices by their numbers in the source
+    std::string whyEmpty;       ///< why the cage has no faces
 };
 
 /// The palette of a character as skins are added. An entry is a node and an inverse bind matrix; skins share entries

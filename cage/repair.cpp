@@ -1,6 +1,7 @@
 #include "cage/repair.h"
 
 #include "cage/message.h"
+#include "cage/refusal.h"
 #include "cage/repair/draft.h"
 #include "cage/repair/faces.h"
 #include "cage/repair/fans.h"
@@ -158,19 +159,29 @@ Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNa
     }
 }
 
-Status reportDamages(Character& character, bool strict) {
+namespace {
+
+Refusal refusalOfDamages(const Character& character) {
+    Refusal refusal{ErrorCode::asset, {}};
+    for (const Damage& damage : character.damages) {
+        refusal.faults.push_back(damage.found);
+    }
+    return refusal;
+}
+
+} // namespace
+
+void reportDamages(Character& character, bool strict) {
     for (const Damage& damage : character.damages) {
         character.warnings.push_back(damage.found + "; " + damage.repair);
     }
-    return strict ? refuseDamages(character) : success();
+    if (strict && !character.damages.empty()) {
+        throw refusalOfDamages(character);
+    }
 }
 
 Status refuseDamages(const Character& character) {
-    std::string refusal;
-    for (const Damage& damage : character.damages) {
-        refusal += (refusal.empty() ? "" : "\n") + oneLine(character.name + ": " + damage.found);
-    }
-    return refusal.empty() ? success() : Status(Error{ErrorCode::asset, refusal});
+    return character.damages.empty() ? success() : Status(asError(refusalOfDamages(character), character.name));
 }
 
 } // namespace supple::cage

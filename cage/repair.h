@@ -30,10 +30,10 @@ namespace supple::cage {
 [[nodiscard]] Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
                                 std::vector<Damage>& damages);
 
-/// What a reader does at its end with the damage it found and repaired: a warning for each kind; or, if it is `strict`,
-/// a refusal that names all kinds, one per line, each beginning with the character's name.
-[[nodiscard]] Status reportDamages(Character& character, bool strict);
-/// That refusal, or success if nothing was damaged.
+/// What a maker of characters does at its end with the damage it found and repaired: a warning for each kind; or, if it
+/// is `strict`, it throws a Refusal (cage/refusal.h) of all kinds.
+void reportDamages(Character& character, bool strict);
+/// That refusal as an error, or success if nothing was damaged.
 [[nodiscard]] Status refuseDamages(const Character& character);
 
 } // namespace supple::cage

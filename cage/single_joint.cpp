@@ -4,19 +4,39 @@
 
 namespace supple::cage {
 
-void bindToOneJoint(Character& character, const std::string& nodeName) {
-    const size_t vertexCount = character.cage.positions.size();
+namespace {
+
+SkinWeights ofOneJoint(size_t vertexCount) {
+    SkinWeights weights;
+    weights.starts.resize(vertexCount + 1);
+    std::iota(weights.starts.begin(), weights.starts.end(), 0u);
+    weights.influences.assign(vertexCount, {0, 1.0f});
+    return weights;
+}
+
+void addOneJoint(Character& character, const std::string& name) {
     character.skeleton.nodes.assign(1, {});
-    character.skeleton.nodes[0].name = nodeName;
+    character.skeleton.nodes[0].name = name;
     character.skeleton.parentsFirst = {0};
+    character.skin.joints = {0};
+    character.skin.inverseBinds = {glm::mat4(1.0f)};
+}
+
+} // namespace
+
+void bindToOneJoint(PartCage& part, Character& character, const std::string& nodeName) {
+    addOneJoint(character, nodeName);
+    part.part.name = nodeName;
+    part.part.joints = {0};
+    part.weights = ofOneJoint(part.cage.positions.size());
+}
+
+void bindToOneJoint(Character& character, const std::string& nodeName) {
+    addOneJoint(character, nodeName);
     character.parts.resize(1);
     character.parts[0].name = nodeName;
     character.parts[0].rigid = true;
-    character.skin.joints = {0};
-    character.skin.inverseBinds = {glm::mat4(1.0f)};
-    character.weights.starts.resize(vertexCount + 1);
-    std::iota(character.weights.starts.begin(), character.weights.starts.end(), 0u);
-    character.weights.influences.assign(vertexCount, {0, 1.0f});
+    character.weights = ofOneJoint(character.cage.positions.size());
 }
 
 } // namespace supple::cage

@@ -29,6 +29,7 @@ endforeach()
 install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.hpp
+    ${supple_SOURCE_DIR}/runtime/include/supple/supple_character.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_playback.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_prepare.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_tracy.h

@@ -71,9 +71,4 @@ struct Asset {
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 };
 
-/// A character without skeleton or clips from the host's arrays: one joint, every vertex bound to it. A damaged cage is
-/// repaired, or refused if `strict`.
-[[nodiscard]] Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const std::string& name,
-                                                          bool strict = false);
-
 } // namespace supple::runtime

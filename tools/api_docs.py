@@ -15,7 +15,10 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-HEADERS = ("supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple.hpp", "supple_tracy.h")
+HEADERS = (
+    "supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h",
+    "supple.hpp", "supple_tracy.h",
+)
 INCLUDE = ROOT / "runtime/include/supple"
 PAGE = ROOT / "build/api.md"
 UNDOCUMENTED = ROOT / "tests/api_docs/undocumented.txt"

@@ -1,6 +1,5 @@
 #include "cage/formats/reader.h"
 
-#include "cage/normal_creases.h"
 #include "cage/obj/reader.h"
 
 #include <algorithm>
@@ -35,11 +34,7 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
             return Error{ErrorCode::argument, name + ": " + options.clipFiles.front().name +
                                                   ": an OBJ file has no nodes that clips of other files could move"};
         }
-        Result<Character> character = readObj(bytes, name, options.strict);
-        if (character && options.creasesFromNormals) {
-            creaseSplitNormals(character->cage);
-        }
-        return character;
+        return readObj(bytes, name, {options.sewParts, options.creasesFromNormals, options.strict});
     }
     return readGltf(bytes, name, baseDirectory, options);
 }

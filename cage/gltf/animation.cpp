@@ -1,16 +1,14 @@
 #include "cage/gltf/animation.h"
 
+#include "cage/clip_checks.h"
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
-#include "cage/limits.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,23 +17,6 @@
 
 namespace supple::cage::gltf {
 namespace {
-
-/// Key rotations are unit quaternions but for rounding, which 8-bit outputs make coarse. Tangents are left alone.
-void checkRotations(Channel& channel, size_t perKey, const std::string& output) {
-    for (size_t k = perKey / 2; 4 * k < channel.values.size(); k += perKey) {
-        float* q = &channel.values[4 * k];
-        const double length = std::sqrt(static_cast<double>(q[0]) * q[0] + static_cast<double>(q[1]) * q[1] +
-                                        static_cast<double>(q[2]) * q[2] + static_cast<double>(q[3]) * q[3]);
-        if (!(length > 1e-6)) {
-            refuse(item(output, k), "zero quaternion");
-        }
-        if (std::abs(length - 1.0) > 1e-5 && channel.interpolation != Interpolation::cubicSpline) {
-            for (int c = 0; c < 4; ++c) {
-                q[c] = static_cast<float>(q[c] / length);
-            }
-        }
-    }
-}
 
 /// What a path's output looks like.
 struct Output {
@@ -74,18 +55,8 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
 
     const std::string input = element + " input";
     channel.times = readFloats(document, sampler.input, file::kScalar, kFloat, input);
-    for (size_t k = 0; k < channel.times.size(); ++k) {
-        if (!std::isfinite(channel.times[k])) {
-            refuse(item(input, k), "not finite");
-        }
-        if (k > 0 && !(channel.times[k] > channel.times[k - 1])) {
-            refuse(item(input, k), "not later than the key before it");
-        }
-    }
+    checkTimes(channel, input);
     const bool cubic = channel.interpolation == Interpolation::cubicSpline;
-    if (cubic && channel.times.size() < 2) {
-        refuse(input, "CUBICSPLINE needs at least two keys");
-    }
 
     const std::string output = element + " output";
     channel.values = readFloats(document, sampler.output, kind.type, kind.components, output);
@@ -102,37 +73,8 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
                                 : "") +
                            (cubic ? " of CUBICSPLINE" : ""));
     }
-    for (size_t k = 0; k < channel.values.size(); ++k) {
-        if (const char* fault = faultOfCoordinate(channel.values[k])) {
-            refuse(item(output, k / (channel.values.size() / elements)), fault);
-        }
-    }
-    if (channel.path == ChannelPath::rotation) {
-        checkRotations(channel, perKey, output);
-    }
+    checkValues(channel, channel.values.size() / elements, output);
     return channel;
-}
-
-/// glTF knows no times before 0, and exporters write them. Returns the time that becomes 0.
-float beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings) {
-    float first = 0.0f;
-    for (const Channel& channel : clip.channels) {
-        first = std::min(first, channel.times.front());
-    }
-    if (first == 0.0f) {
-        return first;
-    }
-    warn(warnings, element, "keys before 0; its time begins at its first key, " + shortNumber(first) + " s");
-    for (Channel& channel : clip.channels) {
-        for (size_t k = 0; k < channel.times.size(); ++k) {
-            float& time = channel.times[k];
-            time = static_cast<float>(static_cast<double>(time) - static_cast<double>(first));
-            if (k > 0 && !(time > channel.times[k - 1])) { // rounded together
-                time = std::nextafter(channel.times[k - 1], std::numeric_limits<float>::infinity());
-            }
-        }
-    }
-    return first;
 }
 
 /// Reads clips one after the other, and bounds what they hold together.
@@ -155,9 +97,7 @@ public:
             refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
         const float first = beginAtFirstKey(clip, element, warnings_);
-        for (const Channel& channel : clip.channels) {
-            clip.duration = std::max(clip.duration, static_cast<double>(channel.times.back()));
-        }
+        clip.duration = lastKey(clip);
         clip.markers = readMarkers(animation.extras, element, first, clip.duration, warnings_);
         for (const auto& [path, count] : ignored_) {
             warn(warnings_, element,

@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "cage/gltf/document.h"
 #include "cage/message.h"
+#include "cage/split/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,12 +36,8 @@ struct CageExtension {
 [[nodiscard]] std::optional<CageExtension> findCageExtension(const Document& document, const Json& primitive,
                                                              const std::string& element, Warnings& warnings);
 
-/// Creases or corners as written: two vertices or one, and a sharpness, each.
-struct SharpList {
-    std::string element;            ///< of the vertices
-    std::vector<uint32_t> vertices; ///< cage vertices where the extension has them, else the primitive's
-    std::vector<float> sharpnesses;
-};
+/// Creases or corners as written.
+using split::SharpList;
 [[nodiscard]] SharpList readCreaseList(const Document& document, const CageExtension& extension);
 [[nodiscard]] SharpList readCornerList(const Document& document, const CageExtension& extension);
 

@@ -1,16 +1,12 @@
 #include "cage/gltf/markers.h"
 
-#include "cage/gltf/entry_faults.h"
+#include "cage/clip_checks.h"
+#include "cage/entry_faults.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace supple::cage::gltf {
 namespace {
-
-/// Keys are floats, and the times of markers need not be: what rounding alone moves out of the clip is in it.
-constexpr double kTimeRounding = 1e-6;
 
 /// Why an entry is no marker, or nothing.
 std::optional<std::string> readMarker(const Json& entry, double first, double duration, Marker& marker) {
@@ -25,16 +21,8 @@ std::optional<std::string> readMarker(const Json& entry, double first, double du
     if (time == nullptr || !time->isNumber() || !isFiniteFloat(*time)) {
         return "time is not a finite number";
     }
-    const double given = time->number();
-    const double slack = kTimeRounding * std::max({std::abs(given), std::abs(first), duration});
-    if (given - first < -slack) {
-        return "time " + shortNumber(given) + " is before the clip's beginning";
-    }
-    if (given - first > duration + slack) {
-        return "time " + shortNumber(given) + " is behind the clip's end, " + shortNumber(first + duration) + " s";
-    }
-    marker = {name->string(), std::clamp(given - first, 0.0, duration)};
-    return std::nullopt;
+    marker.name = name->string();
+    return placeMarker(time->number(), first, duration, marker);
 }
 
 } // namespace
@@ -61,7 +49,7 @@ std::vector<Marker> readMarkers(const Json& extras, const std::string& element, 
         }
     }
     faults.report(warnings);
-    std::stable_sort(markers.begin(), markers.end(), [](const Marker& a, const Marker& b) { return a.time < b.time; });
+    sortMarkers(markers);
     return markers;
 }
 

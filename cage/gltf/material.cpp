@@ -2,6 +2,7 @@
 
 #include "cage/gltf/texture.h"
 #include "cage/gltf/trim.h"
+#include "cage/materials.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
@@ -128,15 +129,8 @@ private:
             warn(warnings_, at("texture", info->at("index").index()), "no image in a format that is read; left out");
             return {};
         }
-        // An image without bytes has a warning of its own.
-        const auto present = [&](uint32_t image) {
-            return image != kNone && !document_.images[image].bytes.empty() ? image : kNone;
-        };
-        const uint32_t core = present(texture.image);
-        const uint32_t extension = present(texture.alternateImage);
-        texture.image = core != kNone ? core : extension;
-        texture.alternateImage = core != kNone ? extension : kNone;
-        return texture.exists() ? texture : Texture{};
+        dropMissingImages(texture, document_.images); // which have warnings of their own
+        return texture;
     }
 
     const Document& document_;

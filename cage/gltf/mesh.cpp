@@ -1,7 +1,13 @@
 #include "cage/gltf/mesh.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/cage_extension.h"
+#include "cage/gltf/extras_creases.h"
+#include "cage/gltf/manifold.h"
+#include "cage/gltf/morphs.h"
 #include "cage/gltf/normals.h"
+#include "cage/gltf/polygons.h"
+#include "cage/gltf/skin.h"
 #include "cage/gltf/triangles.h"
 #include "cage/gltf/trim.h"
 #include "cage/limits.h"
@@ -36,7 +42,6 @@ public:
     std::optional<Mesh> read(uint32_t meshNode) && {
         const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
         const auto& mesh = model_.meshes[meshIndex];
-        out_.index = meshIndex;
         out_.element = at("mesh", meshIndex);
         skinned_ = model_.nodes[meshNode].skin >= 0;
         std::vector<size_t> numbers;
@@ -44,9 +49,14 @@ public:
             const Primitive& from = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
             if (hasTriangles(from.mode)) {
-                MeshPrimitive& primitive = out_.primitives.emplace_back();
+                split::Primitive& primitive = out_.primitives.emplace_back();
                 primitive.element = element;
-                primitive.extension = findCageExtension(document_, from.json, element, warnings_);
+                extensions_.push_back(findCageExtension(document_, from.json, element, warnings_));
+                if (const std::optional<CageExtension>& extension = extensions_.back()) {
+                    primitive.roundCorners = extension->roundCorners;
+                    primitive.uvMode = extension->uvMode;
+                    primitive.madeFor = extension->madeFor;
+                }
                 numbers.push_back(k);
                 continue;
             }
@@ -68,7 +78,11 @@ public:
             refusals.gather([&] { readPrimitive(mesh.primitives[numbers[i]], out_.primitives[i]); });
         }
         refusals.raise();
-        out_.weights.report(out_.element, warnings_);
+        if (out_.cageNumbers.empty()) {
+            out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_);
+        }
+        readExtrasCreases(document_.meshes[meshIndex], out_, warnings_);
+        out_.weights.report(out_.element + " WEIGHTS", warnings_);
         return std::move(out_);
     }
 
@@ -86,9 +100,8 @@ private:
             }
             return static_cast<size_t>(std::count(cageNumbers_.begin(), cageNumbers_.end(), -1));
         };
-        size_t missing = find(WeldSource::cageExtension, [&](size_t i) {
-            return out_.primitives[i].extension ? out_.primitives[i].extension->cageVertices : -1;
-        });
+        size_t missing = find(WeldSource::cageExtension,
+                              [&](size_t i) { return extensions_[i] ? extensions_[i]->cageVertices : -1; });
         if (missing == 0) {
             return;
         }
@@ -110,7 +123,7 @@ private:
         }
     }
 
-    void readPrimitive(const Primitive& from, MeshPrimitive& primitive) {
+    void readPrimitive(const Primitive& from, split::Primitive& primitive) {
         const std::string& element = primitive.element;
         primitive.material = from.material;
 
@@ -129,25 +142,27 @@ private:
             sets = findSkinSets(from, element);
         }
         const std::vector<int> targets = findMorphTargets(from);
-        const int cageNumbers = cageNumbers_[static_cast<size_t>(&primitive - out_.primitives.data())];
+        const auto number = static_cast<size_t>(&primitive - out_.primitives.data());
+        const int cageNumbers = cageNumbers_[number];
+        const std::optional<CageExtension>& extension = extensions_[number];
         const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets};
         const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
         primitive.firstVertex = known->second;
         const size_t count = accessorCount(document_, position->second);
-        takeCorners(from, primitive, count);
+        takeCorners(from, extension, element, count);
         if (isNew) {
             document_.memory->take(count, kVertexBytes, element);
             readVertices(position->second, sets, count, element);
-            out_.morphs.append(document_, targets, count, element);
+            morphReader_.append(document_, targets, count, element, out_.morphs);
             if (cageNumbers >= 0) {
                 readCageNumbers(cageNumbers, count, element);
             }
         }
-        primitive.positionAccessor = position->second;
+        positionAccessors_.push_back(position->second);
         primitive.vertexCount = static_cast<uint32_t>(count);
 
         primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
-        primitive.faces = readPolygons(document_, from.json, from.mode, primitive.extension, primitive.triangles,
+        primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
                                        primitive.vertexCount, element, warnings_);
         for (std::vector<uint32_t>* vertices : {&primitive.triangles, &primitive.faces.polygons.vertices}) {
             for (uint32_t& vertex : *vertices) {
@@ -160,16 +175,23 @@ private:
         }
         readCornerAttributes(from, element, primitive);
         readTrimTiles(document_, from, materials_, primitive);
+        if (extension && extension->creaseIndices >= 0) {
+            primitive.creases = readCreaseList(document_, *extension);
+        }
+        if (extension && extension->cornerIndices >= 0) {
+            primitive.corners = readCornerList(document_, *extension);
+        }
     }
 
     /// Triangles and polygons; strips and fans have three corners an index.
-    void takeCorners(const Primitive& from, const MeshPrimitive& primitive, size_t vertexCount) {
+    void takeCorners(const Primitive& from, const std::optional<CageExtension>& extension, const std::string& element,
+                     size_t vertexCount) {
         uint64_t corners = from.indices < 0 ? vertexCount : accessorCount(document_, from.indices);
         corners *= from.mode == file::kTriangles ? 1 : 3;
-        if (primitive.extension && primitive.extension->faceVertexIndices >= 0) {
-            corners += accessorCount(document_, primitive.extension->faceVertexIndices);
+        if (extension && extension->faceVertexIndices >= 0) {
+            corners += accessorCount(document_, extension->faceVertexIndices);
         }
-        document_.memory->take(corners, kCornerBytes, primitive.element);
+        document_.memory->take(corners, kCornerBytes, element);
     }
 
     /// Blender's exporter has no integer attributes: its numbers are floats.
@@ -209,7 +231,7 @@ private:
         if (sets.joints.empty()) {
             out_.weights.appendUnskinned(count);
         } else {
-            out_.weights.append(document_, sets, count, jointCount_, element);
+            appendWeights(document_, sets, count, jointCount_, element, out_.weights);
         }
     }
 
@@ -224,7 +246,7 @@ private:
 
     /// Reads TEXCOORD_0, TEXCOORD_1, NORMAL and COLOR_0. What is not finite becomes 0: it spoils a texture, not the
     /// shape.
-    void readCornerAttributes(const Primitive& from, const std::string& element, MeshPrimitive& primitive) {
+    void readCornerAttributes(const Primitive& from, const std::string& element, split::Primitive& primitive) {
         const auto read = [&](const char* attribute, int type, uint32_t allowed) {
             std::vector<float> values;
             const auto found = from.attributes.find(attribute);
@@ -281,6 +303,9 @@ private:
 
     Mesh out_;
     bool skinned_ = false;
+    std::vector<std::optional<CageExtension>> extensions_; ///< by primitive
+    std::vector<int> positionAccessors_;                   ///< by primitive
+    MorphReader morphReader_;
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     std::map<Stream, uint32_t> streams_; ///< -> first vertex
     uint64_t cornerCount_ = 0;

@@ -1,6 +1,7 @@
 #include "cage/gltf/morphs.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/triangles.h"
 #include "cage/limits.h"
 #include "cage/refusal.h"
 
@@ -25,9 +26,9 @@ std::vector<int> findMorphTargets(const file::Primitive& primitive) {
     return accessors;
 }
 
-void VertexMorphs::append(const Document& document, const std::vector<int>& targets, size_t count,
-                          const std::string& element) {
-    if (starts_.size() == 1) {
+void MorphReader::append(const Document& document, const std::vector<int>& targets, size_t count,
+                         const std::string& element, VertexMorphs& morphs) {
+    if (morphs.empty()) {
         targetCount_ = targets.size();
     } else if (targets.size() != targetCount_) {
         refuse(element, counted(targets.size(), "morph target", "morph targets") + ", but primitives before it have " +
@@ -45,7 +46,6 @@ void VertexMorphs::append(const Document& document, const std::vector<int>& targ
     const uint32_t allowed = isUsed(document, "KHR_mesh_quantization") ? kFloat | kQuantizedSigned : kFloat;
     // Target by target as the file has them, then by vertex.
     std::vector<std::pair<uint32_t, MorphDelta>> read;
-    std::vector<uint32_t> counts(count, 0);
     for (size_t t = 0; t < targets.size(); ++t) {
         if (targets[t] < 0) {
             continue;
@@ -60,24 +60,20 @@ void VertexMorphs::append(const Document& document, const std::vector<int>& targ
             }
             if (delta != glm::vec3(0.0f)) {
                 read.push_back({v, {static_cast<uint32_t>(t), delta}});
-                ++counts[v];
             }
         }
     }
-
-    std::vector<uint32_t> next(count);
-    for (size_t v = 0; v < count; ++v) {
-        next[v] = starts_.back();
-        starts_.push_back(starts_.back() + counts[v]);
-    }
-    deltas_.resize(starts_.back());
-    for (const auto& [vertex, delta] : read) {
-        deltas_[next[vertex]++] = delta;
-    }
+    morphs.append(count, read);
 }
 
-std::span<const MorphDelta> VertexMorphs::of(uint32_t vertex) const {
-    return std::span(deltas_).subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
+size_t targetCountOf(const Document& document, uint32_t meshNode) {
+    const auto& primitives = document.model.meshes[static_cast<size_t>(document.model.nodes[meshNode].mesh)].primitives;
+    for (const file::Primitive& primitive : primitives) {
+        if (hasTriangles(primitive.mode)) {
+            return primitive.targets.size();
+        }
+    }
+    return 0;
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.

@@ -4,10 +4,10 @@
 #include "cage/character.h"
 #include "cage/gltf/document.h"
 #include "cage/message.h"
+#include "cage/split/vertex_morphs.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,26 +16,17 @@ namespace supple::cage::gltf {
 /// Per morph target the accessor of its displacements, -1 where it moves no positions.
 [[nodiscard]] std::vector<int> findMorphTargets(const file::Primitive& primitive);
 
-/// One vertex's displacement in one target.
-struct MorphDelta {
-    uint32_t target = 0;
-    glm::vec3 delta{0.0f};
+using split::MorphDelta;
+using split::VertexMorphs;
 
-    bool operator==(const MorphDelta&) const = default;
-};
-
-/// The displacements of vertices that are appended one after the other: by target, those of zero dropped.
-class VertexMorphs {
+/// Appends the displacements of the vertices of primitives, one after the other.
+class MorphReader {
 public:
-    /// Vertices whose displacements are in `targets`, of findMorphTargets(). All have the same number of targets.
-    void append(const Document& document, const std::vector<int>& targets, size_t count, const std::string& element);
-
-    [[nodiscard]] std::span<const MorphDelta> of(uint32_t vertex) const;
-    [[nodiscard]] size_t targetCount() const { return targetCount_; }
+    /// Vertices whose displacements are in `targets`, of findMorphTargets(). All must have the same number of targets.
+    void append(const Document& document, const std::vector<int>& targets, size_t count, const std::string& element,
+                VertexMorphs& morphs);
 
 private:
-    std::vector<uint32_t> starts_{0};
-    std::vector<MorphDelta> deltas_;
     size_t targetCount_ = 0;
     uint64_t elementsRead_ = 0;
 };
@@ -43,6 +34,9 @@ private:
 /// Names of a mesh's morph targets, mesh.extras.targetNames: empty where the file has no string.
 [[nodiscard]] std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element,
                                                        MemoryBudget& memory, Warnings& warnings);
+
+/// How many morph targets the mesh of a node has.
+[[nodiscard]] size_t targetCountOf(const Document& document, uint32_t meshNode);
 
 /// Names and weights of the mesh's targets; their displacements are for who has the cage's vertices.
 [[nodiscard]] Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings);

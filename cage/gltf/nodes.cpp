@@ -1,11 +1,10 @@
 #include "cage/gltf/nodes.h"
 
-#include "cage/gltf/reader.h"
 #include "cage/limits.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -13,32 +12,6 @@ namespace supple::cage::gltf {
 namespace {
 
 using file::Model;
-
-void orderParentsFirst(const Model& model, Skeleton& skeleton) {
-    // Breadth-first from the roots, no recursion; the document has made sure that this is a forest.
-    const auto& nodes = skeleton.nodes;
-    auto& order = skeleton.parentsFirst;
-    order.reserve(nodes.size());
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-        if (nodes[i].parent == kNone) {
-            order.push_back(i);
-        }
-    }
-    uint32_t depth = 1;
-    for (size_t begin = 0, end = order.size(); begin < end; ++depth) {
-        if (depth > kMaxNodeDepth) {
-            refuse(at("node", order[begin]), "nested deeper than " + std::to_string(kMaxNodeDepth) + " levels",
-                   ErrorCode::limit);
-        }
-        for (size_t k = begin; k < end; ++k) {
-            for (const int child : model.nodes[order[k]].children) {
-                order.push_back(static_cast<uint32_t>(child));
-            }
-        }
-        begin = end;
-        end = order.size();
-    }
-}
 
 std::vector<uint32_t> nodesOfScene(const Model& model, size_t scene) {
     std::vector<uint32_t> order;
@@ -74,17 +47,6 @@ std::string insteadOfMeshes(const Model& model) {
 
 } // namespace
 
-void makeAffine(glm::mat4& matrix, const std::string& element) {
-    const glm::vec4 last(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
-    const glm::vec4 wanted(0.0f, 0.0f, 0.0f, 1.0f);
-    for (int k = 0; k < 4; ++k) {
-        if (!(std::abs(last[k] - wanted[k]) <= 1e-4f)) {
-            refuse(element, "last row is not 0 0 0 1");
-        }
-        matrix[k][3] = wanted[k];
-    }
-}
-
 Skeleton readSkeleton(const Document& document) {
     const Model& model = document.model;
     Skeleton skeleton;
@@ -118,17 +80,10 @@ Skeleton readSkeleton(const Document& document) {
         checkPlacing({&node.scale[0], 3}, at("node", i) + " scale");
         if (!from.rotation.empty()) {
             const auto& q = from.rotation;
-            const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-            if (!(length > 1e-6)) {
-                refuse(at("node", i) + " rotation", "zero quaternion");
-            }
-            // A unit quaternion is kept bit by bit.
-            const double scale = std::abs(length - 1.0) > 1e-5 ? 1.0 / length : 1.0;
-            node.rotation = glm::quat(static_cast<float>(q[3] * scale), static_cast<float>(q[0] * scale),
-                                      static_cast<float>(q[1] * scale), static_cast<float>(q[2] * scale));
+            node.rotation = unitRotation({q[0], q[1], q[2], q[3]}, at("node", i) + " rotation");
         }
     }
-    orderParentsFirst(model, skeleton);
+    orderParentsFirst(skeleton);
     return skeleton;
 }
 

@@ -19,7 +19,4 @@ namespace supple::cage::gltf {
 [[nodiscard]] std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene,
                                                   Warnings& warnings);
 
-/// Makes the last row exactly 0 0 0 1; refuses a matrix in which it is something else.
-void makeAffine(glm::mat4& matrix, const std::string& element);
-
 } // namespace supple::cage::gltf

@@ -51,10 +51,8 @@ std::vector<glm::vec4> readTangents(const Document& document, const file::Primit
     tangents.reserve(values.size() / 4);
     size_t missing = 0;
     for (size_t i = 0; i < values.size(); i += 4) {
-        const glm::vec3 direction = unitNormal({values[i], values[i + 1], values[i + 2]});
-        const bool none = direction == glm::vec3(0.0f);
-        tangents.push_back(none ? glm::vec4(0.0f) : glm::vec4(direction, values[i + 3] < 0.0f ? -1.0f : 1.0f));
-        missing += none ? 1 : 0;
+        tangents.push_back(unitTangent({values[i], values[i + 1], values[i + 2], values[i + 3]}));
+        missing += tangents.back() == glm::vec4(0.0f) ? 1 : 0;
     }
     if (missing > 0) {
         warn(warnings, name,

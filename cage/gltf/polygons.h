@@ -16,13 +16,7 @@
 
 namespace supple::cage::gltf {
 
-/// What a primitive says of its polygons.
-struct PolygonData {
-    PolygonSource source = PolygonSource::triangles; ///< the first that the primitive has
-    Polygons polygons;           ///< of cageExtension and meshPolygon; nothing else is needed of these
-    std::vector<uint32_t> holes; ///< rising faces of `polygons`
-    std::vector<uint8_t> hidden; ///< of hiddenEdges: per triangle and edge v0v1, v1v2, v2v0, 1 where it is hidden
-};
+using split::PolygonData;
 
 /// Looks at the sources in the order of PolygonSource. One that is malformed is refused by name; one of a form that is
 /// not understood is passed over with a warning. `triangles` and the polygons count the primitive's own vertices.

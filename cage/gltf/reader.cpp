@@ -1,9 +1,9 @@
 #include "cage/gltf/reader.h"
 
+#include "cage/bind_space.h"
 #include "cage/clip_set.h"
+#include "cage/finish.h"
 #include "cage/gltf/animation.h"
-#include "cage/gltf/bind_space.h"
-#include "cage/gltf/cage.h"
 #include "cage/gltf/document.h"
 #include "cage/gltf/material.h"
 #include "cage/gltf/mesh.h"
@@ -11,13 +11,11 @@
 #include "cage/gltf/nodes.h"
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
-#include "cage/limits.h"
 #include "cage/message.h"
-#include "cage/normal_creases.h"
+#include "cage/part_amount.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
-#include "cage/repair.h"
-#include "cage/sew.h"
+#include "cage/split/cage.h"
 
 #include <exception>
 #include <filesystem>
@@ -30,36 +28,8 @@ namespace supple::cage {
 namespace gltf {
 namespace {
 
-// Bounds for all parts together, as kMaxVertices.
-constexpr uint64_t kMaxParts = 1u << 14;
-constexpr uint64_t kMaxDisplacements = 1u << 26;
-
 /// A part without vertices and faces: measured, and rounded up.
 constexpr uint64_t kPartBytes = 2048;
-
-/// What has been read so far; refuses too much.
-class Amount {
-public:
-    void add(const PartCage& part) {
-        const std::string element = at("node", part.part.node);
-        add(parts_, 1, kMaxParts, "meshes", element);
-        add(vertices_, part.sourceVertexCount, kMaxVertices, "vertices", element);
-        add(corners_, part.cage.cornerCount(), kMaxCorners, "corners", element);
-        for (const MorphTarget& target : part.morphs.targets) {
-            add(displacements_, target.vertices.size(), kMaxDisplacements, "displacements of morph targets", element);
-        }
-    }
-
-private:
-    static void add(uint64_t& sum, uint64_t more, uint64_t most, const char* what, const std::string& element) {
-        sum += more;
-        if (sum > most) {
-            refuse(element, "with its mesh, there are more than " + std::to_string(most) + " " + what,
-                   ErrorCode::limit);
-        }
-    }
-    uint64_t parts_ = 0, vertices_ = 0, corners_ = 0, displacements_ = 0;
-};
 
 /// The mesh that a node carries, as it is before it joins the other parts. Its cage is empty if it has no faces: then a
 /// warning says why.
@@ -71,15 +41,15 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
     document.memory->take(kPartBytes + 4 * nameBytes, at("node", node));
     part.part.name = from.name.empty() ? document.model.meshes[static_cast<size_t>(from.mesh)].name : from.name;
     part.part.node = node;
-    const std::optional<Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
+    const std::optional<split::Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
     if (!mesh) {
         const auto index = static_cast<size_t>(from.mesh);
         part.whyEmpty = at("mesh", index) + ": " + nameOfNoTriangles(document.model.meshes[index]);
         return part;
     }
     part.element = mesh->element;
-    part.morphs = readMorphs(document, node, mesh->morphs.targetCount(), warnings);
-    buildCage(document, *mesh, options, part, warnings);
+    part.morphs = readMorphs(document, node, targetCountOf(document, node), warnings);
+    split::buildCage(*mesh, options.pairing, part, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
     }
@@ -89,14 +59,16 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
 std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character,
                                 Refusals& refusals) {
     const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
-    std::vector<Skin> skins;
+    std::vector<MeshBinding> meshes;
     for (const uint32_t node : nodes) {
-        refusals.gather([&] { skins.push_back(readSkin(document, node)); });
+        refusals.gather([&] {
+            meshes.push_back({node, document.model.nodes[node].skin >= 0, readSkin(document, node)});
+        });
     }
     refusals.raise();
-    const BindSpace bindSpace(document, character.skeleton, nodes, skins);
+    const BindSpace bindSpace(character.skeleton, meshes);
     PaletteBuilder palette(character.skin);
-    Amount amount;
+    PartAmount amount;
     std::vector<PartCage> parts;
     std::set<std::string> said; // nodes may share a mesh
     std::set<std::string> whyEmpty;
@@ -104,8 +76,8 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
         Warnings warnings;
         PartCage part;
         if (!refusals.gather([&] {
-                part = readPart(document, nodes[i], skins[i], options, character, warnings);
-                amount.add(part);
+                part = readPart(document, nodes[i], meshes[i].skin, options, character, warnings);
+                amount.add(part, at("node", nodes[i]));
             })) {
             continue;
         }
@@ -123,11 +95,11 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
             whyEmpty.insert(part.whyEmpty);
             continue;
         }
-        if (!bindSpace.place(part, skins[i])) {
+        if (!bindSpace.place(part, meshes[i])) {
             warn(character.warnings, at("node", nodes[i]),
                  "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
         }
-        part.part.joints = palette.add(skins[i]);
+        part.part.joints = palette.add(meshes[i].skin);
         parts.push_back(std::move(part));
     }
     if (parts.empty() && refusals.none()) {
@@ -137,26 +109,6 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
         character.warnings.push_back(reason + "; left out");
     }
     return parts;
-}
-
-/// Says what was paired without being asked.
-void warnOfPairs(const std::vector<PartCage>& parts, Warnings& warnings) {
-    size_t paired = 0;
-    size_t quads = 0;
-    size_t triangles = 0;
-    for (const PartCage& part : parts) {
-        if (part.part.polygonSource == PolygonSource::pairedTriangles) {
-            ++paired;
-            for (uint32_t face = 0; face < part.cage.faceCount(); ++face) {
-                ++(part.cage.sides(face) == 3 ? triangles : quads);
-            }
-        }
-    }
-    if (paired > 0) {
-        warn(warnings, "file",
-             "triangles of " + std::to_string(paired) + " of " + counted(parts.size(), "part", "parts") +
-                 " paired into " + counted(quads, "quad", "quads") + ", " + std::to_string(triangles) + " left");
-    }
 }
 
 /// Clips of a file take the file's name if they have none.
@@ -175,8 +127,8 @@ ClipSet readClipSet(const ClipFile& file, uint64_t memoryLimit) {
     }
 }
 
-Character toCharacter(const Document& document, const GltfOptions& options) {
-    Character character;
+/// All of a character but what is done to every one at last, and its parts.
+std::vector<PartCage> readInto(const Document& document, const GltfOptions& options, Character& character) {
     Warnings& warnings = character.warnings;
     warnings = document.warnings;
     character.copyright = document.model.copyright;
@@ -197,20 +149,7 @@ Character toCharacter(const Document& document, const GltfOptions& options) {
         refusals.gather([&] { takeClips(readClipSet(file, options.memoryLimit), parts, character); });
     }
     refusals.raise();
-    const CageNames names = joinParts(std::move(parts), character);
-    if (options.sewParts) {
-        sewParts(character);
-    }
-    if (const Status repaired =
-            repairCage(character.cage, character.weights, character.morphs, names, character.damages);
-        !repaired) {
-        throw Refusal{repaired.error().code, {repaired.error().message}};
-    }
-    findFirstFaces(character);
-    if (options.creasesFromNormals) {
-        creaseSplitNormals(character.cage);
-    }
-    return character;
+    return parts;
 }
 
 } // namespace
@@ -228,13 +167,12 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
                            const GltfOptions& options) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
-        Character character = gltf::toCharacter(
-            gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder, options.memoryLimit), options);
+        const gltf::Document document =
+            gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder, options.memoryLimit);
+        Character character;
         character.name = name;
-        if (const Status sound = reportDamages(character, options.strict); !sound) {
-            return sound.error();
-        }
-        character.warnings = readableLines(character.warnings);
+        std::vector<PartCage> parts = gltf::readInto(document, options, character);
+        finishCharacter(std::move(parts), {options.sewParts, options.creasesFromNormals, options.strict}, character);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

@@ -3,7 +3,8 @@
 
 #include "base/result.h"
 #include "cage/character.h"
-#include "cage/limits.h"
+#include "cage/skeleton.h"
+#include "cage/split/cage.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +26,6 @@ struct ClipFile {
     std::span<const std::byte> bytes; ///< needed while the character is read
     std::string baseDirectory;        ///< as readGltf()'s
     FileReader readFile;              ///< as GltfOptions::readFile
-};
-
-/// Whether the triangles of a mesh are paired into quads (cage/triangle_pairs.h), if the file says nothing of polygons.
-enum class Pairing {
-    whereClean, ///< if nearly all of them make good quads, as those of a mesh do that was drawn in quads
-    always,     ///< all that do not fold
-    never
 };
 
 struct GltfOptions {

@@ -1,7 +1,7 @@
 #include "cage/gltf/resources.h"
 
-#include "cage/gltf/image_header.h"
 #include "cage/gltf/uri.h"
+#include "cage/image_header.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 

@@ -1,18 +1,15 @@
 #include "cage/gltf/skin.h"
 
 #include "cage/gltf/accessors.h"
-#include "cage/gltf/nodes.h"
 #include "cage/limits.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace supple::cage::gltf {
 namespace {
-
-/// Half a unit in the last place of a weight near 1, as floats round.
-constexpr double kFloatRounding = 1.0 / (1u << 24);
 
 /// A joint of a skin as a node has it: inverse binds, and places in palettes. Nodes may share a skin.
 constexpr uint64_t kJointBytes = 512;
@@ -46,11 +43,10 @@ SetValues readSets(const Document& document, const SkinSets& sets, size_t count,
     return values;
 }
 
-/// Puts the influences of a vertex that are not zero into `own`, in the file's order. Returns their sum.
-double collectInfluences(const SetValues& values, size_t vertex, size_t jointCount, const std::string& element,
-                         std::vector<Influence>& own) {
+/// Puts the influences of a vertex that are not zero into `own`, in the file's order.
+void collectInfluences(const SetValues& values, size_t vertex, size_t jointCount, const std::string& element,
+                       std::vector<Influence>& own) {
     own.clear();
-    double sum = 0.0;
     for (size_t n = 0; n < values.joints.size(); ++n) {
         const auto place = [&](const char* name) { return item(element + name + std::to_string(n), vertex); };
         for (size_t k = 0; k < 4; ++k) {
@@ -70,10 +66,8 @@ double collectInfluences(const SetValues& values, size_t vertex, size_t jointCou
                                               std::to_string(jointCount));
             }
             own.push_back({joint, weight});
-            sum += weight;
         }
     }
-    return sum;
 }
 
 } // namespace
@@ -156,65 +150,14 @@ SkinSets findSkinSets(const file::Primitive& primitive, const std::string& eleme
     return sets;
 }
 
-void VertexWeights::appendUnskinned(size_t count) {
-    for (size_t v = 0; v < count; ++v) {
-        influences_.push_back({0, 1.0f});
-        closeVertex();
-    }
-}
-
-void VertexWeights::append(const Document& document, const SkinSets& sets, size_t count, size_t jointCount,
-                           const std::string& element) {
+void appendWeights(const Document& document, const SkinSets& sets, size_t count, size_t jointCount,
+                   const std::string& element, VertexWeights& weights) {
     const SetValues values = readSets(document, sets, count, element);
     std::vector<Influence> own;
     for (size_t v = 0; v < count; ++v) {
-        double sum = collectInfluences(values, v, jointCount, element, own);
-        if (!(sum > 0.0)) {
-            const uint32_t joint = values.joints[0][4 * v];
-            own.push_back({joint < jointCount ? joint : 0, 1.0f});
-            sum = 1.0;
-            ++unweighted_;
-        }
-        const double deviation = std::abs(sum - 1.0);
-        if (deviation > std::max(1e-4, values.rounding * static_cast<double>(own.size()) * 1.001)) {
-            ++renormalised_;
-            largestDeviation_ = std::max(largestDeviation_, deviation);
-        }
-        // As they are where only their own rounding keeps floats from a sum of 1: what was read once is then read
-        // alike.
-        if (deviation <= kFloatRounding * static_cast<double>(own.size())) {
-            sum = 1.0;
-        }
-        std::sort(own.begin(), own.end(), [](const Influence& a, const Influence& b) { return a.joint < b.joint; });
-        for (size_t i = 0; i < own.size();) {
-            double weight = 0.0;
-            const uint32_t joint = own[i].joint;
-            for (; i < own.size() && own[i].joint == joint; ++i) {
-                weight += own[i].weight;
-            }
-            // A subnormal weight may vanish when divided; the others keep the vertex bound.
-            const auto scaled = static_cast<float>(weight / sum);
-            if (scaled > 0.0f) {
-                influences_.push_back({joint, scaled});
-            }
-        }
-        closeVertex();
-    }
-}
-
-std::span<const Influence> VertexWeights::of(uint32_t vertex) const {
-    return std::span(influences_).subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
-}
-
-void VertexWeights::report(const std::string& element, Warnings& warnings) const {
-    if (renormalised_ > 0) {
-        warn(warnings, element + " WEIGHTS",
-             "normalised: they do not sum to 1 at " + counted(renormalised_, "vertex", "vertices") +
-                 ", largest deviation " + shortNumber(largestDeviation_));
-    }
-    if (unweighted_ > 0) {
-        warn(warnings, element + " WEIGHTS",
-             "all zero at " + counted(unweighted_, "vertex", "vertices") + "; bound to the first joint named there");
+        collectInfluences(values, v, jointCount, element, own);
+        const uint32_t first = values.joints[0][4 * v];
+        weights.append(own, first < jointCount ? first : 0, values.rounding);
     }
 }
 

@@ -1,8 +1,8 @@
 #include "cage/gltf/trim.h"
 
 #include "cage/gltf/accessors.h"
-#include "cage/gltf/image_header.h"
 #include "cage/gltf/texture.h"
+#include "cage/image_header.h"
 #include "cage/refusal.h"
 #include "cage/trim.h"
 
@@ -122,7 +122,7 @@ std::optional<Trim> readTrim(const Document& document, size_t material, Warnings
 }
 
 void readTrimTiles(const Document& document, const file::Primitive& from, std::span<const Material> materials,
-                   MeshPrimitive& primitive) {
+                   split::Primitive& primitive) {
     if (primitive.material < 0 || !materials[static_cast<size_t>(primitive.material)].trim) {
         return;
     }

@@ -17,6 +17,6 @@ namespace supple::cage::gltf {
 
 /// Fills trimTiles of the primitive, and refuses one that lacks what its material's trim needs.
 void readTrimTiles(const Document& document, const file::Primitive& from, std::span<const Material> materials,
-                   MeshPrimitive& primitive);
+                   split::Primitive& primitive);
 
 } // namespace supple::cage::gltf

@@ -1,11 +1,11 @@
 #include "cage/obj/reader.h"
 
 #include "cage/corner_normals.h"
+#include "cage/finish.h"
 #include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
-#include "cage/repair.h"
 #include "cage/single_joint.h"
 
 #include <algorithm>
@@ -164,7 +164,7 @@ struct Corner {
 
 class ObjParser {
 public:
-    explicit ObjParser(Character& out) : out_(out) {}
+    ObjParser(PartCage& part, Character& out) : part_(part), out_(out) {}
 
     void parse(std::string_view text) {
         if (text.starts_with("\xEF\xBB\xBF")) {
@@ -421,7 +421,7 @@ private:
     }
 
     void buildFaces() {
-        Cage& cage = out_.cage;
+        Cage& cage = part_.cage;
         const bool uvs = std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv != kNone; });
         const bool normals =
             std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.normal != kNone; });
@@ -440,7 +440,7 @@ private:
 
     /// Creases, sharp vertices and holes; of several on one element the sharpest counts.
     void buildTags() {
-        Cage& cage = out_.cage;
+        Cage& cage = part_.cage;
         std::vector<std::pair<uint32_t, uint32_t>> edges;
         for (uint32_t f = 0; f < cage.faceCount() && !creases_.empty(); ++f) {
             for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
@@ -493,7 +493,7 @@ private:
     }
 
     void compactVertices() {
-        Cage& cage = out_.cage;
+        Cage& cage = part_.cage;
         std::vector<uint32_t> cageVertices(positions_.size(), kNone);
         for (const uint32_t v : cage.faceVertices) {
             cageVertices[v] = 0;
@@ -505,7 +505,7 @@ private:
                 cage.sourceVertices.push_back(v);
             }
         }
-        out_.sourceVertexCount = static_cast<uint32_t>(positions_.size());
+        part_.sourceVertexCount = static_cast<uint32_t>(positions_.size());
         const size_t unused = positions_.size() - cage.positions.size();
         if (unused == 0) {
             return;
@@ -574,6 +574,7 @@ private:
         size_t count = 0;
     };
 
+    PartCage& part_;
     Character& out_;
     size_t line_ = 0;
     bool points_ = false; ///< there are statements p
@@ -600,25 +601,20 @@ private:
 
 } // namespace
 
-Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, bool strict) {
+Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, const FinishOptions& options) {
     const auto failure = [&](ErrorCode code, const std::string& message) {
         return Error{code, oneLine(name + ": " + message)};
     };
     try {
         Character character;
         character.name = name;
-        ObjParser(character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        if (const Status repaired = repairCage(character.cage, character.weights, character.morphs,
-                                               CageNames{{"file"}, {}}, character.damages);
-            !repaired) {
-            return failure(repaired.error().code, repaired.error().message);
-        }
-        if (const Status sound = reportDamages(character, strict); !sound) {
-            return sound.error();
-        }
-        bindToOneJoint(character, std::filesystem::path(name).stem().string());
-        character.parts[0].polygonSource = PolygonSource::obj;
-        character.warnings = readableLines(character.warnings);
+        std::vector<PartCage> parts(1);
+        PartCage& part = parts.front();
+        part.element = "file";
+        part.part.polygonSource = PolygonSource::obj;
+        ObjParser(part, character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        bindToOneJoint(part, character, std::filesystem::path(name).stem().string());
+        finishCharacter(std::move(parts), options, character);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/finish.h"
 
 #include <cstddef>
 #include <span>
@@ -24,8 +25,9 @@ namespace supple::cage {
 ///
 /// `name` begins every error and becomes Character::name; warnings are without it. Never throws. Errors have a line for
 /// each fault: "cube.obj: line 12: face corner 3: vertex 99 of 8".
-/// A damaged cage is repaired (cage/repair.h), or refused if `strict`: then the error has one line for each kind of
-/// damage.
-[[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name, bool strict = false);
+/// A damaged cage is repaired (cage/repair.h), or refused if options say so: then the error has one line for each kind
+/// of damage. There is one part, so nothing is sewn.
+[[nodiscard]] Result<Character> readObj(std::span<const std::byte> bytes, const std::string& name,
+                                        const FinishOptions& options = {});
 
 } // namespace supple::cage

@@ -3,7 +3,7 @@
 #include "cage/formats/reader.h"
 #include "cage/repair.h"
 #include "runtime/api/entry.h"
-#include "runtime/asset.h"
+#include "runtime/arrays/character_arrays.h"
 #include "runtime/cooked/file.h"
 #include "runtime/sized.h"
 #include "runtime/vertex_streams.h"
@@ -79,8 +79,8 @@ std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
     if (desc.clipFileCount > 0 && desc.clipFiles == nullptr) {
         return Error{ErrorCode::nullPointer, "clipFiles is null"};
     }
-    if (desc.clipFileCount > 0 && desc.cage != nullptr) {
-        return Error{ErrorCode::argument, nameOf(desc) + ": both cage and clipFiles"};
+    if (desc.clipFileCount > 0 && desc.bytes == nullptr) {
+        return Error{ErrorCode::argument, nameOf(desc) + ": both arrays and clipFiles"};
     }
     for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
         const SuppleClipFile& file = desc.clipFiles[i];
@@ -92,6 +92,17 @@ std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
         }
     }
     return std::nullopt;
+}
+
+/// A character of a struct of arrays, which messages call `what`.
+template <class Desc, class... Options>
+Result<cage::Character> readArrays(const char* function, const char* what, const Desc& given, const std::string& name,
+                                   const Options&... options) {
+    Desc desc{};
+    if (!runtime::readSized(given, desc)) {
+        return Error{ErrorCode::structSize, std::string(function) + ": " + faultOfSize<Desc>(what, given.structSize)};
+    }
+    return runtime::characterFromArrays(desc, name, options...);
 }
 
 /// Null if all are schemes of surfaces.
@@ -165,8 +176,8 @@ std::optional<Error> faultOfValues(const SuppleGroupDesc& desc) {
 
 } // namespace
 
-std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, SuppleAssetDesc& out) {
-    if (std::optional<Error> fault = takeIn(name, given, out)) {
+std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* from, SuppleAssetDesc& out) {
+    if (std::optional<Error> fault = takeIn(name, from, out)) {
         return fault;
     }
     if (out.prepared != nullptr) {
@@ -177,9 +188,11 @@ std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* given, S
         return isAlone ? std::nullopt
                        : std::optional(Error{ErrorCode::argument, "with `prepared`, all other members must be 0"});
     }
-    if ((out.bytes == nullptr) == (out.cage == nullptr)) {
-        return Error{ErrorCode::argument,
-                     nameOf(out) + (out.bytes == nullptr ? ": neither bytes nor cage" : ": both bytes and cage")};
+    const int given =
+        (out.bytes != nullptr ? 1 : 0) + (out.cage != nullptr ? 1 : 0) + (out.character != nullptr ? 1 : 0);
+    if (given != 1) {
+        return Error{ErrorCode::argument, nameOf(out) + (given == 0 ? ": neither bytes nor cage nor character"
+                                                                    : ": more than one of bytes, cage and character")};
     }
     if (std::optional<Error> fault = faultOfFlags(out.flags)) {
         return fault;
@@ -214,23 +227,23 @@ Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc
 
 Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc) {
     const std::string name = nameOf(desc);
+    const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
+    const cage::FinishOptions finish{!has(SUPPLE_ASSET_PARTS_APART), has(SUPPLE_ASSET_CREASES_FROM_NORMALS),
+                                     has(SUPPLE_ASSET_STRICT)};
     if (desc.cage != nullptr) {
-        SuppleCageDesc cage{};
-        if (!runtime::readSized(*desc.cage, cage)) {
-            return Error{ErrorCode::structSize, std::string(function) + ": " +
-                                                    faultOfSize<SuppleCageDesc>("desc.cage", desc.cage->structSize)};
-        }
-        return runtime::characterFromArrays(cage, name, (desc.flags & SUPPLE_ASSET_STRICT) != 0);
+        return readArrays(function, "desc.cage", *desc.cage, name, finish);
+    }
+    const cage::Pairing pairing = has(SUPPLE_ASSET_PAIR_QUADS)       ? cage::Pairing::always
+                                  : has(SUPPLE_ASSET_KEEP_TRIANGLES) ? cage::Pairing::never
+                                                                     : cage::Pairing::whereClean;
+    if (desc.character != nullptr) {
+        return readArrays(function, "desc.character", *desc.character, name, finish, pairing);
     }
     cage::GltfOptions options;
-    if ((desc.flags & SUPPLE_ASSET_PAIR_QUADS) != 0) {
-        options.pairing = cage::Pairing::always;
-    } else if ((desc.flags & SUPPLE_ASSET_KEEP_TRIANGLES) != 0) {
-        options.pairing = cage::Pairing::never;
-    }
-    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
-    options.creasesFromNormals = (desc.flags & SUPPLE_ASSET_CREASES_FROM_NORMALS) != 0;
-    options.sewParts = (desc.flags & SUPPLE_ASSET_PARTS_APART) == 0;
+    options.pairing = pairing;
+    options.strict = finish.strict;
+    options.creasesFromNormals = finish.creasesFromNormals;
+    options.sewParts = finish.sewParts;
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }

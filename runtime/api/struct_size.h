@@ -15,6 +15,14 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleRequirements)                                                                                              \
     X(SuppleContextDesc)                                                                                               \
     X(SuppleCageDesc)                                                                                                  \
+    X(SuppleNodeDesc)                                                                                                  \
+    X(SuppleSkinDesc)                                                                                                  \
+    X(SuppleMorphTargetDesc)                                                                                           \
+    X(SupplePrimitiveDesc)                                                                                             \
+    X(SupplePartDesc)                                                                                                  \
+    X(SuppleChannelDesc)                                                                                               \
+    X(SuppleClipDesc)                                                                                                  \
+    X(SuppleCharacterDesc)                                                                                             \
     X(SuppleAssetDesc)                                                                                                 \
     X(SuppleAssetInfo)                                                                                                 \
     X(SupplePartInfo)                                                                                                  \

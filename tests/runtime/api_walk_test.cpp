@@ -592,6 +592,99 @@ void contexts(Rows& r) {
             [](Desc& d) { d.enabledFeatures = &kNoFeatures; });
 }
 
+/// A character as arrays: one rigid quad with a clip that moves its node.
+struct WalkedCharacter {
+    SuppleNodeDesc node{sizeof(SuppleNodeDesc), SUPPLE_NO_NODE, "root"};
+    SuppleCageDesc cage{};
+    SupplePartDesc part{};
+    SuppleChannelDesc channel{};
+    SuppleClipDesc clip{};
+    SuppleCharacterDesc desc{};
+
+    WalkedCharacter() {
+        static const float kPositions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, kTimes[] = {0, 1};
+        static const uint32_t kCount = 4, kIndices[] = {0, 1, 2, 3};
+        cage.structSize = sizeof(cage);
+        cage.vertexCount = 4;
+        cage.faceCount = 1;
+        cage.positions = kPositions;
+        cage.faceVertexCounts = &kCount;
+        cage.faceVertexIndices = kIndices;
+        part.structSize = sizeof(part);
+        part.cage = &cage;
+        channel.structSize = sizeof(channel);
+        channel.keyCount = 2;
+        channel.valueCount = 6;
+        channel.times = kTimes;
+        channel.values = kPositions;
+        clip.structSize = sizeof(clip);
+        clip.channelCount = 1;
+        clip.channels = &channel;
+        desc.structSize = sizeof(desc);
+        desc.nodeCount = desc.partCount = desc.clipCount = 1;
+        desc.nodes = &node;
+        desc.parts = &part;
+        desc.clips = &clip;
+    }
+    WalkedCharacter(const WalkedCharacter&) = delete;
+    WalkedCharacter& operator=(const WalkedCharacter&) = delete;
+};
+
+template <class Create>
+void createCharacter(Rows& r, const Create& create) {
+    constexpr const char* kCreate = "suppleCreateAsset";
+    const auto createOf = [create](World& w, const SuppleCharacterDesc* character) {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.character = character;
+        return create(w, &desc);
+    };
+    static const WalkedCharacter kSound;
+    r.description<SuppleCharacterDesc>(
+        kCreate, "character", [](World&) { return kSound.desc; }, createOf, false);
+    const auto character = [&](const char* what, SuppleResult result, int message, auto spoil) {
+        r.add(kCreate, std::string("character: ") + what, result, message, [=](World& w) {
+            WalkedCharacter spoiled;
+            spoil(spoiled);
+            return createOf(w, &spoiled.desc);
+        });
+    };
+    const auto null = [&](const char* what, auto spoil) {
+        character(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER, spoil);
+    };
+    const auto size = [&](const char* what, auto spoil) {
+        character(what, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, spoil);
+    };
+    const auto malformed = [&](const char* what, auto spoil) {
+        character(what, SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, spoil);
+    };
+    using Character = WalkedCharacter;
+    null("nodes null", [](Character& c) { c.desc.nodes = nullptr; });
+    null("parts null", [](Character& c) { c.desc.parts = nullptr; });
+    null("clips null", [](Character& c) { c.desc.clips = nullptr; });
+    null("materials null", [](Character& c) { c.desc.materialCount = 1; });
+    null("images null", [](Character& c) { c.desc.imageCount = 1; });
+    null("positions null", [](Character& c) { c.cage.positions = nullptr; });
+    null("targets null", [](Character& c) { c.part.targetCount = 1; });
+    null("channels null", [](Character& c) { c.clip.channels = nullptr; });
+    null("times null", [](Character& c) { c.channel.times = nullptr; });
+    null("markers null", [](Character& c) { c.clip.markerCount = 1; });
+    size("a node's size", [](Character& c) { c.node.structSize = 0; });
+    size("a part's size", [](Character& c) { c.part.structSize = 4; });
+    size("a cage's size", [](Character& c) { c.cage.structSize = 4; });
+    size("a clip's size", [](Character& c) { c.clip.structSize = 1u << 20; });
+    size("a channel's size", [](Character& c) { c.channel.structSize = 0; });
+    malformed("no parts", [](Character& c) { c.desc.partCount = 0; });
+    malformed("neither cage nor primitives", [](Character& c) { c.part.cage = nullptr; });
+    malformed("no such parent", [](Character& c) { c.node.parent = 1; });
+    malformed("its own parent", [](Character& c) { c.node.parent = 0; });
+    malformed("no such node", [](Character& c) { c.part.node = 1; });
+    malformed("no such channel node", [](Character& c) { c.channel.node = 1; });
+    malformed("too few values", [](Character& c) { c.channel.valueCount = 5; });
+    character("no such path", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
+              [](Character& c) { c.channel.path = static_cast<SuppleChannelPath>(9); });
+}
+
 void createAsset(Rows& r) {
     constexpr const char* kCreate = "suppleCreateAsset";
     const auto create = [](World& w, const SuppleAssetDesc* desc) {
@@ -638,11 +731,19 @@ void createAsset(Rows& r) {
     using Desc = SuppleAssetDesc;
     static const SuppleFiles kNoRead{};
     static const SuppleCageDesc kNoCage{};
+    static const SuppleCharacterDesc kNoCharacter{};
     spoiled("neither bytes nor cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.bytes = nullptr; });
     spoiled("bytes and prepared", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.prepared = reinterpret_cast<SupplePrepared>(&d); });
     spoiled("bytes and cage", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.cage = &kNoCage; });
+    spoiled("bytes and character", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+            [](Desc& d) { d.character = &kNoCharacter; });
+    spoiled("cage and character", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) {
+        d.bytes = nullptr;
+        d.cage = &kNoCage;
+        d.character = &kNoCharacter;
+    });
     spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 32; });
     spoiled("pairs and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.flags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES; });
@@ -735,7 +836,7 @@ void createAsset(Rows& r) {
         d.creaseScalarCount = 1;
         d.creaseScalars = &kScalar;
     });
-    // What names no edge or vertex is left out with a note, and sharpness that is no number is none.
+    createCharacter(r, create);
 }
 
 void markers(Rows& r) {
@@ -2036,7 +2137,8 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h"}) {
+    for (const char* name :
+         {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h"}) {
         std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/" + name);
         ASSERT_TRUE(file.good()) << name;
         header.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

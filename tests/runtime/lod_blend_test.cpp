@@ -1,4 +1,5 @@
 // The blending surface at random levels, over cages of all kinds, against the reference: bits, borders, normals.
+#include "runtime/arrays/character_arrays.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_random.h"

@@ -1,5 +1,6 @@
 // Exact Catmull-Clark patches at random levels, over cages of all kinds, against the limit in double: positions,
 // borders, normals.
+#include "runtime/arrays/character_arrays.h"
 #include "tests/support/exact_quads.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/meshes.h"

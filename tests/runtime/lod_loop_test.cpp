@@ -1,5 +1,6 @@
 // Loop patches at random levels, over cages of all kinds, against the limit in double: positions, borders, normals.
 #include "cage/features.h"
+#include "runtime/arrays/character_arrays.h"
 #include "surface/lod/grid.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/loop_triangles.h"

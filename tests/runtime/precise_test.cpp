@@ -1,6 +1,7 @@
 // `precise` where it matters: the static check on every shader that feeds a position, and mutations that take `precise`
 // from one helper: the static check must see each, and the bits of shared borders must show it.
 #include "cage/topology.h"
+#include "runtime/arrays/character_arrays.h"
 #include "runtime/context.h"
 #include "surface/grid.h"
 #include "tests/support/gpu_surface.h"

@@ -2,7 +2,7 @@
 
 #include "bench_characters.h"
 #include "cage/formats/reader.h"
-#include "runtime/asset.h"
+#include "runtime/arrays/character_arrays.h"
 #include "surface/schemes.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"

@@ -1,6 +1,6 @@
 #include "tools/gltf/material_writer.h"
 
-#include "cage/gltf/image_header.h"
+#include "cage/image_header.h"
 
 #include <algorithm>
 #include <array>

@@ -10,9 +10,9 @@
  *
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
- * This header is in the order of use. supple_prepare.h (characters read on any thread), supple_view.h (level of detail,
- * culling) and supple_playback.h (layers of clips, root motion, clips that the device plays) are for hosts that need
- * them. This header includes all three at its end.
+ * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
+ * any thread), supple_view.h (level of detail, culling) and supple_playback.h (layers of clips, root motion, clips that
+ * the device plays) are for hosts that need them. This header includes all four at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -340,7 +340,23 @@ typedef struct SuppleCageDesc {
     uint32_t holeCount; /**< entries of holes: faces that shape their neighbours but are not drawn */
     const uint32_t* holes;
     const uint32_t* faceTrimTiles; /**< optional: per face a trim tile or SUPPLE_NO_TRIM_TILE; see SuppleTrimDomain */
+    /** Optional: per face a material of the character or SUPPLE_NO_MATERIAL. A bare cage (SuppleAssetDesc.cage) has no
+     * materials. */
+    const uint32_t* faceMaterials;
+    const float* cornerNormals; /**< optional: 3 per corner, normalised. One without a direction: the corner is flat */
+    /** Optional: 4 per corner, x y z and the sign of the bitangent. One without a direction: that of the texture
+     * coordinates instead. Without cornerNormals, they are not looked at. */
+    const float* cornerTangents;
+    const float* cornerColors; /**< optional: 4 per corner, linear RGBA */
+    /** Optional: how SUPPLE_SCHEME_POLYGONS cuts faces into triangles. 3 per triangle, which are corners counted over
+     * all faces; a face of n corners has n - 2 triangles; face after face. */
+    const uint32_t* faceTriangles;
+    uint32_t roundCornerCount;
+    const uint32_t* roundCorners; /**< vertices that round the boundary off if they have one face; rising */
 } SuppleCageDesc;
+
+/** A whole character as arrays: supple_character.h. */
+typedef struct SuppleCharacterDesc SuppleCharacterDesc;
 
 /** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
@@ -351,13 +367,14 @@ typedef enum SuppleAssetFlags {
     /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
      * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
-    /** Parts of a glTF file stay apart. Without this flag, parts are sewn together where their boundaries coincide in
-     * position, skin and morph targets, and the surface goes on smoothly from one to the other. */
+    /** Parts of a glTF file or of a character from arrays stay apart. Without this flag, parts are sewn together where
+     * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
+     * other. */
     SUPPLE_ASSET_PARTS_APART = 4,
     /** Plain triangles of a glTF file stay as they are. Not together with SUPPLE_ASSET_PAIR_QUADS. */
     SUPPLE_ASSET_KEEP_TRIANGLES = 8,
-    /** Edges of a file whose normals are split become hard creases (sharpness 10), so that smooth schemes keep the hard
-     * edges of the file. Edges of the boundary and corners without a normal are left as they are. */
+    /** Edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth schemes
+     * keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are. */
     SUPPLE_ASSET_CREASES_FROM_NORMALS = 16
 } SuppleAssetFlags;
 
@@ -393,8 +410,8 @@ typedef struct SuppleClipFile {
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
-/** Either a file in memory (`bytes`), or arrays (`cage`), or what was prepared of one of these (`prepared`). Everything
- * is copied before the call returns.
+/** Either a file in memory (`bytes`), or arrays (`cage`, `character`), or what was prepared of one of these
+ * (`prepared`). Everything is copied before the call returns.
  *
  * Positions, displacements, numbers of matrices and keys of clips must be within plus or minus SUPPLE_MAX_COORDINATE.
  * Otherwise the asset is refused. A pose can still move vertices farther: by a chain of large scales, by layers, by
@@ -411,7 +428,8 @@ typedef struct SuppleAssetDesc {
     size_t byteCount;
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
-    const SuppleCageDesc* cage;
+    const SuppleCageDesc*
+        cage;       /**< a bare cage: a character of one part with one joint, which is called as the asset */
     uint32_t scene; /**< which scene of a glTF file: its number + 1; 0: the one that the file names, else the first */
     uint32_t clipFileCount;
     /** clipFileCount glTF files whose clips follow those of the asset's own file, which must be glTF as well. A clip
@@ -422,9 +440,10 @@ typedef struct SuppleAssetDesc {
      * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
      * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
-    /** Instead of bytes or cage: what supplePrepare made. Then all members above but structSize must be 0. It need not
-     * outlive the call. */
+    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize must be 0.
+     * It need not outlive the call. */
     SupplePrepared prepared;
+    const SuppleCharacterDesc* character; /**< instead of bytes or cage */
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -1428,7 +1447,8 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 }
 #endif
 
-#include "supple_playback.h" /* IWYU pragma: export */
-#include "supple_prepare.h"  /* IWYU pragma: export */
-#include "supple_view.h"     /* IWYU pragma: export */
+#include "supple_character.h" /* IWYU pragma: export */
+#include "supple_playback.h"  /* IWYU pragma: export */
+#include "supple_prepare.h"   /* IWYU pragma: export */
+#include "supple_view.h"      /* IWYU pragma: export */
 #endif

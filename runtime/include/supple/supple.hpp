@@ -21,6 +21,23 @@ template <class T>
     return value;
 }
 
+/// glTF's own material, to begin with for SuppleCharacterDesc.materials: white, metal and rough, without textures.
+[[nodiscard]] inline SuppleMaterialInfo defaultMaterial() {
+    SuppleMaterialInfo material = sized<SuppleMaterialInfo>();
+    material.alphaCutoff = 0.5f;
+    for (float& factor : material.baseColorFactor) {
+        factor = 1.0f;
+    }
+    material.metallicFactor = material.roughnessFactor = material.normalScale = 1.0f;
+    material.occlusionStrength = material.emissiveStrength = 1.0f;
+    for (SuppleTextureInfo* texture : {&material.baseColor, &material.metallicRoughness, &material.normal,
+                                       &material.occlusion, &material.emissive, &material.trim}) {
+        texture->image = texture->alternateImage = SUPPLE_NO_IMAGE;
+        texture->scale[0] = texture->scale[1] = 1.0f;
+    }
+    return material;
+}
+
 /// Values that lie in a row somewhere else. It is made of an array, a std::vector, a std::array, a std::span, whatever
 /// else has data() and size(), or a pointer and a count. (std::span itself is C++20.)
 template <class T>

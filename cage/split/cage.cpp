@@ -1,10 +1,10 @@
-#include "cage/gltf/cage.h"
+#include "cage/split/cage.h"
 
 #include "cage/corner_normals.h"
-#include "cage/gltf/creases.h"
-#include "cage/gltf/weld.h"
 #include "cage/polygons.h"
 #include "cage/refusal.h"
+#include "cage/split/creases.h"
+#include "cage/split/weld_mesh.h"
 #include "cage/triangle_pairs.h"
 #include "cage/triangulation.h"
 
@@ -17,11 +17,11 @@
 #include <utility>
 #include <vector>
 
-namespace supple::cage::gltf {
+namespace supple::cage::split {
 namespace {
 
 /// What a primitive's edges are sewn along: its own polygons where it lists them, else its triangles.
-void addSewingFaces(const MeshPrimitive& primitive, Polygons& faces) {
+void addSewingFaces(const Primitive& primitive, Polygons& faces) {
     const auto add = [&](std::span<const uint32_t> vertices) {
         faces.vertices.insert(faces.vertices.end(), vertices.begin(), vertices.end());
         faces.close();
@@ -45,11 +45,11 @@ constexpr double kCleanSquareness = 0.65;
 /// degrees.
 constexpr float kSameNormal = 5e-4f;
 
-bool hasPlainTriangles(const MeshPrimitive& primitive) {
+bool hasPlainTriangles(const Primitive& primitive) {
     return primitive.faces.source == PolygonSource::triangles;
 }
 
-PairedTriangles pairPrimitive(const Mesh& mesh, const MeshPrimitive& primitive, std::span<const uint32_t> welded,
+PairedTriangles pairPrimitive(const Mesh& mesh, const Primitive& primitive, std::span<const uint32_t> welded,
                               PairShape shape, std::vector<uint32_t>& spare) {
     const auto same = [](const auto& values, size_t width, size_t a, size_t b) {
         for (size_t k = 0; k < width && !values.empty(); ++k) {
@@ -80,7 +80,7 @@ std::vector<PairedTriangles> pairMesh(const Mesh& mesh, std::span<const uint32_t
         return {};
     }
     std::vector<uint32_t> all;
-    for (const MeshPrimitive& primitive : mesh.primitives) {
+    for (const Primitive& primitive : mesh.primitives) {
         all.insert(all.end(), primitive.triangles.begin(), primitive.triangles.end());
     }
     std::vector<uint32_t> spare = spareEdges(all, welded);
@@ -106,7 +106,7 @@ std::vector<PairedTriangles> pairMesh(const Mesh& mesh, std::span<const uint32_t
     return paired;
 }
 
-Polygons recoverPolygons(const MeshPrimitive& primitive, std::span<const uint32_t> welded) {
+Polygons recoverPolygons(const Primitive& primitive, std::span<const uint32_t> welded) {
     switch (primitive.faces.source) {
     case PolygonSource::cageExtension:
     case PolygonSource::meshPolygon:
@@ -133,7 +133,7 @@ Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Wa
     std::vector<PairedTriangles> paired = pairMesh(mesh, welding.roots, pairing);
     Faces faces;
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
-        const MeshPrimitive& primitive = mesh.primitives[p];
+        const Primitive& primitive = mesh.primitives[p];
         const bool isPaired = !paired.empty() && hasPlainTriangles(primitive);
         const Polygons own = isPaired ? std::move(paired[p].polygons) : recoverPolygons(primitive, welding.roots);
         faces.source = std::min(faces.source, isPaired ? PolygonSource::pairedTriangles : primitive.faces.source);
@@ -171,19 +171,19 @@ Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Wa
 void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     const auto any = [&](auto member) {
         return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
-                           [&](const MeshPrimitive& primitive) { return !(primitive.*member).empty(); });
+                           [&](const Primitive& primitive) { return !(primitive.*member).empty(); });
     };
-    if (any(&MeshPrimitive::uvs)) {
+    if (any(&Primitive::uvs)) {
         cage.cornerUvs.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
     }
-    if (any(&MeshPrimitive::uvs1)) {
+    if (any(&Primitive::uvs1)) {
         cage.cornerUvs1.assign(faces.polygons.vertices.size(), glm::vec2(0.0f));
     }
-    if (any(&MeshPrimitive::colors)) {
+    if (any(&Primitive::colors)) {
         cage.cornerColors.assign(faces.polygons.vertices.size(), glm::vec4(1.0f));
     }
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
-        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        const Primitive& primitive = mesh.primitives[faces.primitives[f]];
         for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1]; ++c) {
             const size_t v = faces.polygons.vertices[c] - primitive.firstVertex;
             if (!primitive.uvs.empty()) {
@@ -202,11 +202,10 @@ void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
 
 /// What the primitives have per vertex, per corner of the cage; `none` where a primitive does not have it.
 template <class Vec>
-std::vector<Vec> perCorner(const Mesh& mesh, const Faces& faces, std::vector<Vec> MeshPrimitive::*values,
-                           const Vec& none) {
+std::vector<Vec> perCorner(const Mesh& mesh, const Faces& faces, std::vector<Vec> Primitive::*values, const Vec& none) {
     std::vector<Vec> corners(faces.polygons.vertices.size(), none);
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
-        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        const Primitive& primitive = mesh.primitives[faces.primitives[f]];
         const std::vector<Vec>& own = primitive.*values;
         for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1] && !own.empty(); ++c) {
             corners[c] = own[faces.polygons.vertices[c] - primitive.firstVertex];
@@ -219,14 +218,14 @@ std::vector<Vec> perCorner(const Mesh& mesh, const Faces& faces, std::vector<Vec
 /// has normals: then what smooths a cage smooths it.
 void fillShading(const Mesh& mesh, const Faces& faces, Cage& cage) {
     const auto all = [&](auto test) { return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), test); };
-    const bool polygonsAlone = all([](const MeshPrimitive& primitive) {
+    const bool polygonsAlone = all([](const Primitive& primitive) {
         return primitive.normals.empty() && primitive.faces.polygons.faceCount() > 0;
     });
     if (!polygonsAlone) {
-        cage.cornerNormals = perCorner(mesh, faces, &MeshPrimitive::normals, glm::vec3(0.0f));
+        cage.cornerNormals = perCorner(mesh, faces, &Primitive::normals, glm::vec3(0.0f));
     }
-    if (!all([](const MeshPrimitive& primitive) { return primitive.tangents.empty(); })) {
-        cage.cornerTangents = perCorner(mesh, faces, &MeshPrimitive::tangents, glm::vec4(0.0f));
+    if (!all([](const Primitive& primitive) { return primitive.tangents.empty(); })) {
+        cage.cornerTangents = perCorner(mesh, faces, &Primitive::tangents, glm::vec4(0.0f));
     }
 }
 
@@ -240,7 +239,7 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
     std::vector<glm::vec3> corners;
     std::optional<FileTriangles> known;
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
-        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        const Primitive& primitive = mesh.primitives[faces.primitives[f]];
         if (f == 0 || faces.primitives[f] != faces.primitives[f - 1]) {
             known.emplace(primitive.triangles, welding.roots);
         }
@@ -273,12 +272,12 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
 /// A face's corners name one tile.
 void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
     if (std::all_of(mesh.primitives.begin(), mesh.primitives.end(),
-                    [](const MeshPrimitive& p) { return p.trimTiles.empty(); })) {
+                    [](const Primitive& p) { return p.trimTiles.empty(); })) {
         return;
     }
     cage.faceTrimTiles.assign(faces.primitives.size(), kNone);
     for (size_t f = 0; f < faces.primitives.size(); ++f) {
-        const MeshPrimitive& primitive = mesh.primitives[faces.primitives[f]];
+        const Primitive& primitive = mesh.primitives[faces.primitives[f]];
         if (primitive.trimTiles.empty()) {
             continue;
         }
@@ -380,10 +379,9 @@ void addRoundCorners(Cage& cage) {
 
 } // namespace
 
-void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& options, PartCage& out,
-               Warnings& warnings) {
+void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Warnings& warnings) {
     Polygons sewn;
-    for (const MeshPrimitive& primitive : mesh.primitives) {
+    for (const Primitive& primitive : mesh.primitives) {
         addSewingFaces(primitive, sewn);
     }
     std::vector<uint8_t> used(mesh.positions.size(), 0);
@@ -395,9 +393,9 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
         warn(warnings, mesh.element, counted(unused, "vertex has", "vertices have") + " no face; left out");
     }
 
-    MeshWelding welded = weldMesh(document, mesh, sewn, warnings);
+    MeshWelding welded = weldMesh(mesh, sewn, warnings);
     Welding& welding = welded.welding;
-    const Faces faces = recoverFaces(mesh, welding, options.pairing, warnings, out.damages);
+    const Faces faces = recoverFaces(mesh, welding, pairing, warnings, out.damages);
     if (faces.polygons.faceCount() == 0) {
         return;
     }
@@ -413,21 +411,39 @@ void buildCage(const Document& document, const Mesh& mesh, const GltfOptions& op
 
     out.part.polygonSource = faces.source;
     out.part.weldSource = welded.source;
-    for (const MeshPrimitive& primitive : mesh.primitives) { // the first that says anything
-        if (!out.part.uvMode && primitive.extension) {
-            out.part.uvMode = primitive.extension->uvMode;
-        }
-        if (!out.part.madeFor && primitive.extension) {
-            out.part.madeFor = primitive.extension->madeFor;
-        }
+    for (const Primitive& primitive : mesh.primitives) { // the first that says anything
+        out.part.uvMode = out.part.uvMode ? out.part.uvMode : primitive.uvMode;
+        out.part.madeFor = out.part.madeFor ? out.part.madeFor : primitive.madeFor;
     }
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
-    readCreases(document, mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
-    if (std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const MeshPrimitive& primitive) {
-            return primitive.extension && primitive.extension->roundCorners;
-        })) {
+    addCreases(mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
+    if (std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                    [](const Primitive& primitive) { return primitive.roundCorners; })) {
         addRoundCorners(out.cage);
     }
 }
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage::split
+
+namespace supple::cage {
+
+void warnOfPairs(const std::vector<PartCage>& parts, Warnings& warnings) {
+    size_t paired = 0;
+    size_t quads = 0;
+    size_t triangles = 0;
+    for (const PartCage& part : parts) {
+        if (part.part.polygonSource == PolygonSource::pairedTriangles) {
+            ++paired;
+            for (uint32_t face = 0; face < part.cage.faceCount(); ++face) {
+                ++(part.cage.sides(face) == 3 ? triangles : quads);
+            }
+        }
+    }
+    if (paired > 0) {
+        warn(warnings, "file",
+             "triangles of " + std::to_string(paired) + " of " + counted(parts.size(), "part", "parts") +
+                 " paired into " + counted(quads, "quad", "quads") + ", " + std::to_string(triangles) + " left");
+    }
+}
+
+} // namespace supple::cage

@@ -1,10 +1,10 @@
-#include "cage/gltf/image_header.h"
+#include "cage/image_header.h"
 
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
 
-namespace supple::cage::gltf {
+namespace supple::cage {
 namespace {
 
 bool startsWith(std::span<const std::byte> bytes, std::initializer_list<unsigned> magic) {
@@ -89,4 +89,4 @@ std::optional<ImageSize> imageSize(std::span<const std::byte> bytes) {
     return ImageSize{numberAt(bytes, 16, 4), numberAt(bytes, 20, 4)};
 }
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage

@@ -1,4 +1,4 @@
-#include "cage/gltf/seams.h"
+#include "cage/split/seams.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-namespace supple::cage::gltf {
+namespace supple::cage::split {
 namespace {
 
 /// A seam of the skin is a fault of the file only if it hardly opens: what opens further is a mouth or an eye that the
@@ -121,4 +121,4 @@ void keepOpenings(const Mesh& mesh, const Polygons& faces, const MeshWelding& we
     }
 }
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage::split

@@ -1,4 +1,4 @@
-// What the first bytes of an encoded image say; nothing is decoded. Private to cage/gltf/.
+// What the first bytes of an encoded image say; nothing is decoded.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace supple::cage::gltf {
+namespace supple::cage {
 
 /// "image/png", "image/jpeg", "image/webp" or "image/ktx2" by the signature, or null.
 [[nodiscard]] const char* imageType(std::span<const std::byte> bytes);
@@ -21,4 +21,4 @@ struct ImageSize {
 /// In pixels, of PNG and JPEG; nothing where the headers end before they tell it.
 [[nodiscard]] std::optional<ImageSize> imageSize(std::span<const std::byte> bytes);
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage

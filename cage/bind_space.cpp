@@ -1,4 +1,4 @@
-#include "cage/gltf/bind_space.h"
+#include "cage/bind_space.h"
 
 #include "cage/limits.h"
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-namespace supple::cage::gltf {
+namespace supple::cage {
 namespace {
 
-glm::dmat4 localOf(const Node& node) {
+glm::dmat4 localMatrix(const Node& node) {
     if (node.hasMatrix) {
         return glm::dmat4(node.matrix);
     }
@@ -43,14 +43,17 @@ std::optional<std::vector<glm::vec3>> taken(const std::vector<glm::vec3>& from, 
 
 } // namespace
 
-BindSpace::BindSpace(const Document& document, const Skeleton& skeleton, std::span<const uint32_t> nodes,
-                     std::span<const Skin> skins)
-    : document_(document), skeleton_(skeleton), alone_(nodes.size() == 1) {
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        for (size_t j = 0; document.model.nodes[nodes[i]].skin >= 0 && j < skins[i].joints.size(); ++j) {
-            const glm::dmat4 bind(skins[i].inverseBinds[j]);
+MeshBinding bindToNode(uint32_t node) {
+    return {node, false, {{node}, {glm::mat4(1.0f)}}};
+}
+
+BindSpace::BindSpace(const Skeleton& skeleton, std::span<const MeshBinding> meshes)
+    : skeleton_(skeleton), alone_(meshes.size() == 1) {
+    for (const MeshBinding& mesh : meshes) {
+        for (size_t j = 0; mesh.skinned && j < mesh.skin.joints.size(); ++j) {
+            const glm::dmat4 bind(mesh.skin.inverseBinds[j]);
             if (isUsable(bind)) {
-                joints_.emplace(skins[i].joints[j], glm::inverse(bind));
+                joints_.emplace(mesh.skin.joints[j], glm::inverse(bind));
             }
         }
     }
@@ -63,21 +66,24 @@ glm::dmat4 BindSpace::placeOf(uint32_t node) const {
         if (joint != joints_.end()) {
             return joint->second * place;
         }
-        place = localOf(skeleton_.nodes[node]) * place;
+        place = localMatrix(skeleton_.nodes[node]) * place;
     }
     return place;
 }
 
-bool BindSpace::place(PartCage& part, Skin& skin) const {
-    if (document_.model.nodes[part.part.node].skin >= 0) {
+bool BindSpace::place(PartCage& part, MeshBinding& mesh) const {
+    if (mesh.skinned) {
         return true;
     }
-    const glm::dmat4 place = placeOf(part.part.node);
+    const glm::dmat4 place = placeOf(mesh.node);
     const bool mirrored = glm::determinant(glm::dmat3(place)) < 0.0;
     if (!isUsable(place) || (alone_ && !mirrored)) {
         return true;
     }
-    const glm::mat4 bind(glm::inverse(place));
+    glm::mat4 bind(glm::inverse(place));
+    for (int k = 0; k < 4; ++k) {
+        bind[k][3] = k < 3 ? 0.0f : 1.0f; // not -0
+    }
     std::optional<std::vector<glm::vec3>> positions = taken(part.cage.positions, place, 1.0);
     std::vector<std::vector<glm::vec3>> deltas;
     for (const MorphTarget& target : part.morphs.targets) {
@@ -107,8 +113,8 @@ bool BindSpace::place(PartCage& part, Skin& skin) const {
     if (mirrored) {
         reverseFaces(part.cage);
     }
-    skin.inverseBinds[0] = bind;
+    mesh.skin.inverseBinds[0] = bind;
     return true;
 }
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage

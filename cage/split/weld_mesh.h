@@ -1,16 +1,15 @@
-// Which of a glTF mesh's vertices are one cage vertex. Private to cage/gltf/. All of these throw Refusal.
+// Which of a mesh's split vertices are one cage vertex. Private to cage/split/. All of these throw Refusal.
 #pragma once
 
 #include "cage/character.h"
-#include "cage/gltf/document.h"
-#include "cage/gltf/mesh.h"
 #include "cage/message.h"
+#include "cage/split/mesh.h"
 #include "cage/weld.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace supple::cage::gltf {
+namespace supple::cage::split {
 
 struct MeshWelding {
     Welding welding;
@@ -25,11 +24,10 @@ struct MeshWelding {
     std::vector<uint32_t> places;            ///< per vertex: the same number where positions are equal
 };
 
-/// The cage vertices the mesh gives, else the merges of EXT_mesh_manifold, else by sewing `faces` where position, skin
-/// and morph targets are equal. What the file merges itself must agree in position; where skin or morph targets differ
+/// The cage vertices the mesh gives, else the merges that it lists, else by sewing `faces` where position, skin and
+/// morph targets are equal. What the source merges itself must agree in position; where skin or morph targets differ
 /// there is a warning.
-[[nodiscard]] MeshWelding weldMesh(const Document& document, const Mesh& mesh, const Polygons& faces,
-                                   Warnings& warnings);
+[[nodiscard]] MeshWelding weldMesh(const Mesh& mesh, const Polygons& faces, Warnings& warnings);
 
 /// Where welded by equality: sews edges of `faces` whose ends agree in position alone, so that no seam of a skin tears
 /// the surface. The cage vertex has the skin and the morph targets of its first vertex. What is sewn is damage, what
@@ -37,4 +35,4 @@ struct MeshWelding {
 void joinSeams(const Mesh& mesh, const Polygons& faces, MeshWelding& welded, Warnings& warnings,
                std::vector<Damage>& damages);
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage::split

@@ -1,4 +1,4 @@
-// Entries of a list in `extras` that make no sense: left out with one warning. Private to cage/gltf/.
+// Entries of a list that make no sense: left out with one warning.
 #pragma once
 
 #include "cage/message.h"
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace supple::cage::gltf {
+namespace supple::cage {
 
 /// The faults of a list's entries: the first by name, the others counted, so that no file can fill the log.
 class EntryFaults {
@@ -34,4 +34,4 @@ private:
     size_t count_ = 0;
 };
 
-} // namespace supple::cage::gltf
+} // namespace supple::cage

@@ -1,0 +1,31 @@
+#include "cage/finish.h"
+
+#include "cage/message.h"
+#include "cage/normal_creases.h"
+#include "cage/refusal.h"
+#include "cage/repair.h"
+#include "cage/sew.h"
+
+#include <utility>
+
+namespace supple::cage {
+
+void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, Character& character) {
+    const CageNames names = joinParts(std::move(parts), character);
+    if (options.sewParts) {
+        sewParts(character);
+    }
+    if (const Status repaired =
+            repairCage(character.cage, character.weights, character.morphs, names, character.damages);
+        !repaired) {
+        throw Refusal{repaired.error().code, {repaired.error().message}};
+    }
+    findFirstFaces(character);
+    if (options.creasesFromNormals) {
+        creaseSplitNormals(character.cage);
+    }
+    reportDamages(character, options.strict);
+    character.warnings = readableLines(character.warnings);
+}
+
+} // namespace supple::cage

@@ -1,0 +1,16 @@
+// Creases and sharp vertices in a mesh's extras. Private to cage/gltf/.
+#pragma once
+
+#include "cage/gltf/json.h"
+#include "cage/gltf/mesh.h"
+#include "cage/message.h"
+
+#include <string>
+
+namespace supple::cage::gltf {
+
+/// Fills the mesh's own lists, of extras.creases, [vertex, vertex, sharpness], and extras.corners, [vertex, sharpness].
+/// extras may hold anything: nothing in them is an error.
+void readExtrasCreases(const Json& fileMesh, Mesh& mesh, Warnings& warnings);
+
+} // namespace supple::cage::gltf

@@ -1,0 +1,101 @@
+#include "cage/skeleton.h"
+
+#include "cage/message.h"
+#include "cage/refusal.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace supple::cage {
+namespace {
+
+/// The children of each node, by number.
+struct Children {
+    std::vector<uint32_t> starts, nodes;
+
+    explicit Children(const std::vector<Node>& of) : starts(of.size() + 1, 0) {
+        for (const Node& node : of) {
+            if (node.parent != kNone) {
+                ++starts[node.parent + 1];
+            }
+        }
+        for (size_t i = 1; i < starts.size(); ++i) {
+            starts[i] += starts[i - 1];
+        }
+        nodes.resize(starts.back());
+        std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
+        for (uint32_t i = 0; i < of.size(); ++i) {
+            if (of[i].parent != kNone) {
+                nodes[next[of[i].parent]++] = i;
+            }
+        }
+    }
+};
+
+} // namespace
+
+void makeAffine(glm::mat4& matrix, const std::string& element) {
+    const glm::vec4 last(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    const glm::vec4 wanted(0.0f, 0.0f, 0.0f, 1.0f);
+    for (int k = 0; k < 4; ++k) {
+        if (!(std::abs(last[k] - wanted[k]) <= 1e-4f)) {
+            refuse(element, "last row is not 0 0 0 1");
+        }
+        matrix[k][3] = wanted[k];
+    }
+}
+
+glm::quat unitRotation(const std::array<double, 4>& q, const std::string& element) {
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(length > 1e-6)) {
+        refuse(element, "zero quaternion");
+    }
+    const double scale = std::abs(length - 1.0) > 1e-5 ? 1.0 / length : 1.0;
+    return {static_cast<float>(q[3] * scale), static_cast<float>(q[0] * scale), static_cast<float>(q[1] * scale),
+            static_cast<float>(q[2] * scale)};
+}
+
+void orderParentsFirst(Skeleton& skeleton) {
+    // Breadth-first from the roots, no recursion.
+    const std::vector<Node>& nodes = skeleton.nodes;
+    const Children children(nodes);
+    std::vector<uint32_t>& order = skeleton.parentsFirst;
+    order.reserve(nodes.size());
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent == kNone) {
+            order.push_back(i);
+        }
+    }
+    uint32_t depth = 1;
+    for (size_t begin = 0, end = order.size(); begin < end; ++depth) {
+        if (depth > kMaxNodeDepth) {
+            refuse(at("node", order[begin]), "nested deeper than " + std::to_string(kMaxNodeDepth) + " levels",
+                   ErrorCode::limit);
+        }
+        for (size_t k = begin; k < end; ++k) {
+            for (uint32_t c = children.starts[order[k]]; c < children.starts[order[k] + 1]; ++c) {
+                order.push_back(children.nodes[c]);
+            }
+        }
+        begin = end;
+        end = order.size();
+    }
+    if (order.size() == nodes.size()) {
+        return;
+    }
+    std::vector<uint8_t> reached(nodes.size(), 0);
+    for (const uint32_t node : order) {
+        reached[node] = 1;
+    }
+    Found found;
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (reached[i] == 0) {
+            found.add([&] { return at("node", i); });
+        }
+    }
+    refuse("nodes", found.told("node is its own ancestor, or below one that is",
+                               "nodes are their own ancestors, or below one that is"));
+}
+
+} // namespace supple::cage

@@ -1,0 +1,129 @@
+#include "cage/split/creases.h"
+
+#include "cage/refusal.h"
+#include "cage/sharp_features.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace supple::cage::split {
+namespace {
+
+/// Creases and corners of primitives. What they name is a cage vertex by its number where the mesh numbers them,
+/// else a vertex of the primitive.
+class PrimitiveLists {
+public:
+    PrimitiveLists(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings)
+        : byNumber_(!mesh.cageNumbers.empty() && mesh.numberSource == WeldSource::cageExtension),
+          cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
+        for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
+            // Of several vertices of one number any will do, but one without a face only where none has.
+            uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
+            vertex = vertex == kNone ? cageVertices[v] : vertex;
+        }
+    }
+
+    void addCreasesOf(const Primitive& primitive) {
+        const SharpList& list = *primitive.creases;
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t a = vertexOf(primitive, list, 2 * i);
+            const uint32_t b = vertexOf(primitive, list, 2 * i + 1);
+            if (a == kNone || b == kNone) {
+                faults.add(2 * i, "a crease at a vertex without a face");
+            } else if (a == b) {
+                refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
+            } else {
+                features_.addCrease(a, b, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+    void addCornersOf(const Primitive& primitive) {
+        const SharpList& list = *primitive.corners;
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t vertex = vertexOf(primitive, list, i);
+            if (vertex == kNone) {
+                faults.add(i, "a vertex without a face");
+            } else {
+                features_.addCorner(vertex, list.sharpnesses[i], cage_);
+            }
+        }
+        faults.report(warnings_);
+    }
+
+private:
+    /// kNone for a vertex without a face.
+    uint32_t vertexOf(const Primitive& primitive, const SharpList& list, size_t index) const {
+        const uint32_t number = list.vertices[index];
+        if (byNumber_) {
+            const auto found = ofNumber_.find(number);
+            if (found == ofNumber_.end()) {
+                refuse(item(list.element, index), "the mesh has no cage vertex " + std::to_string(number));
+            }
+            return found->second;
+        }
+        if (number >= primitive.vertexCount) {
+            refuse(item(list.element, index), "vertex " + std::to_string(number) +
+                                                  " is out of range: the primitive has " +
+                                                  std::to_string(primitive.vertexCount));
+        }
+        return cageVertices_[primitive.firstVertex + number];
+    }
+
+    const bool byNumber_; ///< lists have cage numbers
+    std::span<const uint32_t> cageVertices_;
+    Cage& cage_;
+    Warnings& warnings_;
+    SharpFeatures features_;
+    std::map<uint32_t, uint32_t>
+        ofNumber_; ///< number of a cage vertex in the file -> cage vertex, kNone without a face
+};
+
+/// Those of the mesh itself.
+void addLoose(const LooseSharpList& list, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings) {
+    SharpFeatures features;
+    EntryFaults faults = list.faults;
+    for (const LooseSharpList::Entry& entry : list.entries) {
+        const uint32_t a = cageVertices[entry.vertices[0]], b = cageVertices[entry.vertices[1]];
+        if (a == kNone || (list.vertexCount == 2 && b == kNone)) {
+            faults.add(entry.index, "vertex " + std::to_string(entry.vertices[a == kNone ? 0 : 1]) + " has no face");
+        } else if (list.vertexCount == 1) {
+            features.addCorner(a, entry.sharpness, cage);
+        } else if (a == b) {
+            faults.add(entry.index, "both ends are one vertex of the cage");
+        } else {
+            features.addCrease(a, b, entry.sharpness, cage);
+        }
+    }
+    faults.report(warnings);
+}
+
+} // namespace
+
+void addCreases(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings) {
+    bool creases = false;
+    bool corners = false;
+    PrimitiveLists lists(mesh, cageVertices, cage, warnings);
+    for (const Primitive& primitive : mesh.primitives) {
+        if (primitive.creases) {
+            lists.addCreasesOf(primitive);
+            creases = true;
+        }
+        if (primitive.corners) {
+            lists.addCornersOf(primitive);
+            corners = true;
+        }
+    }
+    if (mesh.creases && !creases) {
+        addLoose(*mesh.creases, cageVertices, cage, warnings);
+    }
+    if (mesh.corners && !corners) {
+        addLoose(*mesh.corners, cageVertices, cage, warnings);
+    }
+}
+
+} // namespace supple::cage::split

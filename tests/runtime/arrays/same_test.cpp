@@ -1,0 +1,218 @@
+// A character that is handed over as arrays is the character that the file is, to the bit.
+#include "cage/formats/reader.h"
+#include "cage/gltf/reader.h"
+#include "runtime/api/descriptions.h"
+#include "runtime/arrays/character_arrays.h"
+#include "tests/support/character_arrays.h"
+#include "tests/support/meshes.h"
+#include "tests/support/same_character.h"
+#include "tests/support/sample_assets.h"
+#include "tests/support/shared_assets.h"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <numeric>
+#include <supple/supple.hpp>
+
+namespace supple::test {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+constexpr Overlooked kOfArrays{true, true};
+
+/// All characters, and the small files of Khronos, which have what they lack: unnormalised weights, all interpolations.
+Strings allFiles() {
+    Strings paths = allCharacters();
+    const Strings small = filesBelow(sharedFolder() + "khronos", {".glb", ".gltf"});
+    if (small.empty()) {
+        std::printf("all files of Khronos left out: %skhronos is not present\n", sharedFolder().c_str());
+    }
+    paths.insert(paths.end(), small.begin(), small.end());
+    return paths;
+}
+
+cage::Character readFile(const std::string& path, bool sewParts) {
+    cage::GltfOptions options;
+    options.sewParts = sewParts;
+    Result<cage::Character> character = cage::readGltfFile(path, options);
+    EXPECT_TRUE(character.ok()) << (character.ok() ? "" : character.error().message);
+    return character.ok() ? std::move(*character) : cage::Character{};
+}
+
+/// Handed over as arrays.
+cage::Character throughArrays(const cage::Character& from, bool sewParts) {
+    const CharacterArrays arrays(from);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, from.name, {sewParts, false, false});
+    EXPECT_TRUE(character.ok()) << (character.ok() ? "" : character.error().message);
+    return character.ok() ? std::move(*character) : cage::Character{};
+}
+
+void expectTellsArrays(const cage::Character& character) {
+    for (const cage::Part& part : character.parts) {
+        EXPECT_EQ(part.polygonSource, cage::PolygonSource::arrays);
+        EXPECT_EQ(part.weldSource, cage::WeldSource::given);
+    }
+    std::vector<uint32_t> numbers(character.cage.vertexCount());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    EXPECT_EQ(character.cage.sourceVertices, numbers);
+    EXPECT_EQ(character.sourceVertexCount, character.cage.vertexCount());
+    EXPECT_EQ(character.seamVertexCount, 0u);
+    EXPECT_TRUE(character.damages.empty());
+}
+
+TEST(CharacterArrays, AreTheCharacterOfTheFile) {
+    const Strings paths = allFiles();
+    ASSERT_FALSE(paths.empty());
+    for (const std::string& path : paths) {
+        SCOPED_TRACE(path);
+        const cage::Character apart = readFile(path, false);
+        ASSERT_GT(apart.cage.faceCount(), 0u);
+        const cage::Character handed = throughArrays(apart, false);
+        EXPECT_EQ(CharacterDifferences(apart, handed, kOfArrays).found(), Strings());
+        expectTellsArrays(handed);
+    }
+}
+
+TEST(CharacterArrays, AreSewnAsTheFileIs) {
+    for (const std::string& path : allFiles()) {
+        SCOPED_TRACE(path);
+        const cage::Character file = readFile(path, true);
+        if (file.parts.size() > 1) {
+            const cage::Character handed = throughArrays(readFile(path, false), true);
+            EXPECT_EQ(CharacterDifferences(file, handed, kOfArrays).found(), Strings());
+        }
+    }
+}
+
+/// None of those files has parts that are sewn together.
+TEST(CharacterArrays, AreSewnWhereBoundariesCoincide) {
+    const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0};
+    const uint32_t count = 4, left[] = {0, 1, 2, 3}, right[] = {0, 2, 3, 1};
+    const uint32_t joint = 0;
+    const auto skin = [&] {
+        auto desc = sized<SuppleSkinDesc>();
+        desc.jointCount = 1;
+        desc.joints = &joint;
+        return desc;
+    }();
+    const uint32_t joints[] = {0, 0, 0, 0};
+    const float weights[] = {1, 1, 1, 1};
+    const float rightPositions[] = {1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0};
+    SuppleCageDesc cages[] = {sized<SuppleCageDesc>(), sized<SuppleCageDesc>()};
+    SupplePartDesc parts[] = {sized<SupplePartDesc>(), sized<SupplePartDesc>()};
+    SuppleNodeDesc nodes[] = {sized<SuppleNodeDesc>(), sized<SuppleNodeDesc>()};
+    for (uint32_t p = 0; p < 2; ++p) {
+        cages[p].vertexCount = 4;
+        cages[p].faceCount = 1;
+        cages[p].positions = p == 0 ? positions : rightPositions;
+        cages[p].faceVertexCounts = &count;
+        cages[p].faceVertexIndices = p == 0 ? left : right;
+        parts[p].node = p;
+        parts[p].cage = &cages[p];
+        parts[p].skin = &skin;
+        parts[p].influences = {nullptr, 1, joints, weights};
+        nodes[p].parent = SUPPLE_NO_NODE;
+    }
+    auto desc = sized<SuppleCharacterDesc>();
+    desc.nodeCount = desc.partCount = 2;
+    desc.nodes = nodes;
+    desc.parts = parts;
+    for (const bool sewParts : {true, false}) {
+        const Result<cage::Character> read = runtime::characterFromArrays(desc, "pair", {sewParts, false, false});
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        EXPECT_EQ(read->cage.vertexCount(), sewParts ? 6u : 8u);
+        EXPECT_EQ(read->seamVertexCount, sewParts ? 2u : 0u);
+        EXPECT_EQ(read->parts.size(), 2u);
+        EXPECT_TRUE(read->parts[0].rigid);
+    }
+}
+
+/// One way in: what reads OBJ files, too.
+TEST(CharacterArrays, AreTheMeshOfAnObjFile) {
+    const Strings paths = filesBelow(sharedFolder() + "meshes", {".obj"});
+    if (paths.empty()) {
+        std::printf("all shared OBJ files left out: %smeshes is not present\n", sharedFolder().c_str());
+    }
+    for (const std::string& path : paths) {
+        SCOPED_TRACE(path);
+        const Result<cage::Character> file = readObjFile(path);
+        ASSERT_TRUE(file.ok()) << file.error().message;
+        const cage::Character handed = throughArrays(*file, true);
+        EXPECT_EQ(CharacterDifferences(*file, handed, kOfArrays).found(), Strings());
+    }
+}
+
+const runtime::Prepared& preparedOf(const Prepared& prepared) {
+    return *prepared.handle()->prepared;
+}
+
+void addLine(SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+    (void)message;
+    if (severity == SUPPLE_SEVERITY_ERROR) {
+        static_cast<Strings*>(user)->emplace_back(text);
+    }
+}
+
+/// All that the public interface builds before there is a device.
+Prepared prepare(const SuppleAssetDesc& asset, Strings& errors) {
+    std::vector<SuppleGroupDesc> descs;
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_POLYGONS}) {
+        auto desc = sized<SuppleGroupDesc>();
+        desc.scheme = scheme;
+        desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS;
+        desc.rate = 4;
+        desc.poseSource = SUPPLE_POSES_PLAYBACK;
+        descs.push_back(desc);
+    }
+    std::vector<SupplePlannedGroup> groups;
+    for (const SuppleGroupDesc& desc : descs) {
+        groups.push_back({&desc, 0, 0});
+    }
+    auto desc = sized<SupplePrepareDesc>();
+    desc.asset = &asset;
+    desc.groups = groups.data();
+    desc.groupCount = static_cast<uint32_t>(groups.size());
+    desc.log = addLine;
+    desc.logUser = &errors;
+    Prepared prepared;
+    EXPECT_EQ(Prepared::create(desc, prepared), SUPPLE_OK) << (errors.empty() ? "" : errors.front());
+    return prepared;
+}
+
+/// What lies on the device of it: the same words.
+TEST(CharacterArrays, HaveTheTablesOfTheFile) {
+    for (const std::string& path : {kPip, kWren}) {
+        SCOPED_TRACE(path);
+        std::ifstream file(path, std::ios::binary);
+        const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        auto asset = sized<SuppleAssetDesc>();
+        asset.name = "character";
+        asset.bytes = bytes.data();
+        asset.byteCount = bytes.size();
+        Strings errors;
+        const Prepared ofFile = prepare(asset, errors);
+        const cage::Character apart = readFile(path, false);
+        const CharacterArrays arrays(apart);
+        asset.bytes = nullptr;
+        asset.byteCount = 0;
+        asset.character = &arrays.desc;
+        const Prepared ofArrays = prepare(asset, errors);
+        ASSERT_TRUE(ofFile.handle() != nullptr && ofArrays.handle() != nullptr);
+        const runtime::Prepared &a = preparedOf(ofFile), &b = preparedOf(ofArrays);
+        EXPECT_EQ(CharacterDifferences(a.character, b.character, kOfArrays).found(), Strings());
+        EXPECT_EQ(a.deform.words, b.deform.words);
+        ASSERT_TRUE(a.clips && b.clips);
+        EXPECT_EQ(a.clips->words, b.clips->words);
+        ASSERT_EQ(a.tables.size(), b.tables.size());
+        ASSERT_GE(a.tables.size(), 3u);
+        for (size_t t = 0; t < a.tables.size(); ++t) {
+            EXPECT_TRUE(a.tables[t]->tables.words == b.tables[t]->tables.words) << t;
+        }
+    }
+}
+
+} // namespace
+} // namespace supple::test
