@@ -12,8 +12,8 @@ using namespace shared;
 /// The side of the patch whose record an edge names. Kernels read it as one of a certain class.
 bool checkSideOfRecord(TableCheck& check, uint32_t kind, std::span<const uint32_t> record) {
     const PatchRange* range = rangeOfRecord(check.tables(), record[0]);
-    if (!check.require(range != nullptr, "no record of a patch")) {
-        return false;
+    if (range == nullptr) {
+        return check.require(false, "no record of a patch");
     }
     const bool fits = kind == kHalvesEdges     ? rowOf(range->patchClass).borders == Borders::halves
                       : kind == kTriangleEdges ? range->patchClass == PatchClass::loopRegular
@@ -102,8 +102,8 @@ bool checkEdgeAttributes(TableCheck& check, std::span<const uint32_t> element) {
     const Tables& tables = check.tables();
     const uint32_t form = element[1], side = form & kPatchSideMask;
     const auto [range, place] = placeOfNumbers(tables, element[0], form >> kPatchHalfShift);
-    if (!check.require(range != nullptr, "no numbers of corners")) {
-        return false;
+    if (range == nullptr) {
+        return check.require(false, "no numbers of corners");
     }
     const uint32_t corners = cornerCount(domainOf(range->patchClass));
     if (!check.require((form >> kPatchCornersShift & kPatchSideMask) == corners && place % corners == 0,

@@ -44,11 +44,11 @@ public:
     bool words(uint64_t first, uint64_t count) { return within(first, count, tables_.words.size(), "words"); }
     bool elements(uint64_t first, uint64_t count) { return within(first, count, tables_.words.size() / 4, "elements"); }
     bool pool(uint64_t first, uint64_t count = 1) { return within(first, count, tables_.poolStride, "coefficients"); }
-    /// Coefficients of an instance's pool, one for each index.
-    bool poolAll(std::span<const uint32_t> indices) { return pool(*std::max_element(indices.begin(), indices.end())); }
     bool vertices(uint64_t first, uint64_t count = 1) {
         return within(first, count, source_.vertices, "cage vertices");
     }
+    /// Coefficients of an instance's pool, one for each of one index or more.
+    bool poolAll(std::span<const uint32_t> indices) { return pool(*std::max_element(indices.begin(), indices.end())); }
     /// Whether something else holds that kernels rely on. If not, `fault` is the fault.
     bool require(bool holds, const char* fault) { return holds || refuse(fault); }
 

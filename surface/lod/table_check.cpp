@@ -14,8 +14,8 @@ namespace {
 /// A side of a patch whose curve is no cubic.
 bool checkSide(TableCheck& check, Borders borders, std::span<const uint32_t> edge) {
     const PatchRange* range = rangeOfRecord(check.tables(), edge[0]);
-    if (!check.require(range != nullptr, "no record of a patch")) {
-        return false;
+    if (range == nullptr) {
+        return check.require(false, "no record of a patch");
     }
     const bool fits = borders == Borders::splineHalves ? range->patchClass == PatchClass::loopIrregular
                                                        : rowOf(range->patchClass).borders == borders;
