@@ -54,11 +54,10 @@ void main() {
     end.first = end.second = ownSecond(at, next, nextNet, border);
     storeOwnQuarter(at, begin, true, false);
     storeOwnQuarter(at, end, false, true);
-    // Quarters without a chain have none of the samples.
+    // Quarters without a chain have none of the samples, and no words of one.
     vec3 middle = begin.first.middle;
-    Quarter beginChain = quarterOf(at, quad, 0u, middle, middle), endChain = quarterOf(at, quad, 1u, middle, middle);
-    if (hasChain(quad, 0u)) storeQuarter(at, quad, beginChain, true, false);
-    if (hasChain(quad, 1u)) storeQuarter(at, quad, endChain, false, true);
+    if (hasChain(quad, 0u)) storeQuarter(at, quad, quarterOf(at, quad, 0u, middle, middle), true, false);
+    if (hasChain(quad, 1u)) storeQuarter(at, quad, quarterOf(at, quad, 1u, middle, middle), false, true);
 }
 #else
 #include "shaders/exact/sample.glsl"

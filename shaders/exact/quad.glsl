@@ -44,12 +44,14 @@ Frame withStoredNormal(const PatchPlace at, IrregularQuad quad, uint corner, Fra
     return withNormal(frame, poolPoint(at, normal));
 }
 
-// A border that is one cubic, between two plain ends; the side runs from its corner to the next.
+// A border that is one cubic, between two plain ends; the side runs from its corner to the next. Of another side, whose ends may
+// have chains in the place of spokes, nothing is to be used: what it reads lies in the pool.
 vec3[4] sideCubic(const PatchPlace at, IrregularQuad quad, uint side) {
     uint next = (side + 1u) & 3u;
     vec3 a = poolPoint(at, componentOf(quad.points, side)), b = poolPoint(at, componentOf(quad.points, next));
-    precise vec3 aTangent = a + poolPoint(at, push.tangents + SUPPLE_SPOKE(componentOf(quad.spokes, side)));
-    precise vec3 bTangent = b + poolPoint(at, push.tangents + SUPPLE_NEXT_SPOKE(componentOf(quad.spokes, next)));
+    uint spokes = isCubic(quad, side) ? 0xFFFFFFFFu : 0u;
+    precise vec3 aTangent = a + poolPoint(at, push.tangents + (SUPPLE_SPOKE(componentOf(quad.spokes, side)) & spokes));
+    precise vec3 bTangent = b + poolPoint(at, push.tangents + (SUPPLE_NEXT_SPOKE(componentOf(quad.spokes, next)) & spokes));
     return vec3[4](a, aTangent, bTangent, b);
 }
 // `pair`: along the quad's own parameter.
