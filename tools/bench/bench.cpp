@@ -377,6 +377,8 @@ Status Run::load() {
                  {"secondSubmitMs", times.secondSubmit},
                  {"prepareMs", times.prepare},
                  {"hitchMs", times.hitch},
+                 {"parseMs", times.parse},
+                 {"cookedMs", times.cooked},
                  {"untilRecordedUsPerFace", aFace(1e3 * times.untilRecorded())},
                  {"untilDoneUsPerFace", aFace(1e3 * times.untilDone())},
                  {"deformBytesPerFace", aFace(static_cast<double>(loading->bytes.deform))},

@@ -1,12 +1,15 @@
 #include "tools/bench/loading.h"
 
+#include "cage/gltf/reader.h"
 #include "host/context.h"
 #include "host/jobs.h"
 #include "host/vk_struct.h"
+#include "runtime/cooked/file.h"
 #include "tools/bench/clocks.h"
 #include "tools/bench/pipeline_watch.h"
 #include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <functional>
@@ -96,6 +99,25 @@ Result<OneLoad> load(host::Device& device, Workbench& workbench, const BenchCage
     return one;
 }
 
+/// Fills in how long the same character takes from files.
+Status readFiles(const runtime::Prepared& prepared, LoadTimes& times) {
+    const Result<cage::GlbFile> glb = cage::writeGlb(prepared.character);
+    if (!glb) {
+        return glb.error();
+    }
+    const std::vector<std::byte> cooked = runtime::writeCooked(prepared, "");
+    const double begin = wallSeconds();
+    const Result<cage::Character> parsed = cage::readGltf(glb->bytes, "loaded.glb", "");
+    const double read = wallSeconds();
+    const auto loaded = runtime::readCooked(cooked, "loaded.supple");
+    times.parse = 1e3 * (read - begin);
+    times.cooked = 1e3 * (wallSeconds() - read);
+    if (!parsed || !loaded) {
+        return parsed ? loaded.error() : parsed.error();
+    }
+    return success();
+}
+
 /// Fills in what the thread of frames does of a character that was prepared elsewhere.
 Status loadPrepared(Workbench& workbench, const BenchCage& cage, SuppleScheme scheme, LoadTimes& times) {
     SuppleGroupDesc desc = loadedGroup(cage, scheme, {});
@@ -103,6 +125,9 @@ Status loadPrepared(Workbench& workbench, const BenchCage& cage, SuppleScheme sc
     const double begin = wallSeconds();
     const std::shared_ptr<const runtime::Prepared> prepared = workbench.prepare(std::move(character), desc);
     const double made = wallSeconds();
+    if (prepared == nullptr) {
+        return Error{ErrorCode::asset, cage.name + ": cannot be prepared"};
+    }
     Result<SuppleAsset> asset = workbench.createAsset(prepared);
     if (!asset) {
         return asset.error();
@@ -116,7 +141,7 @@ Status loadPrepared(Workbench& workbench, const BenchCage& cage, SuppleScheme sc
         return group.error();
     }
     workbench.destroy(*group);
-    return success();
+    return readFiles(*prepared, times);
 }
 
 } // namespace
@@ -145,7 +170,7 @@ Result<Loading> measureLoading(host::Device& device, Workbench& workbench, const
     }
     for (double LoadTimes::*step :
          {&LoadTimes::createAsset, &LoadTimes::createGroup, &LoadTimes::record, &LoadTimes::submit,
-          &LoadTimes::secondSubmit, &LoadTimes::prepare, &LoadTimes::hitch}) {
+          &LoadTimes::secondSubmit, &LoadTimes::prepare, &LoadTimes::hitch, &LoadTimes::parse, &LoadTimes::cooked}) {
         std::vector<double> values;
         for (const LoadTimes& times : all) {
             values.push_back(times.*step);

@@ -121,11 +121,13 @@ std::string cageTables(const Json& result, const std::string& cage) {
 }
 
 std::string loadingTable(const Json& result) {
-    Table table({"loading, ms", "asset", "group", "prepared elsewhere", "hitch", "record", "first submit", "second",
-                 "us a face", "done, us a face", "bytes a face", "skin", "tables", "index bytes"});
+    Table table({"loading, ms", "asset", "group", "parsed", "prepared elsewhere", "cooked", "hitch", "record",
+                 "first submit", "second", "us a face", "done, us a face", "bytes a face", "skin", "tables",
+                 "index bytes"});
     for (const Json& one : result["loading"]) {
         table.add({one["cage"].get<std::string>() + ", " + one["scheme"].get<std::string>(),
-                   number(one["createAssetMs"]), number(one["createGroupMs"]), number(one.value("prepareMs", Json())),
+                   number(one["createAssetMs"]), number(one["createGroupMs"]), number(one.value("parseMs", Json())),
+                   number(one.value("prepareMs", Json())), number(one.value("cookedMs", Json())),
                    number(one.value("hitchMs", Json())), number(one["recordMs"]), number(one["firstSubmitMs"]),
                    number(one["secondSubmitMs"]), number(one["untilRecordedUsPerFace"]),
                    number(one.value("untilDoneUsPerFace", Json())), number(one["staticBytesPerFace"]),
