@@ -49,14 +49,19 @@ SeenPatches seenPatches(const LodSurface& surface, const SuppleCameraDesc& camer
         own.levels = patch.levels;
         byFirstVertex[patch.firstVertex] = &own;
     }
-    const auto at = [&](uint32_t v) { return glm::dvec3(asPositions({surface.positions[v]})[0]); };
+    const std::vector<glm::vec3> positions = asPositions(surface.positions);
+    auto patch = byFirstVertex.end(); // of the triangle before: those of a patch come one after the other
     for (const std::array<uint32_t, 3>& triangle : surface.triangles) {
-        const glm::dvec3 a = at(triangle[0]), b = at(triangle[1]), c = at(triangle[2]);
+        const glm::dvec3 a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
         const glm::dvec3 normal = glm::cross(b - a, c - a); // twice the area
         if (normal == glm::dvec3(0.0)) {
             continue;
         }
-        Seen& own = *std::prev(byFirstVertex.upper_bound(triangle[0]))->second;
+        if (patch == byFirstVertex.end() || triangle[0] < patch->first ||
+            (std::next(patch) != byFirstVertex.end() && triangle[0] >= std::next(patch)->first)) {
+            patch = std::prev(byFirstVertex.upper_bound(triangle[0]));
+        }
+        Seen& own = *patch->second;
         const glm::dvec3 from = a - eye;
         const double away = glm::length(from);
         const double towards = orthographic ? -glm::dot(normal, direction) * 0.5 * pixels * pixels
@@ -79,14 +84,15 @@ std::vector<float> picture(const LodSurface& surface, glm::dvec3 eye, glm::dvec3
     constexpr int kSide = 256;
     std::vector<float> depths(size_t{kSide} * kSide, 0.0f);
     const glm::dmat4 view = glm::lookAt(eye, middle, glm::dvec3(0.13, 0.97, 0.21));
+    std::vector<glm::dvec3> projected; // the depth below 0: behind the eye
+    projected.reserve(surface.positions.size());
+    for (const glm::dvec3 position : asPositions(surface.positions)) {
+        const glm::dvec3 q = view * glm::dvec4(position, 1.0);
+        projected.emplace_back(kSide / 2 - pixels * q.x / q.z, kSide / 2 - pixels * q.y / q.z, -1.0 / q.z);
+    }
     for (const std::array<uint32_t, 3>& triangle : surface.triangles) {
-        glm::dvec3 p[3];
-        bool before = true;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 q = view * glm::dvec4(glm::dvec3(asPositions({surface.positions[triangle[k]]})[0]), 1.0);
-            before = before && q.z < 0.0;
-            p[k] = {kSide / 2 - pixels * q.x / q.z, kSide / 2 - pixels * q.y / q.z, -1.0 / q.z};
-        }
+        const glm::dvec3 p[] = {projected[triangle[0]], projected[triangle[1]], projected[triangle[2]]};
+        const bool before = p[0].z > 0.0 && p[1].z > 0.0 && p[2].z > 0.0;
         const auto side = [](glm::dvec3 a, glm::dvec3 b, double x, double y) {
             return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
         };

@@ -3,17 +3,18 @@
 #include "shaders/shared/lod.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/limited_device.h"
 #include "tests/support/lod_budget.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
-#include "tests/support/wrapped_vulkan.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <random>
@@ -263,22 +264,16 @@ size_t differing(const ByPatch& a, const ByPatch& b) {
     return count;
 }
 
-/// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
+/// What a view draws of a crowd, and how many commands it took.
 struct Drawn {
     ByPatch patches;
     WrappedVulkan counts;
     float levelScale = 0.0f;
 };
-Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
-                  const std::function<void(WrappedVulkan&)>& limit) {
+Drawn drawThrough(LimitedDevice& device, uint32_t instances, uint32_t capacity) {
     Drawn drawn;
-    WrappedVulkan& wrapped = wrappedVulkan();
-    limit(wrapped);
-    const WrappedVulkan limits = wrapped;
-    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
-    EXPECT_NE(device, nullptr);
-    if (device != nullptr) {
-        CrowdContext context(*device, mapping);
+    if (device.context() != nullptr) {
+        CrowdContext& context = *device.context();
         TestView view(context, 300000, SUPPLE_VIEW_MOTION);
         Crowd crowd(context, groupOf(context.createAsset(bumpySphere(2)), capacity, view));
         EXPECT_TRUE(crowd.valid());
@@ -295,25 +290,21 @@ Drawn drawThrough(SuppleMapping mapping, uint32_t instances, uint32_t capacity,
         for (int frame = 0; frame < 3; ++frame) { // until nothing is new
             view.camera.smallestEdge = 8.0f;
             view.look({0.0f, 5.0f, 16.0f});
-            wrapped = limits;
-            context.run(crowd.group());
+            drawn.counts = device.count(crowd.group());
         }
-        drawn.counts = wrapped;
         drawn.patches = byPatch(readLodSurface(crowd));
         context.run(crowd.group());
         drawn.levelScale = view.statistics().levelScales[0];
         EXPECT_EQ(drawn.patches.size(), size_t{instances} * crowd.output().surface.patchCount);
-        EXPECT_EQ(device->validation()->messageCount(), 0u);
     }
-    (void)wrappedVulkan();
     return drawn;
 }
 
 TEST_P(LodCrowds, CommandsDoNotCountInstances) {
-    const auto unlimited = [](WrappedVulkan&) {};
-    const Drawn one = drawThrough(GetParam(), 1, 1000, unlimited);
+    LimitedDevice device(GetParam(), [](WrappedVulkan&) {});
+    const Drawn one = drawThrough(device, 1, 1000);
     for (const uint32_t instances : {10u, 100u, 1000u}) {
-        const Drawn many = drawThrough(GetParam(), instances, 1000, unlimited);
+        const Drawn many = drawThrough(device, instances, 1000);
         EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
         EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
         EXPECT_EQ(many.counts.barriers, one.counts.barriers);
@@ -328,11 +319,14 @@ TEST_P(LodCrowds, CommandsDoNotCountInstances) {
 
 TEST_P(LodCrowds, SplitDispatchesAndWindowsDrawTheSame) {
     const uint32_t instances = 700, capacity = 5600;
-    const Drawn whole = drawThrough(GetParam(), instances, capacity, [](WrappedVulkan&) {});
-    const Drawn split =
-        drawThrough(GetParam(), instances, capacity, [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
+    const auto drawnOn = [&](const std::function<void(WrappedVulkan&)>& limit) {
+        LimitedDevice device(GetParam(), limit);
+        return drawThrough(device, instances, capacity);
+    };
+    const Drawn whole = drawnOn([](WrappedVulkan&) {});
+    const Drawn split = drawnOn([](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
     EXPECT_EQ(differing(split.patches, whole.patches), 0u);
-    const Drawn windows = drawThrough(GetParam(), instances, capacity, [](WrappedVulkan& w) {
+    const Drawn windows = drawnOn([](WrappedVulkan& w) {
         w.maxStorageBufferRange = 16u << 20; // of 5,600 instances the pool has more
     });
     for (const Drawn* drawn : {&whole, &split, &windows}) {

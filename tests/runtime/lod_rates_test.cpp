@@ -3,19 +3,18 @@
 #include "cage/gltf/reader.h"
 #include "surface/lod/instance.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/limited_device.h"
 #include "tests/support/lod_budget.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
-#include "tests/support/wrapped_vulkan.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <optional>
@@ -751,22 +750,16 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
     }
 }
 
-/// What a view draws of a crowd on a device whose limits `limit` has set, and how many commands it took.
+/// What a view draws of a crowd, and how many commands it took.
 struct DrawnRates {
     std::map<uint32_t, std::pair<size_t, std::vector<std::byte>>> instances; ///< rate and its vertices, by slot
     std::map<uint32_t, std::vector<std::byte>> previous;
     WrappedVulkan counts;
 };
-DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capacity, SuppleScheme scheme,
-                            const std::function<void(WrappedVulkan&)>& limit) {
+DrawnRates drawRatesThrough(LimitedDevice& device, uint32_t count, uint32_t capacity, SuppleScheme scheme) {
     DrawnRates drawn;
-    WrappedVulkan& wrapped = wrappedVulkan();
-    limit(wrapped);
-    const WrappedVulkan limits = wrapped;
-    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
-    EXPECT_NE(device, nullptr);
-    if (device != nullptr) {
-        CrowdContext context(*device, mapping);
+    if (device.context() != nullptr) {
+        CrowdContext& context = *device.context();
         TestView view(context, 1024, SUPPLE_VIEW_MOTION);
         SuppleGroupDesc desc = groupOf(context.createAsset(creased(cube())), capacity, scheme, 8);
         desc.view = view.handle();
@@ -786,10 +779,8 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
                 crowd.pose(instances[slot], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
             }
             view.look({0.0f, 1.0f, 4.0f});
-            wrapped = limits;
-            context.run(crowd.group());
+            drawn.counts = device.count(crowd.group());
         }
-        drawn.counts = wrapped;
         const ReadBack written = readBack(crowd);
         for (size_t r = 0; r < written.rates.size(); ++r) {
             for (const uint32_t slot : written.rates[r].slots) {
@@ -799,18 +790,16 @@ DrawnRates drawRatesThrough(SuppleMapping mapping, uint32_t count, uint32_t capa
             }
         }
         EXPECT_EQ(drawn.instances.size(), count);
-        EXPECT_EQ(device->validation()->messageCount(), 0u);
     }
-    (void)wrappedVulkan();
     return drawn;
 }
 
 TEST_P(LodRates, CommandsDoNotCountInstances) {
+    LimitedDevice device(GetParam(), [](WrappedVulkan&) {});
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-        const auto unlimited = [](WrappedVulkan&) {};
-        const DrawnRates one = drawRatesThrough(GetParam(), 1, 1000, scheme, unlimited);
+        const DrawnRates one = drawRatesThrough(device, 1, 1000, scheme);
         for (const uint32_t instances : {30u, 1000u}) {
-            const DrawnRates many = drawRatesThrough(GetParam(), instances, 1000, scheme, unlimited);
+            const DrawnRates many = drawRatesThrough(device, instances, 1000, scheme);
             EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
             EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
             EXPECT_EQ(many.counts.barriers, one.counts.barriers);
@@ -826,17 +815,21 @@ TEST_P(LodRates, CommandsDoNotCountInstances) {
 
 TEST_P(LodRates, SplitDispatchesDrawTheSame) {
     const uint32_t instances = 600, capacity = 1200;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-        const DrawnRates whole = drawRatesThrough(GetParam(), instances, capacity, scheme, [](WrappedVulkan&) {});
+    std::map<SuppleScheme, DrawnRates> drawn[2]; // whole and split
+    for (const size_t split : {0u, 1u}) {
+        LimitedDevice device(GetParam(), [&](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = split == 1 ? 3 : 0; });
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
+            drawn[split][scheme] = drawRatesThrough(device, instances, capacity, scheme);
+        }
+    }
+    for (const auto& [scheme, whole] : drawn[0]) {
         std::set<size_t> rates;
-        for (const auto& [slot, drawn] : whole.instances) {
-            rates.insert(drawn.first);
+        for (const auto& [slot, at] : whole.instances) {
+            rates.insert(at.first);
         }
         EXPECT_GE(rates.size(), 2u);
-        const DrawnRates split = drawRatesThrough(GetParam(), instances, capacity, scheme,
-                                                  [](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = 3; });
-        EXPECT_TRUE(split.instances == whole.instances);
-        EXPECT_TRUE(split.previous == whole.previous);
+        EXPECT_TRUE(drawn[1].at(scheme).instances == whole.instances);
+        EXPECT_TRUE(drawn[1].at(scheme).previous == whole.previous);
     }
 }
 

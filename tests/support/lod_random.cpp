@@ -85,12 +85,13 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     }
     view_ = *view;
     context_ = std::move(*context);
-    SuppleCameraDesc camera{};
-    camera.pixelsPerUnit = edges == Edges::random ? 800.0f : 100.0f; // from among the cages: else most levels are 63
-    context_->views.find(view_)->setCamera(camera);
+    camera_.pixelsPerUnit = edges == Edges::random ? 800.0f : 100.0f; // from among the cages: else most levels are 63
 }
 
-std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character, SuppleGroupDesc desc) {
+std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character, SuppleGroupDesc desc,
+                                                      uint32_t vertexBudget) {
+    camera_.vertexBudget = vertexBudget;
+    context_->views.find(view_)->setCamera(camera_);
     const Result<uint64_t> asset = context_->createAsset(std::move(character));
     if (!asset.ok()) {
         ADD_FAILURE() << asset.error().message;

@@ -24,13 +24,15 @@ public:
         LodSurface surface;
         std::vector<surface::PatchInfo> patches; ///< in device order
     };
-    /// One instance in its bind pose; nothing where the scheme refuses the cage or has no levels for it. `desc`: scheme and what belongs to it.
-    [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc);
+    /// One instance in its bind pose; nothing where the scheme refuses the cage or has no levels for it. `desc`: scheme
+    /// and what belongs to it. `vertexBudget`: scales levels down, unless 0.
+    [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc, uint32_t vertexBudget = 0);
 
 private:
     std::vector<std::vector<uint32_t>> compiled_;
     std::unique_ptr<runtime::Context> context_;
     uint64_t view_ = 0, frame_ = 0;
+    SuppleCameraDesc camera_{};
 };
 
 } // namespace supple::test

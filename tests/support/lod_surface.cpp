@@ -3,6 +3,7 @@
 #include "tests/support/lod_levels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <map>
 #include <numeric>
@@ -91,30 +92,105 @@ std::vector<std::array<uint32_t, 3>> trianglesOf(const host::GroupOutput& output
     return triangles;
 }
 
-/// A number for each vertex that a triangle uses. Vertices whose positions have the same bits get the same number.
-std::vector<uint32_t> namePositions(const LodSurface& surface) {
+/// A number for each vertex that a triangle uses, in the order of vertices. Vertices whose positions have the same bits
+/// get the same number. `count`: how many numbers there are.
+std::vector<uint32_t> namePositions(const LodSurface& surface, uint32_t& count) {
     std::vector<bool> used(surface.positions.size());
     for (const auto& triangle : surface.triangles) {
         for (const uint32_t v : triangle) {
             used[v] = true;
         }
     }
-    std::vector<std::pair<std::array<uint32_t, 3>, uint32_t>> order;
-    order.reserve(used.size());
-    for (uint32_t v = 0; v < used.size(); ++v) {
-        if (used[v]) {
-            order.emplace_back(surface.positions[v], v);
-        }
-    }
-    std::sort(order.begin(), order.end());
+    // An open hash table of vertices: names would take most of a test's time if positions were sorted.
+    const size_t slots = std::bit_ceil(2 * used.size() + 1);
+    std::vector<uint32_t> table(slots, cage::kNone);
     std::vector<uint32_t> names(used.size());
-    uint32_t name = 0;
-    for (size_t i = 0; i < order.size(); ++i) {
-        name += i > 0 && order[i].first != order[i - 1].first ? 1 : 0;
-        names[order[i].second] = name;
+    count = 0;
+    for (uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) {
+            continue;
+        }
+        const std::array<uint32_t, 3>& bits = surface.positions[v];
+        uint64_t hash = 0;
+        for (const uint32_t word : bits) {
+            hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+            hash ^= hash >> 32;
+        }
+        size_t slot = hash & (slots - 1);
+        while (table[slot] != cage::kNone && surface.positions[table[slot]] != bits) {
+            slot = (slot + 1) & (slots - 1);
+        }
+        if (table[slot] == cage::kNone) {
+            table[slot] = v;
+            names[v] = count++;
+        } else {
+            names[v] = names[table[slot]];
+        }
     }
     return names;
 }
+
+/// A side of triangles by the names of its ends, and how often it runs to the greater one, less how often back: not 0.
+struct UnmatchedSide {
+    uint32_t lesser, greater;
+    int64_t count;
+};
+
+/// Triangles whose corners have different names, with their sides in runs by the lesser end.
+class SidesByEnd {
+public:
+    /// Names are below `ids`.
+    SidesByEnd(const LodSurface& surface, const std::vector<uint32_t>& names, uint32_t ids) : ends_(size_t{ids} + 1) {
+        EXPECT_LT(ids, 1u << 31); // else a side does not fit its word
+        struct Side {
+            uint32_t lesser, other;
+        };
+        std::vector<Side> sides;
+        sides.reserve(3 * surface.triangles.size());
+        for (const auto& triangle : surface.triangles) {
+            const uint32_t v[3] = {names[triangle[0]], names[triangle[1]], names[triangle[2]]};
+            if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+                continue;
+            }
+            for (int i = 0; i < 3; ++i) {
+                const uint32_t from = v[i], to = v[(i + 1) % 3];
+                sides.push_back({std::min(from, to), std::max(from, to) << 1 | (from < to ? 1u : 0u)});
+                ++ends_[sides.back().lesser + 1];
+            }
+        }
+        std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+        std::vector<size_t> next(ends_.begin(), ends_.end() - 1);
+        others_.resize(sides.size());
+        for (const Side& side : sides) {
+            others_[next[side.lesser]++] = side.other;
+        }
+    }
+    [[nodiscard]] size_t triangles() const { return others_.size() / 3; }
+    /// Sorts the runs.
+    [[nodiscard]] std::vector<UnmatchedSide> unmatched() {
+        std::vector<UnmatchedSide> found;
+        for (uint32_t vertex = 0; vertex + 1 < ends_.size(); ++vertex) {
+            const auto begin = others_.begin() + static_cast<ptrdiff_t>(ends_[vertex]),
+                       end = others_.begin() + static_cast<ptrdiff_t>(ends_[vertex + 1]);
+            std::sort(begin, end);
+            for (auto at = begin; at != end;) {
+                const uint32_t greater = *at >> 1;
+                int64_t count = 0;
+                for (; at != end && *at >> 1 == greater; ++at) {
+                    count += (*at & 1) != 0 ? 1 : -1;
+                }
+                if (count != 0) {
+                    found.push_back({vertex, greater, count});
+                }
+            }
+        }
+        return found;
+    }
+
+private:
+    std::vector<size_t> ends_;     ///< of the vertices' runs in others_; one more, which is 0
+    std::vector<uint32_t> others_; ///< the greater end, and in the last bit whether the side runs to it
+};
 
 } // namespace
 
@@ -193,33 +269,11 @@ glm::dvec3 ringWeightsOf(const LodSurface::Patch& patch, uint32_t sample) {
 }
 
 Sides matchSides(const LodSurface& surface) {
-    const std::vector<uint32_t> idOf = namePositions(surface);
-    Sides sides;
-    std::vector<uint64_t> directed; // a side as less, greater, and its direction in the last bit
-    directed.reserve(3 * surface.triangles.size());
     uint32_t ids = 0;
-    for (const auto& triangle : surface.triangles) {
-        const uint32_t v[3] = {idOf[triangle[0]], idOf[triangle[1]], idOf[triangle[2]]};
-        ids = std::max({ids, v[0] + 1, v[1] + 1, v[2] + 1});
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-            continue;
-        }
-        ++sides.triangles;
-        for (int i = 0; i < 3; ++i) {
-            const uint64_t from = v[i], to = v[(i + 1) % 3];
-            directed.push_back(std::min(from, to) << 32 | std::max(from, to) << 1 | (from < to ? 1 : 0));
-        }
-    }
-    EXPECT_LT(ids, 1u << 31); // else a side does not fit its word
-    std::sort(directed.begin(), directed.end());
-    std::vector<std::pair<std::pair<uint32_t, uint32_t>, int64_t>> counts; // of a side less that of its opposite
-    for (const uint64_t side : directed) {
-        const std::pair<uint32_t, uint32_t> ends{static_cast<uint32_t>(side >> 32), static_cast<uint32_t>(side) >> 1};
-        if (counts.empty() || counts.back().first != ends) {
-            counts.push_back({ends, 0});
-        }
-        counts.back().second += (side & 1) != 0 ? 1 : -1;
-    }
+    const std::vector<uint32_t> names = namePositions(surface, ids);
+    SidesByEnd byEnd(surface, names, ids);
+    Sides sides;
+    sides.triangles = byEnd.triangles();
     std::vector<uint32_t> parent(ids);
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](uint32_t x) {
@@ -229,13 +283,11 @@ Sides matchSides(const LodSurface& surface) {
         return x;
     };
     std::map<uint32_t, int64_t> balance;
-    for (const auto& [side, count] : counts) {
-        if (count != 0) {
-            sides.unmatched += static_cast<size_t>(std::abs(count));
-            balance[side.first] += count;
-            balance[side.second] -= count;
-            parent[root(side.first)] = root(side.second);
-        }
+    for (const UnmatchedSide& side : byEnd.unmatched()) {
+        sides.unmatched += static_cast<size_t>(std::abs(side.count));
+        balance[side.lesser] += side.count;
+        balance[side.greater] -= side.count;
+        parent[root(side.lesser)] = root(side.greater);
     }
     for (const auto& [vertex, sum] : balance) {
         sides.looseEnds += sum != 0 ? 1 : 0;
