@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 hours=${1:?usage: tools/fuzz.sh HOURS [TARGET...]}
 shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips pictures api)
+[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips arrays pictures api)
 if ! command -v clang++ >/dev/null; then
     echo "clang++ is not installed: apt-get install clang libclang-rt-dev" >&2
     exit 3
