@@ -474,7 +474,7 @@ private:
         const std::string channel = textIn(trim, "channel");
         const std::size_t place = std::string("rgba").find(channel.empty() ? "r" : channel);
         material.trimDomain = ofFaces ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
-        material.trimChannel = place > 3 ? 4 : static_cast<uint32_t>(place);
+        material.trimChannel = place > 3 || channel.size() > 1 ? 4 : static_cast<uint32_t>(place); // 4 is refused
         material.trimCutoff = numberIn(trim, "cutoff", 0.5f);
         const Value* extensions = member(*texture, "extensions");
         const Value* transform = extensions != nullptr ? member(*extensions, "KHR_texture_transform") : nullptr;
