@@ -53,6 +53,10 @@ private:
                                                : "nothing but points: no faces, so there is no surface");
             return false;
         }
+        if (desc_.vertexCount > cage::kMaxVertices) {
+            faults_.add("more than " + to_string(cage::kMaxVertices) + " vertices", ErrorCode::limit);
+            return false;
+        }
         bool fine = faults_.present(desc_.creaseCount, "creaseVertices or creaseSharpnesses", desc_.creaseVertices,
                                     desc_.creaseSharpnesses);
         fine = faults_.present(desc_.cornerCount, "cornerVertices or cornerSharpnesses", desc_.cornerVertices,

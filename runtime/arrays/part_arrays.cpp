@@ -43,19 +43,25 @@ void readSkin(const SuppleSkinDesc& desc, uint32_t nodeCount, cage::Skin& skin, 
     }
 }
 
-void readWeights(const SupplePartDesc& desc, uint32_t vertexCount, const cage::MeshBinding& binding,
-                 const PartContext& context, cage::PartCage& part, Faults& faults) {
-    cage::VertexWeights weights;
+/// Whether the influences can be taken.
+bool checkWeights(const SupplePartDesc& desc, uint32_t vertexCount, const cage::MeshBinding& binding, Faults& faults) {
     if (!binding.skinned) {
         refuseInfluences(desc.influences, faults);
+        return true;
+    }
+    const size_t jointCount = binding.skin.joints.size();
+    return jointCount > 0 && checkInfluences(desc.influences, vertexCount, jointCount, faults);
+}
+
+/// Of the vertices that are left.
+void takeWeights(const SupplePartDesc& desc, const cage::MeshBinding& binding, const PartContext& context,
+                 cage::PartCage& part) {
+    cage::VertexWeights weights;
+    if (!binding.skinned) {
         weights.appendUnskinned(part.cage.vertexCount());
     } else {
-        const size_t jointCount = binding.skin.joints.size();
-        if (!checkInfluences(desc.influences, vertexCount, jointCount, faults)) {
-            return;
-        }
-        appendInfluences(desc.influences, part.cage.sourceVertices, jointCount, weights);
-        weights.report(faults.element() + " influences", *context.warnings);
+        appendInfluences(desc.influences, part.cage.sourceVertices, binding.skin.joints.size(), weights);
+        weights.report(part.element + " influences", *context.warnings);
     }
     part.weights.starts.push_back(0);
     for (uint32_t v = 0; v < part.cage.vertexCount(); ++v) {
@@ -105,11 +111,15 @@ void readCagePart(const SupplePartDesc& desc, const cage::MeshBinding& binding, 
         return;
     }
     part.namesBySource = true;
-    readCageArrays(cage, context.materials, part, faults);
-    if (part.cage.faceCount() > 0) {
-        readWeights(desc, cage.vertexCount, binding, context, part, faults);
-        readCageDisplacements(desc, cage.vertexCount, part, faults);
+    Faults ofCage(faults.refusals(), faults.element()); // it is filled, whatever else is wrong
+    readCageArrays(cage, context.materials, part, ofCage);
+    if (cage.vertexCount > supple::cage::kMaxVertices) {
+        return;
     }
+    if (checkWeights(desc, cage.vertexCount, binding, faults) && part.cage.faceCount() > 0) {
+        takeWeights(desc, binding, context, part);
+    }
+    readCageDisplacements(desc, cage.vertexCount, part, faults);
 }
 
 void readSurfaceRules(const SupplePartDesc& desc, cage::Part& part, Faults& faults) {

@@ -20,7 +20,7 @@ if [ -z "$last" ]; then
     exit 77
 fi
 
-sized=$(awk '/^typedef struct Supple/ { name = $3 } /^    uint32_t structSize;/ { print name }' "$source"/runtime/include/supple/*.h)
+sized=$(awk '/^typedef struct Supple/ { name = $3 } /^struct Supple/ { name = $2 } /^    uint32_t structSize;/ { print name }' "$source"/runtime/include/supple/*.h)
 cat > "$work/growth.suppr" <<END
 [suppress_type]
   type_kind = struct

@@ -360,9 +360,9 @@ typedef struct SuppleCharacterDesc SuppleCharacterDesc;
 
 /** Options of reading a file or arrays. */
 typedef enum SuppleAssetFlags {
-    /** Plain triangles of a glTF file: pair all into quads that share an edge, have the same normals, UVs and colors
-     * along it, and face the same side. Without this flag, they are paired if nearly all of a mesh make good quads, and
-     * a warning says so. Polygons that the file lists are left as they are. */
+    /** Plain triangles of a glTF file or of SupplePrimitiveDesc: pair all into quads that share an edge, have the same
+     * normals, UVs and colors along it, and face the same side. Without this flag, they are paired if nearly all of a
+     * mesh make good quads, and a warning says so. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
     /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
      * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
@@ -371,7 +371,8 @@ typedef enum SuppleAssetFlags {
      * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
      * other. */
     SUPPLE_ASSET_PARTS_APART = 4,
-    /** Plain triangles of a glTF file stay as they are. Not together with SUPPLE_ASSET_PAIR_QUADS. */
+    /** Plain triangles of a glTF file or of SupplePrimitiveDesc stay as they are. Not together with
+       SUPPLE_ASSET_PAIR_QUADS. */
     SUPPLE_ASSET_KEEP_TRIANGLES = 8,
     /** Edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth schemes
      * keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are. */
@@ -436,9 +437,9 @@ typedef struct SuppleAssetDesc {
      * whose name is taken gets "@" and the name of its file, without folder and ending, and a number if that is taken
      * too. One file that cannot be read fails the call. */
     const SuppleClipFile* clipFiles;
-    /** Most bytes of host memory that reading a glTF file may take at a time, and each of the clip files: small files
-     * can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it names. A file that needs
-     * more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
+    /** Not for arrays. Most bytes of host memory that reading a glTF file may take at a time, and each of the clip
+     * files: small files can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it
+     * names. A file that needs more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
     /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize must be 0.
      * It need not outlive the call. */
@@ -494,7 +495,7 @@ typedef enum SuppleScheme {
     SUPPLE_SCHEME_MAX_ENUM = 0x7FFFFFFF
 } SuppleScheme;
 
-/** A part of a character: what one node of a file carries as its mesh. OBJ files and arrays have one part. All parts
+/** A part of a character: what one node carries as its mesh. OBJ files and bare cages have one part. All parts
  * have one cage, one skeleton and one pose. The faces of a part are a run of the cage's faces. */
 typedef struct SupplePartInfo {
     uint32_t structSize;

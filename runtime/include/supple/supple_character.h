@@ -53,8 +53,8 @@ typedef struct SuppleSkinDesc {
     uint32_t structSize;
     uint32_t jointCount;    /**< 1 or more */
     const uint32_t* joints; /**< nodes */
-    const float*
-        inverseBinds; /**< 16 per joint: the inverse bind matrices, as of SuppleNodeDesc.matrix; null: identity */
+    /** 16 per joint: the inverse bind matrices, with the last row 0 0 0 1. Null: identity. */
+    const float* inverseBinds;
 } SuppleSkinDesc;
 
 /** Displacements of vertices by one morph target, which are added before skinning. */
@@ -149,8 +149,8 @@ typedef struct SupplePartDesc {
     const SupplePrimitiveDesc* primitives;
     /** Of primitives: 1: vertices that have one face round the boundary off. */
     uint32_t roundCorners;
-    SuppleUvInterpolation
-        uvInterpolation; /**< what SUPPLE_UV_FROM_FILE means for it; that value itself: nothing said */
+    /** What SUPPLE_UV_FROM_FILE means for it. That value itself: nothing is said. */
+    SuppleUvInterpolation uvInterpolation;
     SuppleMadeFor madeFor;
 } SupplePartDesc;
 

@@ -474,7 +474,7 @@ private:
         const std::string channel = textIn(trim, "channel");
         const std::size_t place = std::string("rgba").find(channel.empty() ? "r" : channel);
         material.trimDomain = ofFaces ? SUPPLE_TRIM_FACE : SUPPLE_TRIM_UV;
-        material.trimChannel = place > 3 ? 4 : static_cast<uint32_t>(place);
+        material.trimChannel = place > 3 || channel.size() > 1 ? 4 : static_cast<uint32_t>(place); // 4 is refused
         material.trimCutoff = numberIn(trim, "cutoff", 0.5f);
         const Value* extensions = member(*texture, "extensions");
         const Value* transform = extensions != nullptr ? member(*extensions, "KHR_texture_transform") : nullptr;
@@ -668,11 +668,17 @@ private:
                 fail(element, "no POSITION");
                 continue;
             }
-            to.vertexCount = static_cast<uint32_t>(model_->accessors[static_cast<std::size_t>(position)].count);
+            Floats positions = floatsOf(position, 3, element + " POSITION");
+            if (positions.empty()) {
+                fail(element, "no vertices");
+                continue;
+            }
+            to.vertexCount = static_cast<uint32_t>(positions.size() / 3);
             Stream stream{position, numbers[p], setsOf(from, "JOINTS_"), setsOf(from, "WEIGHTS_"), targetsOf(from)};
-            const auto [known, isNew] = streams.emplace(stream, static_cast<uint32_t>(p + 1));
+            const auto [known, isNew] = streams.emplace(stream, countOf(primitives) + 1);
             to.sharedVertices = isNew ? 0 : known->second;
             if (isNew) {
+                to.positions = keep(std::move(positions));
                 readVertices(stream, part, element, to);
             }
             to.material = from.material < 0 ? SUPPLE_NO_MATERIAL : static_cast<uint32_t>(from.material);
@@ -721,7 +727,7 @@ private:
     void readVertices(const Stream& stream, const SupplePartDesc& part, const std::string& element,
                       SupplePrimitiveDesc& to) {
         const auto& [position, number, joints, weights, targets] = stream;
-        to.positions = keep(floatsOf(position, 3, element + " POSITION"));
+        (void)position;
         if (number >= 0) {
             to.cageVertices = keepFor(to.vertexCount, integersOf(number, 1, element + " cage vertices"), 1, element);
         }

@@ -215,6 +215,8 @@ TEST(ArrayFaults, AllAreToldAtOnce) {
         a.nodes[1].parent = 9;
         a.partArrays[0].positions[4] = kNan;
         a.partArrays[0].faceVertexIndices[5] = 8;
+        a.partArrays[0].influenceWeights[0] = -1.0f;
+        a.partArrays[0].movedVertices[0][1] = 8;
         a.clipArrays[0].channels[0].keyCount = 0;
         a.clipArrays[0].channels[1].node = 3;
         a.materials[0].roughnessFactor = kNan;
@@ -224,6 +226,8 @@ TEST(ArrayFaults, AllAreToldAtOnce) {
                                     "tube: material 0: roughnessFactor is not finite\n"
                                     "tube: part 0: 1 position is not finite or beyond 1e+09: vertex 1\n"
                                     "tube: part 0: 1 corner names no vertex: vertex 8 of 8 in face 1\n"
+                                    "tube: part 0: 1 weight is negative or not finite: influence 0 of vertex 0\n"
+                                    "tube: part 0 target 0: 1 displacement is of no vertex: entry 1\n"
                                     "tube: clip 0 channel 0: no keys\n"
                                     "tube: clip 0 channel 1: node 3 of 3");
 }

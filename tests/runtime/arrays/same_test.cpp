@@ -22,14 +22,16 @@ using Strings = std::vector<std::string>;
 
 constexpr Overlooked kOfArrays{true, true};
 
-/// All characters, and the small files of Khronos, which have what they lack: unnormalised weights, all interpolations.
+/// All characters, and files that have what these lack: unnormalised weights, all interpolations, many parts.
 Strings allFiles() {
     Strings paths = allCharacters();
-    const Strings small = filesBelow(sharedFolder() + "khronos", {".glb", ".gltf"});
-    if (small.empty()) {
-        std::printf("all files of Khronos left out: %skhronos is not present\n", sharedFolder().c_str());
+    for (const char* folder : {"khronos", "whole"}) {
+        const Strings files = filesBelow(sharedFolder() + folder, {".glb", ".gltf"});
+        if (files.empty()) {
+            std::printf("all files of %s%s left out: it is not present\n", sharedFolder().c_str(), folder);
+        }
+        paths.insert(paths.end(), files.begin(), files.end());
     }
-    paths.insert(paths.end(), small.begin(), small.end());
     return paths;
 }
 
