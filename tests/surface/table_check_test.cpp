@@ -225,10 +225,6 @@ TEST(TableCheck, LayoutAndRecipe) {
         {"constructions: a kernel that the scheme does not run there",
          [](Tables& t) { t.constructions[0].kernel.kind = 77; }},
         {"constructions: a kernel that the scheme does not run there",
-         [](Tables& t) { t.constructions[0].kernel.name = "another"; }},
-        {"constructions: a kernel that the scheme does not run there",
-         [](Tables& t) { t.constructions[0].kernel.name = nullptr; }},
-        {"constructions: a kernel that the scheme does not run there",
          [](Tables& t) { t.constructions[0].stage = Stage::assemble; }},
     };
     expectRefused(pmSample(), kChanges);

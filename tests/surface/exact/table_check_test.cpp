@@ -1,10 +1,10 @@
 // Checks of tables that come from files (surface/table_check.h): what Catmull-Clark and Loop build passes, and what is
 // not theirs is refused with what is wrong. Single words: table_words_test.cpp.
 #include "cage/gltf/reader.h"
-#include "cage/procedural.h"
 #include "tests/support/exact_tables.h"
 #include "tests/support/large_pole.h"
 #include "tests/support/shared_assets.h"
+#include "tools/common/procedural.h"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -203,7 +203,7 @@ TEST(ExactTableCheck, SaysWhatIsWrong) {
                   "smooth texture coordinates: 4294967295, of " + std::to_string(tables.words.size() / 2) +
                       " pairs of floats");
     tables = made.tables;
-    tables.constructions.back().kernel = {surface::Kernel::pmFacet, 0, "other"};
+    tables.constructions.back().kernel = {surface::Kernel::pmFacet, 0};
     expectRefused(made, tables, "constructions: a kernel that the scheme does not run there");
     tables = made.tables;
     const auto limits = std::ranges::find_if(tables.constructions, [](const surface::Construction& c) {
