@@ -39,17 +39,17 @@ typedef struct SupplePrepareDesc {
  *
  * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
  * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
- * differs from the plan in what its tables depend on (scheme, flags, rate of BLEND and FRAGMENTS, options,
- * uvInterpolation, flags of the view, mapping), works as well: suppleCreateGroup builds what is missing, and says so
+ * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
+ * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate; of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
  * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
  *
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
 SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepared* out);
 /** Turns what was prepared into the bytes of a cooked file: `supple cook` writes them to a disk. They go wherever bytes
- * of a glTF file go (SuppleAssetDesc.bytes), and nothing is parsed or built then: bytes are checked and copied. They
- * are the same on every machine, and can be kept in an archive of the host's. Only this version of the format can be
- * read: a game cooks its characters when it is built, from files that it keeps.
+ * of a glTF file go (SuppleAssetDesc.bytes), and nothing is parsed or built then: bytes are checked and copied. Every
+ * little-endian machine can read them, and they can be kept in an archive of the host's. Only this version of the format
+ * can be read: a game cooks its characters when it is built, from files that it keeps.
  *
  * What the file has are the character with its clips and images, and the tables of the groups that were planned. Tables
  * of BLEND and FRAGMENTS are not kept: suppleCreateGroup builds them, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Tables
