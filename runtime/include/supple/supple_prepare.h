@@ -23,8 +23,8 @@ typedef struct SupplePlannedGroup {
 /** What to prepare. All pointers are needed during the call only. */
 typedef struct SupplePrepareDesc {
     uint32_t structSize;
-    /** The mapping of the context that will make the groups (suppleGetMapping): tables of the other mapping are of no use
-     * there. AUTO is WIDE, the mapping of GPUs. */
+    /** The mapping of the context that will make the groups (suppleGetMapping): tables of the other mapping are of no
+     * use there. AUTO is WIDE, the mapping of GPUs. */
     SuppleMapping mapping;
     const SuppleAssetDesc* asset;     /**< the file, which may be cooked, or the arrays; `prepared` must be null */
     const SupplePlannedGroup* groups; /**< groupCount of them; their order does not matter */
@@ -40,16 +40,16 @@ typedef struct SupplePrepareDesc {
  * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
  * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
  * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
- * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate; of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
- * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
+ * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate; of CATMULL_CLARK and LOOP the mapping), works as well:
+ * suppleCreateGroup builds what is missing, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
  *
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
 SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepared* out);
 /** Turns what was prepared into the bytes of a cooked file: `supple cook` writes them to a disk. They go wherever bytes
  * of a glTF file go (SuppleAssetDesc.bytes), and nothing is parsed or built then: bytes are checked and copied. Every
- * little-endian machine can read them, and they can be kept in an archive of the host's. Only this version of the format
- * can be read: a game cooks its characters when it is built, from files that it keeps.
+ * little-endian machine can read them, and they can be kept in an archive of the host's. Only this version of the
+ * format can be read: a game cooks its characters when it is built, from files that it keeps.
  *
  * What the file has are the character with its clips and images, and the tables of the groups that were planned. Tables
  * of BLEND and FRAGMENTS are not kept: suppleCreateGroup builds them, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Tables
