@@ -97,7 +97,7 @@ std::vector<std::byte> saved(SupplePrepared prepared) {
     EXPECT_EQ(suppleSavePrepared(prepared, "supple cook wren.glb", nullptr, &size), SUPPLE_OK);
     std::vector<std::byte> bytes(size);
     size_t tooFew = size - 1;
-    EXPECT_EQ(suppleSavePrepared(prepared, "", bytes.data(), &tooFew), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleSavePrepared(prepared, "supple cook wren.glb", bytes.data(), &tooFew), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleSavePrepared(prepared, "supple cook wren.glb", bytes.data(), &size), SUPPLE_OK);
     EXPECT_EQ(size, bytes.size());
     return bytes;

@@ -181,8 +181,9 @@ public:
             return suppleGetTimings(handle_, sizeof(SuppleTiming), to, count);
         });
     }
-    /// The device's tick that timings count from.
+    /// NARROW or WIDE, whichever AUTO has come to.
     [[nodiscard]] SuppleResult mapping(SuppleMapping& out) const { return suppleGetMapping(handle_, &out); }
+    /// The device's tick that timings count from.
     [[nodiscard]] SuppleResult timingOrigin(uint64_t& ticks) const { return suppleGetTimingOrigin(handle_, &ticks); }
 
 private:
