@@ -22,7 +22,8 @@ namespace supple::api {
 [[nodiscard]] bool isCooked(const SuppleAssetDesc& desc);
 /// What a cooked file has. Refuses options that are about reading other files.
 [[nodiscard]] Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc& desc);
-/// Another file in memory or arrays, as a character. `function` begins the messages about structs within the description.
+/// Another file in memory or arrays, as a character. `function` begins the messages about structs within the
+/// description.
 [[nodiscard]] Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc);
 
 /// A group's description, with copies of the options that it points to.

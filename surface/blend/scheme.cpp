@@ -93,9 +93,7 @@ private:
             return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
         });
         const auto count = static_cast<uint32_t>(order.size());
-        constexpr KindOfKernel kKernels[] = {
-            {Kernel::blendChart, 0},
-            {Kernel::blendChartMeshInPool, 0}};
+        constexpr KindOfKernel kKernels[] = {{Kernel::blendChart, 0}, {Kernel::blendChartMeshInPool, 0}};
         tables_.constructions.push_back({mesh_.refined ? Stage::assemble : Stage::vertex,
                                          kKernels[mesh_.refined ? 1 : 0],
                                          {writer_.element(), count},

@@ -187,8 +187,7 @@ private:
             weights[faces] = writeFanWeights(openWeights(faces), 0, writer_);
         }
         for (const bool closed : {true, false}) {
-            Construction vertices{
-                meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
+            Construction vertices{meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
             for (const uint32_t r : order_) {
                 const Run& run = corners_.runs()[r];
                 if (run.closed != closed) {

@@ -490,9 +490,9 @@ void preparing(Rows& r) {
         SupplePrepared made = nullptr;
         EXPECT_EQ(supplePrepare(&desc, &made), SUPPLE_OK);
         size_t size = room;
-        const SuppleResult result = suppleSavePrepared(prepared ? made : nullptr, "supple cook",
-                                                       room > 0 ? w.plain<uint8_t>(room) : nullptr,
-                                                       counted ? &size : nullptr);
+        const SuppleResult result =
+            suppleSavePrepared(prepared ? made : nullptr, "supple cook", room > 0 ? w.plain<uint8_t>(room) : nullptr,
+                               counted ? &size : nullptr);
         suppleDestroyPrepared(made);
         return result;
     };
@@ -517,8 +517,7 @@ void contexts(Rows& r) {
         return SUPPLE_OK;
     });
     constexpr const char* kMapping = "suppleGetMapping";
-    r.nullContext(kMapping,
-                  [](World& w, SuppleContext c) { return suppleGetMapping(c, w.plain<SuppleMapping>(1)); });
+    r.nullContext(kMapping, [](World& w, SuppleContext c) { return suppleGetMapping(c, w.plain<SuppleMapping>(1)); });
     r.refuse(kMapping, "out null", SUPPLE_MESSAGE_NULL_POINTER,
              [](World& w) { return suppleGetMapping(w.handle(), nullptr); });
     r.accept(kMapping, "valid", [](World& w) {

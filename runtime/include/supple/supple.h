@@ -421,10 +421,10 @@ typedef struct SuppleClipFile {
  * the budget. suppleGetClipBounds tells how far a clip goes, suppleReadInstanceBounds how far an instance went. */
 typedef struct SuppleAssetDesc {
     uint32_t structSize;
-    uint32_t flags;    /**< SuppleAssetFlags */
-    const char* name;  /**< optional; begins every message about the asset */
-    /** A .glb or .gltf file; an .obj file if `name` ends in .obj; or a cooked file (suppleSavePrepared), for which scene,
-     * clipFiles and flags other than SUPPLE_ASSET_STRICT must be 0. */
+    uint32_t flags;   /**< SuppleAssetFlags */
+    const char* name; /**< optional; begins every message about the asset */
+    /** A .glb or .gltf file; an .obj file if `name` ends in .obj; or a cooked file (suppleSavePrepared), for which
+     * scene, clipFiles and flags other than SUPPLE_ASSET_STRICT must be 0. */
     const void* bytes;
     size_t byteCount;
     const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
