@@ -203,8 +203,9 @@ void Check::skin() {
     require(isFinite(numbersOf(inverseBinds)), "an inverse bind matrix is not finite");
     const auto& [starts, influences] = character_.weights;
     require(startsRise(starts, character_.cage.vertexCount(), 1, influences.size()), "a vertex has no influences");
+    const size_t jointCount = joints.size();
     const bool sound = std::ranges::all_of(
-        influences, [&](const Influence& i) { return i.joint < joints.size() && std::isfinite(i.weight); });
+        influences, [&](const Influence& i) { return i.joint < jointCount && std::isfinite(i.weight); });
     require(sound, "an influence names no joint, or has no finite weight");
 }
 

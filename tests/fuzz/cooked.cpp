@@ -19,8 +19,8 @@ namespace {
 constexpr size_t kHeaderBytes = 32, kSizeAt = 16, kHashAt = 24;
 
 std::vector<std::byte> signedCopy(const uint8_t* data, size_t size) {
-    std::vector<std::byte> file(size);
-    std::memcpy(file.data(), data, size);
+    const std::span<const std::byte> bytes = bytesOf(data, size);
+    std::vector<std::byte> file(bytes.begin(), bytes.end());
     if (size >= kHeaderBytes) {
         const uint64_t byteCount = size, hash = XXH3_64bits(file.data() + kHeaderBytes, size - kHeaderBytes);
         std::memcpy(file.data() + kSizeAt, &byteCount, sizeof(byteCount));
