@@ -29,6 +29,16 @@ inline constexpr bool kIsPlain = std::is_arithmetic_v<T> && !std::is_same_v<T, b
 template <class T>
 concept Plain = kIsPlain<std::remove_const_t<T>>;
 
+/// The last enumerator of an enumeration that begins with 0 and leaves out none.
+template <class Enum>
+inline constexpr Enum kLast = std::enable_if_t<sizeof(Enum) == 0, Enum>{}; // specialize it
+
+/// Whether a number, before it becomes one, is an enumerator.
+template <class Enum>
+[[nodiscard]] constexpr bool isEnumerator(uint32_t number) {
+    return number <= static_cast<uint32_t>(kLast<Enum>);
+}
+
 /// Appends values to bytes.
 class Writer {
 public:
@@ -136,7 +146,7 @@ private:
     void take(T& value) {
         uint32_t number = 0;
         take(number);
-        if (!isValue(static_cast<T>(number))) {
+        if (!isEnumerator<T>(number)) {
             refuse("no such enumerator: " + std::to_string(number));
             return;
         }

@@ -4,41 +4,34 @@
 #include "cage/character.h"
 #include "runtime/cooked/archive.h"
 
+namespace supple::runtime {
+
+template <>
+inline constexpr auto kLast<cage::Interpolation> = cage::Interpolation::cubicSpline;
+template <>
+inline constexpr auto kLast<cage::ChannelPath> = cage::ChannelPath::weights;
+template <>
+inline constexpr auto kLast<cage::AlphaMode> = cage::AlphaMode::blend;
+template <>
+inline constexpr auto kLast<cage::Wrap> = cage::Wrap::mirroredRepeat;
+template <>
+inline constexpr auto kLast<cage::Filter> = cage::Filter::linearMipmapLinear;
+template <>
+inline constexpr auto kLast<cage::TrimDomain> = cage::TrimDomain::face;
+template <>
+inline constexpr auto kLast<cage::PolygonSource> = cage::PolygonSource::arrays;
+template <>
+inline constexpr auto kLast<cage::WeldSource> = cage::WeldSource::given;
+template <>
+inline constexpr auto kLast<cage::UvMode> = cage::UvMode::all;
+template <>
+inline constexpr auto kLast<cage::MadeFor> = cage::MadeFor::none;
+
+} // namespace supple::runtime
+
 namespace supple::cage {
 
 using runtime::Is;
-
-// Vectors and small structs of numbers lie in lists as they do in memory.
-constexpr bool isValue(Interpolation value) {
-    return value <= Interpolation::cubicSpline;
-}
-constexpr bool isValue(ChannelPath value) {
-    return value <= ChannelPath::weights;
-}
-constexpr bool isValue(AlphaMode value) {
-    return value <= AlphaMode::blend;
-}
-constexpr bool isValue(Wrap value) {
-    return value <= Wrap::mirroredRepeat;
-}
-constexpr bool isValue(Filter value) {
-    return value <= Filter::linearMipmapLinear;
-}
-constexpr bool isValue(TrimDomain value) {
-    return value <= TrimDomain::face;
-}
-constexpr bool isValue(PolygonSource value) {
-    return value <= PolygonSource::arrays;
-}
-constexpr bool isValue(WeldSource value) {
-    return value <= WeldSource::given;
-}
-constexpr bool isValue(UvMode value) {
-    return value <= UvMode::all;
-}
-constexpr bool isValue(MadeFor value) {
-    return value <= MadeFor::none;
-}
 
 template <class A, Is<Cage> T>
 void fields(A& a, T& cage) {
@@ -110,6 +103,7 @@ void fields(A& a, T& character) {
 
 namespace supple::runtime {
 
+// Vectors and small structs of numbers lie in lists as they do in memory.
 template <>
 inline constexpr bool kIsPlain<glm::vec2> = true;
 template <>

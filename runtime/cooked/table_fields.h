@@ -5,38 +5,35 @@
 #include "runtime/cooked/character_fields.h"
 #include "runtime/prepared.h"
 
+namespace supple::runtime {
+
+template <>
+inline constexpr auto kLast<surface::prep::TangentMode> = surface::prep::TangentMode::printed;
+template <>
+inline constexpr auto kLast<surface::prep::CornerRule> = surface::prep::CornerRule::smooth;
+template <>
+inline constexpr auto kLast<surface::blend::CreaseMode> = surface::blend::CreaseMode::curve;
+template <>
+inline constexpr auto kLast<surface::Stage> = surface::Stage::deepen;
+template <>
+inline constexpr auto kLast<surface::PatchClass> = surface::PatchClass::loopIrregular;
+template <>
+inline constexpr auto kLast<surface::Domain> = static_cast<surface::Domain>(surface::kDomainCount - 1);
+template <>
+inline constexpr auto kLast<surface::Borders> = surface::Borders::charts;
+/// It begins with 1, and one stands apart.
+template <>
+constexpr bool isEnumerator<surface::SchemeId>(uint32_t number) {
+    using surface::SchemeId;
+    return (number >= static_cast<uint32_t>(SchemeId::prep) && number <= static_cast<uint32_t>(SchemeId::fragments)) ||
+           number == static_cast<uint32_t>(SchemeId::loopFragments);
+}
+
+} // namespace supple::runtime
+
 namespace supple::surface {
 
 using runtime::Is;
-
-namespace prep {
-constexpr bool isValue(TangentMode value) {
-    return value <= TangentMode::printed;
-}
-constexpr bool isValue(CornerRule value) {
-    return value <= CornerRule::smooth;
-}
-} // namespace prep
-namespace blend {
-constexpr bool isValue(CreaseMode value) {
-    return value <= CreaseMode::curve;
-}
-} // namespace blend
-constexpr bool isValue(SchemeId value) {
-    return (value >= SchemeId::prep && value <= SchemeId::fragments) || value == SchemeId::loopFragments;
-}
-constexpr bool isValue(Stage value) {
-    return value <= Stage::deepen;
-}
-constexpr bool isValue(PatchClass value) {
-    return value <= PatchClass::loopIrregular;
-}
-constexpr bool isValue(Domain value) {
-    return static_cast<uint32_t>(value) < kDomainCount;
-}
-constexpr bool isValue(Borders value) {
-    return value <= Borders::charts;
-}
 
 template <class A, Is<Recipe> T>
 void fields(A& a, T& recipe) {

@@ -162,6 +162,12 @@ TEST(Cooked, ACharacterThatLeadsNowhereIsRefusedByName) {
               name + "clip 0 channel 0: not as many values as keys");
     EXPECT_EQ(refusal([](Prepared& p) { p.character.materials[0].baseColorTexture.image = 99; }),
               name + "material 0: a texture names no image or no UV set");
+    EXPECT_TRUE(refusal([](Prepared& p) {
+                    p.character.parts[0].polygonSource = static_cast<cage::PolygonSource>(-1);
+                }).ends_with("no such enumerator: 4294967295"));
+    EXPECT_TRUE(refusal([](Prepared& p) {
+                    p.choices[0].scheme = static_cast<surface::SchemeId>(0);
+                }).ends_with("no such enumerator: 0"));
     EXPECT_EQ(refusal([](Prepared& p) { p.choices.clear(); }), name + "no scheme is chosen for some part");
     // All at once.
     EXPECT_EQ(refusal([](Prepared& p) {
