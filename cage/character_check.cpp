@@ -15,8 +15,6 @@ namespace supple::cage {
 
 namespace {
 
-using std::to_string;
-
 bool isFinite(std::span<const float> values) {
     return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }

@@ -56,7 +56,7 @@ public:
                     SurfaceFlags surface = options.surface;
                     surface.scheme = scheme;
                     surface.rate = rate;
-                    if (const Status added = add(surface, use, character); !added) {
+                    if (Status added = add(surface, use, character); !added) {
                         return added;
                     }
                 }
@@ -77,7 +77,7 @@ private:
     Status add(const SurfaceFlags& surface, const std::string& use, const cage::Character& character) {
         auto group = std::make_unique<Group>();
         group->desc.structSize = sizeof group->desc;
-        if (const Status described = describeSurface(surface, character, group->options, group->desc); !described) {
+        if (Status described = describeSurface(surface, character, group->options, group->desc); !described) {
             return described;
         }
         group->desc.poseSource = SUPPLE_POSES_PLAYBACK;
