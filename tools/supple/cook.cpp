@@ -80,6 +80,8 @@ private:
         if (Status described = describeSurface(surface, character, group->options, group->desc); !described) {
             return described;
         }
+        group->desc.scheme = schemeOf(surface.scheme);
+        group->desc.rate = surface.rate;
         group->desc.poseSource = SUPPLE_POSES_PLAYBACK;
         const bool inView = use == "levels";
         if (!inView) {

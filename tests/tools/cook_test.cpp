@@ -1,0 +1,64 @@
+// supple cook as a user runs it: what it writes is read by other commands, which then do the same as with the source.
+#include "tests/tools/command_runner.h"
+
+namespace {
+
+using supple::test::Outcome;
+using supple::test::readText;
+using supple::test::writeText;
+
+const std::string kToCook = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
+
+class Cook : public supple::test::CommandTest {};
+
+TEST_F(Cook, OtherCommandsReadIt) {
+    const Outcome outcome = run("cook '" + kToCook + "' -o pip.supple --scheme catmull-clark,pm --rate 4 --for grids");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("written pip.supple, ")) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+    for (const std::string scheme : {"catmull-clark", "pm"}) {
+        const std::string rest = " --scheme " + scheme + " --rate 4 --clip walk --time 0.4";
+        ASSERT_EQ(runOnDevice("bake pip.supple -o cooked.obj" + rest).exitCode, 0);
+        ASSERT_EQ(runOnDevice("bake '" + kToCook + "' -o own.obj" + rest).exitCode, 0);
+        EXPECT_TRUE(readText(file("cooked.obj")) == readText(file("own.obj"))) << scheme;
+    }
+    // What is asked for is what is in it.
+    const auto sizeOf = [&](const std::string& what) {
+        EXPECT_EQ(run("cook '" + kToCook + "' -o one.supple --for grids --mapping wide " + what).exitCode, 0) << what;
+        return std::filesystem::file_size(file("one.supple"));
+    };
+    const auto exact = sizeOf("--scheme catmull-clark --rate 4");
+    EXPECT_LT(sizeOf("--scheme pm --rate 4"), exact);
+    EXPECT_GT(sizeOf("--scheme catmull-clark --rate 16"), exact);
+    EXPECT_GT(sizeOf("--scheme catmull-clark --rate 4,16"), 3 * exact / 2);
+    // Once more, from itself.
+    ASSERT_EQ(run("cook pip.supple -o again.supple --scheme polygons --for meshes").exitCode, 0);
+    EXPECT_EQ(run("inspect again.supple").exitCode, 0);
+}
+
+TEST_F(Cook, WhatFilesDoNotKeepIsSaid) {
+    const Outcome outcome =
+        run("cook '" + kToCook + "' -o pip.supple --scheme blend,fragments --for grids --mapping wide");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("tables of blend are not kept in files"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("tables of fragments are not kept in files"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
+    ASSERT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme pm --for grids").exitCode, 0);
+    Outcome outcome = run("inspect pip.supple --pair-quads");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(outcome.err, "supple: pip.supple: it is cooked: its polygons, parts, scene and clips were chosen then\n");
+    writeText(file("half.supple"), readText(file("pip.supple")).substr(0, 4000));
+    outcome = run("inspect half.supple");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_TRUE(outcome.err.starts_with("supple: half.supple: a cooked file of ")) << outcome.err;
+    EXPECT_EQ(run("cook '" + kToCook + "' -o none.supple --scheme prep").exitCode, 1); // it has triangles
+    EXPECT_FALSE(std::filesystem::exists(file("none.supple")));
+    for (const char* usage : {"cook", "cook x.glb", "cook x.glb -o y --scheme all", "cook x.glb -o y --rate 0",
+                              "cook x.glb -o y --for crowds", "cook x.glb -o y --mapping auto"}) {
+        EXPECT_EQ(run(usage).exitCode, 2) << usage;
+    }
+}
+
+} // namespace
