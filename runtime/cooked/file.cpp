@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -143,6 +144,16 @@ std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& 
     header.hash = hashOf(bytes);
     std::memcpy(bytes.data(), &header, sizeof(header));
     return bytes;
+}
+
+std::vector<std::string> schemesLeftOut(const Prepared& prepared) {
+    std::set<std::string> names;
+    for (const auto& own : prepared.tables) {
+        if (!keeps(*own)) {
+            names.insert(surface::schemeOf(own->recipe.scheme).name);
+        }
+    }
+    return {names.begin(), names.end()};
 }
 
 Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, const std::string& name) {

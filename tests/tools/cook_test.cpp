@@ -44,6 +44,18 @@ TEST_F(Cook, WhatFilesDoNotKeepIsSaid) {
     EXPECT_NE(outcome.out.find("tables of fragments are not kept in files"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Cook, AnotherVersionIsToldHowToMakeItAnew) {
+    ASSERT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme pm --for grids --parts-apart --scene 0").exitCode, 0);
+    std::string bytes = readText(file("pip.supple"));
+    bytes[8] = 77;
+    writeText(file("pip.supple"), bytes);
+    const Outcome outcome = run("inspect pip.supple");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(outcome.err,
+              "supple: pip.supple: a cooked file of version 77, and this is version 1: make it anew: supple cook "
+              "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --parts-apart --scene 0\n");
+}
+
 TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
     ASSERT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme pm --for grids").exitCode, 0);
     Outcome outcome = run("inspect pip.supple --pair-quads");

@@ -1,6 +1,8 @@
 // supple cook: a character file to a cooked file, which is loaded without parsing or building anything. Needs no
 // device.
 #include "host/whole_file.h"
+#include "runtime/api/descriptions.h"
+#include "runtime/cooked/file.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
@@ -97,8 +99,13 @@ private:
     std::vector<SupplePlannedGroup> planned_;
 };
 
-Result<std::vector<std::byte>> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping,
-                                       const std::string& madeBy, bool warns) {
+struct Cooked {
+    std::vector<std::byte> bytes;
+    std::vector<std::string> leftOut; ///< schemes whose tables no file keeps
+};
+
+Result<Cooked> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, const std::string& madeBy,
+                       bool warns) {
     SupplePrepareDesc desc{};
     desc.structSize = sizeof desc;
     desc.mapping = mapping;
@@ -118,29 +125,47 @@ Result<std::vector<std::byte>> prepare(const SuppleAssetDesc& asset, const Plan&
     if (suppleSavePrepared(made, madeBy.c_str(), nullptr, &size) != SUPPLE_OK) {
         return Error{ErrorCode::hostMemory, told.error};
     }
-    std::vector<std::byte> bytes(size);
-    if (suppleSavePrepared(made, madeBy.c_str(), bytes.data(), &size) != SUPPLE_OK) {
+    Cooked cooked{std::vector<std::byte>(size), runtime::schemesLeftOut(*made->prepared)};
+    if (suppleSavePrepared(made, madeBy.c_str(), cooked.bytes.data(), &size) != SUPPLE_OK) {
         return Error{ErrorCode::hostMemory, told.error};
     }
-    return bytes;
+    return cooked;
 }
 
 /// For both mappings: what was prepared for one is prepared once more for the other.
-Result<std::vector<std::byte>> cook(const host::CharacterFile& file, const Plan& plan, const CookOptions& options,
-                                    const std::string& madeBy) {
+Result<Cooked> cook(const host::CharacterFile& file, const Plan& plan, const CookOptions& options,
+                    const std::string& madeBy) {
     const host::AssetDescription source(file);
     const bool wide = options.mapping != "narrow";
-    Result<std::vector<std::byte>> bytes =
+    Result<Cooked> first =
         prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW, madeBy, true);
-    if (!bytes || options.mapping != "both") {
-        return bytes;
+    if (!first || options.mapping != "both") {
+        return first;
     }
     SuppleAssetDesc cooked{};
     cooked.structSize = sizeof cooked;
     cooked.name = file.path.c_str();
-    cooked.bytes = bytes->data();
-    cooked.byteCount = bytes->size();
+    cooked.bytes = first->bytes.data();
+    cooked.byteCount = first->bytes.size();
     return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, madeBy, false);
+}
+
+/// How the file is read, as flags.
+std::string readingOf(const host::ReadOptions& reading) {
+    std::string line;
+    const auto add = [&](bool given, const std::string& flag) { line += given ? " --" + flag : ""; };
+    add(reading.pairQuads, "pair-quads");
+    add(reading.keepTriangles, "keep-triangles");
+    add(reading.creasesFromNormals, "creases-from-normals");
+    add(reading.partsApart, "parts-apart");
+    add(reading.strict, "strict");
+    add(reading.memoryLimit != 0, "memory-limit " + std::to_string(reading.memoryLimit));
+    add(reading.scene.has_value(), "scene " + std::to_string(reading.scene.value_or(0)));
+    add(!reading.clipFiles.empty(), "clips");
+    for (const std::string& clips : reading.clipFiles) {
+        line += " " + fs::path(clips).filename().string();
+    }
+    return line;
 }
 
 /// The command line, without the folders, which are this machine's.
@@ -157,7 +182,7 @@ std::string madeByOf(const CookOptions& options) {
     add("--scheme", options.schemes, asIs);
     add("--rate", options.rates, [](uint32_t rate) { return std::to_string(rate); });
     add("--for", options.uses, asIs);
-    return line + " --mapping " + options.mapping;
+    return line + " --mapping " + options.mapping + readingOf(options.surface.reading);
 }
 
 int runCook(const CookOptions& options) {
@@ -169,18 +194,16 @@ int runCook(const CookOptions& options) {
     if (const Status filled = plan.fill(options, file->character); !filled) {
         return fail(filled.error());
     }
-    const Result<std::vector<std::byte>> bytes = cook(*file, plan, options, madeByOf(options));
-    if (!bytes) {
-        return fail(bytes.error());
+    const Result<Cooked> cooked = cook(*file, plan, options, madeByOf(options));
+    if (!cooked) {
+        return fail(cooked.error());
     }
-    if (const Status written = host::writeWhole(options.output, *bytes); !written) {
+    if (const Status written = host::writeWhole(options.output, cooked->bytes); !written) {
         return fail(written.error());
     }
-    std::printf("written %s, %zu bytes\n", printable(options.output).c_str(), bytes->size());
-    for (const std::string& scheme : options.schemes) {
-        if (scheme == "blend" || scheme == "fragments") {
-            note("tables of " + scheme + " are not kept in files: they are built when a group is made");
-        }
+    std::printf("written %s, %zu bytes\n", printable(options.output).c_str(), cooked->bytes.size());
+    for (const std::string& scheme : cooked->leftOut) {
+        note("tables of " + scheme + " are not kept in files: they are built when a group is made");
     }
     return kExitOk;
 }
