@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 
 namespace supple::surface {
 
@@ -27,8 +26,9 @@ bool checkPatch(TableCheck& check, const PatchInfo& patch) {
                 check.within(patch.face, 1, source.faces, "faces") &&
                 check.within(patch.part, 1, source.parts, "parts") &&
                 (patch.material == cage::kNone || check.within(patch.material, 1, source.materials, "materials"));
+    const uint32_t whole = source.wholeVertices != 0 ? source.wholeVertices : source.vertices;
     for (const uint32_t corner : patch.corners) {
-        fits = fits && (corner == cage::kNone || check.vertices(corner));
+        fits = fits && (corner == cage::kNone || check.within(corner, 1, whole, "cage vertices"));
     }
     return fits;
 }

@@ -22,6 +22,8 @@ struct TableSource {
     uint32_t faces = 0;     ///< of the whole cage: PatchInfo::face is below
     uint32_t parts = 0;     ///< of the character
     uint32_t materials = 0; ///< of the character
+    /// If the cage is a piece: of the whole cage, whose vertices PatchInfo::corners name.
+    uint32_t wholeVertices = 0;
 };
 
 /// Follows the tables as the kernels do. A check asks it about each index, and stops at the first fault.

@@ -18,7 +18,7 @@ public:
         : byNumber_(!mesh.cageNumbers.empty() && mesh.numberSource == WeldSource::cageExtension),
           cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
         for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
-            // Of several vertices of one number any will do, but one without a face only where none has.
+            // Any vertex of a number will do, but one without a face only where none has a face.
             uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
             vertex = vertex == kNone ? cageVertices[v] : vertex;
         }

@@ -53,7 +53,7 @@ bool checkWeights(const SupplePartDesc& desc, uint32_t vertexCount, const cage::
     return jointCount > 0 && checkInfluences(desc.influences, vertexCount, jointCount, faults);
 }
 
-/// Of the vertices that are left.
+/// The weights of the vertices that are left.
 void takeWeights(const SupplePartDesc& desc, const cage::MeshBinding& binding, const PartContext& context,
                  cage::PartCage& part) {
     cage::VertexWeights weights;

@@ -1,5 +1,5 @@
-// Values as bytes: numbers, text, lists, and structs whose members fields() names in an order (cooked/fields.h). The
-// same fields() writes and reads, so that the two cannot differ.
+// Values as bytes: numbers, text, lists, and structs whose members fields() names in an order (character_fields.h,
+// table_fields.h). The same fields() writes and reads, so that the two cannot differ.
 #pragma once
 
 #include "base/result.h"

@@ -6,7 +6,6 @@
 #include "surface/table_check.h"
 
 #include <algorithm>
-#include <bit>
 #include <set>
 
 #define XXH_INLINE_ALL
@@ -109,9 +108,12 @@ void readTables(Reader& reader, Prepared& prepared) {
             return;
         }
         const cage::Character& character = prepared.character;
-        const surface::TableSource source{own->recipe, prepared.cageOf(own->piece.get()).vertexCount(),
-                                          character.cage.faceCount(), static_cast<uint32_t>(character.parts.size()),
-                                          static_cast<uint32_t>(character.materials.size())};
+        const surface::TableSource source{own->recipe,
+                                          prepared.cageOf(own->piece.get()).vertexCount(),
+                                          character.cage.faceCount(),
+                                          static_cast<uint32_t>(character.parts.size()),
+                                          static_cast<uint32_t>(character.materials.size()),
+                                          character.cage.vertexCount()};
         if (const Status sound = surface::checkTables(own->tables, source); !sound) {
             reader.refuse(sound.error().message);
         }

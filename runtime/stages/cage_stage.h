@@ -44,7 +44,7 @@ struct CageFrame {
     double seconds = 0.0;
     const InstanceWindows& windows; ///< which instances are listed
     /// Slots of listed instances that have no past here, rising: created, teleported or shown again. A new capacity or
-    /// a reloaded asset makes no instance new.
+    /// a reloaded asset makes no instance new. Empty if no stage of the group keeps instances.
     std::span<const uint32_t> newSlots;
     uint32_t surface = SUPPLE_NO_SURFACE; ///< which to work on (CageStageRow::perSurface)
 };
@@ -59,6 +59,8 @@ public:
     [[nodiscard]] virtual BoundBytes boundBytes() const { return {}; }
     /// It cannot change cages in place: it reads other vertices than the one that it writes.
     [[nodiscard]] virtual bool writesApart() const { return false; }
+    /// It keeps something of instances from frame to frame. Others are not told who is new (CageFrame::newSlots).
+    [[nodiscard]] virtual bool keepsInstances() const { return false; }
     virtual void plan(gpu::BufferPlan& /*device*/, gpu::BufferPlan& /*staging*/) {}
     [[nodiscard]] virtual Status createSets(const CageBuffers& buffers) = 0;
     /// Takes over what the same stage of another group keeps of the instances in the first `count` slots: they go on

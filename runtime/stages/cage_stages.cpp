@@ -51,7 +51,9 @@ Status CageStages::create(CageStageTable& table, gpu::Pipelines& pipelines, cons
     }
     stride_ = desc.instances->cageStride();
     cageBytes_ = VkDeviceSize{desc.instances->capacity()} * stride_ * gpu::kVec4Bytes;
-    pasts_.resize(desc.instances->capacity());
+    bool keeps = false;
+    forEach([&](const CageStage& stage) { keeps = keeps || stage.keepsInstances(); });
+    pasts_.resize(keeps ? desc.instances->capacity() : 0);
     newSlots_.reserve(pasts_.size());
     return success();
 }
@@ -90,7 +92,7 @@ Status CageStages::createSets(const gpu::PlannedBuffer& cages, const InstanceLis
 }
 
 void CageStages::takeOver(CageStages& other, uint32_t count, const AssetMatch& match) {
-    std::copy_n(other.pasts_.begin(), count, pasts_.begin());
+    std::copy_n(other.pasts_.begin(), std::min({size_t{count}, other.pasts_.size(), pasts_.size()}), pasts_.begin());
     time_ = other.time_;
     timed_ = other.timed_;
     for (size_t row = 0; row < stages_.size(); ++row) {

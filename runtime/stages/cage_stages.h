@@ -65,6 +65,7 @@ private:
     uint32_t stride_ = 0;
     gpu::PlannedBuffer cages_, between_; ///< `between_` if some stage writes apart
     const InstanceWindows* windows_ = nullptr;
+    // Empty if no stage keeps instances: then nobody looks through the slots.
     std::vector<uint32_t> pasts_;    ///< by slot: InstanceSlots::birth of what was listed last; 0: nothing
     std::vector<uint32_t> newSlots_; ///< room for all
     uint64_t frame_ = 0;

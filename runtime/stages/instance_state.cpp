@@ -54,7 +54,7 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
             written += movedCount_ * bytes_;
         }
         written += zero(movedCount_, capacity_ - movedCount_);
-        // Of those that have moved, some may be new since then.
+        // Some of those that have moved may be new since then.
         slots = slots.first(static_cast<size_t>(std::ranges::lower_bound(slots, movedCount_) - slots.begin()));
         if (!slots.empty()) {
             gpu::memoryBarrier(*device_, frame.commands,

@@ -7,7 +7,7 @@
 
 namespace supple::surface::exact {
 
-/// Of plain vertices of a mesh: closed ones, and those on creases. `inPool`: the mesh is not the cage.
+/// The kernel for plain vertices of a mesh: closed ones, or those on creases. `inPool`: the mesh is not the cage.
 [[nodiscard]] constexpr KindOfKernel plainVertexKernel(bool closed, bool inPool) {
     constexpr KindOfKernel kKernels[] = {
         {Kernel::exactVertex, shared::kRegularFan},

@@ -79,6 +79,7 @@ public:
         gpu::writeSet(*desc_.device, kernels_->layout, set_, resources);
         return status;
     }
+    [[nodiscard]] bool keepsInstances() const override { return true; }
     void takeOver(CageStage& other, uint32_t count, const runtime::AssetMatch&) override {
         state_.takeOver(static_cast<LowPass&>(other).state_, count);
     }

@@ -40,6 +40,18 @@ std::shared_ptr<Prepared> prepareAll(const std::string& path) {
             }
         }
     }
+    // Parts by different schemes: tables of pieces.
+    std::vector<SuppleScheme> schemes(prepared->character.parts.size(), SUPPLE_SCHEME_PM);
+    for (size_t part = 0; part < schemes.size(); part += 2) {
+        schemes[part] = SUPPLE_SCHEME_POLYGONS;
+    }
+    SuppleGroupDesc mixed{};
+    mixed.structSize = sizeof(mixed);
+    mixed.flags = SUPPLE_GROUP_ATTRIBUTES;
+    mixed.partSchemes = schemes.data();
+    mixed.partSchemeCount = static_cast<uint32_t>(schemes.size());
+    EXPECT_TRUE(prepareFor(*prepared, {mixed, std::nullopt}, false).ok()) << path;
+    EXPECT_EQ(prepared->pieces.size(), schemes.size() > 1 ? 2u : 0u);
     EXPECT_FALSE(prepared->tables.empty());
     return prepared;
 }
@@ -119,7 +131,8 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     }
 }
 
-/// Words of a file, one after the other: it is read or refused, and what is read can be used.
+/// Words of a file, at random: it is read, or refused with a message that names it. tests/fuzz/cooked.cpp uses what is
+/// read.
 TEST(Cooked, AnyWordMayBeAnything) {
     const std::shared_ptr<Prepared> prepared = prepareAll(test::kPip);
     const std::vector<std::byte> file = writeCooked(*prepared, "");

@@ -64,9 +64,6 @@ public:
                 }
             }
         }
-        for (size_t i = 0; i < groups_.size(); ++i) {
-            planned_[i].desc = &groups_[i]->desc;
-        }
         return success();
     }
     [[nodiscard]] const std::vector<SupplePlannedGroup>& groups() const { return planned_; }
@@ -90,12 +87,13 @@ private:
             group->desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS;
             group->desc.flags |= use == "meshes" ? SUPPLE_GROUP_INDEXED_MESH : 0;
         }
-        planned_.push_back({nullptr, inView ? 1u : 0u, inView ? SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS : 0u});
+        planned_.push_back(
+            {&group->desc, inView ? 1u : 0u, inView ? SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS : 0u});
         groups_.push_back(std::move(group));
         return success();
     }
 
-    std::vector<std::unique_ptr<Group>> groups_;
+    std::vector<std::unique_ptr<Group>> groups_; ///< what planned_ points to
     std::vector<SupplePlannedGroup> planned_;
 };
 

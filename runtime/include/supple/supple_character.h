@@ -147,7 +147,7 @@ typedef struct SupplePartDesc {
     uint32_t primitiveCount;                  /**< instead of cage */
     const SuppleMorphTargetDesc* targets;
     const SupplePrimitiveDesc* primitives;
-    /** Of primitives: 1: vertices that have one face round the boundary off. */
+    /** If the part is primitives: 1 lets vertices that have one face round the boundary off. */
     uint32_t roundCorners;
     /** What SUPPLE_UV_FROM_FILE means for it. That value itself: nothing is said. */
     SuppleUvInterpolation uvInterpolation;

@@ -412,7 +412,7 @@ void expectInside(const ExactTables& made, uint32_t tries) {
             tables.words[at] = likely(tables.words, at, random);
         }
         const bool fits = made.check(tables).ok();
-        // Of those that are refused some, so that it is known that the trace finds something.
+        // Some that are refused are traced as well, so that it is known that the trace finds something.
         const std::string fault = fits || n % 8 == 0 ? traced(made, tables) : "";
         passed += fits ? 1 : 0;
         beyond += fault.empty() ? 0 : 1;
