@@ -1,6 +1,6 @@
 #include "surface/borders.h"
 
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/surface.h"
 
@@ -67,7 +67,7 @@ uint32_t netPoint(const Tables& tables, uint32_t first, const uint32_t* window, 
 } // namespace
 
 uint32_t quadNetPoint(const Tables& tables, const uint32_t* record, uint32_t k) {
-    const uint32_t* window = record + size_t{4} * shared::kExactNetElement;
+    const uint32_t* window = record + size_t{4} * shared::kQuadNetElement;
     return netPoint(tables, window[shared::kWindowLastWord] >> shared::kNetFirstShift, window, k);
 }
 
@@ -77,7 +77,7 @@ uint32_t triangleNetPoint(const Tables& tables, const uint32_t* record, uint32_t
 }
 
 uint32_t quadNormal(const uint32_t* record, uint32_t corner) {
-    const uint32_t before = half(record + size_t{4} * shared::kExactNetElement, shared::kWindowNormals + corner);
+    const uint32_t before = half(record + size_t{4} * shared::kQuadNetElement, shared::kWindowNormals + corner);
     return before == 0 ? shared::kNoNormal : record[4 + corner] - before;
 }
 

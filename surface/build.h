@@ -24,21 +24,21 @@ namespace pm {
 void check(TableCheck& check);
 } // namespace pm
 
-namespace subdivision {
+namespace fragments {
 /// Fragments of Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its
 /// fragment: "vertex 7 has 260 faces: ...".
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
-} // namespace subdivision
+} // namespace fragments
 
-namespace exact {
+namespace catmull_clark {
 /// Catmull-Clark by patches of one quad each. Refuses a vertex with more faces than 16 bits number the points of its
 /// chain: "vertex 7 has 6000 faces: ..". O(corners + classes of vertices).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 void check(TableCheck& check);
-} // namespace exact
+} // namespace catmull_clark
 
 namespace loop {
-/// Loop by patches of one triangle each. Refuses semi-sharp creases, and what exact::build() does.
+/// Loop by patches of one triangle each. Refuses semi-sharp creases, and what catmull_clark::build() does.
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 void check(TableCheck& check);
 } // namespace loop

@@ -1,6 +1,6 @@
 #include "surface/construction_names.h"
 
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/polygons.h"
 #include "shaders/shared/subdivision.h"
@@ -31,20 +31,20 @@ constexpr Row kRows[] = {
     {{Kernel::pmFacet, shared::kP3Patch}, "supple P_m facet, triangle"},
     {{Kernel::pmFacet, shared::kP4Patch}, "supple P_m facet, quad"},
     {{Kernel::pmFacet, shared::kP5Patch}, "supple P_m facet, pentagon"},
-    {{Kernel::exactVertex, shared::kRegularFan}, "supple exact vertex, regular"},
-    {{Kernel::exactVertex, shared::kFewFan}, "supple exact vertex, creased"},
-    {{Kernel::exactVertexMeshInPool, shared::kRegularFan}, "supple exact vertex of a step, regular"},
-    {{Kernel::exactVertexMeshInPool, shared::kFewFan}, "supple exact vertex of a step, creased"},
-    {{Kernel::exactChain, shared::kMakesLimits}, "supple exact limits"},
-    {{Kernel::exactChain, shared::kMakesFirstLevel}, "supple exact chains, first level"},
-    {{Kernel::exactChain, shared::kMakesLevel}, "supple exact chains, level"},
-    {{Kernel::exactChain, shared::kMakesChains}, "supple exact chains"},
-    {{Kernel::exactChainLevels, shared::kMakesLevel}, "supple exact chains, level where it is asked for"},
-    {{Kernel::exactChainTriangles, shared::kMakesLimits}, "supple Loop limits"},
-    {{Kernel::exactChainTriangles, shared::kMakesFirstLevel}, "supple Loop chains, first level"},
-    {{Kernel::exactChainTriangles, shared::kMakesLevel}, "supple Loop chains, level"},
-    {{Kernel::exactChainTriangles, shared::kMakesChains}, "supple Loop chains"},
-    {{Kernel::exactChainLevelsTriangles, shared::kMakesLevel}, "supple Loop chains, level where it is asked for"},
+    {{Kernel::chainsVertex, shared::kRegularFan}, "supple exact vertex, regular"},
+    {{Kernel::chainsVertex, shared::kFewFan}, "supple exact vertex, creased"},
+    {{Kernel::chainsVertexMeshInPool, shared::kRegularFan}, "supple exact vertex of a step, regular"},
+    {{Kernel::chainsVertexMeshInPool, shared::kFewFan}, "supple exact vertex of a step, creased"},
+    {{Kernel::chainsChain, shared::kMakesLimits}, "supple exact limits"},
+    {{Kernel::chainsChain, shared::kMakesFirstLevel}, "supple exact chains, first level"},
+    {{Kernel::chainsChain, shared::kMakesLevel}, "supple exact chains, level"},
+    {{Kernel::chainsChain, shared::kMakesChains}, "supple exact chains"},
+    {{Kernel::chainsChainLevels, shared::kMakesLevel}, "supple exact chains, level where it is asked for"},
+    {{Kernel::chainsChainTriangles, shared::kMakesLimits}, "supple Loop limits"},
+    {{Kernel::chainsChainTriangles, shared::kMakesFirstLevel}, "supple Loop chains, first level"},
+    {{Kernel::chainsChainTriangles, shared::kMakesLevel}, "supple Loop chains, level"},
+    {{Kernel::chainsChainTriangles, shared::kMakesChains}, "supple Loop chains"},
+    {{Kernel::chainsChainLevelsTriangles, shared::kMakesLevel}, "supple Loop chains, level where it is asked for"},
     {{Kernel::subdivisionIsolate, shared::kHalfWords}, "supple subdivision, isolate"},
     {{Kernel::subdivisionIsolate, shared::kWholeWords}, "supple subdivision, isolate a large cage"},
     {{Kernel::subdivisionIsolateMeshInPool, shared::kHalfWords}, "supple subdivision, isolate once more"},

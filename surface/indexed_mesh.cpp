@@ -1,6 +1,6 @@
 #include "surface/indexed_mesh.h"
 
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
@@ -306,14 +306,14 @@ private:
             const uint32_t normal = quadNormal(record, i);
             return normal == kNoNormal ? point : normal;
         };
-        const uint32_t flags = record[4 * kExactNetElement + kWindowLastWord];
+        const uint32_t flags = record[4 * kQuadNetElement + kWindowLastWord];
         for (uint32_t i = 0; i < 4; ++i) {
             BorderCurve& curve = curves[i];
             curve[0] = corner(i, curve[0]);
             curve[3] = corner((i + 1) % 4, curve[3]);
             if ((flags >> (kCubicSide + i) & 1u) == 0) {
-                const bool endless = std::bit_cast<float>(record[4 * kExactSharpnessElement + i]) >= kInfiniteSharpness;
-                curve[1] = curve[2] = quadNetPoint(tables, record, endless ? kNetMiddle : SUPPLE_EXACT_SIDE_MIDDLE(i));
+                const bool endless = std::bit_cast<float>(record[4 * kQuadSharpnessElement + i]) >= kInfiniteSharpness;
+                curve[1] = curve[2] = quadNetPoint(tables, record, endless ? kNetMiddle : SUPPLE_QUAD_SIDE_MIDDLE(i));
             }
         }
     }

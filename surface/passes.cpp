@@ -1,11 +1,11 @@
 #include "surface/passes.h"
 
 #include "shaders/shared/subdivision.h"
+#include "surface/fragments/steps.h"
 #include "surface/indexed_mesh.h"
 #include "surface/lod/steps.h"
 #include "surface/polygons/steps.h"
 #include "surface/steps.h"
-#include "surface/subdivision/steps.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -147,7 +147,7 @@ Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const 
         addRangesAtLevels(builder);
     } else {
         addRanges(builder);
-        subdivision::addSteps(builder);
+        fragments::addSteps(builder);
         polygons::addSteps(builder);
     }
     if (const Status made = builder.makePipelines(); !made) {

@@ -1,7 +1,7 @@
 // The classes of patches: a table with one row per class.
 #pragma once
 
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
 #include "shaders/shared/surface.h"
@@ -101,16 +101,16 @@ inline constexpr PatchClassRow kPatchClasses[] = {
     {"blend-sharp", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
      lod::Form::quad, Borders::charts},
     {"triangle", Domain::triangle},
-    {"irregular", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate, Kernel::exactEvaluateLevels,
-     Kernel::count, lod::Form::quad, Borders::halves},
-    {"irregular-sharp", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate,
-     Kernel::exactEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
-    {"creased", Domain::quad, 0, shared::kExactRecordElements, Kernel::exactEvaluate, Kernel::exactEvaluateLevels,
-     Kernel::count, lod::Form::quad, Borders::halves},
-    {"loop-regular", Domain::triangle, 0, shared::kTriangleElements, Kernel::exactTriangles,
-     Kernel::exactTrianglesLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
-    {"loop-irregular", Domain::triangle, 0, shared::kIrregularTriangleElements, Kernel::exactTriangles,
-     Kernel::exactTrianglesLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
+    {"irregular", Domain::quad, 0, shared::kQuadRecordElements, Kernel::catmullClarkEvaluate,
+     Kernel::catmullClarkEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
+    {"irregular-sharp", Domain::quad, 0, shared::kQuadRecordElements, Kernel::catmullClarkEvaluate,
+     Kernel::catmullClarkEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
+    {"creased", Domain::quad, 0, shared::kQuadRecordElements, Kernel::catmullClarkEvaluate,
+     Kernel::catmullClarkEvaluateLevels, Kernel::count, lod::Form::quad, Borders::halves},
+    {"loop-regular", Domain::triangle, 0, shared::kTriangleElements, Kernel::loopEvaluate, Kernel::loopEvaluateLevels,
+     Kernel::count, lod::Form::triangleRings, Borders::splines},
+    {"loop-irregular", Domain::triangle, 0, shared::kIrregularTriangleElements, Kernel::loopEvaluate,
+     Kernel::loopEvaluateLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

@@ -107,7 +107,7 @@ struct LodTables {
         uint32_t patchCount = 0;
     };
     std::vector<Run> runs; ///< patches of the same class and material, in device order
-    /// Where patches have chains (surface/exact/chain_tables.h): what of an instance's pool tells their last level; 0:
+    /// Where patches have chains (surface/chains/chain_tables.h): what of an instance's pool tells their last level; 0:
     /// there are none. And the element of the lanes that make each depth (shared::kDepths).
     uint32_t depth = 0, depthLanes = 0;
 };

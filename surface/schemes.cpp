@@ -24,14 +24,14 @@ constexpr Scheme kSchemes[] = {
      &prep::check},
     {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
-    {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
+    {SchemeId::fragments, "fragments", &fragments::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
      [](const cage::Cage&) { return 0.001f; }},
     {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
-    {SchemeId::catmullClark, "Catmull-Clark", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes,
-     true, [](const cage::Cage&) { return 0.001f; }, &exact::check, true},
+    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true,
+     kAllUvModes, true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
@@ -40,7 +40,7 @@ constexpr Scheme kSchemes[] = {
 /// No host names it: see drawerOf().
 constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    "Loop in fragments",
-                                   &subdivision::build,
+                                   &fragments::build,
                                    RateRule::doubling,
                                    "2, 4, 8..",
                                    false,

@@ -1,6 +1,6 @@
 #include "surface/smooth_uvs.h"
 
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/shared/prep.h"
 
 namespace supple::surface {
@@ -84,7 +84,7 @@ uint32_t uvElements(const Tables& tables, PatchClass patchClass) {
     }
     return domainOf(patchClass) == Domain::triangle
                ? shared::kIrregularTriangleElements - shared::kTriangleCornerElement
-               : shared::kExactRecordElements;
+               : shared::kQuadRecordElements;
 }
 
 std::vector<const std::vector<glm::vec2>*> uvSetsOf(const cage::Cage& cage) {

@@ -174,13 +174,12 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
 }
 
 void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
-    constexpr std::pair<Kernel, const char*> kKinds[] = {
-        {Kernel::evaluateEdge, "supple evaluate edges"},
-        {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
-        {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
-        {Kernel::exactEdge, "supple evaluate edges, irregular"},
-        {Kernel::exactTriangleEdge, "supple evaluate edges, Loop"},
-        {Kernel::exactTriangleEdge, "supple evaluate edges, irregular Loop"}};
+    constexpr std::pair<Kernel, const char*> kKinds[] = {{Kernel::evaluateEdge, "supple evaluate edges"},
+                                                         {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
+                                                         {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
+                                                         {Kernel::catmullClarkEdge, "supple evaluate edges, irregular"},
+                                                         {Kernel::loopEdge, "supple evaluate edges, Loop"},
+                                                         {Kernel::loopEdge, "supple evaluate edges, irregular Loop"}};
     static_assert(std::size(kKinds) == kEdgeKinds);
     const uint32_t rate = ownRatePays(builder) ? builder.needs.rate : 0;
     for (const MeshTables::Edges& edges : builder.tables.mesh.edges) {

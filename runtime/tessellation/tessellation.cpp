@@ -241,7 +241,7 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
     bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
     if (which.previous && view() != nullptr) {
         // Today's coefficients in the place of the cage, which no evaluation reads (shaders/evaluate/bicubic.comp,
-        // shaders/subdivision/net.glsl).
+        // shaders/fragments/net.glsl).
         bind(kCageBinding, kCageTexelBinding, pools_[1 - which.pool], poolStride, "supple pool");
     } else {
         bind(kCageBinding, kCageTexelBinding, cages_, evaluation_.cageStride, "supple deformed cage");

@@ -187,7 +187,7 @@ SmoothPlace placeAtRate(uint index) { return SmoothPlace(index); }
 #endif
 
 #ifdef QUADS
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
 layout(constant_id = kKindConstant) const uint kDomain = kQuadDomain;
 
@@ -196,9 +196,9 @@ struct PatchPlace {
     uint record;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
-#include "shaders/exact/sample.glsl"
+#include "shaders/catmull_clark/sample.glsl"
 
-const uint kSmoothElements = kExactRecordElements;
+const uint kSmoothElements = kQuadRecordElements;
 struct SmoothPatch {
     uint record;
 };
@@ -227,7 +227,7 @@ SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
 #endif
 
 #ifdef TRIANGLES
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
 layout(constant_id = kKindConstant) const uint kDomain = kTriangleDomain;
 
@@ -235,7 +235,7 @@ struct PatchPlace {
     uint record;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
-#include "shaders/exact/triangle_place.glsl"
+#include "shaders/loop/place.glsl"
 
 // Records begin with the corners: no side is whole, so that none asks for the vertices round the triangle.
 const uint kSmoothElements = kIrregularTriangleElements - kTriangleCornerElement;

@@ -1,5 +1,5 @@
 // How far the chains of exact patches go in each instance of a window: as far as its finest patch has samples. Instances are listed by
-// depth, for what makes it (exact/chain.comp). One workgroup, of which every lane takes a run of entries, so that lists are the same
+// depth, for what makes it (chains/chain.comp). One workgroup, of which every lane takes a run of entries, so that lists are the same
 // every time. Behind the solver.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,7 +7,7 @@
 #define POOL_WRITE_ONLY
 #define PUSH_CONSTANTS LodPush
 #include "shaders/shared/lod.h"
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/lod/lod.glsl"
@@ -17,7 +17,7 @@ const uint kMostGroups = 65535u; // in x: every device takes so many
 
 shared uvec4 countsOf[kMaxLanes];
 
-// A segment is 1 / level long, or more; but one that grows from nothing lies in the cone of the last cell (exact/chain_level.glsl).
+// A segment is 1 / level long, or more; but one that grows from nothing lies in the cone of the last cell (chains/chain_level.glsl).
 uint depthOf(uint i, uint entry) {
     uint instance = slotOf(entry);
     float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + push.depths));

@@ -71,7 +71,7 @@ EdgeCurve curveOf(uint base, uint edge) {
 }
 #elif defined(HALVES)
 // The border is two halves of an irregular quad (docs/catmull_clark.md, "Borders").
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
 #include "shaders/evaluate/basis.glsl"
 const bool kTangents = false, kSharp = true;
@@ -81,7 +81,7 @@ struct PatchPlace {
     uint record, base;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
-#include "shaders/exact/sample.glsl"
+#include "shaders/catmull_clark/sample.glsl"
 
 EdgeCurve curveOf(uint base, uint edge) {
     uvec4 words = tableElement(push.table + edge);
@@ -100,7 +100,7 @@ EdgeCurve curveOf(uint base, uint edge) {
 #elif defined(TRIANGLES)
 // The border is that of a Loop patch (docs/loop.md): one curve, or two halves.
 layout(constant_id = kKindConstant) const uint kMeasures = kMeasuresWholeSides;
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
 const bool kTangents = false;
 #include "shaders/evaluate/frame.glsl"
@@ -109,7 +109,7 @@ struct PatchPlace {
     uint record, base;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
-#include "shaders/exact/triangle_sample.glsl"
+#include "shaders/loop/sample.glsl"
 
 EdgeCurve curveOf(uint base, uint edge) {
     uvec4 words = tableElement(push.table + edge);

@@ -26,18 +26,18 @@ const bool kCubics = true;
 #endif
 const bool kNets = kCubics && kMeasures == kMeasuresNets;
 #ifdef HALVES // of exact Catmull-Clark
-#include "shaders/shared/exact.h"
-#include "shaders/exact/leaf.glsl"
+#include "shaders/shared/chains.h"
+#include "shaders/chains/leaf.glsl"
 #endif
 #ifdef TRIANGLES // of Loop
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 const bool kTangents = false;
 #include "shaders/evaluate/frame.glsl"
 struct PatchPlace {
     uint record, base;
 };
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
-#include "shaders/exact/triangle_sample.glsl"
+#include "shaders/loop/sample.glsl"
 const bool kIrregularTriangles = kMeasures == kMeasuresIrregularTriangles;
 #endif
 #ifdef BACK_FACES
@@ -144,10 +144,10 @@ vec2 chartLevels(uint record, uint base) {
 // points. The middles come from the points of level 1, where a sharp side counts alone.
 vec2 irregularLevels(uint record, uint base) {
     uvec4 corners = tableElement(record);
-    vec4 sharpness = uintBitsToFloat(tableElement(record + kExactSharpnessElement));
+    vec4 sharpness = uintBitsToFloat(tableElement(record + kQuadSharpnessElement));
     vec3 net[kNetPoints], x[9]; // x: row by row in v
     uvec4 window[kWindowElements];
-    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) window[e] = tableElement(record + kExactNetElement + e);
+    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) window[e] = tableElement(record + kQuadNetElement + e);
     uint first = base + (window[kWindowElements - 1u].w >> kNetFirstShift);
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
         net[k] = poolVector(first + halfOf(window[k / 8u][k / 2u % 4u], k));
@@ -155,7 +155,7 @@ vec2 irregularLevels(uint record, uint base) {
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         x[kPlaces[k]] = poolVector(base + corners[k]);
-        uint middle = SUPPLE_EXACT_SIDE_MIDDLE(k), along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
+        uint middle = SUPPLE_QUAD_SIDE_MIDDLE(k), along = (k & 1u) == 0u ? 1u : kNetSide, across = kNetSide + 1u - along;
         float share = besideLine(sharpness[k]);
         vec3 line[3];
         [[unroll]] for (uint n = 0u; n < 3u; ++n) {

@@ -1,5 +1,5 @@
 // A quartic box spline as three sectors of degree 4, as P_m's triangles have them (docs/loop.md, "On the device"): its samples lie in
-// the same rings round its centre. Before the include: shaders/exact/box_spline.glsl and shaders/pm/sector.glsl.
+// the same rings round its centre. Before the include: shaders/loop/box_spline.glsl and shaders/pm/sector.glsl.
 
 // Bezier coefficients of a leaf, relative to corner 0: that of x^j y^k at 5 k + j, with x and y the weights of corners 1 and 2.
 struct TriangleNet {

@@ -1,7 +1,7 @@
 #include "surface/lod/tables.h"
 
 #include "shaders/shared/blend.h"
-#include "shaders/shared/exact.h"
+#include "shaders/shared/chains.h"
 #include "surface/borders.h"
 #include "surface/table_writer.h"
 
@@ -43,7 +43,7 @@ Border chartBorder(const Words& words, const uint32_t* corner, const uint32_t* n
 
 /// A side of an irregular quad that has two halves. No other edge has the point of level 1 in its middle.
 Border halvesBorder(const Tables& tables, const uint32_t* record, uint32_t element, uint32_t side) {
-    const uint32_t middle = quadNetPoint(tables, record, SUPPLE_EXACT_SIDE_MIDDLE(side));
+    const uint32_t middle = quadNetPoint(tables, record, SUPPLE_QUAD_SIDE_MIDDLE(side));
     return {Borders::halves, {middle}, {element, side, 0, 0}};
 }
 
@@ -76,7 +76,7 @@ std::vector<Border> borders(const Tables& tables, uint32_t element, PatchClass p
             borderOf(Borders::cubics, std::min(Words{c[0], c[1], c[2], c[3]}, Words{c[3], c[2], c[1], c[0]})));
     }
     const bool halves = rowOf(patchClass).borders == Borders::halves;
-    const uint32_t flags = halves ? record[4 * shared::kExactNetElement + shared::kWindowLastWord] : ~0u;
+    const uint32_t flags = halves ? record[4 * shared::kQuadNetElement + shared::kWindowLastWord] : ~0u;
     for (uint32_t side = 0; side < all.size(); ++side) {
         if ((flags >> (shared::kCubicSide + side) & 1u) == 0) {
             all[side] = halvesBorder(tables, record, element, side);

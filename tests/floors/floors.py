@@ -20,13 +20,15 @@ FLOORS = [line.split() for line in """
     shaders/lod/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
-    shaders/exact/
+    shaders/chains/ shaders/fragments/
+    shaders/catmull_clark/ shaders/loop/
     gpu/ cage/
     cage/gltf/ cage/obj/
     cage/formats/
     skinning/ surface/
     surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/ surface/polygons/
-    surface/exact/
+    surface/chains/ surface/fragments/
+    surface/catmull_clark/ surface/loop/
     surface/passes.
     surface/schemes.
     runtime/include/
@@ -63,20 +65,20 @@ FOREIGN = {
 EXCEPTIONS = {
     ("shaders/lod/edge.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
     ("shaders/lod/patch.comp", "shaders/blend/blend.glsl"): "levels of charts are measured on their own polynomials",
-    ("shaders/lod/edge.comp", "shaders/exact/sample.glsl"): "levels of halves are measured on their own leaves",
-    ("shaders/lod/edge.comp", "shaders/exact/triangle_sample.glsl"): "levels of halves are measured on their own leaves",
-    ("shaders/lod/patch.comp", "shaders/exact/triangle_sample.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/edge.comp", "shaders/catmull_clark/sample.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/edge.comp", "shaders/loop/sample.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/patch.comp", "shaders/loop/sample.glsl"): "levels of halves are measured on their own leaves",
     ("shaders/lod/patch.comp", "shaders/evaluate/frame.glsl"): "levels of halves are measured on their own leaves",
     ("shaders/lod/edge.comp", "shaders/evaluate/basis.glsl"): "levels of halves are measured on their own leaves",
     ("shaders/lod/edge.comp", "shaders/evaluate/frame.glsl"): "levels of halves are measured on their own leaves",
-    ("shaders/lod/patch.comp", "shaders/exact/leaf.glsl"): "levels of halves are measured on their own leaves",
+    ("shaders/lod/patch.comp", "shaders/chains/leaf.glsl"): "levels of halves are measured on their own leaves",
     ("shaders/lod/patch.comp", "shaders/pm/load.glsl"): "levels of sectors are measured on their own polynomials",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/pm.glsl"): "smooth UVs are patches of the surface's own classes",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/sector.glsl"): "smooth UVs are patches of the surface's own classes",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/pm/point.glsl"): "smooth UVs are patches of the surface's own classes",
     ("shaders/evaluate/smooth_uvs.glsl", "shaders/blend/sample.glsl"): "smooth UVs are charts of the surface's own kind",
-    ("shaders/evaluate/smooth_uvs.glsl", "shaders/exact/sample.glsl"): "smooth UVs are quads of leaves, as irregular ones",
-    ("shaders/evaluate/smooth_uvs.glsl", "shaders/exact/triangle_place.glsl"): "smooth UVs are triangles of leaves, too",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/catmull_clark/sample.glsl"): "smooth UVs are quads of leaves, as irregular ones",
+    ("shaders/evaluate/smooth_uvs.glsl", "shaders/loop/place.glsl"): "smooth UVs are triangles of leaves, too",
     ("shaders/evaluate/edge.comp", "shaders/pm/border.glsl"): "an edge of shared samples may border a sector",
 }
 

@@ -10,7 +10,7 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/exact.h"
+#include "tools/reference/catmull_clark.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@
 namespace supple::test {
 namespace {
 
-using surface::exact::LimitSurface;
+using surface::catmull_clark::LimitSurface;
 
 GpuOptions exactOptions(SuppleMapping mapping, uint32_t rate) {
     GpuOptions options;
@@ -131,7 +131,7 @@ TEST_P(ExactOnGpu, PointsOfLargeCagesComeAgain) {
     const cage::Cage cage = largePoleOfQuads();
     surface::Recipe recipe;
     recipe.rate = 2;
-    Result<surface::Tables> tables = surface::exact::build(recipe, cage);
+    Result<surface::Tables> tables = surface::catmull_clark::build(recipe, cage);
     ASSERT_TRUE(tables);
     const ExactQuads quads(cage);
     expectCopies(std::move(*tables), cage.faceCount(), quads.isolation.parent.topology.edges.size());
@@ -164,7 +164,7 @@ TEST_P(ExactOnGpu, RowsOfLargeMeshesHaveWholeWords) {
     cage.faceStarts.push_back(corner + 6);
     surface::Recipe recipe;
     recipe.rate = 2;
-    const Result<surface::Tables> tables = surface::exact::build(recipe, cage);
+    const Result<surface::Tables> tables = surface::catmull_clark::build(recipe, cage);
     ASSERT_TRUE(tables);
     const auto wholeWords = [](const surface::Construction& c) {
         return c.kernel.kernel == surface::Kernel::subdivisionIsolateMeshInPool && c.kernel.kind == shared::kWholeWords;

@@ -7,7 +7,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/cage_arrays.h"
-#include "tools/reference/exact.h"
+#include "tools/reference/catmull_clark.h"
 
 #include <cstdio>
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace supple::test {
 namespace {
 
-using surface::exact::LimitSurface;
+using surface::catmull_clark::LimitSurface;
 
 /// A pair as one parameter, without what 1 - t has lost.
 double exact(glm::vec2 pair) {

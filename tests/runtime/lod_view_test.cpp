@@ -11,7 +11,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
 #include "tools/common/procedural.h"
-#include "tools/reference/exact.h"
+#include "tools/reference/catmull_clark.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -182,7 +182,7 @@ private:
     std::optional<PmSurface<double>> pm_;
     std::vector<uint32_t> pmFacets_; ///< by patch
     std::optional<ExactQuads> quads_;
-    std::optional<surface::exact::LimitSurface> exact_;
+    std::optional<surface::catmull_clark::LimitSurface> exact_;
     std::vector<uint32_t> exactFaces_; ///< by patch
     surface::blend::Mesh blendMesh_;
     std::vector<uint32_t> blendFaces_; ///< by patch

@@ -33,17 +33,17 @@ constexpr Checked kShaders[] = {
     {"pm/evaluate.comp", "position"},
     {"deform/deform.comp", "p"},
     {"subdivision/isolate.comp", "canonical"},
-    {"subdivision/refine.comp", "p"},
-    {"exact/vertex.comp", "canonical"},
-    {"exact/chain.comp", "canonical"},
-    {"exact/evaluate.comp", "position"},
-    {"exact/edge.comp", "position", false},
-    {"exact/triangles.comp", "position", false}, // at levels the weights inside are no border's
-    {"exact/triangle_edge.comp", "position", false},
+    {"fragments/refine.comp", "p"},
+    {"chains/vertex.comp", "canonical"},
+    {"chains/chain.comp", "canonical"},
+    {"catmull_clark/evaluate.comp", "position"},
+    {"catmull_clark/edge.comp", "position", false},
+    {"loop/evaluate.comp", "position", false}, // at levels the weights inside are no border's
+    {"loop/edge.comp", "position", false},
     {"blend/chart.comp", "canonical"},
     {"blend/evaluate.comp", "position"},
-    {"subdivision/limit.comp", "position"},
-    {"subdivision/fragment.comp", "position"},
+    {"fragments/limit.comp", "position"},
+    {"fragments/fragment.comp", "position"},
     {"pose/locals.comp", "local", true, true},
     {"pose/roots.comp", "local", true, true},
     {"pose/palette.comp", "placed", true, true},
@@ -86,7 +86,7 @@ TEST(Precise, IsNotLostWhereLoopsAreUnrolled) {
     EXPECT_GT(loops, 0u);
     // It sees one where there is one.
     const std::vector<uint32_t> unrolled =
-        compileEdited("exact/triangles.comp", "    do { // to before endJ - 1", "    [[unroll]] do { //", "");
+        compileEdited("loop/evaluate.comp", "    do { // to before endJ - 1", "    [[unroll]] do { //", "");
     EXPECT_GT(preciseInUnrolledLoops(unrolled, loops), 0u);
 }
 

@@ -2,10 +2,10 @@
 // on both sides of edges, at rates and at levels; the tangents that they give; what schemes cannot do.
 #include "cage/single_joint.h"
 #include "cage/uv_channel.h"
+#include "surface/fragments/smooth_uvs.h"
 #include "surface/pm/mesh.h"
 #include "surface/schemes.h"
 #include "surface/subdivision/mesh.h"
-#include "surface/subdivision/smooth_uvs.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/json_vectors.h"
@@ -360,7 +360,7 @@ TEST_F(SmoothUvs, OfSubdivisionAreTheLimits) {
                 std::vector<std::string> notes;
                 const auto begin = surface::subdivision::beginSteps(c.cage, c.subdivision, notes);
                 const uint32_t isolation = grids.tables.isolationSteps;
-                const auto limits = surface::subdivision::limitUvs(
+                const auto limits = surface::fragments::limitUvs(
                     *begin, begin->cage.cornerUvs, {c.subdivision, isolation, 3 - isolation, mode, true});
                 ASSERT_TRUE(limits);
                 double worst = 0.0;
@@ -379,7 +379,7 @@ TEST_F(SmoothUvs, OfSubdivisionAreTheLimits) {
 /// Rate 8 in the four quarters of triangles: a sample of a face, by how far it is from corner 0 along the two edges.
 class QuarterSamples {
 public:
-    explicit QuarterSamples(std::vector<surface::subdivision::UvSample> limits) : limits_(std::move(limits)) {
+    explicit QuarterSamples(std::vector<surface::fragments::UvSample> limits) : limits_(std::move(limits)) {
         constexpr int kHalf = kRate / 2;
         for (uint32_t index = 0; index < surface::sampleCount(surface::Domain::triangle, kHalf); ++index) {
             const surface::GridSample at = surface::gridSample(surface::Domain::triangle, kHalf, index);
@@ -398,7 +398,7 @@ public:
     static constexpr uint32_t kRate = 8;
 
 private:
-    std::vector<surface::subdivision::UvSample> limits_;
+    std::vector<surface::fragments::UvSample> limits_;
     std::map<std::array<int, 2>, std::array<uint32_t, 2>> found_;
 };
 
@@ -425,7 +425,7 @@ TEST_F(SmoothUvs, OfLoopPatchesAreTheLimits) {
                 ASSERT_TRUE(crowd.valid());
                 const Written written(crowd);
                 const Grids grids(crowd, SUPPLE_SCHEME_LOOP, cage, QuarterSamples::kRate);
-                const auto limits = surface::subdivision::limitUvs(*begin, begin->cage.cornerUvs,
+                const auto limits = surface::fragments::limitUvs(*begin, begin->cage.cornerUvs,
                                                                    {surface::Subdivision::loop, 1, 2, mode, true});
                 ASSERT_TRUE(limits);
                 const QuarterSamples expected(*limits);

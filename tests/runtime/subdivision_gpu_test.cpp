@@ -7,7 +7,7 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <cstdio>
 #include <cstring>

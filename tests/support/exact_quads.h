@@ -1,7 +1,7 @@
 // The quads that exact Catmull-Clark patches are made of, and what is known of their corners.
 #pragma once
 
-#include "surface/exact/corners.h"
+#include "surface/chains/corners.h"
 #include "surface/scheme.h"
 #include "surface/subdivision/mesh.h"
 #include "tests/support/chain_depth.h"
@@ -20,7 +20,7 @@ struct ExactQuads {
         return isolation.parent.cage.faceVertices[isolation.parent.cage.faceStarts[face] + corner];
     }
     [[nodiscard]] surface::PatchClass classOf(uint32_t face) const {
-        using surface::exact::VertexKind;
+        using surface::chains::VertexKind;
         const surface::RefinedMesh& mesh = isolation.parent;
         bool plain = true, chains = false, sharp = false;
         for (uint32_t i = 0; i < 4; ++i) {
@@ -62,7 +62,8 @@ struct ExactQuads {
         const glm::dvec2 from = outwards(uv);
         const double far = std::max(from.x, from.y);
         if (far == 0.0 || far >= nearest ||
-            corners.kind(vertex(face, (corner + corners.firstCorner(face)) % 4)) != surface::exact::VertexKind::chain) {
+            corners.kind(vertex(face, (corner + corners.firstCorner(face)) % 4)) !=
+                surface::chains::VertexKind::chain) {
             return {uv};
         }
         return {outwards(from * (nearest / far)), outwards({0.0, 0.0}), far / nearest};
@@ -71,7 +72,7 @@ struct ExactQuads {
     [[nodiscard]] uint32_t rateFor(uint32_t rate) const { return rate << (isolation.mesh.isolationSteps - 1); }
 
     surface::subdivision::Isolation isolation;
-    surface::exact::Corners corners;
+    surface::chains::Corners corners;
 
 private:
     static surface::subdivision::Isolation isolationOf(const cage::Cage& cage) {

@@ -1,5 +1,5 @@
 // Disks round a vertex of so many faces that the points of its net lie as far apart as there are points: some of them
-// come again (surface/exact/needed_rows.h).
+// come again (surface/chains/needed_rows.h).
 #pragma once
 
 #include "surface/indexed_mesh.h"

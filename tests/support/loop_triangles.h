@@ -1,7 +1,7 @@
 // The triangles that Loop patches are made of, and what is known of their corners.
 #pragma once
 
-#include "surface/exact/triangles.h"
+#include "surface/chains/triangles.h"
 #include "surface/scheme.h"
 #include "surface/subdivision/mesh.h"
 #include "tests/support/chain_depth.h"

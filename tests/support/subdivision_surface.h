@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/support/meshes.h"
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <algorithm>
 #include <cstdint>

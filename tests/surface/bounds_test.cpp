@@ -11,7 +11,7 @@
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
 
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include "tools/supple/limit_surface.h"
 
 #include "tests/support/meshes.h"
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

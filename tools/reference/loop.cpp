@@ -1,7 +1,7 @@
 #include "tools/reference/loop.h"
 
 #include "tools/reference/fragment.h"
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <array>
 #include <cmath>
@@ -153,7 +153,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
     net.load(fragment);
     const Fan fan = net.fanOf(fragment);
     if (a + b < std::exp2(-kMostLevels)) {
-        return exact::limitAtCentre(mesh_, isolated_, sector.fragment, sector.number);
+        return catmull_clark::limitAtCentre(mesh_, isolated_, sector.fragment, sector.number);
     }
     int exponent = 0;
     std::frexp(a + b, &exponent);

@@ -4,7 +4,7 @@
 
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
-#include "tools/reference/exact.h"
+#include "tools/reference/catmull_clark.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@
 
 namespace supple::surface::loop {
 
-using exact::Point;
+using catmull_clark::Point;
 
 /// The limit surface over the triangles of a cage whose creases are endless.
 class LimitSurface {

@@ -1,7 +1,7 @@
 #include "tools/supple/limit_surface.h"
 
 #include "cage/features.h"
-#include "tools/reference/subdivision.h"
+#include "tools/reference/fragments.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // they are the same in every mode, and on regular patches everywhere.
 #include "surface/prep/smooth_uvs.h"
 
+#include "surface/fragments/smooth_uvs.h"
 #include "surface/pm/smooth_uvs.h"
-#include "surface/subdivision/smooth_uvs.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Limits {
     Limits(const cage::Cage& cage, UvMode mode) {
         std::vector<std::string> notes;
         const Result<RefinedMesh> begin = beginRefinement(cage, nullptr, notes);
-        const auto made = subdivision::limitUvs(*begin, cage.cornerUvs, {Subdivision::catmullClark, 1, 1, mode, true});
+        const auto made = fragments::limitUvs(*begin, cage.cornerUvs, {Subdivision::catmullClark, 1, 1, mode, true});
         EXPECT_TRUE(made);
         samples = *made;
     }
@@ -46,7 +46,7 @@ struct Limits {
         const std::array<glm::uvec2, 4> local{{{x, y}, {y, 4 - x}, {4 - x, 4 - y}, {4 - y, x}}};
         return samples[size_t{9} * (4 * face + c) + 3 * local[c].y + local[c].x].value;
     }
-    std::vector<subdivision::UvSample> samples;
+    std::vector<fragments::UvSample> samples;
 };
 
 constexpr uint32_t kNetCorners[] = {0, 3, 15, 12};

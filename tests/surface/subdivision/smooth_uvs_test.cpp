@@ -1,5 +1,5 @@
 // Smooth texture coordinates of Catmull-Clark and Loop, in all modes, against stored limits.
-#include "surface/subdivision/smooth_uvs.h"
+#include "surface/fragments/smooth_uvs.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/meshes.h"
 
@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 namespace supple::surface::subdivision {
+
+using fragments::limitUvs, fragments::UvSample;
 namespace {
 
 using cage::UvMode;

@@ -1,0 +1,78 @@
+// Indexed mesh: evaluates the samples along sides of irregular quads of exact Catmull-Clark patches, each once, and at corners, each
+// with one of the sides that begin there (evaluate/edge.comp). Frames are those of the quad, turned so that the side comes first.
+// Narrow mapping: one lane per side. Wide mapping: one lane per sample.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/shared/chains.h"
+#include "shaders/surface/pool.glsl"
+#include "shaders/evaluate/pairs.glsl"
+#include "shaders/evaluate/basis.glsl"
+#include "shaders/evaluate/surface_vertex.glsl"
+#include "shaders/surface/net.glsl"
+
+const bool kChains = true, kSharp = true;
+
+struct PatchPlace {
+    uint record, base;
+    uint first;   // vertex of the instance
+    uint corner;  // vertices within the instance: the corner's, if it is stored, and the first along the side
+    uint along;
+    bool begins;  // the corner's is stored
+};
+PatchPlace placeOf(uint instance, uint record, uvec4 edge) {
+    return PatchPlace(tableElement(record).x, instance * push.poolStride, instance * push.verticesPerInstance,
+                      push.firstCorner + edge.x, push.firstVertex + edge.y * (fixedRate() - 1u), edge.x != kNoEdgeSample);
+}
+vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
+
+#ifndef WIDE
+const bool kInside = false;
+const bool kSides = true;
+uint last;
+void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
+    if (!own || (i == 0u && !at.begins)) return;
+    uint to = i == 0u ? at.corner : at.along + i - 1u;
+    storeSurfaceVertex(at.first + to, to, position, frame);
+}
+#include "shaders/catmull_clark/nets.glsl"
+
+void main() {
+    uint item = itemOfLane(), record = push.table + elementOf(item) * kEdgeElements;
+    PatchPlace at = placeOf(instanceOf(item), record, tableElement(record + 2u));
+    uint side = tableElement(record).y;
+    last = fixedRate();
+    // Turned so that the side comes first.
+    IrregularQuad quad = turnedQuad(quadOf(at.record), side), next = turnedQuad(quad, 1u);
+    Net net = turnedNet(at, quad, side), nextNet = turnedOnce(net);
+    vec3 border[4] = sideCubic(at, quad, 0u);
+    OwnQuarter begin = ownQuarter(at, quad, net, 0u), end = ownQuarter(at, next, nextNet, 1u);
+    begin.first = begin.second = ownFirst(at, quad, net, border); // the second is not read, nor is the end's first
+    end.first = end.second = ownSecond(at, next, nextNet, border);
+    storeOwnQuarter(at, begin, true, false);
+    storeOwnQuarter(at, end, false, true);
+    // Quarters without a chain have none of the samples, and no words of one.
+    vec3 middle = begin.first.middle;
+    if (hasChain(quad, 0u)) storeQuarter(at, quad, quarterOf(at, quad, 0u, middle, middle), true, false);
+    if (hasChain(quad, 1u)) storeQuarter(at, quad, quarterOf(at, quad, 1u, middle, middle), false, true);
+}
+#else
+#include "shaders/catmull_clark/sample.glsl"
+
+void main() {
+    uint rate = fixedRate(), id = invocationIndex(), lanes = push.count * rate;
+    if (id >= lanes * instanceCount()) return;
+    uint entry = id / lanes, lane = id - entry * lanes, edge = lane / rate, k = lane - edge * rate;
+    uint record = push.table + edge * kEdgeElements;
+    PatchPlace at = placeOf(instanceSlot(entry), record, tableElement(record + 2u));
+    if (k == 0u && !at.begins) return;
+    vec3 position;
+    Frame f;
+    sampleOnSide(at, tableElement(record).y, parameterPair(k, rate, push.pairs), position, f);
+    uint to = k == 0u ? at.corner : at.along + k - 1u;
+    storeSurfaceVertex(at.first + to, to, position, f);
+}
+#endif

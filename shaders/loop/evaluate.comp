@@ -1,0 +1,306 @@
+// Evaluates Loop patches (docs/loop.md): every sample is that of a leaf.
+//
+// Narrow mapping: leaf by leaf, first what lies inside of it, then what lies on its sides. Wide mapping, and irregular triangles at
+// levels: sample by sample.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#define POOL_READ_ONLY
+#include "shaders/surface/tables.glsl"
+#include "shaders/shared/chains.h"
+#include "shaders/shared/lod.h"
+
+layout(constant_id = kKindConstant) const uint kClass = kLoopIrregularPatch;
+const bool kIrregular = kClass == kLoopIrregularPatch;
+const uint kRecordElements = kIrregular ? kIrregularTriangleElements : kTriangleElements;
+const uint kForm = kLodTriangleForm;
+const uint kParts = kIrregular ? kTriangleNetPoints : kLeafPoints;
+#include "shaders/evaluate/harness.glsl"
+#include "shaders/evaluate/pairs.glsl"
+#include "shaders/evaluate/domain.glsl"
+#include "shaders/surface/net.glsl"
+
+vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at.isNew); }
+#ifdef LEVELS
+#define DEPTH_OF_INSTANCE
+#endif
+
+#ifdef WIDE
+shared vec4 localPoints[kMaxPatchesPerGroup * kParts];
+uint localPlace; // of the lane's patch
+
+vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
+#define LOCAL_NET
+#elif defined(LEVELS)
+#define ONE_TRIANGLE
+#endif
+#include "shaders/loop/place.glsl"
+
+#ifdef WIDE
+void loadPart(uint to, const PatchPlace at, uint k) {
+    uint index = kIrregular ? triangleOf(at.record, true).first + windowPoint(at.record + kTriangleNetElement, k)
+                            : tableWord(4u * (at.record + kTriangleCageElement) + k);
+    localPoints[to] = vec4(poolPoint(at, index), 0.0);
+}
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
+    localPlace = place;
+    Triangle t = triangleOf(at.record, kIrregular);
+#ifdef LEVELS
+    RingSample ring = ringSample(3u, at.capacity, index);
+    vec2 along;
+    vec3 w = ringWeights(place, at.capacity, ring, along);
+    TrianglePoint s = ringPoint(ring.side, ring.ring == 0u, along, w);
+    uint to = ring.side;
+#else
+    TrianglePoint s = gridPoint(gridSample(kTriangleDomain, fixedRate(), index).xy, fixedRate());
+    const uint to = 0u;
+#endif
+    if (kIrregular) {
+        irregularTriangle(at, t, s, to, position, frame);
+    } else {
+        LeafPoints points;
+        [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) points.p[k] = netPoint(at, k);
+        mirror(points, triangleFlags(t, kSharpTriangleSide), triangleFlags(t, kCreasedTriangleCorner));
+        regularTriangle(at, t, points, leafOf(points), s, to, position, frame);
+    }
+#ifdef LEVELS
+    frame = ofSector(frame);
+#endif
+}
+#elif defined(LEVELS)
+void evaluatePatch(const PatchPlace at, uint lodRecord) {
+    Triangle t = triangleOf(at.record, kIrregular);
+    uint last = at.capacity, rings = (last + 1u) / 2u;
+    laneCage = cageLeaf(at, t);
+    Leaf leaf;
+    if (!kIrregular) leaf = leafOf(laneCage);
+    LodPattern inside = recordPattern(lodRecord, 0u, at.capacityIndex);
+    uint sector = 0u;
+    do {
+        LodPattern side = recordPattern(lodRecord, 1u + sector, at.capacityIndex);
+        uint ring = 0u;
+        do {
+            float across = lodPair(inside, ring, last).x;
+            uint vertex = at.vertex + ringSideStart(3u, ring, sector, last), k = ring;
+            do {
+                vec2 along = lodPair(side, k, last);
+                TrianglePoint s = ringPoint(sector, ring == 0u, along, ringWeights(along, across));
+                vec3 position;
+                Frame frame;
+                if (kIrregular) irregularTriangle(at, t, s, sector, position, frame);
+                else regularTriangle(at, t, laneCage, leaf, s, sector, position, frame);
+                uint own = vertex + k - ring;
+                storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
+            } while (++k < last - ring);
+            side = inside;
+        } while (++ring < rings);
+    } while (++sector < 3u);
+}
+#else
+uint last; // segments along a side
+
+vec2 pairOf(uint k) { return parameterPair(k, last, push.pairs); }
+// `counts`: of the weights of corners 1 and 2.
+void store(const PatchPlace at, bool own, uvec2 counts, vec3 position, Frame frame) {
+    uint to = kInterior ? rowStart(last - 2u, counts.y - 1u) + counts.x - 1u : rowStart(last + 1u, counts.y) + counts.x;
+    if (own) storeSurfaceVertex(at.vertex + to, at.own + to, position, frame);
+}
+// So many steps from a corner along its two edges.
+uvec2 countsFrom(uint corner, uint a, uint b) {
+    uint rest = last - a - b;
+    return SELECT2(corner == 0u, uvec2(a, b), SELECT2(corner == 1u, uvec2(rest, a), uvec2(b, rest)));
+}
+
+void storeRegular(const PatchPlace at, Triangle t) {
+    LeafPoints points = cageLeaf(at, t);
+    Leaf leaf = leafOf(points);
+    uint j = 1u;
+    do {
+        LeafRow row = leafRow(leaf, pairOf(j).x);
+        uint i = 1u;
+        do {
+            float x = pairOf(i).x;
+            precise vec3 p = leaf.first + rowOffset(row, x);
+            store(at, i + j < last, uvec2(i, j), p, seenFrom(0u, 0u, rowAlongX(row, x), rowAlongY(row, x)));
+        } while (++i + j < last);
+    } while (++j + 1u < last);
+    if (kInterior) return;
+    uint side = 0u;
+    do {
+        LeafSide own = leafSide(points, side, false, hasFlag(t, kSharpTriangleSide, side));
+        vec3 limit = cornerLimit(at, t, side);
+        uint k = 0u;
+        do {
+            vec2 along = pairOf(k);
+            vec3 w = weightsOnSide(side, along);
+            LeafRow row = leafRow(leaf, w.z);
+            store(at, true, countsFrom(side, k, 0u), k == 0u ? limit : onSide(own, along),
+                  seenFrom(0u, 0u, rowAlongX(row, w.y), rowAlongY(row, w.y)));
+        } while (++k < last);
+    } while (++side < 3u);
+}
+
+// The samples that the leaves of a net have, i and j steps from its corner along the two edges. The cell at the corner has those
+// with i + j below `least`, the others those below `end`. The cells further along an edge begin at `split`.
+struct NetSamples {
+    uint corner; // the net is seen from: of the triangle's own, 0
+    uint split, least, end;
+    float scale; // from distances to parameters of the net
+};
+float netParameter(NetSamples s, uint k) {
+    precise float x = pairOf(k).x * s.scale;
+    return x;
+}
+
+void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Leaf leaf) {
+    bool middle = cell == kMiddleCell;
+    uint j = cell == 2u ? s.split : 1u;
+    uint endJ = cell == 0u ? s.least : cell == 1u ? s.end + 1u - min(s.split, s.end) : middle ? min(s.split, s.end) : s.end;
+    do { // to before endJ - 1, but the middle's to before endJ
+        bool ownRow = middle ? j < endJ : j + 1u < endJ;
+        precise float y = netParameter(s, j), inY = middle ? 1.0 - y : cell == 2u ? y - 1.0 : y;
+        LeafRow row = leafRow(leaf, inY);
+        uint i = cell == 1u ? s.split : middle ? uint(max(int(s.least) - int(j), 1)) : 1u;
+        uint endI = !ownRow ? 0u : cell == 0u ? s.least - j : middle ? min(s.split, s.end - j) : s.end - j;
+        do {
+            precise float x = netParameter(s, i), inX = middle ? 1.0 - x : cell == 1u ? x - 1.0 : x;
+            precise vec3 p = net.origin + (leaf.first + rowOffset(row, inX));
+            vec3 da = rowAlongX(row, inX), db = rowAlongY(row, inX);
+            Frame frame = seenFrom(s.corner, 0u, middle ? -da : da, middle ? -db : db);
+            store(at, i < endI, countsFrom(s.corner, i, j), p, frame);
+        } while (++i < endI);
+        ++j;
+    } while (middle ? j < endJ : j + 1u < endJ);
+}
+
+Frame leafFrame(Leaf leaf, vec2 w) {
+    LeafRow row = leafRow(leaf, w.y);
+    return seenFrom(0u, 0u, rowAlongX(row, w.x), rowAlongY(row, w.x));
+}
+// Of a plain corner, half of a side: of its first edge or, with `back`, of its second.
+void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, LeafPoints points, Leaf leaf,
+                   LeafPoints cage, bool back) {
+    if (kInterior) return;
+    uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
+    bool whole = hasFlag(t, kWholeTriangleSide, side);
+    LeafPoints from;
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) from.p[k] = SELECT3(whole, cage.p[k], points.p[k]);
+    LeafSide line = leafSide(from, corner, back, hasFlag(t, kSharpTriangleSide, side));
+    uint k = 1u;
+    do {
+        precise float x = netParameter(s, k), rest = 1.0 - x;
+        vec3 position = onSide(line, whole ? pairOf(k) : vec2(x, rest));
+        vec3 w = back ? weightsOnSide(side, vec2(rest, x)) : weightsOnSide(side, vec2(x, rest));
+        store(at, cell < 3u && k < s.least, back ? countsFrom(corner, 0u, k) : countsFrom(corner, k, 0u), position,
+              leafFrame(leaf, w.yz));
+    } while (++k < s.least);
+}
+// The middles of the sides, at even rates: the corners of the leaf in the middle.
+void storeMiddles(const PatchPlace at, Triangle t, NetSource net, LeafPoints points, Leaf leaf, LeafPoints cage) {
+    if (kInterior) return;
+    uint side = 0u;
+    do {
+        uint v = lastOf(side);
+        bool whole = hasFlag(t, kWholeTriangleSide, side), sharp = hasFlag(t, kSharpTriangleSide, side);
+        vec3 position = whole ? onSide(leafSide(cage, side, false, sharp), vec2(0.5)) : middleOfSide(net, points, side);
+        Frame frame = leafFrame(leaf, vec2(v == 1u, v == 2u));
+        store(at, last % 2u == 0u, countsFrom(side, last / 2u, 0u), position, Frame(-frame.du, -frame.dv, frame.normal));
+    } while (++side < 3u);
+}
+
+struct NetPoints {
+    vec3 p[kTriangleNetPoints];
+};
+NetPoints netPoints(const PatchPlace at, NetSource net) {
+    NetPoints points;
+    uint indices[kTriangleNetPoints] = netIndices(net);
+    [[unroll]] for (uint k = 0u; k < kTriangleNetPoints; ++k) points.p[k] = poolPoint(at, indices[k]);
+    return points;
+}
+LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
+    LeafPoints leaf;
+    [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) leaf.p[k] = OF_CELL(SELECT3, cell, net.p, k);
+    mirrorInCell(leaf, source, cell);
+    return leaf;
+}
+
+// The triangle's own net: the leaf in the middle, which comes last, and those at plain corners.
+void storeOwnNet(const PatchPlace at, Triangle t) {
+    uint nearer = (last + 1u) / 2u, cells = 1u << kMiddleCell | triangleFlags(t, kPlainTriangleCorner);
+    NetSamples s = NetSamples(0u, last - nearer + 1u, nearer, last, 2.0);
+    NetSource net = ownNet(at, t);
+    NetPoints all = netPoints(at, net);
+    LeafPoints points, cage = cageLeaf(at, t);
+    Leaf leaf;
+    bool more;
+    do {
+        uint cell = uint(findLSB(cells));
+        points = leafOfNet(all, net, cell);
+        leaf = leafOf(points);
+        storeInside(at, net, s, cell, leaf);
+        storeHalfSide(at, t, s, cell, points, leaf, cage, false);
+        storeHalfSide(at, t, s, cell, points, leaf, cage, true);
+        store(at, !kInterior && cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
+              leafFrame(leaf, vec2(cell == 1u, cell == 2u)));
+        // What is used behind the loop is that of the last cell, even if lavapipe goes on with lanes that have finished.
+        uint rest = cells & (cells - 1u);
+        more = rest != 0u;
+        cells = more ? rest : cells;
+    } while (more);
+    storeMiddles(at, t, net, points, leaf, cage);
+}
+
+// What a level has of the corner's two edges: the first has samples in cell 1, the second in cell 2.
+void storeOnEdge(const PatchPlace at, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf) {
+    if (kInterior) return;
+    bool back = cell == 2u;
+    LeafSide line = leafSide(points, 0u, back, (net.sides >> (back ? 2u : 0u) & 1u) != 0u);
+    vec3 first = back ? leaf.c01 : leaf.c10, second = 2.0 * (back ? leaf.c02 : leaf.c20), third = 3.0 * (back ? leaf.c03 : leaf.c30);
+    vec3 fourth = 4.0 * (back ? leaf.c04 : leaf.c40), mixed = back ? leaf.c12 : leaf.c21, across = back ? leaf.c10 : leaf.c01;
+    uint k = s.split;
+    do {
+        precise float x = netParameter(s, k) - 1.0, rest = 1.0 - x;
+        precise vec3 p = net.origin + onSide(line, vec2(x, rest));
+        vec3 d = first + x * (second + x * (third + x * fourth)), e = across + x * (leaf.c11 + x * (mixed + x * 0.5 * fourth));
+        store(at, cell < 3u && k < s.end, back ? countsFrom(s.corner, 0u, k) : countsFrom(s.corner, k, 0u), p,
+              seenFrom(s.corner, 0u, back ? e : d, back ? d : e));
+    } while (++k < s.end);
+}
+
+void storeChains(const PatchPlace at, Triangle t) {
+    uint chains = ~triangleFlags(t, kPlainTriangleCorner) & 7u, level = 2u;
+    do {
+        uint corner = uint(findLSB(chains));
+        Chain chain = chainOf(at, t, corner);
+        NetSource net = chainNet(at, t, chain, corner, level);
+        uint split = (last + (1u << level) - 1u) >> level, end = (last + (1u << level - 1u) - 1u) >> level - 1u;
+        NetSamples s = NetSamples(corner, split, split, end, powerOfTwo(float(level)));
+        NetPoints all = netPoints(at, net);
+        uint cell = 1u;
+        do {
+            LeafPoints points = leafOfNet(all, net, cell);
+            Leaf leaf = leafOf(points);
+            storeInside(at, net, s, cell, leaf);
+            storeOnEdge(at, net, s, cell, points, leaf);
+        } while (++cell < 4u);
+        // At the corner the chords of the last level stand in for directions.
+        bool isLast = level == chain.lastLevel;
+        Frame frame = seenFrom(corner, 0u, all.p[3] - all.p[0], all.p[5] - all.p[0]);
+        store(at, !kInterior && isLast, countsFrom(corner, 0u, 0u), cornerLimit(at, t, corner), withCornerNormal(at, t, corner, frame));
+        chains &= isLast ? chains - 1u : 7u;
+        level = isLast ? 2u : level + 1u;
+    } while (chains != 0u);
+}
+
+void evaluatePatch(const PatchPlace at) {
+    last = fixedRate();
+    Triangle t = triangleOf(at.record, kIrregular);
+    if (kIrregular) {
+        storeOwnNet(at, t);
+        storeChains(at, t);
+    } else {
+        storeRegular(at, t);
+    }
+}
+#endif

@@ -1,0 +1,304 @@
+// Exact Catmull-Clark patches as a scheme: the tables of shaders/shared/{surface,chains}.h.
+#include "shaders/shared/chains.h"
+#include "shaders/shared/subdivision.h"
+#include "surface/borders.h"
+#include "surface/build.h"
+#include "surface/chains/chain_tables.h"
+#include "surface/chains/corners.h"
+#include "surface/chains/kernels.h"
+#include "surface/chains/needed_rows.h"
+#include "surface/chains/smooth_uvs.h"
+#include "surface/chains/window.h"
+#include "surface/fans.h"
+#include "surface/stencil_table.h"
+#include "surface/subdivision/mesh.h"
+#include "surface/subdivision/pattern.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace supple::surface::catmull_clark {
+namespace {
+
+using namespace chains;
+using subdivision::Isolation;
+
+/// The weights of a run of one or two faces between sharp edges: uniform B-splines whose border is the crease.
+FanWeights openWeights(uint32_t facets) {
+    FanWeights w;
+    w.limitFace = w.e1Face = w.e2Face = std::vector<double>(facets, 0.0);
+    w.limitEdge = w.e1Edge = w.e2Edge = w.cosines = w.sines = std::vector<double>(facets + 1, 0.0);
+    if (facets == 2) {
+        w.limitEdge = {1.0 / 6.0, 0.0, 1.0 / 6.0};
+        w.e1Edge = {-1.0 / 18.0, 4.0 / 18.0, -1.0 / 18.0};
+        w.e1Face = {1.0 / 18.0, 1.0 / 18.0};
+        w.cosines[1] = 1.0;
+    }
+    return w;
+}
+
+class Builder {
+public:
+    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
+        : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
+          topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
+          rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words),
+          fans_(lastLevel_, writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
+          levelOne_(mesh_.stencils.back().rows()) {}
+
+    Result<Tables> build() {
+        const Status fits = checkSizes();
+        if (!fits) {
+            return fits.error();
+        }
+        tables_.notes = mesh_.notes;
+        tables_.isolationSteps = mesh_.isolationSteps - 1;
+        tables_.rate = rate_;
+        for (uint32_t f = 0; f < cage_.faceCount(); ++f) {
+            firstCorners_.push_back(corners_.firstCorner(f));
+        }
+        patches_ =
+            draftPatches({cage_, mesh_.hostVertices, parent_.sourceFaces, firstCorners_}, [&](DraftPatch& patch) {
+                patch.kind = corners_.chainsOf(patch.facet);
+                return classOf(patch);
+            });
+        findLevelOnePoints();
+        layOutPool();
+        writeFans();
+        chains_.write({firstLevelOne_, [](uint32_t vertex) { return vertex; }, steps()}, tables_);
+        const std::vector<uint32_t> points = ringPoints();
+        RingWriter ring(cage_, topology_, points, firstCorners_, writer_);
+        writePatches(ring);
+        for (const uint32_t r : order_) {
+            const Run& run = corners_.runs()[r];
+            ring.add(run.vertex, corners_.spokesOf(run), !run.closed);
+        }
+        tables_.ring = ring.write();
+        finishTables(recipe_, cage_, patches_, writer_, tables_);
+        if (const Status smooth = writeUvLeaves(recipe_, host_, {Subdivision::catmullClark, steps(), lastLevel_},
+                                                patches_, fans_, writer_, tables_);
+            !smooth) {
+            return smooth.error();
+        }
+        return std::move(tables_);
+    }
+
+private:
+    /// Quads that a step has made have half of the segments.
+    [[nodiscard]] uint32_t patchRate(uint32_t rate) const { return steps() ? (rate + 1) / 2 : rate; }
+    [[nodiscard]] bool steps() const { return mesh_.isolationSteps > 1; }
+    [[nodiscard]] std::vector<VertexNeeds> vertexNeeds() const {
+        std::vector<VertexNeeds> needs;
+        for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
+            const VertexKind kind = corners_.kind(v);
+            needs.push_back(kind == VertexKind::plain    ? VertexNeeds::nothing
+                            : kind == VertexKind::tensor ? VertexNeeds::limit
+                                                         : VertexNeeds::chain);
+        }
+        return needs;
+    }
+
+    Status checkSizes() const {
+        if (const Status fits = chains_.checkSizes(); !fits) {
+            return fits;
+        }
+        SpokeLimits spokes;
+        for (const Run& run : corners_.runs()) {
+            spokes.add(run.vertex, run.spokes());
+        }
+        return spokes.check();
+    }
+
+    [[nodiscard]] PatchClass classOf(const DraftPatch& patch) const {
+        bool plain = true, chains = false, sharp = false;
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i];
+            const VertexKind kind = corners_.kind(cage_.faceVertices[c]);
+            plain = plain && kind == VertexKind::plain;
+            chains = chains || kind == VertexKind::chain;
+            sharp = sharp || sideSharpness(c) > 0.0f;
+        }
+        return plain     ? PatchClass::regular
+               : !chains ? PatchClass::creased
+               : sharp   ? PatchClass::irregularSharp
+                         : PatchClass::irregular;
+    }
+
+    /// The sharpness of the edge behind a corner, on level 1.
+    [[nodiscard]] float sideSharpness(uint32_t corner) const {
+        return softened(parent_.edgeSharpness[topology_.cornerEdges[corner]], 1);
+    }
+
+    /// What an irregular quad's leaves of level 1 and the nets of chains are made of.
+    void findLevelOnePoints() {
+        netOfPatch_.assign(patches_.size(), cage::kNone);
+        for (const uint32_t p : patchesByNeighbours(patches_, cage_, topology_)) {
+            const uint32_t facet = patches_[p].facet;
+            if (patches_[p].info.patchClass != PatchClass::regular) {
+                netOfPatch_[p] = static_cast<uint32_t>(nets_.size());
+                levelOne_.needNet(nets_.emplace_back(corners_.netOf(facet, firstCorners_[facet], points_)));
+            }
+        }
+        chains_.findNets(levelOne_);
+    }
+    /// Runs: closed ones first. Slots lie in this order.
+    void layOutPool() {
+        const std::vector<Run>& runs = corners_.runs();
+        order_.resize(runs.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+            return std::tuple(!runs[a].closed, runs[a].faces) < std::tuple(!runs[b].closed, runs[b].faces);
+        });
+        slots_.assign(topology_.spokeVertices.size(), {cage::kNone, cage::kNone});
+        uint32_t slot = 0, point = cage_.vertexCount();
+        runPoints_.resize(runs.size());
+        runSlots_.resize(runs.size());
+        for (const uint32_t r : order_) {
+            runSlots_[r] = slot;
+            const std::vector<uint32_t> spokes = corners_.spokesOf(runs[r]);
+            for (uint32_t k = 0; k < runs[r].faces; ++k) {
+                slots_[spokes[k]] = {slot + k, slot + (k + 1) % static_cast<uint32_t>(spokes.size())};
+            }
+            slot += static_cast<uint32_t>(spokes.size());
+        }
+        for (uint32_t r = 0; r < runs.size(); ++r) {
+            const bool first = r == 0 || runs[r - 1].vertex != runs[r].vertex;
+            runPoints_[r] = first ? runs[r].vertex : point++;
+        }
+        tables_.tangents = point;
+        tables_.faces = tables_.tangents + slot;
+        firstLevelOne_ = tables_.faces + slot;
+        tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
+        const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
+        tables_.inner = steps() ? next : 0; // the mesh
+        tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
+    }
+
+    [[nodiscard]] Stage meshStage() const { return steps() ? Stage::assemble : Stage::vertex; }
+
+    /// The vertices of the mesh if it is not the cage, plain vertices, points of level 1.
+    void writeFans() {
+        if (steps()) {
+            writeStencils(mesh_.stencils[0], {Stage::vertex, false, 0, tables_.inner}, writer_, tables_);
+        }
+        std::array<uint32_t, 3> weights{};
+        for (uint32_t faces = 1; faces <= 2; ++faces) {
+            weights[faces] = writeFanWeights(openWeights(faces), 0, writer_);
+        }
+        for (const bool closed : {true, false}) {
+            Construction vertices{meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
+            for (const uint32_t r : order_) {
+                const Run& run = corners_.runs()[r];
+                if (run.closed != closed) {
+                    continue;
+                }
+                ++vertices.section.count;
+                vertices.coefficients += 1 + run.spokes() + run.faces;
+                if (!closed) {
+                    writer_.put({runSlots_[r], weights[run.faces], runPoints_[r]});
+                }
+            }
+            if (vertices.section.count > 0) {
+                tables_.constructions.push_back(vertices);
+            }
+        }
+        writeStencils(rowsOf(mesh_.stencils.back(), levelOne_.rows()),
+                      {meshStage(), steps(), steps() ? tables_.inner : 0, firstLevelOne_}, writer_, tables_);
+    }
+
+    [[nodiscard]] ChainTables::Corner cornerOf(uint32_t c) {
+        const uint32_t v = cage_.faceVertices[c];
+        return chains_.cornerOf(v, topology_.cornerSpokes[c] - topology_.spokeStarts[v]);
+    }
+    [[nodiscard]] uint32_t limitPoint(uint32_t c) const {
+        const uint32_t run = corners_.runOf(topology_.cornerSpokes[c]);
+        return run == cage::kNone ? cage_.faceVertices[c] : runPoints_[run];
+    }
+    /// By corner of the mesh; cage::kNone where the limit point's number is not that of the vertex (RingWriter).
+    [[nodiscard]] std::vector<uint32_t> ringPoints() const {
+        std::vector<uint32_t> points;
+        for (uint32_t c = 0; c < cage_.cornerCount(); ++c) {
+            points.push_back(limitPoint(c) == cage_.faceVertices[c] ? limitPoint(c) : cage::kNone);
+        }
+        return points;
+    }
+
+    void writePatches(RingWriter& ring) {
+        for (uint32_t p = 0; p < patches_.size(); ++p) {
+            const DraftPatch& patch = patches_[p];
+            countPatch(patch.info.patchClass, p, writer_, tables_);
+            ring.setRecord(patch.facet, writer_.element());
+            std::array<uint32_t, 4> points{}, spokes{};
+            for (uint32_t i = 0; i < 4; ++i) {
+                const uint32_t c = patch.cageCorners[i], spoke = topology_.cornerSpokes[c];
+                points[i] = limitPoint(c);
+                const auto [slot, next] = slots_[spoke];
+                spokes[i] = slot == cage::kNone ? cornerOf(c).chain : spokeWord(slot, next);
+            }
+            writer_.put(points);
+            writer_.put(spokes);
+            if (patch.info.patchClass != PatchClass::regular) {
+                writeIrregular(patch, nets_[netOfPatch_[p]]);
+            }
+        }
+    }
+
+    void writeIrregular(const DraftPatch& patch, const QuadNet& net) {
+        std::array<uint32_t, 4> windows{}, sharpness{}, normals{};
+        uint32_t flags = 0;
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
+            const uint32_t end = cage_.faceVertices[patch.cageCorners[(i + 1) % 4]];
+            const ChainTables::Corner corner = cornerOf(c);
+            sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
+            normals[i] = corner.normal;
+            windows[i] = corner.windows;
+            const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
+            flags |= cubic ? 1u << (shared::kCubicSide + i) : 0u;
+        }
+        writer_.put(windows);
+        writer_.put(sharpness);
+        const uint32_t first = firstOfNet(net);
+        flags |= (firstLevelOne_ + first) << shared::kNetFirstShift;
+        writeWindow(net, first, shared::kWindowElements, {shared::kWindowNormals, normals, flags}, writer_);
+    }
+
+    const cage::Cage& host_;
+    const Recipe& recipe_;
+    const subdivision::Mesh& mesh_;
+    const RefinedMesh& parent_;
+    const cage::Cage& cage_;
+    const cage::Topology& topology_;
+    Corners corners_;
+    StepPoints points_;
+    uint32_t rate_;
+    uint32_t lastLevel_;
+    Tables tables_;
+    TableWriter writer_;
+    FanTables fans_;
+    ChainTables chains_;
+    std::vector<DraftPatch> patches_;
+    std::vector<QuadNet> nets_;        ///< of irregular quads: numbers of points of level 1
+    std::vector<uint32_t> netOfPatch_; ///< kNone where it is regular
+    NeededRows levelOne_;
+    uint32_t firstLevelOne_ = 0;
+    std::vector<uint32_t> order_;                ///< runs as slots have them
+    std::vector<uint32_t> runPoints_, runSlots_; ///< by run
+    /// By spoke of the topology: the slots of the two edges of the sector behind it.
+    std::vector<std::array<uint32_t, 2>> slots_;
+    std::vector<uint8_t> firstCorners_; ///< by face
+};
+
+} // namespace
+
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+    const Result<Isolation> isolation = subdivision::isolateCage(cage, Subdivision::catmullClark);
+    if (!isolation) {
+        return isolation.error();
+    }
+    return Builder(cage, *isolation, recipe).build();
+}
+
+} // namespace supple::surface::catmull_clark

@@ -1,0 +1,69 @@
+#include "surface/chains/fan_tables.h"
+
+#include "shaders/shared/chains.h"
+#include "surface/chains/triangles.h"
+#include "surface/chains/window.h"
+#include "surface/subdivision_rules.h"
+
+#include <vector>
+
+namespace supple::surface::chains {
+
+using subdivision::Fan;
+
+namespace {
+
+/// What lies outside of an open fan has the weight 0, or is replaced.
+uint32_t pointOrCentre(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
+    const uint32_t index = pointIndex(fan, sector, a, b);
+    return index == subdivision::kNoPoint ? 0 : index;
+}
+
+std::vector<uint32_t> quadWindow(const Fan& fan, uint32_t sector) {
+    constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
+    std::vector<uint32_t> window{0}; // point 0 is read by the missing cell alone
+    for (int32_t k = 1; k < kPoints; ++k) {
+        window.push_back(pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1));
+    }
+    return window;
+}
+
+std::vector<uint32_t> triangleWindow(const Fan& fan, uint32_t sector) {
+    std::vector<uint32_t> window;
+    for (const loop::TrianglePlace& place : loop::kTriangleNet) {
+        const bool missing = place.a + place.b < 0; // beside the vertex, in the missing cell
+        window.push_back(missing ? 0 : pointOrCentre(fan, sector, place.a, place.b));
+    }
+    return window;
+}
+
+} // namespace
+
+uint32_t FanTables::windowElements(Subdivision subdivision) {
+    return subdivision == Subdivision::loop ? shared::kTriangleWindowElements : shared::kWindowElements;
+}
+
+const FanTables::Table& FanTables::of(const Fan& fan) {
+    const auto [known, isNew] = tables_.try_emplace(fan);
+    if (isNew) {
+        known->second = write(fan);
+    }
+    return known->second;
+}
+
+FanTables::Table FanTables::write(const Fan& fan) {
+    const Table table{writer_.element(), writer_.element() + 2};
+    const CentreWeights weights = refineWeights(fan.subdivision, fan.sectors);
+    writer_.put({fan.sectors, pointCount(fan, 3), fan.open ? 1u : 0u, 0u});
+    writer_.putFloats({weights.spoke, weights.face, 0.0, 0.0});
+    const uint32_t size = pointCount(fan, 3) | lastLevel_ << shared::kChainLevelShift;
+    for (uint32_t h = 0; h < fan.sectors; ++h) {
+        const bool loop = fan.subdivision == Subdivision::loop;
+        const std::vector<uint32_t> window = loop ? triangleWindow(fan, h) : quadWindow(fan, h);
+        writeWindow(window, 0, windowElements(fan.subdivision), {static_cast<uint32_t>(window.size()), {}, size},
+                    writer_);
+    }
+    return table;
+}
+
+} // namespace supple::surface::chains

@@ -1,0 +1,187 @@
+// Equation numbers are those of docs/catmull_clark.md.
+#include "tools/reference/catmull_clark.h"
+
+#include "surface/chains/arrangement.h"
+#include "tools/reference/fragment.h"
+#include "tools/reference/fragments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace supple::surface::catmull_clark {
+
+using namespace chains;
+namespace {
+
+using subdivision::Fan;
+using subdivision::Fragment;
+using subdivision::FragmentNet;
+using subdivision::kNoPoint;
+
+constexpr int kMostLevels = 40;
+
+/// The four weights of a leaf in one direction, and their derivatives.
+struct Weights {
+    std::array<double, 4> value{}, slope{};
+};
+
+/// Of an endless crease, and of one that is sharp for `steps` steps, a point across it keeps this weight (1).
+struct Crease {
+    double value = 0.0, slope = 0.0;
+};
+Crease sharpWeight(float sharpness, double x) {
+    if (sharpness >= kInfiniteSharpness) {
+        return {};
+    }
+    const double steps = std::floor(static_cast<double>(sharpness)), part = static_cast<double>(sharpness) - steps;
+    Crease sum;
+    for (const auto& [weight, scale] :
+         {std::pair(1.0 - part, std::exp2(steps)), std::pair(part, std::exp2(steps + 1.0))}) {
+        const double rest = std::max(0.0, 1.0 - x * scale);
+        sum.value += weight * rest * rest * rest / (6.0 * scale);
+        sum.slope -= weight * rest * rest / 2.0;
+    }
+    return sum;
+}
+
+/// Uniform cubic B-splines at x of 0..1, with a crease of this sharpness at x = 0 (2).
+Weights leafWeights(double x, float sharpness) {
+    const double s = 1.0 - x;
+    Weights w;
+    w.value = {s * s * s / 6.0, (1.0 + 3.0 * (s + s * s * x)) / 6.0, (1.0 + 3.0 * (x + x * x * s)) / 6.0,
+               x * x * x / 6.0};
+    w.slope = {-s * s / 2.0, 1.5 * x * x - 2.0 * x, 2.0 * s - 1.5 * s * s, x * x / 2.0};
+    if (sharpness > 0.0f) {
+        const Crease crease = sharpWeight(sharpness, x);
+        const double value = w.value[0] - crease.value, slope = w.slope[0] - crease.slope;
+        w.value = {crease.value, w.value[1] + 2.0 * value, w.value[2] - value, w.value[3]};
+        w.slope = {crease.slope, w.slope[1] + 2.0 * slope, w.slope[2] - slope, w.slope[3]};
+    }
+    return w;
+}
+
+/// A leaf: 4 x 4 points of a fragment, the first at (firstA, firstB) of a sector.
+struct Leaf {
+    int32_t firstA = -1, firstB = -1;
+    Weights a, b;
+};
+
+Point evaluate(const FragmentNet<double>& net, const Fan& fan, uint32_t sector, const Leaf& leaf) {
+    const std::vector<glm::dvec3>& points = net.points();
+    const glm::dvec3 centre = points[0];
+    Point sum;
+    for (int32_t j = 0; j < 4; ++j) {
+        for (int32_t i = 0; i < 4; ++i) {
+            const uint32_t index = subdivision::pointIndex(fan, sector, leaf.firstA + i, leaf.firstB + j);
+            if (index == kNoPoint || index >= points.size()) {
+                continue; // behind a border, where weights are zero
+            }
+            const glm::dvec3 p = points[index] - centre;
+            const size_t x = static_cast<size_t>(i), y = static_cast<size_t>(j);
+            sum.position += leaf.a.value[x] * leaf.b.value[y] * p;
+            sum.du += leaf.a.slope[x] * leaf.b.value[y] * p;
+            sum.dv += leaf.a.value[x] * leaf.b.slope[y] * p;
+        }
+    }
+    sum.position += centre;
+    return sum;
+}
+
+glm::dvec3 unitNormal(const glm::dvec3& du, const glm::dvec3& dv) {
+    return subdivision::unitOrZero(glm::cross(du, dv));
+}
+
+} // namespace
+
+Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated, uint32_t fragmentNumber,
+                    uint32_t sector) {
+    const Fragment& fragment = mesh.fragments[fragmentNumber];
+    FragmentNet<double> net(mesh, isolated);
+    net.load(fragment);
+    const Fan fan = net.fanOf(fragment);
+    const auto spokes = mesh.spokeSharpness.begin() + fragment.firstSpoke;
+    const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
+    const glm::dvec3 centre = net.points()[0];
+    const auto weighted = [&](const subdivision::CentreMask& mask) {
+        glm::dvec3 sum(0.0);
+        for (size_t i = 1; i < mask.size(); ++i) {
+            sum += mask[i] * (net.points()[i] - centre);
+        }
+        return sum;
+    };
+    Point point;
+    point.position = centre + weighted(limit.position);
+    for (const LimitRun& run : limit.runs) {
+        if ((sector + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
+            continue;
+        }
+        glm::dvec3 normal(0.0);
+        for (size_t k = 1; k < run.tangents.size(); ++k) {
+            normal += glm::cross(weighted(run.tangents[k - 1]), weighted(run.tangents[k]));
+        }
+        point.normal = subdivision::unitOrZero(normal);
+    }
+    return point;
+}
+
+LimitSurface::LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
+    : mesh_(mesh), isolated_(subdivision::isolate<double>(mesh, positions)), sectors_(mesh.cage.faceCount()) {
+    const FragmentNet<double> net(mesh, isolated_);
+    for (uint32_t f = 0; f < mesh.fragments.size(); ++f) {
+        const Fragment& fragment = mesh.fragments[f];
+        if (const Fan fan = net.fanOf(fragment); !patterns_.contains(fan)) {
+            patterns_.emplace(fan, fanPattern(fan, 1));
+        }
+        for (uint32_t h = 0; h < fragment.sectors; ++h) {
+            sectors_[mesh.sectorFaces[fragment.firstSector + h]] = {f, h};
+        }
+    }
+}
+
+Point LimitSurface::at(uint32_t quad, double u, double v) const {
+    const bool right = u > 1.0 - u, up = v > 1.0 - v;
+    const uint32_t corner = up ? (right ? 2 : 3) : (right ? 1 : 0);
+    const double across = right ? 1.0 - u : u, along = up ? 1.0 - v : v;
+    const bool turned = corner % 2 == 1; // a runs along v
+    const Sector& sector = sectors_[4 * size_t{quad} + corner];
+    const double a = turned ? along : across, b = turned ? across : along;
+    Point point = std::max(a, b) < std::exp2(-kMostLevels)
+                      ? limitAtCentre(mesh_, isolated_, sector.fragment, sector.number)
+                      : inQuarter(sector, a, b);
+    const glm::dvec3 da = point.du, db = point.dv;
+    const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};
+    point.du = derivatives[corner][0];
+    point.dv = derivatives[corner][1];
+    return point;
+}
+
+Point LimitSurface::inQuarter(const Sector& sector, double a, double b) const {
+    const Fragment& fragment = mesh_.fragments[sector.fragment];
+    FragmentNet<double> net(mesh_, isolated_);
+    net.load(fragment);
+    const Fan fan = net.fanOf(fragment);
+    int exponent = 0;
+    std::frexp(std::max(a, b), &exponent);
+    const int level = std::clamp(1 - exponent, 2, kMostLevels); // 2^-level <= the larger one < 2^(1 - level)
+    const subdivision::Pattern& pattern = patterns_.at(fan);
+    for (int j = 2; j <= level; ++j) {
+        net.refine(fan, pattern, pointCount(fan, 3));
+    }
+    const double scale = std::exp2(level), x = a * scale, y = b * scale;
+    const bool farA = x >= 1.0, farB = y >= 1.0;
+    const uint32_t spokes = fragment.spokes();
+    const float alongA = net.sharpnessOf(sector.number), alongB = net.sharpnessOf((sector.number + 1) % spokes);
+    Leaf leaf;
+    leaf.firstA = farA ? 0 : -1;
+    leaf.firstB = farB ? 0 : -1;
+    leaf.a = leafWeights(farA ? x - 1.0 : x, farA ? 0.0f : alongB);
+    leaf.b = leafWeights(farB ? y - 1.0 : y, farB ? 0.0f : alongA);
+    Point point = evaluate(net, fan, sector.number, leaf);
+    point.normal = unitNormal(point.du, point.dv);
+    point.du *= scale;
+    point.dv *= scale;
+    return point;
+}
+
+} // namespace supple::surface::catmull_clark

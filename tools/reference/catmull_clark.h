@@ -1,0 +1,55 @@
+// The limit surface of Catmull-Clark at any parameter, in double: bicubic B-spline leaves of ever smaller quads round a
+// vertex, where creases are weights (docs/catmull_clark.md). For tests, comparisons and queries.
+#pragma once
+
+#include "surface/subdivision/mesh.h"
+#include "surface/subdivision/pattern.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace supple::surface::catmull_clark {
+
+/// A point of the surface. The derivatives are those in the quad's own parameters; their cross product points outwards.
+struct Point {
+    glm::dvec3 position{0.0};
+    glm::dvec3 du{0.0}, dv{0.0};
+    glm::dvec3 normal{0.0}; ///< of unit length, or zero if there is none
+};
+
+/// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
+[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
+                                  uint32_t fragment, uint32_t sector);
+
+/// The limit surface over the quads of a cage, or of the cage after one step if not all of its faces are quads: then
+/// face f gives one quad per corner, in the order of the corners (surface::refine()).
+class LimitSurface {
+public:
+    /// `mesh`: of Catmull-Clark; must outlive this. `positions`: of the cage it was built from.
+    LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions);
+
+    [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(sectors_.size() / 4); }
+
+    /// At (u, v) of a quad, both from 0 to 1, u from corner 0 to corner 1. The position is exact to rounding but within
+    /// 2^-40 of a corner, where it is the corner's. There du and dv are zero. The normal is the limit's, but for a run
+    /// of several faces between creases at a corner, where it is a mean (docs/subdivision.md).
+    [[nodiscard]] Point at(uint32_t quad, double u, double v) const;
+
+private:
+    /// A quarter of a quad: the sector of a fragment.
+    struct Sector {
+        uint32_t fragment = 0, number = 0;
+    };
+    /// (a, b): from the quarter's corner along its two edges, up to 1/2. Derivatives in a and b.
+    [[nodiscard]] Point inQuarter(const Sector& sector, double a, double b) const;
+
+    const subdivision::Mesh& mesh_;
+    std::vector<glm::dvec3> isolated_;                          ///< points of the level at which leaves begin
+    std::map<subdivision::Fan, subdivision::Pattern> patterns_; ///< of a step from radius 2 to radius 3
+    std::vector<Sector> sectors_;                               ///< four per quad: of its corners
+};
+
+} // namespace supple::surface::catmull_clark
