@@ -143,8 +143,9 @@ void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet
               std::span<const BoundResource> resources) {
     std::vector<VkWriteDescriptorSet> writes;
     for (const BoundResource& resource : resources) {
-        if (std::none_of(layout.bindings.begin(), layout.bindings.end(),
-                         [&](const Binding& binding) { return binding.binding == resource.binding; })) {
+        const auto binding = std::find_if(layout.bindings.begin(), layout.bindings.end(),
+                                          [&](const Binding& own) { return own.binding == resource.binding; });
+        if (binding == layout.bindings.end()) {
             continue;
         }
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
@@ -152,7 +153,7 @@ void writeSet(const Device& device, const ComputeLayout& layout, VkDescriptorSet
         write.dstBinding = resource.binding;
         write.descriptorCount = 1;
         const bool texels = resource.texels != VK_NULL_HANDLE;
-        write.descriptorType = texels ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.descriptorType = binding->type;
         write.pBufferInfo = texels ? nullptr : &resource.buffer;
         write.pTexelBufferView = texels ? &resource.texels : nullptr;
         writes.push_back(write);

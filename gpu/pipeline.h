@@ -24,6 +24,10 @@ struct Binding {
         return mapping == In::either || (mapping == In::wide) == wide;
     }
 };
+/// A few words that all lanes read alike.
+[[nodiscard]] constexpr Binding uniform(uint32_t binding) {
+    return {binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, Binding::In::either};
+}
 /// What kernels of both mappings bind as a storage buffer: what they write.
 [[nodiscard]] constexpr Binding storage(uint32_t binding) {
     return {binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, Binding::In::either};

@@ -8,7 +8,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr VkBufferUsageFlags kTableUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
 /// Tables on the device, in a buffer that debuggers see as "supple <table>". `of` begins the messages.
 Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& of, const std::string& table,

@@ -6,9 +6,8 @@ namespace supple::runtime {
 
 namespace {
 
-// Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits). Deformed cages start on such multiples,
-// and so do poses if there is more than one window.
-constexpr uint32_t kCagePadding = 16;
+// Descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits). If there is more than one window, poses
+// start on such multiples.
 constexpr uint32_t kPosePadding = 16;
 
 } // namespace
@@ -31,7 +30,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
 }
 
 uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
-    return (cageVertices + kCagePadding - 1) / kCagePadding * kCagePadding;
+    return surface::cageStrideFor(cageVertices);
 }
 
 BoundBytes InstanceSet::boundBytes(bool windowed) const {

@@ -1,5 +1,6 @@
 #include "surface/borders.h"
 #include "surface/table_check_common.h"
+#include "surface/table_header.h"
 
 #include <algorithm>
 #include <iterator>
@@ -102,7 +103,10 @@ void checkPool(TableCheck& check) {
     const Tables& tables = check.tables();
     check.require(tables.poolStride > 0 && tables.poolStride % 16 == 0, "instances do not begin on 256 bytes");
     check.require(tables.poolStride <= kMostPoolPerWord * tables.words.size(), "too large for these tables");
-    (void)(check.pool(tables.tangents, 0) && check.pool(tables.faces, 0) && check.pool(tables.inner, 0));
+    for (const uint32_t first : {tables.tangents, tables.faces, tables.inner, tables.meshVertices, tables.frames}) {
+        (void)check.pool(first, 0);
+    }
+    check.require(tables.cageStride == cageStrideFor(check.source().vertices), "another deformed cage");
 }
 
 void checkStages(TableCheck& check) {
@@ -122,7 +126,11 @@ void checkRecipe(TableCheck& check) {
     const SchemeId scheme = recipe.scheme;
     const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop,
                mesh = scheme == SchemeId::polygons;
-    check.require(!tables.words.empty() && tables.words.size() % 4 == 0, "no whole elements");
+    check.require(tables.words.size() % 4 == 0, "no whole elements");
+    const auto header = headerOf(tables);
+    check.require(tables.words.size() >= header.size() &&
+                      std::equal(header.begin(), header.end(), tables.words.begin()),
+                  "a header of other tables");
     check.require(tables.uvSets == 1 || tables.uvSets == 2, "neither one UV set nor two");
     check.require(tables.uvMode == cage::UvMode::all || (recipe.attributes && tables.uvMode == recipe.uvMode),
                   "texture coordinates not as the recipe says");

@@ -11,7 +11,6 @@ namespace supple::surface {
 /// The layout of an instance's surface vertices at a rate, and the strides between instances.
 struct Evaluation {
     uint32_t rate = 8;
-    uint32_t cageStride = 0;             ///< vertices per instance in the deformed cage
     uint32_t verticesPerInstance = 0;    ///< at least what layOut() returns
     std::vector<uint32_t> firstVertices; ///< per patch range: its first vertex in an instance; polygons: of all
     uint32_t firstEdgeVertex = 0;        ///< indexed mesh: the vertices of edges, then those of corners

@@ -52,11 +52,8 @@ inline constexpr uint32_t kDomainCount = 4;
 /// domain at this rate.
 [[nodiscard]] std::vector<uint16_t> gridIndices(Domain domain, uint32_t rate);
 
-/// The pairs (k / rate, (rate - k) / rate), k = 0..rate, correctly rounded, for rates 1..kMaxRate one after the other.
+/// The pairs (k / rate, (rate - k) / rate), k = 0..rate, correctly rounded, for rates 1..kMaxRate one after the other:
+/// those of a rate from SUPPLE_FIRST_PAIR on (shaders/shared/surface.h).
 [[nodiscard]] std::vector<float> parameterPairs();
-/// The index of the first pair of a rate.
-[[nodiscard]] constexpr uint32_t firstPair(uint32_t rate) {
-    return rate * (rate + 1) / 2 - 1;
-}
 
 } // namespace supple::surface

@@ -24,6 +24,7 @@ struct Needs {
                               ///< list of instances. 0: every edge has its own level
     uint32_t firstMask = 0;   ///< with lod: where masks of parts begin in the list of instances, in words
     uint32_t maskWords = 0;   ///< with lod: words of an instance's mask (shaders/shared/bounds.h)
+    bool countsHidden = true; ///< with lod: the surface counts the patches that instances of the group hide
     uint32_t rate = 0;        ///< the rate that the group is created with. Only this one gets pipelines of its own
 };
 

@@ -18,9 +18,9 @@ namespace {
 
 using namespace shared;
 
-static_assert(sizeof(SurfacePush) <= gpu::kPushConstantBytes);
-static_assert(sizeof(SubdivisionPush) <= gpu::kPushConstantBytes);
-static_assert(sizeof(LodPush) <= gpu::kPushConstantBytes && sizeof(LodSolvePush) <= sizeof(LodPush));
+static_assert(sizeof(PatchPush) <= sizeof(ConstructPush) && sizeof(EdgePush) <= sizeof(EvaluatePush) &&
+              sizeof(LevelsPush) <= sizeof(AttributesPush) && sizeof(DepthPush) <= sizeof(LodPush) &&
+              sizeof(LodSolvePush) <= sizeof(LodPush));
 
 using gpu::narrowTexels;
 using gpu::storage;
@@ -42,14 +42,17 @@ constexpr struct {
     gpu::Binding binding;
     uint32_t kinds;
 } kResources[] = {
+    {gpu::uniform(kTableHeaderBinding), kInAll},
     {wideStorage(kTableBinding), kInAll},
     {narrowTexels(kTable4TexelBinding), kInAll},
     {narrowTexels(kTable1TexelBinding), kInAll},
-    {wideStorage(kCageBinding), in({construct, subdivide, evaluateLevels})},
-    {narrowTexels(kCageTexelBinding), in({construct, subdivide, evaluateLevels})},
+    {wideStorage(kCageBinding), in({construct})},
+    {narrowTexels(kCageTexelBinding), in({construct})},
     {storage(kPoolBinding), in({construct, levels})},
     {wideStorage(kPoolBinding), in({evaluate, subdivide, evaluateLevels})},
     {narrowTexels(kPoolTexelBinding), in({construct, evaluate, subdivide, evaluateLevels, levels})},
+    {wideStorage(kTodaysPoolBinding), in({subdivide, evaluateLevels})},
+    {narrowTexels(kTodaysPoolTexelBinding), in({subdivide, evaluateLevels})},
     {storage(kSurfaceBinding), in({evaluate, subdivide, evaluateLevels})},
     {storage(kPatchCoefficientBinding), in({construct})},
     {storage(kAttributeBinding), in({attributes})},
@@ -88,9 +91,12 @@ static_assert(storageBuffers(evaluate) < gpu::kMaxStorageBuffers &&
 constexpr struct {
     uint32_t pushBytes;
     const char* name;
-} kLayouts[] = {{sizeof(SurfacePush), "supple surface construction"}, {sizeof(SurfacePush), "supple surface"},
-                {sizeof(SubdivisionPush), "supple subdivision"},      {sizeof(SurfacePush), "supple surface at levels"},
-                {sizeof(SurfacePush), "supple attributes"},           {sizeof(LodPush), "supple levels"}};
+} kLayouts[] = {{sizeof(ConstructPush), "supple surface construction"},
+                {sizeof(EvaluatePush), "supple surface"},
+                {sizeof(FragmentPush), "supple fragments"},
+                {sizeof(LevelsPush), "supple surface at levels"},
+                {sizeof(AttributesPush), "supple attributes"},
+                {sizeof(LodPush), "supple levels"}};
 static_assert(std::size(kLayouts) == kSetKinds);
 
 } // namespace

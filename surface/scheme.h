@@ -141,16 +141,26 @@ struct Triangles {
     std::vector<uint32_t> indices; ///< three vertices per patch
 };
 
+/// Vertices per instance in the deformed cage such that every instance starts on 256 bytes.
+[[nodiscard]] constexpr uint32_t cageStrideFor(uint32_t vertices) {
+    return (vertices + 15) / 16 * 16;
+}
+
 /// The tables of a cage (shaders/shared/{surface,prep,pm,subdivision,blend,polygons}.h) and where everything lies in
 /// them. They depend on connectivity alone. Patches are ordered by class, then by material, part and face.
 struct Tables {
-    std::vector<uint32_t> words; ///< a multiple of four
-    uint32_t ring = 0;           ///< first word of the ring
-    uint32_t poolStride = 0;     ///< coefficients per instance; a multiple of 256 bytes
-    uint32_t tangents = 0;       ///< first tangent in the pool; polygons: the first tangent frame
-    uint32_t faces = 0;          ///< first face coefficient in the pool
-    uint32_t inner = 0;          ///< p-rep: first coefficient of the perturbed edges in the pool
-    uint32_t edgeClasses = 0;    ///< p-rep, P_m: first element of the edge classes
+    /// All that the device reads: one block of whole elements that begins with its header (writeHeader()).
+    std::vector<uint32_t> words = std::vector<uint32_t>(shared::kTableHeaderWords);
+    uint32_t cageStride = 0;   ///< vertices per instance in the deformed cage (cageStrideFor())
+    uint32_t poolStride = 0;   ///< coefficients per instance; a multiple of 256 bytes
+    uint32_t meshVertices = 0; ///< where steps of subdivision made the mesh: its first vertex in the pool
+    uint32_t tangents = 0;     ///< first tangent in the pool
+    uint32_t faces = 0;        ///< first face coefficient in the pool
+    uint32_t inner = 0;        ///< p-rep: first coefficient of the perturbed edges in the pool
+    uint32_t frames = 0;       ///< polygons: first tangent frame in the pool
+    uint32_t ring = 0;         ///< first word of the ring
+    uint32_t edgeClasses = 0;  ///< p-rep, P_m: first element of the edge classes
+    uint32_t coordinates = 0;  ///< blending surface: first element of the coordinates of samples
     uint32_t uvSets = 1;
     cage::UvMode uvMode =
         cage::UvMode::all; ///< all: texture coordinates are linear, and the tables have no smooth ones

@@ -7,6 +7,7 @@
 #include "surface/lod/table_check.h"
 #include "surface/lod/tables.h"
 #include "surface/table_check_common.h"
+#include "surface/table_header.h"
 
 #include <algorithm>
 #include <bit>
@@ -57,6 +58,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (tables->patches.empty()) {
         return Error{ErrorCode::asset, "every face is a hole: there is no surface"};
     }
+    tables->cageStride = cageStrideFor(cage.vertexCount());
     if (!recipe.attributes && tables->attributes > 0) {
         // They come last (finishTables).
         tables->words.resize(size_t{4} * tables->attributes);
@@ -78,6 +80,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
             appendIndexedMesh(*tables, recipe.attributes, recipe.attributes && recipe.tangents);
         }
     }
+    writeHeader(*tables);
     return tables;
 }
 

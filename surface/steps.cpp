@@ -100,10 +100,11 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
     const gpu::Mapping& mapping = builder.device.mapping;
-    SurfacePush push = pushFor(builder, from.section);
+    auto push = pushFor<EvaluatePush>(from.section);
+    push.rate = builder.evaluation.rate;
     push.samples = samplesOf(builder, from.patchClass);
-    push.firstPatch = from.firstPatch;
     push.firstVertex = builder.evaluation.firstVertices[range];
+    push.verticesPerInstance = builder.evaluation.verticesPerInstance;
     DispatchSize size = builder.lanes(push.count);
     if (mapping.wide) {
         push.patchesPerGroup = patchesPerGroup(builder, from, pass.format);
@@ -156,7 +157,8 @@ void addAttributes(ProgramBuilder& builder, size_t range) {
                         {kOutputsConstant, outputsOf(builder)}},
                        indexed ? "supple attributes inside" : "supple attributes");
     const uint32_t samples = samplesOf(builder, from.patchClass);
-    SurfacePush push = pushFor(builder, {from.attributes, from.section.count * samples});
+    auto push = pushFor<AttributesPush>({from.attributes, from.section.count * samples});
+    push.rate = builder.evaluation.rate;
     push.samples = samples;
     push.smoothUvs = from.smoothUvs;
     push.firstVertex = builder.evaluation.firstVertices[range];
@@ -168,7 +170,7 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
         SetKind::construct, rowOf(range.patchClass).patch,
         {{kKindConstant, static_cast<uint32_t>(range.patchClass)}, {kCornerNormalsConstant, cornerNormals(builder)}},
         std::string("supple patch, ") + className(range.patchClass));
-    SurfacePush push = pushFor(builder, range.section);
+    auto push = pushFor<PatchPush>(range.section);
     push.firstPatch = range.firstPatch;
     builder.add(builder.program.patch, SetKind::construct, kernel, builder.lanes(push.count), push);
 }
@@ -191,8 +193,11 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
                                                    {kTangentsConstant, tangentsConstant(builder, pass.format)},
                                                    {kRateConstant, rate}},
                                                   atRate(name, rate));
-        SurfacePush push = pushFor(builder, edges.section);
+        auto push = pushFor<EdgePush>(edges.section);
+        push.rate = builder.evaluation.rate;
         push.firstVertex = builder.evaluation.firstEdgeVertex;
+        push.firstCorner = builder.evaluation.firstCornerVertex;
+        push.verticesPerInstance = builder.evaluation.verticesPerInstance;
         const DispatchSize size = builder.lanes(push.count * (builder.device.mapping.wide ? push.rate : 1));
         builder.add(*pass.steps, SetKind::evaluate, kernel, size, push);
     }
@@ -206,39 +211,15 @@ void addEdgeAttributes(ProgramBuilder& builder) {
     const gpu::Kernel kernel = builder.kernel(SetKind::attributes, which,
                                               {{kKindConstant, kEdgeDomain}, {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of edges");
-    SurfacePush push = pushFor(builder, {mesh.attributes.table, mesh.attributes.count * builder.evaluation.rate});
-    push.ring = mesh.edges.front().section.table;
+    auto push = pushFor<AttributesPush>({mesh.attributes.table, mesh.attributes.count * builder.evaluation.rate});
+    push.rate = builder.evaluation.rate;
+    push.edges = mesh.edges.front().section.table;
     push.firstVertex = builder.evaluation.firstEdgeVertex;
+    push.firstCorner = builder.evaluation.firstCornerVertex;
     builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push);
 }
 
 } // namespace
-
-SurfacePush pushFor(const ProgramBuilder& builder, const Section& section) {
-    const Tables& tables = builder.tables;
-    const Evaluation& evaluation = builder.evaluation;
-    SurfacePush push{};
-    push.count = section.count;
-    push.firstCorner = evaluation.firstCornerVertex;
-    push.table = section.table;
-    push.ring = tables.ring;
-    push.cageStride = evaluation.cageStride;
-    push.poolStride = tables.poolStride;
-    push.tangents = tables.tangents;
-    push.faces = tables.faces;
-    push.inner = tables.inner;
-    push.attributes = tables.attributes;
-    push.attributeHalves = tables.attributeHalves ? 1 : 0;
-    push.edgeClasses = tables.edgeClasses;
-    push.rate = evaluation.rate;
-    push.patchCount = static_cast<uint32_t>(tables.patches.size());
-    push.verticesPerInstance = evaluation.verticesPerInstance;
-    push.pairs = firstPair(evaluation.rate);
-    push.patchesPerGroup = 1;
-    push.uvSets = tables.uvSets;
-    push.faceUvs = tables.faceUvs ? 1 : 0;
-    return push;
-}
 
 uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format) {
     return builder.needs.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
@@ -275,9 +256,9 @@ void addConstructions(ProgramBuilder& builder) {
         // No facet kernel of P_m reads what another writes.
         const Order beside = c.stage == Stage::assemble && !steps.empty() ? Order::disjoint : Order::free;
         const Order order = c.readsPool ? Order::after : beside;
-        SurfacePush push = pushFor(builder, c.section);
-        push.firstVertex = c.from;
-        push.firstPatch = c.to;
+        auto push = pushFor<ConstructPush>(c.section);
+        push.from = c.from;
+        push.to = c.to;
         builder.add(steps, SetKind::construct, kernel, builder.lanes(c.section.count), push, i, order);
     }
 }
@@ -316,10 +297,10 @@ void addRangesAtLevels(ProgramBuilder& builder) {
     for (uint32_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const PatchClassRow& row = rowOf(range.patchClass);
-        SurfacePush push = pushFor(builder, range.section);
+        auto push = pushFor<LevelsPush>(range.section);
         push.firstPatch = range.firstPatch;
         push.run = r;
-        push.pairs = tables.lod.depth;
+        push.vertices = builder.evaluation.verticesPerInstance;
         for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
             const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},

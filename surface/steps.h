@@ -58,8 +58,14 @@ private:
     const Shaders& shaders_;
 };
 
-/// The push constants of a step on the records of a section.
-[[nodiscard]] shared::SurfacePush pushFor(const ProgramBuilder& builder, const Section& section);
+/// The push constants of a step on the records of a section, with what all that work on a range say.
+template <class Push>
+[[nodiscard]] Push pushFor(const Section& section) {
+    Push push{};
+    push.table = section.table;
+    push.count = section.count;
+    return push;
+}
 /// Attributes that are asked for and that the tables have, beside the first UV set and the color.
 [[nodiscard]] uint32_t outputsOf(const ProgramBuilder& builder);
 /// Whether kernels that write vertices of a format write tangents too (shared::kTangentsConstant).

@@ -109,10 +109,11 @@ void fields(A& a, T& triangles) {
 /// Without what only builders need (Tables::copies) and the tables of fragments, which no file keeps.
 template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {
-    a(tables.words, tables.ring, tables.poolStride, tables.tangents, tables.faces, tables.inner, tables.edgeClasses,
-      tables.uvSets, tables.uvMode, tables.uvLeaves, tables.faceUvs, tables.mapFrames, tables.attributes,
-      tables.attributeHalves, tables.isolationSteps, tables.rate, tables.triangles, tables.cornerNormals,
-      tables.constructions, tables.ranges, tables.patches, tables.drawRanges, tables.lod, tables.mesh, tables.notes);
+    a(tables.words, tables.cageStride, tables.poolStride, tables.meshVertices, tables.tangents, tables.faces,
+      tables.inner, tables.frames, tables.ring, tables.edgeClasses, tables.coordinates, tables.uvSets, tables.uvMode,
+      tables.uvLeaves, tables.faceUvs, tables.mapFrames, tables.attributes, tables.attributeHalves,
+      tables.isolationSteps, tables.rate, tables.triangles, tables.cornerNormals, tables.constructions, tables.ranges,
+      tables.patches, tables.drawRanges, tables.lod, tables.mesh, tables.notes);
 }
 
 } // namespace supple::surface

@@ -96,7 +96,8 @@ surface::Needs Levels::levelNeeds() const {
     // With one level an instance, that lies behind the list's entries (Culling::recordList).
     needs.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
     needs.firstMask = Culling::firstMask(desc_.group.capacity);
-    needs.maskWords = DrawnParts::wordsOf(partCount()) | (desc_.countsHidden ? 0 : kLodHiddenCounted);
+    needs.maskWords = DrawnParts::wordsOf(partCount());
+    needs.countsHidden = desc_.countsHidden;
     return needs;
 }
 

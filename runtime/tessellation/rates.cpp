@@ -81,7 +81,6 @@ Status Rates::begin() {
     for (size_t r = 0; r < own_.size(); ++r) {
         Rate& rate = own_[r];
         rate.evaluation.verticesPerInstance = evaluation_.verticesPerInstance;
-        rate.evaluation.cageStride = evaluation_.cageStride;
         Result<surface::Program> program = programFor(rate.scheme->tables(), needs, rate.evaluation);
         if (!program) {
             return program.error();

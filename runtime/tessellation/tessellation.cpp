@@ -55,7 +55,6 @@ Tessellation::Tessellation(TessellationDesc desc)
     : desc_(std::move(desc)), askedRate_(askedRate(desc_.group)), scheme_(std::make_shared<SchemeTables>()) {
     scheme_->prepared = std::make_shared<PreparedTables>();
     wanted_ = wantedBy(desc_);
-    evaluation_.cageStride = InstanceSet::cageStrideOf(cage().vertexCount());
 }
 
 Status Tessellation::buildTables() {
@@ -234,18 +233,17 @@ void Tessellation::bindInput(const SurfaceSets::Which& which, const SchemeTables
     };
     const VkBuffer table = scheme.buffers.buffer(0);
     const VkDeviceSize tableBytes = scheme.buffers.size(0);
+    contents.buffer(kTableHeaderBinding, table, 0, sizeof(TableHeader));
     contents.buffer(kTableBinding, table, 0, tableBytes);
     contents.texels(kTable4TexelBinding, gpu::kUint4, table, 0, tableBytes, "supple surface tables");
     contents.texels(kTable1TexelBinding, kUint1, table, 0, tableBytes, "supple surface table words");
     const uint32_t poolStride = tables().poolStride;
     bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
-    if (which.previous && view() != nullptr) {
-        // Today's coefficients in the place of the cage, which no evaluation reads (shaders/evaluate/bicubic.comp,
-        // shaders/fragments/net.glsl).
-        bind(kCageBinding, kCageTexelBinding, pools_[1 - which.pool], poolStride, "supple pool");
-    } else {
-        bind(kCageBinding, kCageTexelBinding, cages_, evaluation_.cageStride, "supple deformed cage");
-    }
+    // Without previous positions in a view kernels name it, but do not read it.
+    const bool today = which.previous && view() != nullptr;
+    bind(kTodaysPoolBinding, kTodaysPoolTexelBinding, pools_[today ? 1 - which.pool : which.pool], poolStride,
+         "supple pool");
+    bind(kCageBinding, kCageTexelBinding, cages_, tables().cageStride, "supple deformed cage");
     if (scratch_.size() > 0) {
         bind(kScratchBinding, kScratchTexelBinding, scratch_, scratchStride(), "supple scratch");
     } else { // some kernels name it but never read it

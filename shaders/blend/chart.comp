@@ -2,6 +2,7 @@
 // One invocation a chart and instance. Summed over differences to the vertex.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
@@ -24,7 +25,7 @@ void main() {
             sum[row] = next;
         }
     }
-    uint target = instance * push.poolStride + record.w;
+    uint target = instance * header.poolStride + record.w;
     precise vec3 origin = vertex + sum[0];
     storePool(target, origin);
     for (uint row = 1u; row < 9u; ++row) storePool(target + row, sum[row]);

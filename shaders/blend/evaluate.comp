@@ -17,6 +17,7 @@ const uint kParts = 4u * kChartCoefficients; // coefficients
 
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
+#include "shaders/evaluate/rate.glsl"
 #include "shaders/blend/sample.glsl"
 
 #ifndef WIDE
@@ -33,7 +34,7 @@ Corner[4] loadCorners(const PatchPlace at) {
 #ifndef LEVELS
 void evaluatePatch(const PatchPlace at) {
     Corner corners[4] = loadCorners(at);
-    uint side = push.rate + 1u, vertex = at.vertex, j = 0u;
+    uint side = dispatchRate() + 1u, vertex = at.vertex, j = 0u;
     do {
         uint i = 0u;
         do {
@@ -45,10 +46,10 @@ void evaluatePatch(const PatchPlace at) {
     } while (++j < side);
     if (!kSharp) return;
     // Once more along the border: lanes pay for a second blend, and inside none asks for it.
-    for (uint n = 0u; n < 4u * push.rate; ++n) {
-        uint edge = n / push.rate, along = n - edge * push.rate;
-        uint i = edge == 0u ? along : edge == 1u ? push.rate : edge == 2u ? push.rate - along : 0u;
-        uint j = edge == 0u ? 0u : edge == 1u ? along : edge == 2u ? push.rate : push.rate - along;
+    for (uint n = 0u; n < 4u * dispatchRate(); ++n) {
+        uint edge = n / dispatchRate(), along = n - edge * dispatchRate();
+        uint i = edge == 0u ? along : edge == 1u ? dispatchRate() : edge == 2u ? dispatchRate() - along : 0u;
+        uint j = edge == 0u ? 0u : edge == 1u ? along : edge == 2u ? dispatchRate() : dispatchRate() - along;
         vec3 position;
         Frame frame;
         evaluateAtRate(corners, i, j, true, position, frame);
@@ -99,7 +100,7 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
     evaluateLevels(corners, lodU(place, at.capacity, i, j), lodV(place, at.capacity, i, j), position, frame);
 #else
-    uint j = index / (push.rate + 1u), i = index - j * (push.rate + 1u);
+    uint j = index / (dispatchRate() + 1u), i = index - j * (dispatchRate() + 1u);
     evaluateAtRate(corners, i, j, kSharp && liesStill(corners, i, j), position, frame);
 #endif
 }

@@ -2,8 +2,8 @@
 // tables.glsl, frame.glsl, kSharp and kVertexFormat.
 #include "shaders/blend/blend.glsl"
 
-uint coordinateCount() { return push.rate + 3u; }
-uint mirrored(uint i) { return i <= push.rate ? push.rate - i : 2u * push.rate + 3u - i; }
+uint coordinateCount() { return dispatchRate() + 3u; }
+uint mirrored(uint i) { return i <= dispatchRate() ? dispatchRate() - i : 2u * dispatchRate() + 3u - i; }
 
 // The entry of a fixed rate's tables at coordinates x and y.
 ChartPoint tablePoint(Corner corner, uint x, uint y) {
@@ -27,8 +27,8 @@ void blendOfTables(Corner corners[4], uint i, uint j, out vec3 position, out vec
     uvec2 at[4] = uvec2[4](uvec2(i, j), uvec2(j, iBack), uvec2(iBack, jBack), uvec2(jBack, i));
     CornerPlace places[4];
     for (uint k = 0u; k < 4u; ++k) {
-        vec2 x = uintBitsToFloat(tableElement(push.ring + at[k].x).yz);
-        vec2 y = uintBitsToFloat(tableElement(push.ring + at[k].y).yz);
+        vec2 x = uintBitsToFloat(tableElement(header.coordinates + at[k].x).yz);
+        vec2 y = uintBitsToFloat(tableElement(header.coordinates + at[k].y).yz);
         places[k] = CornerPlace(tablePoint(corners[k], at[k].x, at[k].y), x, y);
     }
     blend(corners, places, position, du, dv);
@@ -38,7 +38,7 @@ const float kTinyNormal = 1e-12; // against the face's diagonals, squared
 
 // Whether the surface has no derivative at a sample, by connectivity alone.
 bool liesStill(Corner corners[4], uint i, uint j) {
-    bool onEdge[4] = bool[4](j == 0u, i == push.rate, j == push.rate, i == 0u);
+    bool onEdge[4] = bool[4](j == 0u, i == dispatchRate(), j == dispatchRate(), i == 0u);
     bool still = false;
     for (uint k = 0u; k < 4u; ++k) {
         still = still || (onEdge[k] && (corners[k].flags & kStillEdge) != 0u);
@@ -77,7 +77,7 @@ Frame cornerFrame(Corner corners[4], uint k) {
 }
 
 // Half a step inside, for samples on a border.
-uint inside(uint i) { return i == 0u ? push.rate + 1u : i == push.rate ? push.rate + 2u : i; }
+uint inside(uint i) { return i == 0u ? dispatchRate() + 1u : i == dispatchRate() ? dispatchRate() + 2u : i; }
 
 void evaluateAtRate(Corner corners[4], uint i, uint j, bool still, out vec3 position, out Frame frame) {
     vec3 du, dv;
@@ -87,7 +87,7 @@ void evaluateAtRate(Corner corners[4], uint i, uint j, bool still, out vec3 posi
         blendOfTables(corners, inside(i), inside(j), unused, du, dv);
     }
     frame = frameOf(du, dv);
-    bool onEdge[4] = bool[4](j == 0u, i == push.rate, j == push.rate, i == 0u);
+    bool onEdge[4] = bool[4](j == 0u, i == dispatchRate(), j == dispatchRate(), i == 0u);
     for (uint k = 0u; k < 4u; ++k) {
         if (!still && onEdge[k] && onEdge[(k + 3u) & 3u]) frame = cornerFrame(corners, k);
     }

@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
+#define PUSH_CONSTANTS EdgePush
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/chains.h"
 #include "shaders/surface/pool.glsl"
@@ -24,7 +25,7 @@ struct PatchPlace {
     bool begins;  // the corner's is stored
 };
 PatchPlace placeOf(uint instance, uint record, uvec4 edge) {
-    return PatchPlace(tableElement(record).x, instance * push.poolStride, instance * push.verticesPerInstance,
+    return PatchPlace(tableElement(record).x, instance * header.poolStride, instance * push.verticesPerInstance,
                       push.firstCorner + edge.x, push.firstVertex + edge.y * (fixedRate() - 1u), edge.x != kNoEdgeSample);
 }
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
@@ -71,7 +72,7 @@ void main() {
     if (k == 0u && !at.begins) return;
     vec3 position;
     Frame f;
-    sampleOnSide(at, tableElement(record).y, parameterPair(k, rate, push.pairs), position, f);
+    sampleOnSide(at, tableElement(record).y, parameterPair(k, rate), position, f);
     uint to = k == 0u ? at.corner : at.along + k - 1u;
     storeSurfaceVertex(at.first + to, to, position, f);
 }

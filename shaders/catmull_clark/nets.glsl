@@ -98,7 +98,7 @@ vec2 pairOf(uint pattern, uint k) {
 #ifdef LEVELS
     return lodPair(patterns[pattern], k, last);
 #else
-    return parameterPair(k, last, push.pairs);
+    return parameterPair(k, last);
 #endif
 }
 

@@ -50,8 +50,8 @@ vec3[4] sideCubic(const PatchPlace at, IrregularQuad quad, uint side) {
     uint next = (side + 1u) & 3u;
     vec3 a = poolPoint(at, componentOf(quad.points, side)), b = poolPoint(at, componentOf(quad.points, next));
     uint spokes = isCubic(quad, side) ? 0xFFFFFFFFu : 0u;
-    precise vec3 aTangent = a + poolPoint(at, push.tangents + (SUPPLE_SPOKE(componentOf(quad.spokes, side)) & spokes));
-    precise vec3 bTangent = b + poolPoint(at, push.tangents + (SUPPLE_NEXT_SPOKE(componentOf(quad.spokes, next)) & spokes));
+    precise vec3 aTangent = a + poolPoint(at, header.tangents + (SUPPLE_SPOKE(componentOf(quad.spokes, side)) & spokes));
+    precise vec3 bTangent = b + poolPoint(at, header.tangents + (SUPPLE_NEXT_SPOKE(componentOf(quad.spokes, next)) & spokes));
     return vec3[4](a, aTangent, bTangent, b);
 }
 // `pair`: along the quad's own parameter.

@@ -5,8 +5,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #ifdef LEVELS
-#define PUSH_CONSTANTS LodPush
+#define PUSH_CONSTANTS DepthPush
 #include "shaders/shared/lod.h"
+#else
+#define PUSH_CONSTANTS ConstructPush
 #endif
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
@@ -15,11 +17,11 @@
 #include "shaders/shared/subdivision.h"
 
 #ifdef LEVELS
-#include "shaders/lod/levels.glsl"
-uint listedCount() { return min(levelWord(push.depths + kDepthCounts + push.first), instanceCount()); }
+#include "shaders/lod/scratch.glsl"
+uint listedCount() { return min(levelWord(header.depths + kDepthCounts + push.depth), instanceCount()); }
 uint itemOfList() { return min(invocationIndex(), push.count * listedCount() - 1u); }
 uint slotOfItem(uint item) {
-    return slotOf(levelWord(levelBase(item / push.count) + push.depths + kDepthEntries + push.first));
+    return slotOf(levelWord(levelBase(item / push.count) + header.depths + kDepthEntries + push.depth));
 }
 #else
 uint itemOfList() { return itemOfLane(); }
@@ -265,7 +267,7 @@ void makeLevel(uvec4 block, uint lane) {
 
 void main() {
     uint item = itemOfList(), lane = elementOf(item);
-    base = slotOfItem(item) * push.poolStride;
+    base = slotOfItem(item) * header.poolStride;
     if (kMakes == kMakesLimits) {
         uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);

@@ -12,7 +12,7 @@ struct Chain {
 Chain chainOf(const PatchPlace at, uint windows, uint points, uint lastWord) {
     uint size = tableWord(4u * windows + lastWord), last = size >> kChainLevelShift;
 #ifdef DEPTH_OF_INSTANCE
-    last = min(last, uint(poolPoint(at, push.pairs).x));
+    last = min(last, uint(poolPoint(at, header.depth).x));
 #endif
     return Chain(windows, points, size & ((1u << kChainLevelShift) - 1u), last);
 }

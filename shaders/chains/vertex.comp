@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
@@ -19,15 +20,15 @@ vec3 ringDiagonal(uint word, uint meshBase, vec3 p0) {
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * push.poolStride;
-    uint meshBase = instance * meshStride() + push.inner;
+    uint base = instance * header.poolStride;
+    uint meshBase = instance * meshStride() + header.meshVertices;
     if (kFan == kRegularFan) {
         regularFan(index, base, meshBase);
         return;
     }
     uint record = 4u * push.table + 3u * index;
-    uint slot = tableWord(record), weights = tableWord(record + 1u), limit = tableWord(record + 2u), words = push.ring + slot;
+    uint slot = tableWord(record), weights = tableWord(record + 1u), limit = tableWord(record + 2u), words = header.ring + slot;
     vec3 p0 = meshPoint(meshBase + ringCorner(tableWord(words), kRingVertex));
-    weightedFan(base + limit, base + push.tangents + slot, base + push.faces + slot, words, meshBase, p0, weights + 1u,
+    weightedFan(base + limit, base + header.tangents + slot, base + header.faces + slot, words, meshBase, p0, weights + 1u,
                 tableElement(weights).x, true, true);
 }

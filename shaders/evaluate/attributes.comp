@@ -6,6 +6,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#ifndef LEVELS
+#define PUSH_CONSTANTS AttributesPush
+#endif
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
@@ -50,11 +53,11 @@ float[5] bilinear(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, u.x * 
 float[5] polar(vec2 u, vec2 v) { return float[5](u.y * v.y, u.x * v.y, v.x, 0.0, 0.0); }
 
 float[5] cornerWeights(uint index) {
-    uvec3 at = gridSample(kDomain, push.rate, index);
-    vec2 u = parameterPair(at.x, push.rate, push.pairs), v = parameterPair(at.y, push.rate, push.pairs);
+    uvec3 at = gridSample(kDomain, dispatchRate(), index);
+    vec2 u = parameterPair(at.x, dispatchRate()), v = parameterPair(at.y, dispatchRate());
     if (kDomain == kQuadDomain) return bilinear(u, v);
     if (kDomain == kPolarDomain) return polar(u, v);
-    float rest = parameterPair(push.rate - at.x - at.y, push.rate, push.pairs).x;
+    float rest = parameterPair(dispatchRate() - at.x - at.y, dispatchRate()).x;
     if (kDomain == kTriangleDomain) return float[5](rest, u.x, v.x, 0.0, 0.0);
     return pentagonWeights(at.z, vec3(rest, u.x, v.x));
 }
@@ -106,7 +109,7 @@ struct Corners {
     SmoothPatch smooth0, smooth1; // of the first and the second UV set
 #endif
 };
-bool haveMore() { return push.uvSets == 2u || push.faceUvs != 0u; }
+bool haveMore() { return header.uvSets == 2u || header.faceUvs != 0u; }
 uint cornerElements() { return 1u + uint(haveMore()) + uint(kMapFrames); }
 // Texture coordinates in the frame of the corners' normal map (cage::MapFrame::turn).
 vec2 turned(Corners c, vec2 uv) {
@@ -145,18 +148,18 @@ void findSide(inout Corners c, uint corners) {
 }
 // `first`: the word with the first number of a list, or the half of a word, of which `place` is one.
 uint cornerElement(uint first, uint place) {
-    uint number = tableWord(first + (place >> push.attributeHalves));
-    if (push.attributeHalves != 0u) number = number >> 16u * (place & 1u) & 0xFFFFu;
-    return push.attributes + cornerElements() * number;
+    uint number = tableWord(first + (place >> header.attributeHalves));
+    if (header.attributeHalves != 0u) number = number >> 16u * (place & 1u) & 0xFFFFu;
+    return header.attributes + cornerElements() * number;
 }
 Corners loadCorners(uint patchIndex) {
     Corners c;
     for (uint k = 0u; k < kCorners; ++k) loadCorner(c, k, cornerElement(push.table, kCorners * patchIndex + k));
     if (kDirections) findSide(c, kCorners);
 #ifdef SMOOTH
-    uint first = push.smoothUvs + push.uvSets * kSmoothElements * patchIndex;
+    uint first = push.smoothUvs + header.uvSets * kSmoothElements * patchIndex;
     c.smooth0 = loadSmooth(first);
-    if ((kOutputs & kOutputUvs1) != 0u || (kMapFrames && push.uvSets == 2u)) c.smooth1 = loadSmooth(first + kSmoothElements);
+    if ((kOutputs & kOutputUvs1) != 0u || (kMapFrames && header.uvSets == 2u)) c.smooth1 = loadSmooth(first + kSmoothElements);
 #endif
     return c;
 }
@@ -399,15 +402,16 @@ void evaluateWideLod(uint form) {
 #ifndef LEVELS
 Slopes slopesAtRate(Corners c, uint index) {
     if (kSectors) {
-        uvec3 s = sectorOf(kDomain, push.rate, index);
-        float x = parameterPair(s.x, push.rate, push.pairs).x, y = parameterPair(s.y, push.rate, push.pairs).x;
+        uvec3 s = sectorOf(kDomain, dispatchRate(), index);
+        float x = parameterPair(s.x, dispatchRate()).x, y = parameterPair(s.y, dispatchRate()).x;
         return sectorSlopes(c, s.z, vec3(1.0 - x - y, x, y));
     }
-    uvec3 at = gridSample(kDomain, push.rate, index);
-    return slopesAt(c, parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
+    uvec3 at = gridSample(kDomain, dispatchRate(), index);
+    return slopesAt(c, parameterPair(at.x, dispatchRate()), parameterPair(at.y, dispatchRate()));
 }
 #endif
 
+#ifdef LEVELS
 void evaluateNarrowLod() {
     uint record = lodRecordElement(lodRecordOfLane());
     LodRecord r = lodRecordOf(lodElement(record));
@@ -419,6 +423,7 @@ void evaluateNarrowLod() {
     if (!kRings) storeRows(record, r, corners);
 #endif
 }
+#endif
 
 // A smooth UV set along an edge, by the sums of bicubic patches (rows.glsl).
 vec2 curvePoint(uint first, vec2 t) {
@@ -457,10 +462,11 @@ Slopes slopesOnEdge(Corners c, uint side, uint corners, bool sectors, vec2 t) {
     return Slopes(along, sectors ? 0.5 * (along + across) : across);
 }
 
+#ifndef LEVELS
 // A sample along an edge, or at the corner where it begins: see evaluate/edge.comp.
 void storeOnEdge(uint id) {
-    uint edge = id / push.rate, k = id - edge * push.rate;
-    uvec4 own = tableElement(push.ring + kEdgeElements * edge + 2u);
+    uint edge = id / dispatchRate(), k = id - edge * dispatchRate();
+    uvec4 own = tableElement(push.edges + kEdgeElements * edge + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
     uvec4 patchOfEdge = tableElement(push.table + edge); // that it is taken from
     uint side = patchOfEdge.y & kPatchSideMask, corners = patchOfEdge.y >> kPatchCornersShift & kPatchSideMask;
@@ -469,14 +475,14 @@ void storeOnEdge(uint id) {
     Corners c;
     for (uint i = 0u; i < corners; ++i)
         if (kDirections || i == side || i == next) loadCorner(c, i, cornerElement(patchOfEdge.x, odd + i));
-    vec2 t = parameterPair(k, push.rate, push.pairs);
+    vec2 t = parameterPair(k, dispatchRate());
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
     s = blended(1.0, s, t.y, atCorner(c, side));
     s = blended(1.0, s, t.x, atCorner(c, next));
 #if defined(QUADS) || defined(TRIANGLES)
     SmoothUv onSide = smoothOnSide(patchOfEdge.z, side, t);
     s.uv = onSide.uv;
-    if (push.uvSets == 2u) {
+    if (header.uvSets == 2u) {
         SmoothUv second = smoothOnSide(patchOfEdge.z + kSmoothElements, side, t);
         s.more.xy = second.uv;
         if (kMapFrames && c.second) onSide = second;
@@ -485,10 +491,10 @@ void storeOnEdge(uint id) {
 #else
     if (patchOfEdge.z != 0u) {
         s.uv = curvePoint(patchOfEdge.z, t);
-        if (push.uvSets == 2u) s.more.xy = curvePoint(patchOfEdge.z + kUvCurveElements, t);
+        if (header.uvSets == 2u) s.more.xy = curvePoint(patchOfEdge.z + kUvCurveElements, t);
     }
 #endif
-    uint vertex = k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (push.rate - 1u) + k - 1u;
+    uint vertex = k == 0u ? push.firstCorner + own.x : push.firstVertex + own.y * (dispatchRate() - 1u) + k - 1u;
     store(vertex, s);
     if (kDirections) {
         findSide(c, corners);
@@ -501,6 +507,7 @@ void storeOnEdge(uint id) {
         storeDirection(vertex, c, slopes);
     }
 }
+#endif
 
 void main() {
 #ifdef LEVELS
@@ -518,7 +525,7 @@ void main() {
     }
     if (kDomain == kVertexDomain) {
         Corners c;
-        loadCorner(c, 0u, push.attributes + cornerElements() * id);
+        loadCorner(c, 0u, header.attributes + cornerElements() * id);
         store(push.firstVertex + id, atCorner(c, 0u));
         return;
     }

@@ -63,12 +63,12 @@ void evaluatePatch(const PatchPlace at) {
     // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
     uint j = first;
     do {
-        Row row = collapse(c, parameterPair(j, rate, push.pairs));
+        Row row = collapse(c, parameterPair(j, rate));
         uint i = first;
         [[unroll]] do {
             vec3 position;
             Frame frame;
-            finish(row, parameterPair(i, rate, push.pairs), position, frame);
+            finish(row, parameterPair(i, rate), position, frame);
             if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
             if (kCornerNormals && !kInterior) frame = withCornerNormal(frame, i, j, rate, slots, at.base);
             storeSurfaceVertex(vertex, own, position, frame);
@@ -143,14 +143,14 @@ void loadVector(uint to, uint i, bool isNew) { localElements[to].xyz = coefficie
 // What corner and edge `corner` bring to the patch in a place.
 void loadCorner(uint place, const PatchPlace at, uint corner) {
     uint first = 4u * at.record + corner, point = at.base + tableWord(first), spoke = tableWord(first + 4u);
-    uint to = place * kLocalStride + 4u * corner, tangents = at.base + push.tangents;
+    uint to = place * kLocalStride + 4u * corner, tangents = at.base + header.tangents;
     loadVector(to, point, at.isNew);
     if (kPolar && corner == 3u) { // it has no spoke
         loadVector(to + 1u, point + 1u, at.isNew);
     } else {
         loadVector(to + 1u, tangents + SUPPLE_SPOKE(spoke), at.isNew);
         loadVector(to + 2u, tangents + SUPPLE_NEXT_SPOKE(spoke), at.isNew);
-        loadVector(to + 3u, at.base + push.faces + SUPPLE_SPOKE(spoke), at.isNew);
+        loadVector(to + 3u, at.base + header.faces + SUPPLE_SPOKE(spoke), at.isNew);
     }
     if (!kPerturbed) return;
     uint edge = tableWord(first + 8u);
@@ -226,7 +226,7 @@ void evaluateWide() {
     Row row;
     vec3 apex;
     if (lane < rows) {
-        row = collapseFrom(place * kLocalStride, parameterPair(j, rate, push.pairs));
+        row = collapseFrom(place * kLocalStride, parameterPair(j, rate));
         if (kPolar) apex = localVector(place * kLocalStride + localSlot(12u));
     }
     uint rounds = (side + kMostTogether - 1u) / kMostTogether, chunk = ((side + rounds - 1u) / rounds) | 1u;
@@ -238,7 +238,7 @@ void evaluateWide() {
                 if (from + c >= side) break;
                 vec3 position;
                 Frame frame;
-                finish(row, parameterPair(i, rate, push.pairs), position, frame);
+                finish(row, parameterPair(i, rate), position, frame);
                 if (kPolar && j == rate) position = apex;
                 if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
                     PatchPlace at = PATCH_IN_PLACE(share, place);

@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
+#define PUSH_CONSTANTS EdgePush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/pairs.glsl"
@@ -106,7 +107,7 @@ void storeBeginning(Edge e, uint vertex, uint own) {
 void evaluateNarrow() {
     uint item = itemOfLane(), instance = instanceOf(item), record = push.table + elementOf(item) * kEdgeElements;
     uvec4 own = tableElement(record + 2u);
-    Edge e = loadEdge(record, own, instance * push.poolStride);
+    Edge e = loadEdge(record, own, instance * header.poolStride);
     uint first = instance * push.verticesPerInstance;
     if (own.x != kNoEdgeSample) storeBeginning(e, first + push.firstCorner + own.x, push.firstCorner + own.x);
     uint rate = fixedRate();
@@ -114,7 +115,7 @@ void evaluateNarrow() {
     vec3 position;
     uint vertex = push.firstVertex + own.y * (rate - 1u), k = 1u;
     [[unroll]] do {
-        Frame f = finish(e, parameterPair(k, rate, push.pairs), position);
+        Frame f = finish(e, parameterPair(k, rate), position);
         storeSurfaceVertex(first + vertex, vertex, position, f);
         ++vertex;
     } while (++k < rate);
@@ -128,14 +129,14 @@ void evaluateWide() {
     uint record = push.table + edge * kEdgeElements;
     uvec4 own = tableElement(record + 2u);
     if (k == 0u && own.x == kNoEdgeSample) return;
-    Edge e = loadEdge(record, own, instance * push.poolStride);
+    Edge e = loadEdge(record, own, instance * header.poolStride);
     uint first = instance * push.verticesPerInstance;
     if (k == 0u) {
         storeBeginning(e, first + push.firstCorner + own.x, push.firstCorner + own.x);
         return;
     }
     vec3 position;
-    Frame f = finish(e, parameterPair(k, rate, push.pairs), position);
+    Frame f = finish(e, parameterPair(k, rate), position);
     uint vertex = push.firstVertex + own.y * (rate - 1u) + k - 1u;
     storeSurfaceVertex(first + vertex, vertex, position, f);
 }

@@ -10,7 +10,7 @@
 //   OWN_WIDE          a macro, if its own evaluateWide() is faster than the one below
 // and behind it the functions that are declared here.
 #include "shaders/surface/pool.glsl"
-#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/todays_pool.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/lod/record.glsl"
 
@@ -28,22 +28,22 @@ struct PatchPlace {
 #ifdef LEVELS
 PatchPlace placeOf(const LodRecord r) {
     setPast(r.isNew);
-    return PatchPlace(push.table + kRecordElements * r.patchIndex, r.slot * push.poolStride, r.firstVertex, r.firstVertex,
+    return PatchPlace(push.table + kRecordElements * r.patchIndex, r.slot * header.poolStride, r.firstVertex, r.firstVertex,
                       r.capacity, r.capacityIndex, r.isNew, r.isEmpty);
 }
 #else
 PatchPlace placeOf(uint item) {
     uint instance = instanceOf(item), element = elementOf(item);
     uint own = push.firstVertex + element * push.samples;
-    return PatchPlace(push.table + kRecordElements * element, instance * push.poolStride,
+    return PatchPlace(push.table + kRecordElements * element, instance * header.poolStride,
                       instance * push.verticesPerInstance + own, own, 0u, 0u, false, false);
 }
 #endif
 
-// Instances without a past have today's coefficients as their previous ones. These are bound in the place of the cage.
+// Instances without a past have today's coefficients as their previous ones.
 vec3 coefficient(uint i, bool isNew) {
 #ifdef LEVELS
-    return kVertexFormat == kVertexPosition && isNew ? cageVertex(i) : poolVector(i);
+    return kVertexFormat == kVertexPosition && isNew ? todaysVector(i) : poolVector(i);
 #else
     return poolVector(i);
 #endif

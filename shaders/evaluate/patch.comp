@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
+#define PUSH_CONSTANTS PatchPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/bicubic.glsl"
@@ -11,10 +12,10 @@
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * header.poolStride;
     uint record = push.table + patchIndex * kRecordElements;
     NetRecord net = netRecord(record);
-    uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
+    uint target = kPatchStride * (instance * header.patchCount + push.firstPatch + patchIndex);
     for (uint k = 0u; k < 16u; ++k) {
         bool past = kClass == kPolarPatch && k > 12u;
         uint corner = cornerOf(k);

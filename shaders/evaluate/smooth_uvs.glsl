@@ -50,8 +50,8 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
 }
 SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
 SmoothPlace placeAtRate(uint index) {
-    uvec3 at = gridSample(kDomain, push.rate, index);
-    return SmoothPlace(parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
+    uvec3 at = gridSample(kDomain, dispatchRate(), index);
+    return SmoothPlace(parameterPair(at.x, dispatchRate()), parameterPair(at.y, dispatchRate()));
 }
 #endif
 
@@ -104,11 +104,11 @@ SmoothPlace ringPlace(uint sector, vec3 weights, vec2 along, bool border, bool c
     return SmoothPlace(sector, weights, along, border, corner);
 }
 SmoothPlace placeAtRate(uint index) {
-    uvec3 s = sectorOf(kDomain, push.rate, index);
-    vec3 weights = vec3(parameterPair(push.rate - s.x - s.y, push.rate, push.pairs).x,
-                        parameterPair(s.x, push.rate, push.pairs).x, parameterPair(s.y, push.rate, push.pairs).x);
+    uvec3 s = sectorOf(kDomain, dispatchRate(), index);
+    vec3 weights = vec3(parameterPair(dispatchRate() - s.x - s.y, dispatchRate()).x,
+                        parameterPair(s.x, dispatchRate()).x, parameterPair(s.y, dispatchRate()).x);
     bool border = s.y == 0u;
-    return SmoothPlace(s.z, weights, parameterPair(s.x, push.rate, push.pairs), border, border && s.x == 0u);
+    return SmoothPlace(s.z, weights, parameterPair(s.x, dispatchRate()), border, border && s.x == 0u);
 }
 #endif
 
@@ -160,7 +160,7 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
 SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
 #else
 SmoothPlace placeAtRate(uint index) {
-    uvec3 at = gridSample(kDomain, push.rate, index);
+    uvec3 at = gridSample(kDomain, dispatchRate(), index);
     return SmoothPlace(at.x, at.y);
 }
 #endif
@@ -214,8 +214,8 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
 }
 SmoothPlace quadPlace(vec2 u, vec2 v) { return SmoothPlace(u, v); }
 SmoothPlace placeAtRate(uint index) {
-    uvec3 at = gridSample(kDomain, push.rate, index);
-    return SmoothPlace(parameterPair(at.x, push.rate, push.pairs), parameterPair(at.y, push.rate, push.pairs));
+    uvec3 at = gridSample(kDomain, dispatchRate(), index);
+    return SmoothPlace(parameterPair(at.x, dispatchRate()), parameterPair(at.y, dispatchRate()));
 }
 // On a side, with its derivatives along it and inwards.
 SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
@@ -270,7 +270,7 @@ SmoothPlace ringPlace(uint sector, vec3 weights, vec2 along, bool border, bool c
 }
 #else
 SmoothPlace placeAtRate(uint index) {
-    return SmoothPlace(0u, gridPoint(gridSample(kDomain, push.rate, index).xy, push.rate));
+    return SmoothPlace(0u, gridPoint(gridSample(kDomain, dispatchRate(), index).xy, dispatchRate()));
 }
 #endif
 #endif

@@ -4,11 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
-#define PUSH_CONSTANTS SubdivisionPush
+#define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
-#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/todays_pool.glsl"
 #include "shaders/fragments/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 
@@ -33,16 +33,16 @@ void main() {
     // Workgroups past the last repeat it: all lanes must meet at the barriers.
     uint item = min(workgroupIndex(), itemCount() - 1u), entry = entryOf(item), instance = slotOf(entry);
     setPast(push.today != 0u && (entry & kInstanceIsNew) != 0u);
-    uvec4 record = tableElement(push.records + elementOf(item));
-    uint header = record.x, fragment = record.y;
-    uvec4 head = tableElement(header), last = tableElement(header + 2u);
-    uint patches = tableElement(header + 1u).x;
-    uint fragments = head.x, levels = header + kClassHeaderElements;
+    uvec4 record = tableElement(push.table + elementOf(item));
+    uint classHeader = record.x, fragment = record.y;
+    uvec4 head = tableElement(classHeader), last = tableElement(classHeader + 2u);
+    uint patches = tableElement(classHeader + 1u).x;
+    uint fragments = head.x, levels = classHeader + kClassHeaderElements;
 
     // Even steps begin at 0, odd ones at the other end: so the last two fit into the memory whatever their sizes.
     uint count = tableElement(levels).z;
     for (uint i = gl_LocalInvocationID.x; i < count; i += gl_WorkGroupSize.x)
-        writePoint(i, netPoint(instance * push.poolStride + tableWord(head.z + i * fragments + fragment), entry,
+        writePoint(i, netPoint(instance * header.poolStride + tableWord(head.z + i * fragments + fragment), entry,
                                kVertexFormat == kVertexPosition));
     region = 0u;
     barrier();
@@ -52,7 +52,7 @@ void main() {
         uint neighbours = tableElement(levels + step - 1u).y;
         for (uint i = gl_LocalInvocationID.x; i < level.z; i += gl_WorkGroupSize.x)
             writePoint(target + i,
-                       refinedPoint(tableElement(level.x + i), neighbours, header, fragments, fragment, step));
+                       refinedPoint(tableElement(level.x + i), neighbours, classHeader, fragments, fragment, step));
         barrier();
         region = target;
     }
@@ -61,7 +61,7 @@ void main() {
         uvec4 row = tableElement(at + 1u);
         vec3 position;
         Frame frame;
-        limitSample(tableElement(at), row, header, fragments, fragment, push.step, position, frame);
+        limitSample(tableElement(at), row, classHeader, fragments, fragment, push.step, position, frame);
         uint patchIndex = tableWord(patches + (row.z & kSectorMask) * fragments + fragment);
         uint own = push.firstVertex + patchIndex * push.samples + row.w;
         if (patchIndex != kNoPatch)

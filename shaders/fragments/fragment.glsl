@@ -7,10 +7,10 @@ float spokeSharpness(uint sharpnessWords, uint spoke, uint fragments, uint fragm
 }
 
 // Point `row` of level `step`.
-vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint header, uint fragments, uint fragment, uint step) {
+vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint classHeader, uint fragments, uint fragment, uint step) {
     Sources row = unpackSources(packedRow);
     uint rule = row.s[7] & 3u, spoke = row.s[7] >> 2;
-    uvec4 head = tableElement(header);
+    uvec4 head = tableElement(classHeader);
     float sharpness = 0.0;
     if (spoke != 0u && (head.y & kSharpClass) != 0u)
         sharpness = spokeSharpness(head.w, spoke - 1u, fragments, fragment, step - 1u);
@@ -29,11 +29,11 @@ vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint header, uint fragments,
     if (!kLoop && rule == kFaceRule)
         p = facePoint(point(row.s[0]), point(row.s[1]), point(row.s[2]), point(row.s[3]));
     if (rule == kCentreRule) {
-        vec2 weights = uintBitsToFloat(tableElement(header + 2u).xy);
+        vec2 weights = uintBitsToFloat(tableElement(classHeader + 2u).xy);
         vec4 shares = vec4(1.0, 0.0, 0.0, 0.0);
         uvec4 centre = uvec4(0u);
         if ((head.y & kSharpClass) != 0u) {
-            centre = tableElement(tableElement(header + 1u).z + (step - 1u) * fragments + fragment);
+            centre = tableElement(tableElement(classHeader + 1u).z + (step - 1u) * fragments + fragment);
             shares.xy = uintBitsToFloat(centre.xy);
         }
         p = centrePoint(head.y & ~kSharpClass, weights, shares.x, shares.y, centre.z, centre.w);

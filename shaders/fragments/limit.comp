@@ -4,11 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
-#define PUSH_CONSTANTS SubdivisionPush
+#define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
-#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/todays_pool.glsl"
 #include "shaders/fragments/net.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/fragments/scratch.glsl"

@@ -3,17 +3,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
-#define PUSH_CONSTANTS SubdivisionPush
+#define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
-#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/todays_pool.glsl"
 #include "shaders/fragments/net.glsl"
 #include "shaders/fragments/scratch.glsl"
 #include "shaders/fragments/fragment.glsl"
 
 void writePoint(uint target, vec3 p) {
-    scratch[lane.instance * push.scratchStride + lane.write + target * lane.fragments + lane.fragment] = vec4(p, 0.0);
+    scratch[lane.instance * header.scratchStride + lane.write + target * lane.fragments + lane.fragment] = vec4(p, 0.0);
 }
 
 void refineCell(uint neighbours) {

@@ -99,9 +99,9 @@ void centreLimit(uint mask, uint sector, out vec3 position, out Frame frame) {
 }
 
 // The sample of two elements of a limit row.
-void limitSample(uvec4 around, uvec4 place, uint header, uint fragments, uint fragment, uint step, out vec3 position,
+void limitSample(uvec4 around, uvec4 place, uint classHeader, uint fragments, uint fragment, uint step, out vec3 position,
                  out Frame frame) {
-    uvec4 head = tableElement(header), lists = tableElement(header + 1u);
+    uvec4 head = tableElement(classHeader), lists = tableElement(classHeader + 1u);
     uint sector = place.z & kSectorMask, turns = (place.z & ~kRightSide) >> kTurnShift;
     float sharpness = 0.0;
     if (place.y != 0u && (head.y & kSharpClass) != 0u)

@@ -20,7 +20,7 @@ void findLane() {
     uint block = min(id / kBlockLanes, itemCount() - 1u);
     lane.listed = entryOf(block);
     lane.instance = slotOf(lane.listed);
-    lane.record = push.records + 3u * elementOf(block);
+    lane.record = push.table + 3u * elementOf(block);
     uvec4 where = tableElement(lane.record), what = tableElement(lane.record + 1u);
     lane.rows = where.x;
     lane.list = where.y;
@@ -39,8 +39,8 @@ void findLane() {
 vec3 point(uint i) {
     uint at = lane.read + i * lane.fragments + lane.fragment;
     if (kSource != kFromScratch)
-        return netPoint(lane.instance * push.poolStride + tableWord(at), lane.listed, kSource == kFromPastNet);
-    at += lane.instance * push.scratchStride;
+        return netPoint(lane.instance * header.poolStride + tableWord(at), lane.listed, kSource == kFromPastNet);
+    at += lane.instance * header.scratchStride;
     if (kWide) return scratch[at].xyz;
     return texelFetch(scratchTexels, int(at)).xyz;
 }

@@ -20,7 +20,7 @@ shared uvec4 countsOf[kMaxLanes];
 // A segment is 1 / level long, or more; but one that grows from nothing lies in the cone of the last cell (chains/chain_level.glsl).
 uint depthOf(uint i, uint entry) {
     uint instance = slotOf(entry);
-    float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + push.depths));
+    float level = push.levels != 0u ? levelOfEntry(i) : uintBitsToFloat(levelWord(levelBase(instance) + header.depths));
     level = clamp(level * uintBitsToFloat(lodWord(kLodSolution + 4u + SUPPLE_INSTANCE_PRIORITY(entry))), 1.0, 63.0);
     // A level above 2^(n - 1), up to 2^n, gives n.
     return clamp((floatBitsToUint(level) - 1u >> 23u) - 126u, kFirstDepth - 1u, kFirstDepth + kDepths - 1u);
@@ -51,15 +51,15 @@ void main() {
     }
     for (uint i = begin; i < end; ++i) {
         uint entry = instanceEntry(i), instance = slotOf(entry), depth = depthOf(i, entry);
-        pool[instance * push.poolStride + push.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
+        pool[instance * header.poolStride + header.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
         uvec4 listed = depthsOf(depth);
         [[dont_unroll]] for (uint d = 0u; d < kDepths; ++d) {
-            if (listed[d] != 0u) scratchWords[levelBase(places[d]) + push.depths + kDepthEntries + d] = entry;
+            if (listed[d] != 0u) scratchWords[levelBase(places[d]) + header.depths + kDepthEntries + d] = entry;
         }
         places += listed;
     }
     for (uint d = lane; d < kDepths; d += gl_WorkGroupSize.x) {
-        scratchWords[push.depths + kDepthCounts + d] = counts[d];
-        storeDispatch(push.depths + kDepthDispatches + 3u * d, tableElement(push.table)[d] * counts[d]);
+        scratchWords[header.depths + kDepthCounts + d] = counts[d];
+        storeDispatch(header.depths + kDepthDispatches + 3u * d, tableElement(header.depthLanes)[d] * counts[d]);
     }
 }

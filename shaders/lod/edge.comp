@@ -134,7 +134,7 @@ EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(
 #endif
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * header.poolStride;
     EdgeCurve curve = curveOf(base, edge);
     edge += push.first;
     vec3 x0 = curve.x0, x1 = curve.x1;
@@ -142,5 +142,5 @@ void main() {
     precise float radius = 0.5 * curve.curveLength;
     float level = levelOf(curve.curveLength, curve.bend, pixelsPerUnit(middle, radius));
     scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);
-    if (edge == 0u && push.depths != 0u) scratchWords[levelBase(instance) + push.depths] = 0u; // what patches raise
+    if (edge == 0u && header.depths != 0u) scratchWords[levelBase(instance) + header.depths] = 0u; // what patches raise
 }

@@ -408,8 +408,8 @@ void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint
 // Whether the instance hides the patch's part. What it hides is counted where its first patch is.
 bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool inside) {
     if ((listed & kInstanceHidesParts) == 0u) return false;
-    uint mask = push.masks + (push.window.firstSlot + instance) * (push.maskWords & ~kLodHiddenCounted);
-    if (inside && patchIndex == 0u && (push.maskWords & kLodHiddenCounted) == 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
+    uint mask = push.masks + (push.window.firstSlot + instance) * push.maskWords;
+    if (inside && patchIndex == 0u && push.countsHidden != 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
     return (instanceWord(mask + 1u + part / 32u) >> (part & 31u) & 1u) != 0u;
 }
 
@@ -417,13 +417,13 @@ void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
     uint item = itemOfLane(), patchIndex = push.first + elementOf(item), listed = entryOf(item);
     uint instance = slotOf(listed), priority = SUPPLE_INSTANCE_PRIORITY(listed);
-    uint words = levelBase(instance), base = instance * push.poolStride;
-    uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
+    uint words = levelBase(instance), base = instance * header.poolStride;
+    uvec4 edges = tableElement(header.levelPatches + 2u * patchIndex), more = tableElement(header.levelPatches + 2u * patchIndex + 1u);
     uint patchClass = more.w & ((1u << kLodPartShift) - 1u), part = more.w >> kLodPartShift;
     if (isHidden(listed, instance, patchIndex, part, inside)) counted = false;
     uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
     uint sides = formSides(form);
-    uint target = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
+    uint target = words + header.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];
     if (kNets && (push.levels == 0u || kBackFaces)) g = bicubicNet(more.z, base, patchClass == kPolarPatch);
     float level = 0.0, fifth = 0.0;
@@ -464,5 +464,5 @@ void main() {
     countPatch(counted, run, form, priority, bin, weight);
     bool chains = patchClass == kLoopIrregularPatch || patchClass == kIrregularPatch || patchClass == kIrregularSharpPatch;
     // Patches of hidden parts count too, so that hiding a part changes no other one.
-    if (!kCubics && inside && chains) atomicMax(scratchWords[words + push.depths], floatBitsToUint(level));
+    if (!kCubics && inside && chains) atomicMax(scratchWords[words + header.depths], floatBitsToUint(level));
 }

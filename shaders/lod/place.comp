@@ -21,17 +21,17 @@ uvec2 levelPair(float level) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uint bucketCount = push.runCount * kCapacityCount;
+    uint bucketCount = header.runCount * kCapacityCount;
     if (kWide) {
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) taken[i] = 0u;
         barrier();
     }
     uint item = itemOfLane(), patchIndex = elementOf(item), listed = entryOf(item);
     uint instance = slotOf(listed), priority = SUPPLE_INSTANCE_PRIORITY(listed);
-    uint words = levelBase(instance), at = words + push.edgeCount + kLodPatchLevelWords * patchIndex;
+    uint words = levelBase(instance), at = words + header.edgeCount + kLodPatchLevelWords * patchIndex;
     uint bin = levelWord(at);
     vec2 own = uintBitsToFloat(uvec2(levelWord(at + 1u), levelWord(at + 2u)));
-    uvec4 edges = tableElement(push.patches + 2u * patchIndex), more = tableElement(push.patches + 2u * patchIndex + 1u);
+    uvec4 edges = tableElement(header.levelPatches + 2u * patchIndex), more = tableElement(header.levelPatches + 2u * patchIndex + 1u);
     bool drawn = invocationIndex() < itemCount() && bin != kNoBin;
     uint capacity = 0u;
     if (drawn) capacity = min(lodWord(kLodCapacities + priority * kLodBinStride + min(bin, kLodBins - 1u)), kCapacityCount - 1u);

@@ -22,6 +22,7 @@ struct LodRecord {
     uint capacityIndex, capacity;
 };
 
+#ifdef LEVELS
 uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * index) / 4u; }
 // Whatever the words are, the record names a patch, a slot, vertices and a grid that there are. That of an empty one is any patch.
 LodRecord lodRecordOf(uvec4 head) {
@@ -32,9 +33,10 @@ LodRecord lodRecordOf(uvec4 head) {
     r.isNew = (head.y & kInstanceIsNew) != 0u;
     r.capacityIndex = min(head.w, kCapacityCount - 1u);
     r.capacity = capacityOf(r.capacityIndex);
-    r.firstVertex = min(head.z, push.verticesPerInstance - formSamples(kForm, r.capacity));
+    r.firstVertex = min(head.z, push.vertices - formSamples(kForm, r.capacity));
     return r;
 }
+#endif
 // Pattern k of a record, whose elements begin at `element`.
 LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
     vec4 two = uintBitsToFloat(lodElement(element + 1u + k / 2u));
@@ -64,16 +66,20 @@ vec3 ringWeights(vec2 along, float t) {
     return w;
 }
 
+#ifdef LEVELS
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
     uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
     return lodWord(at + 3u) + min(invocationIndex(), lodWord(at + 4u) - 1u);
 }
 
+#endif
+
 // Wide mapping: what a workgroup takes of a dispatch. At levels, some records of one bucket.
 struct Share {
     uint first, count, samples, side;
 };
+#ifdef LEVELS
 Share lodShareOfGroup(uint form) {
     uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), kMaxRuns * kCapacityCount);
@@ -95,6 +101,7 @@ Share lodShareOfGroup(uint form) {
     share.count = share.first < next ? min(each, next - share.first) : 0u;
     return share;
 }
+#endif
 
 #if defined(WIDE) && defined(LEVELS)
 // The records of a workgroup and their patterns, in workgroup memory. The latter in two parts: one is integers.

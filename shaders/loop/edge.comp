@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
+#define PUSH_CONSTANTS EdgePush
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/chains.h"
 #include "shaders/surface/pool.glsl"
@@ -26,7 +27,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 // Sample k of a side, which runs from its corner to the next one.
 void storeSample(const PatchPlace at, Triangle t, Leaf leaf, uvec4 edge, uint instance, uint side, uint k) {
     if (k == 0u && edge.x == kNoEdgeSample) return; // another edge stores the corner
-    TrianglePoint s = pointOnSide(side, parameterPair(k, fixedRate(), push.pairs));
+    TrianglePoint s = pointOnSide(side, parameterPair(k, fixedRate()));
     vec3 position;
     Frame frame;
     if (kIrregular) irregularTriangle(at, t, s, side, position, frame);
@@ -46,7 +47,7 @@ void main() {
 #endif
     uint record = push.table + element * kEdgeElements;
     uvec4 source = tableElement(record), edge = tableElement(record + 2u);
-    PatchPlace at = PatchPlace(source.x, instance * push.poolStride);
+    PatchPlace at = PatchPlace(source.x, instance * header.poolStride);
     Triangle t = triangleOf(at.record, kIrregular);
     laneCage = cageLeaf(at, t);
     Leaf leaf;

@@ -100,7 +100,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
 #else
 uint last; // segments along a side
 
-vec2 pairOf(uint k) { return parameterPair(k, last, push.pairs); }
+vec2 pairOf(uint k) { return parameterPair(k, last); }
 // `counts`: of the weights of corners 1 and 2.
 void store(const PatchPlace at, bool own, uvec2 counts, vec3 position, Frame frame) {
     uint to = kInterior ? rowStart(last - 2u, counts.y - 1u) + counts.x - 1u : rowStart(last + 1u, counts.y) + counts.x;

@@ -18,11 +18,11 @@ TrianglePoint ringPoint(uint side, bool border, vec2 along, vec3 w) {
 TrianglePoint gridPoint(uvec2 at, uint rate) {
     uint rest = rate - at.x - at.y;
     uint side = at.y == 0u ? 0u : rest == 0u ? 1u : at.x == 0u ? 2u : kInside;
-    if (side == 0u) return pointOnSide(0u, parameterPair(at.x, rate, push.pairs));
-    if (side == 1u) return pointOnSide(1u, parameterPair(at.y, rate, push.pairs));
-    if (side == 2u) return pointOnSide(2u, parameterPair(rest, rate, push.pairs));
-    vec3 w = vec3(parameterPair(rest, rate, push.pairs).x, parameterPair(at.x, rate, push.pairs).x,
-                  parameterPair(at.y, rate, push.pairs).x);
-    return TrianglePoint(w, parameterPair(rate - max(max(at.x, at.y), rest), rate, push.pairs).x, kInside, vec2(0.0));
+    if (side == 0u) return pointOnSide(0u, parameterPair(at.x, rate));
+    if (side == 1u) return pointOnSide(1u, parameterPair(at.y, rate));
+    if (side == 2u) return pointOnSide(2u, parameterPair(rest, rate));
+    vec3 w = vec3(parameterPair(rest, rate).x, parameterPair(at.x, rate).x,
+                  parameterPair(at.y, rate).x);
+    return TrianglePoint(w, parameterPair(rate - max(max(at.x, at.y), rest), rate).x, kInside, vec2(0.0));
 }
 #endif

@@ -70,13 +70,13 @@ void finish(Sector s, vec3 w, bool onBorder, vec2 along, bool singular, out vec3
 
 // Weights of the sample (k, l) of a sector: (rate - k - l, k, l) / rate.
 vec3 weightsAtRate(uint k, uint l) {
-    return vec3(parameterPair(push.rate - k - l, push.rate, push.pairs).x, parameterPair(k, push.rate, push.pairs).x,
-                parameterPair(l, push.rate, push.pairs).x);
+    return vec3(parameterPair(dispatchRate() - k - l, dispatchRate()).x, parameterPair(k, dispatchRate()).x,
+                parameterPair(l, dispatchRate()).x);
 }
 
 // Number of the sample (k, l) in a sector.
 uint sampleOf(uint sector, uint k, uint l) {
-    uint rate = push.rate, d = l / kRowStep, less = kInterior ? 1u : 0u;
+    uint rate = dispatchRate(), d = l / kRowStep, less = kInterior ? 1u : 0u;
     if (kClass == kP5Patch) {
         uint rows = rate - less, perSector = rows * (rows + 1u) / 2u;
         return l == rate ? 5u * perSector : sector * perSector + rowStart(rows, l - less) + k;
@@ -113,29 +113,29 @@ void evaluatePatch(const PatchPlace at) {
             Border border = makeBorder(s, last, own, next, (singular & (1u << sector)) != 0u);
             uint k = 0u;
             do {
-                finishBorder(s, border, k == 0u, parameterPair(k, push.rate, push.pairs), position, frame);
+                finishBorder(s, border, k == 0u, parameterPair(k, dispatchRate()), position, frame);
                 uint own = sampleOf(sector, k, 0u);
                 storeSurfaceVertex(vertex + own, first + own, position, frame);
-            } while (++k < push.rate);
+            } while (++k < dispatchRate());
         }
         uint l = kRowStep;
-        if (l < push.rate) {
+        if (l < dispatchRate()) {
             do {
                 uint k = 0u;
                 do {
                     finishInside(s, weightsAtRate(k, l), position, frame);
                     uint own = sampleOf(sector, k, l);
                     storeSurfaceVertex(vertex + own, first + own, position, frame);
-                } while (++k < push.rate - l);
+                } while (++k < dispatchRate() - l);
                 l += kRowStep;
-            } while (l < push.rate);
+            } while (l < dispatchRate());
         }
         next = own;
         own = last;
     } while (sector > 0u);
-    if (push.rate % kRowStep == 0u) {
+    if (dispatchRate() % kRowStep == 0u) {
         finishCentre(s, position, frame);
-        uint own = sampleOf(0u, 0u, push.rate);
+        uint own = sampleOf(0u, 0u, dispatchRate());
         storeSurfaceVertex(vertex + own, first + own, position, frame);
     }
 }
@@ -210,8 +210,8 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     uint sector = s.side;
     bool border = s.ring == 0u, corner = border && s.k == 0u;
 #else
-    uvec3 s = sectorOf(kDomain, push.rate, index);
-    vec2 along = parameterPair(s.x, push.rate, push.pairs);
+    uvec3 s = sectorOf(kDomain, dispatchRate(), index);
+    vec2 along = parameterPair(s.x, dispatchRate());
     vec3 w = weightsAtRate(s.x, s.y);
     uint sector = s.z;
     bool border = s.y == 0u, corner = border && s.x == 0u;

@@ -4,6 +4,7 @@
 // as offsets: h12, h22 from the apex, b211 from v_i, b121 from v_i+1, b112 from b004.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
@@ -13,7 +14,7 @@
 void polarFacet(uint record, uint base) {
     uvec4 points = tableElement(record), spokes = tableElement(record + 1u);
     vec4 w = uintBitsToFloat(tableElement(spokes.w));
-    uint tangents = base + push.tangents, target = base + points.w;
+    uint tangents = base + header.tangents, target = base + points.w;
     vec3 h02 = poolVector(tangents + SUPPLE_SPOKE(spokes.z)), h32 = poolVector(tangents + SUPPLE_NEXT_SPOKE(spokes.z));
     precise float scale = 1.0 / (2.0 + w.x);
     precise vec3 h12 = (2.0 * h02 + h32) * scale, h22 = (h02 + 2.0 * h32) * scale;          // (18)
@@ -30,7 +31,7 @@ void innerFacet(uint record, uint base) {
     vec3 own[kSides], back[kSides]; // f - f_across over edge i and over edge i - 1, or f - t where the edge ends the sector
     uint edgeClass[kSides];
     precise vec3 centre = vec3(0.0);
-    uint tangents = base + push.tangents, faces = base + push.faces;
+    uint tangents = base + header.tangents, faces = base + header.faces;
     uint target = base + SUPPLE_INNER(innerWord(record, m));
     for (uint i = 0u; i < m; ++i) {
         uint point = pointWord(record, i), spoke = SUPPLE_SPOKE(spokeWord(record, i));
@@ -50,7 +51,7 @@ void innerFacet(uint record, uint base) {
         t1[i] = b;
         own[i] = f - fa;
         back[i] = f - fb;
-        edgeClass[i] = push.edgeClasses + 2u * SUPPLE_EDGE_CLASS(classWord(record, m, i), i);
+        edgeClass[i] = header.edgeClasses + 2u * SUPPLE_EDGE_CLASS(classWord(record, m, i), i);
     }
     precise vec3 b004 = centre * kCentreScale;
     precise vec3 centrePoint = origin + b004;
@@ -96,7 +97,7 @@ void innerFacet(uint record, uint base) {
 }
 
 void main() {
-    uint item = itemOfLane(), facet = elementOf(item), base = instanceOf(item) * push.poolStride;
+    uint item = itemOfLane(), facet = elementOf(item), base = instanceOf(item) * header.poolStride;
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);
     else innerFacet(push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * facet, base);
 }

@@ -4,7 +4,7 @@
 #include "shaders/pm/sector.glsl"
 
 SectorSide loadSide(uint m, uint record, uint base, uint inner, uint i, bool today) {
-    uint at = inner + 1u + 3u * i, tangents = base + push.tangents;
+    uint at = inner + 1u + 3u * i, tangents = base + header.tangents;
     uint t0 = SUPPLE_SPOKE(spokeWord(record, i)), t1 = SUPPLE_NEXT_SPOKE(spokeWord(record, i + 1u == m ? 0u : i + 1u));
     return SectorSide(coefficient(base + pointIndex(record, i), today), coefficient(tangents + t0, today),
                       coefficient(tangents + t1, today), coefficient(at, today), coefficient(at + 1u, today),

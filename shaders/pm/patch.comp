@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_READ_ONLY
+#define PUSH_CONSTANTS PatchPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/pm/pm.glsl"
@@ -11,10 +12,10 @@
 layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * push.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * header.poolStride;
     uint record = push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * patchIndex;
-    uint target = kPatchStride * (instance * push.patchCount + push.firstPatch + patchIndex);
-    uint inner = base + centreIndex(record, kSides), tangents = base + push.tangents;
+    uint target = kPatchStride * (instance * header.patchCount + push.firstPatch + patchIndex);
+    uint inner = base + centreIndex(record, kSides), tangents = base + header.tangents;
     vec3 centre = poolVector(inner);
     coefficients[target] = vec4(centre, 0.0);
     for (uint i = 0u; i < kSides; ++i) {

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
@@ -32,7 +33,7 @@ vec3 endTangent(vec3 spoke, bool ownEnds, uint element, uint cageBase, vec3 p0) 
     uvec4 end = ownEnds ? tableElement(element) : uvec4(0u, floatBitsToUint(1.0 / 3.0), 0u, 0u);
     precise vec3 t = uintBitsToFloat(end.y) * spoke;
     if (end.x == 0u) return t;
-    precise vec3 other = ringSpoke(tableWord(push.ring + end.x - 1u), cageBase) - p0;
+    precise vec3 other = ringSpoke(tableWord(header.ring + end.x - 1u), cageBase) - p0;
     precise vec3 through = t - uintBitsToFloat(end.z) * other;
     return through;
 }
@@ -117,14 +118,14 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
+    uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
     if (kFan == kRegularFan) {
         regularFan(index, base, cageBase);
         return;
     }
     uint record = 4u * push.table + 3u * index;
-    uint slot = tableWord(record), weights = tableWord(record + 1u), words = push.ring + slot;
-    uint limit = base + tableWord(record + 2u), tangent = base + push.tangents + slot, face = base + push.faces + slot;
+    uint slot = tableWord(record), weights = tableWord(record + 1u), words = header.ring + slot;
+    uint limit = base + tableWord(record + 2u), tangent = base + header.tangents + slot, face = base + header.faces + slot;
     vec3 p0 = ringPoint(tableWord(words), kRingVertex, cageBase);
     if (kFan != kCreasedFan) {
         uint header = tableElement(weights).x;

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POOL_WRITE_ONLY
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
@@ -26,7 +27,7 @@ vec3 longFaceArea(uint first, uint count, uint cageBase) {
 
 void main() {
     uint item = itemOfLane(), index = elementOf(item), instance = instanceOf(item);
-    uint cageBase = instance * push.cageStride;
+    uint cageBase = instance * header.cageStride;
     uvec4 record = tableElement(push.table + index);
     uint face = kFaces == kLongFaces ? record.z : index;
     precise vec3 area;
@@ -37,5 +38,5 @@ void main() {
         precise vec3 b = cageVertex(cageBase + record.w) - cageVertex(cageBase + record.z);
         area = crossProduct(a, b);
     }
-    storePool(instance * push.poolStride + face, area);
+    storePool(instance * header.poolStride + face, area);
 }

@@ -2,6 +2,7 @@
 // it is, to the bit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
@@ -11,7 +12,7 @@
 
 void main() {
     uint item = itemOfLane(), index = elementOf(item), instance = instanceOf(item);
-    uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
+    uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
     uvec4 record = tableElement(push.table + index);
     vec3 position = cageVertex(cageBase + record.x);
     precise vec3 area = vec3(0.0);
@@ -25,7 +26,7 @@ void main() {
         normal = vec3(0.0, 0.0, 1.0);
         tangent = vec3(1.0, 0.0, 0.0);
     }
-    uint frame = base + push.tangents + kFrameElements * index;
+    uint frame = base + header.frames + kFrameElements * index;
     pool[frame] = vec4(position, 0.0);
     storePool(frame + kFrameNormal, normal);
     storePool(frame + kFrameTangent, tangent);

@@ -3,11 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
-#define PUSH_CONSTANTS SubdivisionPush
+#define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
-#include "shaders/surface/cage.glsl"
+#include "shaders/evaluate/todays_pool.glsl"
 #include "shaders/evaluate/surface_vertex.glsl"
 #include "shaders/polygons/vector.glsl"
 #include "shaders/shared/polygons.h"
@@ -22,14 +22,14 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 
 void main() {
     uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = slotOf(entry);
-    uvec4 record = tableElement(push.records + index);
-    uint frame = instance * push.poolStride + record.x, vertex = instance * push.verticesPerInstance + push.firstVertex + index;
+    uvec4 record = tableElement(push.table + index);
+    uint frame = instance * header.poolStride + record.x, vertex = instance * push.verticesPerInstance + push.firstVertex + index;
     if (kVertexFormat == kVertexPosition) {
-        // In a view, instances without a past come from today's frames, which are bound in the place of the cage.
+        // In a view, instances without a past come from today's frames.
         bool isNew = push.today != 0u && (entry & kInstanceIsNew) != 0u;
         vec3 position;
         setPast(isNew);
-        if (isNew) position = cageVertex(frame);
+        if (isNew) position = todaysVector(frame);
         else position = poolVector(frame);
         storeSurfaceVertex(vertex, position, vec3(0.0));
         return;
@@ -42,6 +42,6 @@ void main() {
         const mat3 axes = mat3(x, y, z);
         vec3 du, dv;
         axesAcross(coordinates, du, dv);
-        tangents[vertex] = tangentWord(tableWord(push.directions + index), Frame(axes * du, axes * dv, normal));
+        tangents[vertex] = tangentWord(tableWord(header.directions + index), Frame(axes * du, axes * dv, normal));
     }
 }

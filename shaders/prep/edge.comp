@@ -3,6 +3,7 @@
 // depend on the two valences only. One invocation a perturbed edge and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/pool.glsl"
 #include "shaders/surface/store.glsl"
@@ -18,9 +19,9 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 void main() {
     uint item = itemOfLane(), index = elementOf(item);
     uvec4 record = tableElement(push.table + index); // A, its spoke, B, its spoke
-    uint base = instanceOf(item) * push.poolStride, tangents = base + push.tangents, faces = base + push.faces;
-    uint weights = push.edgeClasses + kEdgeClassElements * SUPPLE_PREP_EDGE_CLASS(record.x, record.z);
-    uint target = base + push.inner + 4u * index;
+    uint base = instanceOf(item) * header.poolStride, tangents = base + header.tangents, faces = base + header.faces;
+    uint weights = header.edgeClasses + kEdgeClassElements * SUPPLE_PREP_EDGE_CLASS(record.x, record.z);
+    uint target = base + header.inner + 4u * index;
 
     vec3 tA = poolVector(tangents + SUPPLE_SPOKE(record.y));
     precise vec3 B = poolVector(base + SUPPLE_POINT(record.z)) - poolVector(base + SUPPLE_POINT(record.x));

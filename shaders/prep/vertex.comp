@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
@@ -20,15 +21,15 @@ vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * push.poolStride, cageBase = instance * push.cageStride;
+    uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
     if (kFan == kRegularFan) {
         regularFan(index, base, cageBase);
         return;
     }
     uint record = 4u * push.table + 2u * index;
-    uint slot = tableWord(record), weights = tableWord(record + 1u), words = push.ring + slot;
+    uint slot = tableWord(record), weights = tableWord(record + 1u), words = header.ring + slot;
     uint vertex = ringCorner(tableWord(words), kRingVertex);
-    uint tangent = base + push.tangents + slot, face = base + push.faces + slot;
+    uint tangent = base + header.tangents + slot, face = base + header.faces + slot;
     uint header = tableElement(weights).x;
     bool boundary = (header & kBoundaryClass) != 0u;
     uint sectors = header & ~kBoundaryClass;

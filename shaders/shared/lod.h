@@ -87,8 +87,6 @@ SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBi
 SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
 SUPPLE_SHARED_CONST kBudgetSteps = kElasticSteps + kRatedBins;
-// Of LodPush::maskWords: another surface of the group counts the patches that an instance hides.
-SUPPLE_SHARED_CONST kLodHiddenCounted = 0x80000000u;
 SUPPLE_SHARED_CONST kLodHidden = kLodRated + 1u; // patches of hidden parts, of all groups with levels
 SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
 // From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
@@ -160,26 +158,25 @@ SUPPLE_SHARED_CONST kMeasuresIrregularTriangles = 3u;
 SUPPLE_SHARED_CONST kMeasuresWholeSides = 0u;
 SUPPLE_SHARED_CONST kMeasuresHalves = 1u;
 
-// What the passes before evaluation are told.
+// What the passes that choose levels are told.
 struct LodPush {
     WindowPush window;
-    uint count;   // edges or patches of an instance that the pass takes
-    uint first;   // one of them; chains: number of the depth
-    uint table;   // its first element: of edges; of what makes the depth; of the counts of lanes that make depths
-    uint patches; // and of patch 0
-    uint edgeCount;
-    uint poolStride;
-    uint tangents;      // first in the pool
-    uint faces;         // and face coefficients
-    uint scratchStride; // elements an instance
-    uint runCount;      // of the window
-    uint levels;        // one level an instance: so far behind its entry stands its level; 0: a level an edge
-    uint masks;         // of parts, first word in the list of instances (shared/bounds.h)
-    uint maskWords;     // an instance; and kLodHiddenCounted
-    uint depths;        // in an instance's scratch, first of kDepthWords; 0: there are no chains
-    uint depth;         // in an instance's pool, the last level of its chains
+    uint count; // edges or patches of an instance that the pass takes
+    uint first; // one of them
+    uint table; // of edges: its first element
+    uint levels;       // one level an instance: so far behind its entry stands its level; 0: a level an edge
+    uint masks;        // of parts, first word in the list of instances (shared/bounds.h)
+    uint maskWords;    // an instance
+    uint countsHidden; // 1: this surface of the group counts the patches that an instance hides
     LodCamera
         camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
+};
+// What the passes that make a level of chains are told.
+struct DepthPush {
+    WindowPush window;
+    uint table; // first element of what makes the depth
+    uint count; // of an instance
+    uint depth; // its number among the depths
 };
 struct LodSolvePush {
     uint runCount;          // in use, of the view

@@ -2,7 +2,7 @@
 // same group share it. The frame turns with the faces round it, and the normal that the file gives a surface vertex is stored in
 // its coordinates.
 //
-// Coefficient pool, an instance: for every face of the cage twice its area vector; then (SurfacePush::tangents) for every frame
+// Coefficient pool, an instance: for every face of the cage twice its area vector; then (TableHeader::frames) for every frame
 // three elements: the position of its vertex, its unit normal, which is the area-weighted mean of its faces, and a unit tangent.
 //
 // Tables

@@ -2,7 +2,7 @@
 // rules: docs/subdivision.md).
 //
 // Coefficient pool: the vertices of the isolated level.
-// Scratch buffer: vec4 elements, `scratchStride` an instance; for every step and class of fragments one run of points,
+// Scratch buffer: vec4 elements, TableHeader::scratchStride an instance; for every step and class of fragments one run of points,
 // point by point, in each the fragments of the class.
 //
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
@@ -85,18 +85,15 @@ SUPPLE_SHARED_CONST kNoTarget = 0xFFFFu;
 SUPPLE_SHARED_CONST kNoSample = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kClassHeaderElements = 3u; // before the levels
 
-struct SubdivisionPush {
+struct FragmentPush {
     WindowPush window;
-    uint records; // first block or fragment
-    uint count;   // blocks or fragments an instance
-    uint step;    // the level that is written, or, for the limit, that is read
-    uint poolStride;
-    uint scratchStride;
+    uint table; // first block or fragment; polygons: first vertex
+    uint count; // of them an instance
+    uint step;  // the level that is written, or, for the limit, that is read
     uint verticesPerInstance;
-    uint samples;       // of a sector
-    uint firstVertex;   // of the patches, within an instance
-    uint today; // 1: instances without a past come from the coefficients that are bound in the place of the cage
-    uint directions; // polygons with tangents: first word of their directions
+    uint samples;     // of a sector
+    uint firstVertex; // of the patches, within an instance
+    uint today; // 1: instances without a past come from the coefficients of this frame (kTodaysPoolBinding)
 };
 
 SUPPLE_SHARED_END

@@ -6,7 +6,8 @@
 // keep all of float's digits however far from the origin the patch lies. A coefficient's position is always the one sum
 // limit point + offset, so that both sides of a border see the same bits.
 //
-// Tables (one buffer, read as uvec4 or as uint) begin with what the scheme's construction needs and end with
+// Tables (one block, read as uvec4 or as uint) begin with their header (shared/table_header.h). What the scheme's construction needs
+// follows. They end with
 //   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit
 //   points,
 //                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge
@@ -53,6 +54,7 @@
 
 #include "shaders/shared/instances.h"
 #include "shaders/shared/portable.h"
+#include "shaders/shared/table_header.h"
 #include "shaders/shared/window.h"
 
 SUPPLE_SHARED_BEGIN
@@ -76,6 +78,11 @@ SUPPLE_SHARED_CONST kFaceUvBinding = 14u;
 SUPPLE_SHARED_CONST kTangentBinding = 19u;
 SUPPLE_SHARED_CONST kDirectionBinding = 20u;       // read by evaluation,
 SUPPLE_SHARED_CONST kDirectionOutputBinding = 21u; // and written by attributes
+// 22: shared/table_header.h
+// Motion of groups in a view: kPoolBinding has the coefficients of the frame before, and this one those of this frame, which
+// instances without a past take.
+SUPPLE_SHARED_CONST kTodaysPoolBinding = 23u;
+SUPPLE_SHARED_CONST kTodaysPoolTexelBinding = 24u;
 
 // Classes of patches; values of SupplePatchClass.
 SUPPLE_SHARED_CONST kRegularPatch = 0u;
@@ -184,6 +191,8 @@ SUPPLE_SHARED_CONST kPatchHasSectors = 64u;
 SUPPLE_SHARED_CONST kPatchHalfShift = 7u;
 SUPPLE_SHARED_CONST kUvCurveElements = 6u;
 
+#define SUPPLE_FIRST_PAIR(rate) ((rate) * ((rate) + 1u) / 2u - 1u) // of the parameter pairs, which follow each other from rate 1 on
+
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
 // Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at
 // a rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
@@ -193,34 +202,63 @@ SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch
 SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u;
 #define SUPPLE_WIDE_ELEMENTS(vertexFormat) ((vertexFormat) == kVertex24 ? 704u : 832u)
 
-// Where the sections of the tables and of the pool lie, and what a dispatch covers.
-struct SurfacePush {
+// What a dispatch alone knows: its window of instances, its range, and where it writes. What all dispatches of a surface share
+// stands in the tables' header (shared/table_header.h). `count`: elements an instance, which are what `table` begins.
+struct ConstructPush {
     WindowPush window;
-    uint count; // elements an instance: vertices, edges, facets, patches or patch samples
-    uint table; // first table element of the pass's records; attributes: first word of the numbers
-    uint ring;  // first table word of the ring; blending surface: first element of the coordinates; attributes of an
-                // indexed mesh: first element of the edge records
-    uint cageStride; // cage vertices an instance in the deformed cage
-    uint poolStride;
-    uint tangents; // first tangent in the pool
-    uint faces;    // first face coefficient in the pool
+    uint table; // first element of the records
+    uint count;
+    uint from; // by stencils: the first vertex that rows may name
+    uint to;   // by stencils: pool index of the first row's point
+};
+// The pass `patch`.
+struct PatchPush {
+    WindowPush window;
+    uint table; // first element of the records
+    uint count;
+    uint firstPatch; // of the range in device order
+};
+// Evaluation at a rate.
+struct EvaluatePush {
+    WindowPush window;
+    uint table; // first element of the records
+    uint count;
     uint rate;
-    uint samples;    // of a patch of this range
-    uint firstPatch; // of this range in device order; stencils: pool index of the first row's point
-    uint patchCount; // of all ranges
+    uint samples;     // of a patch
+    uint firstVertex; // of the range in an instance's surface vertices
     uint verticesPerInstance;
-    uint firstVertex; // of this range in the instance's surface vertices; stencils: the first vertex that rows may name
-    uint pairs;       // first parameter pair of the rate; at levels, of patches with chains: LodPush::depth
     uint patchesPerGroup; // wide mapping: patches a workgroup evaluates
-    uint uvSets;          // 1 or 2
-    uint faceUvs;         // 1 where corners have a place in their face's trim tile
-    uint run;             // level of detail: the range's number; with the window's first run, the view's dispatch
-    uint firstCorner;     // indexed mesh: the first at a corner, in the instance's surface vertices
-    uint edgeClasses;     // construction: first table element of the edges' weights
-    uint attributes;      // first element of the corner attributes,
-    uint attributeHalves; // and 1 where a word holds the numbers of two
-    uint inner;           // p-rep: first coefficient of the edges in the pool
-    uint smoothUvs;       // attributes: first element of the range's smooth texture coordinates
+};
+// Edges of an indexed mesh.
+struct EdgePush {
+    WindowPush window;
+    uint table; // first element of the records
+    uint count;
+    uint rate;
+    uint firstVertex; // of all edges in an instance's surface vertices
+    uint firstCorner; // the first vertex at a corner
+    uint verticesPerInstance;
+};
+struct AttributesPush {
+    WindowPush window;
+    uint table; // first word of the attribute numbers; of edges: first element of their records
+    uint count; // samples or vertices
+    uint rate;
+    uint samples;     // of a patch
+    uint firstVertex; // of the range in an instance's surface vertices
+    uint firstCorner; // indexed mesh: the first vertex at a corner
+    uint edges;       // indexed mesh: first element of the edges that evaluation has
+    uint smoothUvs;   // first element of the range's smooth texture coordinates
+};
+// Evaluation and attributes at levels.
+struct LevelsPush {
+    WindowPush window;
+    uint table; // first element of the records; attributes: first word of the attribute numbers
+    uint count; // patches
+    uint firstPatch; // of the range in device order
+    uint run;        // the range's number; with the window's first run, the view's dispatch
+    uint vertices;   // of the view
+    uint smoothUvs;  // attributes: first element of the range's smooth texture coordinates
 };
 
 SUPPLE_SHARED_END

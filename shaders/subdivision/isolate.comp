@@ -2,6 +2,7 @@
 // One invocation per vertex and instance. Sums are over differences to the first entry: the weights sum to 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS ConstructPush
 #include "shaders/surface/tables.glsl"
 #include "shaders/surface/mesh.glsl"
 #include "shaders/surface/store.glsl"
@@ -29,10 +30,10 @@ void main() {
     uint item = itemOfLane(), instance = instanceOf(item);
     uvec3 row = rowAt(elementOf(item));
     uvec2 begin = pairAt(row.x, 0u); // pairs, and the first vertex
-    vec3 first = vertexAt(instance, push.firstVertex + begin.y);
+    vec3 first = vertexAt(instance, push.from + begin.y);
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < begin.x; ++i) {
-        uvec2 vertices = push.firstVertex + pairAt(row.x, i + 1u);
+        uvec2 vertices = push.from + pairAt(row.x, i + 1u);
         vec4 weights = uintBitsToFloat(tableElement(push.table - row.z + i / 2u));
         vec2 w = (i & 1u) == 0u ? weights.xy : weights.zw;
         precise vec3 a = vertexAt(instance, vertices.x) - first, b = vertexAt(instance, vertices.y) - first;
@@ -40,5 +41,5 @@ void main() {
         sum = sum + w.y * b;
     }
     precise vec3 p = first + sum;
-    storePool(instance * push.poolStride + push.firstPatch + row.y, p);
+    storePool(instance * header.poolStride + push.to + row.y, p);
 }

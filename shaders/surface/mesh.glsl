@@ -8,9 +8,9 @@
 
 #ifdef MESH_IN_POOL
 vec3 meshPoint(uint i) { return poolVector(i); }
-uint meshStride() { return push.poolStride; }
+uint meshStride() { return header.poolStride; }
 #else
 vec3 meshPoint(uint i) { return cageVertex(i); }
-uint meshStride() { return push.cageStride; }
+uint meshStride() { return header.cageStride; }
 #endif
 vec3 vertexAt(uint instance, uint i) { return meshPoint(instance * meshStride() + i); }

@@ -20,8 +20,8 @@ uint netIndex(NetRecord r, bool polar, uint k) {
     uint point = componentOf(r.points, corner), spoke = componentOf(r.spokes, corner);
     if (kind == kNetPoint) return point;
     if (kind == kNetBehind) return point + 1u;
-    if (kind == kNetFace) return push.faces + SUPPLE_SPOKE(spoke);
-    return push.tangents + (kind == kNetTangent ? SUPPLE_SPOKE(spoke) : SUPPLE_NEXT_SPOKE(spoke));
+    if (kind == kNetFace) return header.faces + SUPPLE_SPOKE(spoke);
+    return header.tangents + (kind == kNetTangent ? SUPPLE_SPOKE(spoke) : SUPPLE_NEXT_SPOKE(spoke));
 }
 
 // Of h[k] of a perturbed patch, in evaluation order; `edges`: the element behind the corners.

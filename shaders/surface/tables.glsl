@@ -1,12 +1,19 @@
-// Bindings and loads of the surface passes. A pass with push constants of its own defines PUSH_CONSTANTS before the include.
+// Bindings and loads of the surface passes. A pass says in PUSH_CONSTANTS what its push constants are; where it does not, it is
+// evaluation, at a rate or with LEVELS at levels.
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/surface.h"
 
 #ifndef PUSH_CONSTANTS
-#define PUSH_CONSTANTS SurfacePush
+#ifdef LEVELS
+#define PUSH_CONSTANTS LevelsPush
+#else
+#define PUSH_CONSTANTS EvaluatePush
+#endif
 #endif
 layout(push_constant) uniform Push { PUSH_CONSTANTS push; };
 #include "shaders/shared/instances.glsl"
+
+layout(set = 0, binding = kTableHeaderBinding) uniform Header { TableHeader header; };
 
 // A dispatch works on items: each is one of the `push.count` elements of one instance.
 uint itemCount() { return push.count * instanceCount(); }

@@ -24,9 +24,9 @@ void storeOffset(uint i, vec3 point, vec3 limit) {
 
 // A closed fan of four: the uniform bicubic B-spline. These fans come first, and their ring is all there is of them.
 void regularFan(uint index, uint base, uint cageBase) {
-    uvec4 words = tableElement(push.ring / 4u + index);
+    uvec4 words = tableElement(header.ring / 4u + index);
     uint vertex = ringCorner(words.x, kRingVertex), slot = 4u * index;
-    uint limit = base + vertex, tangent = base + push.tangents + slot, face = base + push.faces + slot;
+    uint limit = base + vertex, tangent = base + header.tangents + slot, face = base + header.faces + slot;
     vec3 p0 = meshPoint(cageBase + vertex);
     precise vec3 e[4], d[4];
     for (uint k = 0u; k < 4u; ++k) {

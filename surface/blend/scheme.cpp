@@ -105,7 +105,7 @@ private:
     }
 
     void writeCoordinates() {
-        tables_.ring = writer_.element();
+        tables_.coordinates = writer_.element();
         for (uint32_t i = 0; i < coordinateCount(rate_); ++i) {
             const Coordinate c = coordinateAt(rate_, i);
             const float t = static_cast<float>(c.numerator) / static_cast<float>(c.denominator);

@@ -172,7 +172,7 @@ private:
         firstLevelOne_ = tables_.faces + slot;
         tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
         const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
-        tables_.inner = steps() ? next : 0; // the mesh
+        tables_.meshVertices = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
     }
 
@@ -181,7 +181,7 @@ private:
     /// The vertices of the mesh if it is not the cage, plain vertices, points of level 1.
     void writeFans() {
         if (steps()) {
-            writeStencils(mesh_.stencils[0], {Stage::vertex, false, 0, tables_.inner}, writer_, tables_);
+            writeStencils(mesh_.stencils[0], {Stage::vertex, false, 0, tables_.meshVertices}, writer_, tables_);
         }
         std::array<uint32_t, 3> weights{};
         for (uint32_t faces = 1; faces <= 2; ++faces) {
@@ -205,7 +205,7 @@ private:
             }
         }
         writeStencils(rowsOf(mesh_.stencils.back(), levelOne_.rows()),
-                      {meshStage(), steps(), steps() ? tables_.inner : 0, firstLevelOne_}, writer_, tables_);
+                      {meshStage(), steps(), steps() ? tables_.meshVertices : 0, firstLevelOne_}, writer_, tables_);
     }
 
     [[nodiscard]] ChainTables::Corner cornerOf(uint32_t c) {

@@ -77,16 +77,16 @@ private:
     bool checkMesh() {
         if (!steps_) {
             vertices_ = check_.source().vertices;
-            return check_.require(tables_.inner == 0, "vertices of a step in the pool");
+            return check_.require(tables_.meshVertices == 0, "vertices of a step in the pool");
         }
         const auto& first = tables_.constructions;
         if (!check_.require(!first.empty() && first[0].kernel.kernel == Kernel::subdivisionIsolate &&
-                                first[0].to == tables_.inner,
+                                first[0].to == tables_.meshVertices,
                             "no step makes the vertices in the pool")) {
             return false;
         }
         vertices_ = first[0].section.count;
-        return check_.pool(tables_.inner, vertices_);
+        return check_.pool(tables_.meshVertices, vertices_);
     }
 
     /// Whether constructions work on the vertices that there are.
@@ -147,7 +147,8 @@ private:
             }
             check_.begin("stencils");
             const bool inPool = construction.kernel.kernel == Kernel::subdivisionIsolateMeshInPool;
-            const uint64_t vertices = inPool ? uint64_t{tables_.inner} + vertices_ : uint64_t{check_.source().vertices};
+            const uint64_t vertices =
+                inPool ? uint64_t{tables_.meshVertices} + vertices_ : uint64_t{check_.source().vertices};
             if (!check_.require(!inPool || steps_, "of vertices that are not in the pool") ||
                 !checkStencils(check_, construction, vertices)) {
                 return false;

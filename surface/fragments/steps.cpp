@@ -45,8 +45,6 @@ public:
           loop_(fragments_.loop ? 1 : 0), tangents_(tangentsConstant(builder, format_)),
           net_(format_ == kVertexPosition ? kFromPastNet : kFromNet) {
         const Evaluation& evaluation = builder.evaluation;
-        push_.poolStride = builder.tables.poolStride;
-        push_.scratchStride = fragments_.scratchStride;
         push_.verticesPerInstance = evaluation.verticesPerInstance;
         push_.samples = sampleCount(fragments_.loop ? Domain::triangle : Domain::quad, evaluation.rate);
         push_.firstVertex = evaluation.firstVertices.empty() ? 0 : evaluation.firstVertices.front();
@@ -72,7 +70,7 @@ private:
             if (points == 0) {
                 break;
             }
-            push_.records = fragments_.classes[c].fragments.table;
+            push_.table = fragments_.classes[c].fragments.table;
             push_.count = 0;
             for (; c < fragments_.classes.size() &&
                    bucketFor(builder_.device, fragments_.classes[c].sharedPoints) == points;
@@ -125,7 +123,7 @@ private:
         for (uint32_t kind = 0; kind < kWorkKinds; ++kind) {
             const Section blocks = blocksFrom(fragments_, first, step * kWorkKinds + kind);
             if (blocks.count > 0) {
-                push_.records = blocks.table;
+                push_.table = blocks.table;
                 push_.count = blocks.count;
                 add(kernels[kind], builder_.lanes(blocks.count * kBlockLanes), order);
                 order = Order::disjoint;
@@ -144,7 +142,7 @@ private:
     Steps& steps_;
     uint32_t loop_, tangents_;
     uint32_t net_; ///< where the isolated level is read
-    SubdivisionPush push_{};
+    FragmentPush push_{};
 };
 
 } // namespace

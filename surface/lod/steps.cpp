@@ -2,6 +2,7 @@
 
 #include "shaders/shared/specialization.h"
 #include "surface/construction_names.h"
+#include "surface/table_header.h"
 
 #include <iterator>
 
@@ -10,8 +11,6 @@ namespace supple::surface::lod {
 static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
 
 namespace {
-
-constexpr uint32_t kScratchPadding = 16; ///< elements: instances start on 256 bytes
 
 /// What measures edges, by Borders.
 struct EdgeKernel {
@@ -52,29 +51,15 @@ PatchKernel patchKernel(PatchClass patchClass) {
     return {Kernel::lodPatchCharts, Kernel::lodPatchCharts};
 }
 
-/// Where the words of depths begin in an instance's scratch: behind a float an edge and the words of patches.
-uint32_t depthWords(const LodTables& tables) {
-    return tables.edgeCount + shared::kLodPatchLevelWords * tables.patches.count;
-}
-
 /// The push constants for `count` edges or patches from `first` on.
 shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t count) {
-    const Tables& tables = builder.tables;
     shared::LodPush push{};
     push.count = count;
     push.first = first;
-    push.patches = tables.lod.patches.table;
-    push.edgeCount = tables.lod.edgeCount;
-    push.poolStride = tables.poolStride;
-    push.tangents = tables.tangents;
-    push.faces = tables.faces;
-    push.scratchStride = builder.program.scratchStride;
-    push.runCount = static_cast<uint32_t>(tables.lod.runs.size());
     push.levels = builder.needs.levelOffset;
     push.masks = builder.needs.firstMask;
     push.maskWords = builder.needs.maskWords;
-    push.depths = tables.lod.depth == 0 ? 0 : depthWords(tables.lod);
-    push.depth = tables.lod.depth;
+    push.countsHidden = builder.needs.countsHidden ? 1 : 0;
     return push;
 }
 
@@ -115,10 +100,9 @@ void addDepths(ProgramBuilder& builder) {
     if (tables.depth == 0) {
         return;
     }
-    shared::LodPush push = pushFor(builder, 0, 1);
-    push.table = tables.depthLanes;
     const gpu::Kernel kernel = builder.kernel(SetKind::levels, Kernel::lodDepth, {}, "supple depths of chains");
-    builder.add(program.places, SetKind::levels, kernel, DispatchSize::oneGroup(), push, 0, Order::after);
+    builder.add(program.places, SetKind::levels, kernel, DispatchSize::oneGroup(), pushFor(builder, 0, 1), 0,
+                Order::after);
     program.firstDepthDispatch = depthWords(tables) + shared::kDepthDispatches;
     uint32_t depth = 0;
     for (const Construction& c : builder.tables.constructions) {
@@ -127,8 +111,8 @@ void addDepths(ProgramBuilder& builder) {
         }
         const gpu::Kernel own = builder.kernel(SetKind::levels, c.kernel.kernel,
                                                {{shared::kKindConstant, c.kernel.kind}}, constructionName(c.kernel));
-        push = pushFor(builder, depth, c.section.count);
-        push.table = c.section.table;
+        auto push = surface::pushFor<shared::DepthPush>(c.section);
+        push.depth = depth;
         builder.add(program.deepen, SetKind::levels, own, builder.lanes(push.count), push, depth,
                     depth == 0 ? Order::free : Order::after);
         ++depth;
@@ -140,8 +124,7 @@ void addDepths(ProgramBuilder& builder) {
 void addSteps(ProgramBuilder& builder) {
     const LodTables& tables = builder.tables.lod;
     Program& program = builder.program;
-    const uint32_t words = depthWords(tables) + (tables.depth > 0 ? shared::kDepthWords : 0);
-    program.scratchStride = ((words + 3) / 4 + kScratchPadding - 1) / kScratchPadding * kScratchPadding;
+    program.scratchStride = scratchStride(builder.tables);
 
     auto argument = static_cast<uint32_t>(builder.tables.constructions.size());
     if (builder.needs.levelOffset == 0) {

@@ -114,7 +114,7 @@ public:
 
     Tables build() {
         tables_.rate = 1;
-        tables_.tangents = cage_.faceCount();
+        tables_.frames = cage_.faceCount();
         tables_.poolStride = poolStrideFor(firstElement(frames_.frames.size()));
         writeFaces();
         writeFrames();

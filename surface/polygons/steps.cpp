@@ -13,7 +13,7 @@ void addAttributes(ProgramBuilder& builder, uint32_t firstVertex) {
     const gpu::Kernel kernel = builder.kernel(SetKind::attributes, Kernel::evaluateAttributes,
                                               {{kKindConstant, kVertexDomain}, {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of vertices");
-    SurfacePush push = pushFor(builder, builder.tables.triangles.vertices);
+    auto push = pushFor<AttributesPush>(builder.tables.triangles.vertices);
     push.firstVertex = firstVertex;
     builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push);
 }
@@ -31,13 +31,9 @@ void addSteps(ProgramBuilder& builder) {
         addAttributes(builder, firstVertex);
     }
     for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
-        SubdivisionPush push{};
-        push.records = vertices.table;
-        push.count = vertices.count;
-        push.poolStride = builder.tables.poolStride;
+        auto push = pushFor<FragmentPush>(vertices);
         push.verticesPerInstance = evaluation.verticesPerInstance;
         push.firstVertex = firstVertex;
-        push.directions = builder.tables.triangles.directions;
         push.today = builder.needs.view && pass.format == kVertexPosition ? 1 : 0;
         const gpu::Kernel kernel = builder.kernel(
             SetKind::subdivide, Kernel::polygonsVertex,

@@ -168,11 +168,11 @@ TEST(Grid, cornerWeights) {
 
 TEST(Grid, parameterPairs) {
     const std::vector<float> pairs = parameterPairs();
-    EXPECT_EQ(firstPair(1), 0u);
-    EXPECT_EQ(pairs.size(), 2 * size_t{firstPair(kMaxRate + 1)});
+    EXPECT_EQ(SUPPLE_FIRST_PAIR(1u), 0u);
+    EXPECT_EQ(pairs.size(), 2 * size_t{SUPPLE_FIRST_PAIR(kMaxRate + 1u)});
     for (uint32_t rate = 1; rate <= kMaxRate; ++rate) {
         for (uint32_t k = 0; k <= rate; ++k) {
-            const size_t at = 2 * (size_t{firstPair(rate)} + k);
+            const size_t at = 2 * (size_t{SUPPLE_FIRST_PAIR(rate)} + k);
             EXPECT_EQ(pairs[at], static_cast<float>(double(k) / rate));
             EXPECT_EQ(pairs[at + 1], static_cast<float>(double(rate - k) / rate));
         }
