@@ -1,46 +1,37 @@
-// The tables and the pool of exact Catmull-Clark patches (what all schemes share: shared/surface.h;
-// docs/catmull_clark.md).
+// The tables and the pool of exact Catmull-Clark patches (what all schemes share: shared/surface.h; docs/catmull_clark.md).
 //
-// The mesh has quads alone: it is the cage, or what one step of subdivision makes of it. A vertex is plain if the
-// B-spline's own formulas hold round it; a quad with four plain corners is a bicubic patch. All other quads are
-// irregular: their quarters are leaves, B-spline patches of finer levels.
+// The mesh has quads alone: it is the cage, or what one step of subdivision makes of it. A vertex is plain if the B-spline's own
+// formulas hold round it; a quad with four plain corners is a bicubic patch. All other quads are irregular: their quarters are
+// leaves, B-spline patches of finer levels.
 //
-// Coefficient pool: limit points (one a vertex; a plain vertex on creases has one more for each further run of faces
-// between them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need; of every
-// vertex that is not plain its normals (one a run) and its chain; the vertices of the mesh if it is not the cage. A
-// chain is the vertex's point of level 1, then for every level from 2 on all points up to radius 3 round the vertex, as
-// offsets from that.
+// Coefficient pool: limit points (one a vertex; a plain vertex on creases has one more for each further run of faces between
+// them), tangents and face coefficients (one a slot), points of level 1 that irregular quads need; of every vertex that is not
+// plain its normals (one a run) and its chain; the vertices of the mesh if it is not the cage. A chain is the vertex's point of
+// level 1, then for every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
 //
 // Tables
 //   ring              see shared/surface.h; closed fans come first and have nothing else
-//   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights),
-//   limit point vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the
-//   limit point), (pool
-//                     index of the chain's level 2 or 0, pool index of the first normal, that which the net counts
-//                     from, 0)
-//   blocks            of kBlockLanes lanes: whole chains of one fan, a lane a spoke or a centre: (fan; first vertex;
-//   vertices;
-//                     last level). Or one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on
-//                     the level; first item). The vertex rises first, then the spoke; the centre comes last
+//   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
+//   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
+//                     index of the chain's level 2 or 0, pool index of the first normal, that which the net counts from, 0)
+//   blocks            of kBlockLanes lanes: whole chains of one fan, a lane a spoke or a centre: (fan; first vertex; vertices;
+//                     last level). Or one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the level;
+//                     first item). The vertex rises first, then the spoke; the centre comes last
 //   net               points up to radius 2, in spiral order, 16 bits each
-//   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of
-//   a spoke point,
-//                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5
-//                     points of a chain's level, 16 bits each, row by row; the last word has the points of a level and,
+//   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
+//                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
+//                     chain's level, 16 bits each, row by row; the last word has the points of a level and,
 //                     from kChainLevelShift on, the last level
-//   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness;
-//   centre steps;
-//                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights
-//                     in four vectors, the first of the run being the position, the others tangents along which the sum
-//                     of the cross products of neighbours is the normal. Centre steps: an element a level of the chain
-//                     (smooth, crease, first spoke, second spoke)
-//   irregular quads   kQuadRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or
-//   the pool
-//                     index of their chain (without one, of what lies behind their normals); windows of their sector, 0
-//                     where there is no chain; sharpness of the sides on level 1; their net, as windows: 5 x 5 points
-//                     of level 1; from kWindowNormals on, how far before their chains the normals of the corners lie, 0
-//                     where they have none; in the last word flags and, from kNetFirstShift on, the pool index that the
-//                     points count from
+//   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
+//                     points of ring 1); a run: (blocks, 0, 0, 0), then blocks of an element a point of ring 1: weights in four
+//                     vectors, the first of the run being the position, the others tangents along which the sum of the cross
+//                     products of neighbours is the normal. Centre steps: an element a level of the chain (smooth, crease,
+//                     first spoke, second spoke)
+//   irregular quads   kQuadRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or the pool
+//                     index of their chain (without one, of what lies behind their normals); windows of their sector, 0 where
+//                     there is no chain; sharpness of the sides on level 1; their net, as windows: 5 x 5 points of level 1; from
+//                     kWindowNormals on, how far before their chains the normals of the corners lie, 0 where they have none; in
+//                     the last word flags and, from kNetFirstShift on, the pool index that the points count from
 #ifndef SUPPLE_SHARED_CHAINS_H
 #define SUPPLE_SHARED_CHAINS_H
 
@@ -71,15 +62,14 @@ SUPPLE_SHARED_CONST kWindowNormals = 26u; // numbers
 SUPPLE_SHARED_CONST kWindowLastWord = 15u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
-// The last word of a record's net: flags, a bit a side, and what the net counts from. 28 bits number the 16-byte
-// vectors of any pool.
+// The last word of a record's net: flags, a bit a side, and what the net counts from. 28 bits number the 16-byte vectors of
+// any pool.
 SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends are plain
 SUPPLE_SHARED_CONST kNetFirstShift = 4u;
 
-// Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular
-// ones then have, an element each: pool index of the chains of the corners or 0; windows of their sector; then their
-// net, as quads: kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Windows are as
-// those of quads.
+// Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular ones
+// then have, an element each: pool index of the chains of the corners or 0; windows of their sector; then their net, as quads:
+// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Windows are as those of quads.
 SUPPLE_SHARED_CONST kLeafPoints = 12u;
 SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
 SUPPLE_SHARED_CONST kTriangleWindowElements = 3u;
@@ -91,8 +81,8 @@ SUPPLE_SHARED_CONST kTriangleCageElement = 0u;
 SUPPLE_SHARED_CONST kTriangleCornerElement = 3u;
 SUPPLE_SHARED_CONST kTriangleChainElement = 4u;
 SUPPLE_SHARED_CONST kTriangleNetElement = 6u;
-// Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both
-// ends of a side are plain; a corner is plain.
+// Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both ends of a
+// side are plain; a corner is plain.
 SUPPLE_SHARED_CONST kSharpTriangleSide = 0u;
 SUPPLE_SHARED_CONST kCreasedTriangleCorner = 3u;
 SUPPLE_SHARED_CONST kWholeTriangleSide = 6u;
@@ -102,12 +92,12 @@ SUPPLE_SHARED_CONST kMiddleCell = 3u;
 
 SUPPLE_SHARED_END
 
-// Where a point stands in a quad's own net, as a corner counts them: i along its first edge, j along its second. Both
-// begin at 0, one step before the corner.
-#define SUPPLE_QUAD_NET_PLACE(corner, i, j)                                                                            \
-    ((corner) == 0u   ? kNetSide * (j) + (i)                                                                           \
-     : (corner) == 1u ? kNetSide * (i) + 4u - (j)                                                                      \
-     : (corner) == 2u ? kNetSide * (4u - (j)) + 4u - (i)                                                               \
+// Where a point stands in a quad's own net, as a corner counts them: i along its first edge, j along its second. Both begin at 0,
+// one step before the corner.
+#define SUPPLE_QUAD_NET_PLACE(corner, i, j)                                                                                     \
+    ((corner) == 0u   ? kNetSide * (j) + (i)                                                                                     \
+     : (corner) == 1u ? kNetSide * (i) + 4u - (j)                                                                                \
+     : (corner) == 2u ? kNetSide * (4u - (j)) + 4u - (i)                                                                         \
                       : kNetSide * (4u - (i)) + (j))
 // The point in the middle of a side.
 #define SUPPLE_QUAD_SIDE_MIDDLE(side) (0x0B110D07u >> 8u * (side)&255u)

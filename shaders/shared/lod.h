@@ -3,21 +3,18 @@
 // A view has one buffer, of words; what lies where is a constant, so that no pass is told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where
-//   no group
-//                 has the run. A run is the patches of one class and material of a window of instances of a group; a
-//                 dispatch evaluates the runs of one class, which follow each other
+//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where no group
+//                 has the run. A run is the patches of one class and material of a window of instances of a group; a dispatch
+//                 evaluates the runs of one class, which follow each other
 //   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
 //                 kSplitUnit is shared between two bins
 //   counts        by run, priority and bin: patches
-//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their
-//   coarsest; then
+//   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest; then
 //                 by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
-//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first
-//   run on; one
+//   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run on; one
 //                 more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
 //   draws         by run and capacity: VkDrawIndexedIndirectCommand
@@ -26,10 +23,9 @@
 //                 vertex; capacity index), then pairs (a, 1 / L) as float bits: quads u, v inside, then edges 0..3;
 //                 rings inside, then edges 0..4
 //
-// In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel);
-// then, where patches have chains (shared/chains.h), kDepthWords. In these stand the largest level of a patch with
-// chains, before the budget, and an entry of each depth's list of instances; in the first instance's also how many a
-// list has, and the dispatch for them.
+// In an instance's scratch: a float an edge, its level before the budget; then three words a patch (LodPatchLevel); then, where
+// patches have chains (shared/chains.h), kDepthWords. In these stand the largest level of a patch with chains, before the budget,
+// and an entry of each depth's list of instances; in the first instance's also how many a list has, and the dispatch for them.
 #ifndef SUPPLE_SHARED_LOD_H
 #define SUPPLE_SHARED_LOD_H
 
@@ -129,11 +125,10 @@ struct LodDispatch {
 };
 
 // Table elements.
-//   edges     cubics: pool indices (end, its tangent, the other end's tangent, other end); two halves, of exact
-//   Catmull-Clark:
-//             (first element of an irregular quad's record, its side, -, -); Loop: (first element of a triangle's
-//             record, its side, 1 if it is irregular, -); blending surface: an element an end, (pool index of c_00 |
-//             kCreasedChart, direction of the edge in the chart, 4 / k)
+//   edges     cubics: pool indices (end, its tangent, the other end's tangent, other end); two halves, of exact Catmull-Clark:
+//             (first element of an irregular quad's record, its side, -, -); Loop: (first element of a triangle's record, its side, 1
+//             if it is irregular, -); blending surface: an element an end, (pool index of c_00 | kCreasedChart, direction of the edge
+//             in the chart, 4 / k)
 //   edges of one kind follow each other, by Borders (surface/patch_class.h)
 //   patches   two elements: edges 0..3; (edge 4, run within the window's, first element of its patch record,
 //             class | part << kLodPartShift)
@@ -143,13 +138,12 @@ SUPPLE_SHARED_CONST kLodPatchLevelWords = 3u; // bin, levels the inside asks for
 // Levels of chains from kFirstDepth on are made only for instances that have samples there (docs/catmull_clark.md).
 SUPPLE_SHARED_CONST kFirstDepth = 3u;
 SUPPLE_SHARED_CONST kDepths = 4u;
-SUPPLE_SHARED_CONST kDepthEntries = 1u;                        // behind the largest level
-SUPPLE_SHARED_CONST kDepthCounts = kDepthEntries + kDepths;    // in the first instance's
+SUPPLE_SHARED_CONST kDepthEntries = 1u;                       // behind the largest level
+SUPPLE_SHARED_CONST kDepthCounts = kDepthEntries + kDepths;   // in the first instance's
 SUPPLE_SHARED_CONST kDepthDispatches = kDepthCounts + kDepths; // x, y, z
 SUPPLE_SHARED_CONST kDepthWords = kDepthDispatches + 3u * kDepths;
 
-// What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m; regular or irregular triangles
-// of Loop.
+// What lod/patch.comp measures, for its kind constant: bicubic nets, or sectors of P_m; regular or irregular triangles of Loop.
 SUPPLE_SHARED_CONST kMeasuresNets = 0u;
 SUPPLE_SHARED_CONST kMeasuresSectors = 1u;
 SUPPLE_SHARED_CONST kMeasuresRegularTriangles = 2u;

@@ -6,49 +6,37 @@
 // keep all of float's digits however far from the origin the patch lies. A coefficient's position is always the one sum
 // limit point + offset, so that both sides of a border see the same bits.
 //
-// Tables (one block, read as uvec4 or as uint) begin with their header (shared/table_header.h). What the scheme's construction needs
-// follows. They end with
-//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit
-//   points,
-//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge
-//                    to the next corner among tangents and face coefficients, and the step from it to that of the edge
-//                    to the last corner. A polar patch has three corners, then the pool index of its first inner
-//                    coefficient; and see shared/pm.h. Perturbed: one element more, see shared/prep.h. P_m: see
-//                    shared/pm.h. Where the group keeps corner normals (kCornerNormals), one more element, for each
-//                    corner the pool index of its normal, or kNoNormal
-//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners
-//   of the
-//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's
-//                    far end and the facet's two other far corners, a quad's twice. The element is the first of a
-//                    patch's record, whose limit points are numbered as the cage's vertices are, or one of its own: of
-//                    holes, and where a crease gives a vertex several limit points. A fan's last spoke without a facet
-//                    has the vertex for far corners
-//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a
-//   second UV
-//                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none;
-//                    with kOutputMapFrames one more: (a unit vector, a sign, a UV set as uint), how the material's
-//                    normal map lies
-//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every
-//   class of
+// Tables (one block, read as uvec4 or as uint) begin with their header (shared/table_header.h) and with what the scheme's
+// construction needs. They end with
+//   patch records    bicubic (regular, perturbed, polar): two elements, for corners 0..3 the pool indices of the limit points,
+//                    then the spokes; a spoke, SUPPLE_SPOKE and SUPPLE_NEXT_SPOKE, is the number of the corner's edge to the next
+//                    corner among tangents and face coefficients, and the step from it to that of the edge to the last corner. A
+//                    polar patch has three corners, then the pool index of its first inner coefficient; and see shared/pm.h.
+//                    Perturbed: one element more, see shared/prep.h. P_m: see shared/pm.h. Where the group keeps corner normals
+//                    (kCornerNormals), one more element, for each corner the pool index of its normal, or kNoNormal
+//   ring             p-rep, P_m: what a vertex's fan is made of, one word a spoke: the element that holds the corners of the
+//                    facet behind the spoke, and where in it stand (SUPPLE_RING_PLACE) the vertex itself, the spoke's far end and
+//                    the facet's two other far corners, a quad's twice. The element is the first of a patch's record, whose limit
+//                    points are numbered as the cage's vertices are, or one of its own: of holes, and where a crease gives a
+//                    vertex several limit points. A fan's last spoke without a facet has the vertex for far corners
+//   attributes       one element for all corners that have the same: (u, v, color as RG and BA in 16-bit unorm); with a second UV
+//                    set or face UVs one more: (u, v of the second set, x, y of the face UVs), 0 where there are none; with
+//                    kOutputMapFrames one more: (a unit vector, a sign, a UV set as uint), how the material's normal map lies
+//   numbers of them  one word a patch corner, or with `attributeHalves` one for two, the first in the low half; every class of
 //                    patches begins an element
 //   smooth UVs       where texture coordinates are smooth, in the order of patches, per UV set what SmoothPatch of
-//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: records as
-//                    irregular patches have them, of pairs of floats of the table (surface/chains/smooth_uvs.h).
-//                    Fragments: the samples of a rate
-//   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of
-//   the border
-//                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative
-//                    across is made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it;
-//                    the edge; flags; extra). Extra: perturbed edges: h20, the others of the four follow, or by
-//                    kSwappedEdge stand as h30 h20 h31 h21; kStoredNormalEdge: the normal of the beginning;
-//                    kSingularEdge: b121 of the sector before. Sides of irregular quads and of Loop patches instead of
-//                    the first eight words: (element of the record, side)
-//   edge attributes  one element a record: (the word with the first of its patch's corner numbers; the edge's side of
-//   the patch,
-//                    kPatchCornersShift: the patch's corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is
-//                    the high half of the word; element of the smooth UV curves or 0, -). The curves: six elements a UV
-//                    set, the four coefficients of a cubic, h20, h30, the four coefficients of the derivative across,
-//                    h21 - h20, h31 - h30
+//                    evaluate/smooth_uvs.glsl has: two coefficients an element. Catmull-Clark and Loop: records as irregular patches
+//                    have them, of pairs of floats of the table (surface/chains/smooth_uvs.h). Fragments: the samples of a rate
+//   mesh edges       indexed mesh: three elements an edge, as one of its patches has it on its left: pool indices of the border
+//                    cubic (end, its tangent, the other end's tangent, other end); of four offsets that the derivative across is
+//                    made of; (corner sample at its beginning, or kNoEdgeSample where another edge stores it; the edge; flags;
+//                    extra). Extra: perturbed edges: h20, the others of the four follow, or by kSwappedEdge stand as h30 h20 h31
+//                    h21; kStoredNormalEdge: the normal of the beginning; kSingularEdge: b121 of the sector before. Sides of
+//                    irregular quads and of Loop patches instead of the first eight words: (element of the record, side)
+//   edge attributes  one element a record: (the word with the first of its patch's corner numbers; the edge's side of the patch,
+//                    kPatchCornersShift: the patch's corners, kPatchHasSectors, kPatchHalfShift: 1 if that number is the high half
+//                    of the word; element of the smooth UV curves or 0, -). The curves: six elements a UV set, the four
+//                    coefficients of a cubic, h20, h30, the four coefficients of the derivative across, h21 - h20, h31 - h30
 #ifndef SUPPLE_SHARED_SURFACE_H
 #define SUPPLE_SHARED_SURFACE_H
 
@@ -121,9 +109,9 @@ SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
 SUPPLE_SHARED_CONST kOutputDirections = 4u;
 SUPPLE_SHARED_CONST kOutputMapFrames = 8u; // no output: with directions, corners have the frames of normal maps
 
-// Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch
-// (docs/tangents.md): a in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A
-// tangent word is what a host reads: octahedral coordinates in snorm16 and snorm15, then that bit.
+// Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch (docs/tangents.md): a
+// in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A tangent word is what a host
+// reads: octahedral coordinates in snorm16 and snorm15, then that bit.
 SUPPLE_SHARED_CONST kNegativeFrame = 0x80000000u;
 
 SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
@@ -171,7 +159,7 @@ SUPPLE_SHARED_CONST kPlainEdges = 0u;     // of bicubic patches
 SUPPLE_SHARED_CONST kPerturbedEdges = 1u; // of p-rep's perturbed patches, where the perturbation is
 SUPPLE_SHARED_CONST kMixedEdges = 2u;     // of all of P_m's patches
 SUPPLE_SHARED_CONST kHalvesEdges = 3u;    // of irregular quads of exact patches
-SUPPLE_SHARED_CONST kTriangleEdges = 4u;  // of regular Loop patches
+SUPPLE_SHARED_CONST kTriangleEdges = 4u;   // of regular Loop patches
 SUPPLE_SHARED_CONST kIrregularTriangleEdges = 5u;
 SUPPLE_SHARED_CONST kEdgeKinds = 6u;
 
@@ -191,11 +179,12 @@ SUPPLE_SHARED_CONST kPatchHasSectors = 64u;
 SUPPLE_SHARED_CONST kPatchHalfShift = 7u;
 SUPPLE_SHARED_CONST kUvCurveElements = 6u;
 
-#define SUPPLE_FIRST_PAIR(rate) ((rate) * ((rate) + 1u) / 2u - 1u) // of the parameter pairs, which follow each other from rate 1 on
+// The parameter pairs of a rate: those of all rates follow each other.
+#define SUPPLE_FIRST_PAIR(rate) ((rate) * ((rate) + 1u) / 2u - 1u)
 
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
-// Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at
-// a rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
+// Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
+// rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
 // or three of 12.
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;
 SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch
