@@ -17,6 +17,8 @@ constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr VkPipelineStageFlags2 kIndirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
 constexpr VkAccessFlags2 kIndirectRead = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 constexpr gpu::SyncScope kFirst{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+/// What passes do with uploads: headers of tables are uniforms.
+constexpr gpu::SyncScope kUploaded{kFirst.stages, kFirst.access | VK_ACCESS_2_UNIFORM_READ_BIT};
 constexpr gpu::SyncScope kLast{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
 // Stages have the same values in Vulkan 1.0, where ALL_TRANSFER is called TRANSFER.
@@ -287,7 +289,7 @@ void recordBarrier(const Frame& frame, Behind behind) {
         frame.computeBarrier();
         break;
     case Behind::uploads:
-        barrier({kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {kCompute, kRead | kWrite});
+        barrier({kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kUploaded);
         break;
     case Behind::bounds:
         barrier({kCompute, kWrite},
@@ -464,7 +466,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
         }
     });
     if (recorded) {
-        gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kFirst);
+        gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kUploaded);
     }
     return success();
 }
@@ -486,7 +488,7 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
     // Nothing is read or written, but barriers keep validation from taking these dispatches for ones that race.
     constexpr gpu::SyncScope kAll{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    gpu::memoryBarrier(*device_, commandBuffer, kAll, kFirst);
+    gpu::memoryBarrier(*device_, commandBuffer, kAll, kUploaded);
     for (const SuppleGroup& handle : wanted) {
         Group& group = *groups.find(handle.id);
         group.noteRecorded(frame_);
