@@ -28,6 +28,7 @@ namespace subdivision {
 /// Fragments of Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its
 /// fragment: "vertex 7 has 260 faces: ...".
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace subdivision
 
 namespace exact {
@@ -48,6 +49,7 @@ namespace blend {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 /// See Scheme::boundsMargin.
 [[nodiscard]] float boundsMargin(const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace blend
 
 namespace polygons {

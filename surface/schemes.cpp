@@ -25,11 +25,11 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &subdivision::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
-     [](const cage::Cage&) { return 0.001f; }},
+     [](const cage::Cage&) { return 0.001f; }, &subdivision::check},
     {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
-     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
+     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin, &blend::check},
     {SchemeId::catmullClark, "Catmull-Clark", &exact::build, RateRule::upTo, "an even number of", true, kAllUvModes,
      true, [](const cage::Cage&) { return 0.001f; }, &exact::check, true},
     // Its vertices are the cage's.
@@ -46,7 +46,22 @@ constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    false,
                                    kAllUvModes,
                                    false,
-                                   [](const cage::Cage&) { return 0.001f; }};
+                                   [](const cage::Cage&) { return 0.001f; },
+                                   &subdivision::check};
+
+static_assert(std::ranges::all_of(kSchemes, [](const Scheme& scheme) { return scheme.check != nullptr; }));
+
+/// Whether the tables are for the recipe's rate, along an edge of what the steps of subdivision leave.
+bool isMadeFor(const Tables& tables, const Recipe& recipe) {
+    if (recipe.rate > kMaxRate) {
+        return false;
+    }
+    uint32_t rate = schemeOf(recipe.scheme).tableRate(recipe.rate, recipe.lod);
+    for (uint32_t step = 0; step < std::min(tables.isolationSteps, 2u); ++step) {
+        rate = (rate + 1) / 2;
+    }
+    return tables.rate == rate;
+}
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -123,17 +138,11 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
     return build(recipe, laid);
 }
 
-bool canCheckTables(SchemeId scheme) {
-    return schemeOf(scheme).check != nullptr;
-}
-
 Status checkTables(const Tables& tables, const TableSource& source) {
     const Scheme& scheme = schemeOf(source.recipe.scheme);
-    const uint32_t rate = scheme.tableRate(source.recipe.rate, source.recipe.lod);
     TableCheck check(tables, source);
     check.begin("tables");
-    check.require(scheme.check != nullptr, "files do not keep those of this scheme");
-    check.require(tables.rate == (tables.isolationSteps > 0 ? (rate + 1) / 2 : rate), "made for another rate");
+    check.require(isMadeFor(tables, source.recipe), "made for another rate");
     // What comes first makes the rest easier to check.
     for (void (*part)(TableCheck&) : {&checkMembers, &checkBicubicPatches, &checkCornerAttributes, &checkIndexedMesh,
                                       &lod::checkLevels, scheme.check}) {

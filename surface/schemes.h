@@ -42,8 +42,7 @@ struct Scheme {
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
-    /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h). Null: files do not keep
-    /// its tables.
+    /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h).
     void (*check)(TableCheck& check) = nullptr;
     bool ofMapping = false; ///< its tables differ by mapping (Recipe::wide)
 

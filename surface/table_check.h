@@ -75,9 +75,6 @@ private:
     std::optional<std::string> fault_;
 };
 
-/// Whether checkTables() knows the tables of a scheme (Scheme::check). Those of others are built when they are needed.
-[[nodiscard]] bool canCheckTables(SchemeId scheme);
-
 /// Refuses tables with which a kernel could read or write beyond its buffers or loop beyond its bounds, or the library
 /// read beyond an array. Tables that buildTables() made of the same recipe and cage pass. O(words).
 [[nodiscard]] Status checkTables(const Tables& tables, const TableSource& source);

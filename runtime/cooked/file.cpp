@@ -6,7 +6,6 @@
 #include "surface/table_check.h"
 
 #include <algorithm>
-#include <set>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -16,7 +15,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -59,10 +58,6 @@ Status checkHeader(std::span<const std::byte> bytes, Reader& reader, std::string
     return success();
 }
 
-bool keeps(const PreparedTables& tables) {
-    return surface::canCheckTables(tables.recipe.scheme);
-}
-
 constexpr uint32_t kWholeCage = cage::kNone;
 
 uint32_t placeOf(const Prepared& prepared, const std::shared_ptr<const PreparedPiece>& piece) {
@@ -103,10 +98,6 @@ void readTables(Reader& reader, Prepared& prepared) {
             return;
         }
         own->piece = place != kWholeCage ? prepared.pieces[place] : nullptr;
-        if (!surface::canCheckTables(own->recipe.scheme)) {
-            reader.refuse("tables of a scheme that files do not keep");
-            return;
-        }
         const cage::Character& character = prepared.character;
         const surface::TableSource source{own->recipe,
                                           prepared.cageOf(own->piece.get()).vertexCount(),
@@ -135,27 +126,15 @@ std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& 
     for (const auto& piece : prepared.pieces) {
         writer(piece->parts, piece->of);
     }
-    writer(static_cast<uint32_t>(std::ranges::count_if(prepared.tables, [](const auto& own) { return keeps(*own); })));
+    writer(static_cast<uint32_t>(prepared.tables.size()));
     for (const auto& own : prepared.tables) {
-        if (keeps(*own)) {
-            writer(own->recipe, placeOf(prepared, own->piece), own->tables);
-        }
+        writer(own->recipe, placeOf(prepared, own->piece), own->tables);
     }
     Header header;
     header.byteCount = bytes.size();
     header.hash = hashOf(bytes);
     std::memcpy(bytes.data(), &header, sizeof(header));
     return bytes;
-}
-
-std::vector<std::string> schemesLeftOut(const Prepared& prepared) {
-    std::set<std::string> names;
-    for (const auto& own : prepared.tables) {
-        if (!keeps(*own)) {
-            names.insert(surface::schemeOf(own->recipe.scheme).name);
-        }
-    }
-    return {names.begin(), names.end()};
 }
 
 Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, const std::string& name) {

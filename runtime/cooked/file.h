@@ -24,12 +24,8 @@ namespace supple::runtime {
 /// Whether bytes begin as a cooked file does, of whatever version.
 [[nodiscard]] bool isCooked(std::span<const std::byte> bytes);
 
-/// `madeBy`: the command that makes the file anew, for messages; or empty. Tables that cannot be checked
-/// (surface::canCheckTables) are left out, and a reader builds them when a group needs them.
+/// `madeBy`: the command that makes the file anew, for messages; or empty.
 [[nodiscard]] std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy);
-
-/// The schemes whose tables are left out, by name and rising.
-[[nodiscard]] std::vector<std::string> schemesLeftOut(const Prepared& prepared);
 
 /// Reads a file and checks all that somebody relies on later; it may be anybody's. `name` begins every error, and
 /// becomes Character::name. Refuses files of another version or byte order, and says how to make them anew. No

@@ -5,7 +5,6 @@
 #include "surface/exact/chain_tables.h"
 #include "surface/exact/kernels.h"
 #include "surface/exact/leaf_check.h"
-#include "surface/exact/stencil_check.h"
 #include "surface/stencil_table.h"
 #include "surface/table_check_common.h"
 
