@@ -112,6 +112,14 @@ uint32_t Scheme::tableRate(uint32_t rate, bool lod) const {
     }
 }
 
+bool serves(const Recipe& tables, const Recipe& recipe) {
+    const bool isHigher =
+        schemeOf(recipe.scheme).rates == RateRule::upTo && recipe.rate > 0 && tables.rate > recipe.rate;
+    Recipe atRate = tables;
+    atRate.rate = isHigher ? recipe.rate : tables.rate;
+    return atRate == recipe;
+}
+
 std::span<const Scheme> schemes() {
     return kSchemes;
 }

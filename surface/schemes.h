@@ -55,6 +55,10 @@ struct Scheme {
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };
 
+/// Whether tables of one recipe serve another: it is the same, or differs in nothing but its rate and is served by
+/// those of a higher one (RateRule::upTo).
+[[nodiscard]] bool serves(const Recipe& tables, const Recipe& recipe);
+
 /// Those that hosts can name.
 [[nodiscard]] std::span<const Scheme> schemes();
 [[nodiscard]] const Scheme& schemeOf(SchemeId id);

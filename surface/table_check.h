@@ -79,4 +79,9 @@ private:
 /// read beyond an array. Tables that buildTables() made of the same recipe and cage pass. O(words).
 [[nodiscard]] Status checkTables(const Tables& tables, const TableSource& source);
 
+/// Whether tables for several rates (Scheme::hasRates) are of one mesh: what the constructions of one make serves all,
+/// and each has the patches of the others. buildTables() makes such tables of one cage; those of files are compared
+/// where they meet. O(ranges).
+[[nodiscard]] bool areOfOneMesh(const Tables& tables, const Tables& others);
+
 } // namespace supple::surface

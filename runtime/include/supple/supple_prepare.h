@@ -52,7 +52,6 @@ SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepa
  * format can be read: a game cooks its characters when it is built, from files that it keeps.
  *
  * What the file has are the character with its clips and images, and the tables of the groups that were planned. Tables
- * of BLEND and FRAGMENTS are not kept: suppleCreateGroup builds them, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Tables
  * of CATMULL_CLARK and LOOP are for one mapping: a file for both is made by preparing twice, the second time from the
  * bytes of the first.
  *
