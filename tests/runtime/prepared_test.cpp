@@ -14,15 +14,17 @@ namespace {
 
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
+std::vector<std::byte> bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<std::byte> copy(chars.size());
+    std::memcpy(copy.data(), chars.data(), chars.size());
+    return copy;
+}
+
 /// Wren has ten parts, which AUTO draws by several schemes.
 const std::vector<std::byte>& wrenFile() {
-    static const std::vector<std::byte> bytes = [] {
-        std::ifstream file(kWren, std::ios::binary);
-        const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        std::vector<std::byte> copy(chars.size());
-        std::memcpy(copy.data(), chars.data(), chars.size());
-        return copy;
-    }();
+    static const std::vector<std::byte> bytes = bytesOf(kWren);
     return bytes;
 }
 
@@ -57,8 +59,8 @@ SuppleGroupDesc withSize(SuppleGroupDesc desc) {
     return desc;
 }
 
-/// Wren, for some plans.
-SupplePrepared prepareWren(SuppleMapping mapping, std::span<const Plan> planned) {
+/// A file, for some plans.
+SupplePrepared prepareFile(std::span<const std::byte> file, SuppleMapping mapping, std::span<const Plan> planned) {
     std::vector<SuppleGroupDesc> descs;
     for (const Plan& plan : planned) {
         descs.push_back(withSize(plan.desc));
@@ -71,8 +73,8 @@ SupplePrepared prepareWren(SuppleMapping mapping, std::span<const Plan> planned)
     SuppleAssetDesc asset{};
     asset.structSize = sizeof(asset);
     asset.name = "wren";
-    asset.bytes = wrenFile().data();
-    asset.byteCount = wrenFile().size();
+    asset.bytes = file.data();
+    asset.byteCount = file.size();
     SupplePrepareDesc desc{};
     desc.structSize = sizeof(desc);
     desc.mapping = mapping;
@@ -84,9 +86,9 @@ SupplePrepared prepareWren(SuppleMapping mapping, std::span<const Plan> planned)
     return prepared;
 }
 
-/// For all plans or for none.
+/// Wren, for all plans or for none.
 SupplePrepared prepareWren(SuppleMapping mapping, bool planned) {
-    return prepareWren(mapping, planned ? std::span(plans()) : std::span<const Plan>());
+    return prepareFile(wrenFile(), mapping, planned ? std::span(plans()) : std::span<const Plan>());
 }
 
 SuppleAsset assetOf(CrowdContext& context, SupplePrepared prepared) {
@@ -230,6 +232,7 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServe) {
     const ValidationGuard guard;
     constexpr uint32_t kMesh =
         SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH;
+    const std::vector<std::byte> pip = bytesOf(kPip);
     std::vector<Plan> high;
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
         for (const uint32_t flags : {uint32_t{0}, kMesh}) {
@@ -238,8 +241,8 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServe) {
     }
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
-        const SuppleAsset read = own.createAsset(wrenFile(), "wren");
-        const SupplePrepared prepared = prepareWren(mapping, high);
+        const SuppleAsset read = own.createAsset(pip, "pip");
+        const SupplePrepared prepared = prepareFile(pip, mapping, high);
         ASSERT_NE(prepared, nullptr);
         const SuppleAsset asset = assetOf(own, prepared);
         suppleDestroyPrepared(prepared);
@@ -265,7 +268,7 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServe) {
 /// Each table of such a file is sound by itself.
 TEST_F(PreparedCharacters, RatesOfDifferentMeshesAreRefused) {
     const Plan& plan = plans().back();
-    const SupplePrepared sound = prepareWren(SUPPLE_MAPPING_NARROW, {&plan, 1});
+    const SupplePrepared sound = prepareFile(wrenFile(), SUPPLE_MAPPING_NARROW, {&plan, 1});
     auto spoilt = std::make_shared<runtime::Prepared>(*sound->prepared);
     suppleDestroyPrepared(sound);
     for (auto& own : spoilt->tables) {
