@@ -80,7 +80,7 @@ std::shared_ptr<const PreparedTables> Prepared::findServing(const surface::Recip
                                                             const PreparedPiece* piece) const {
     std::shared_ptr<const PreparedTables> best;
     for (const auto& own : tables) {
-        if (own->piece.get() == piece && surface::serves(own->recipe, recipe) &&
+        if (own->piece.get() == piece && surface::serves(own->recipe, own->tables, recipe) &&
             (best == nullptr || own->recipe.rate < best->recipe.rate)) {
             best = own;
         }

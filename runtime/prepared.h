@@ -61,7 +61,8 @@ struct Prepared {
     /// Null if the tables were not prepared.
     [[nodiscard]] std::shared_ptr<const PreparedTables> find(const surface::Recipe& recipe,
                                                              const PreparedPiece* piece) const;
-    /// The same, or tables that serve the recipe's rate among others: what a group draws with them has the same bits.
+    /// The same, or those of the next higher rate that serve the recipe (surface::serves): what a group draws with them
+    /// has the same bits.
     [[nodiscard]] std::shared_ptr<const PreparedTables> findServing(const surface::Recipe& recipe,
                                                                     const PreparedPiece* piece) const;
     /// Builds the tables of a recipe for the piece, or for the whole cage if it is null. They are not kept here.

@@ -36,6 +36,9 @@ namespace exact {
 /// chain: "vertex 7 has 6000 faces: ..". O(corners + classes of vertices).
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 void check(TableCheck& check);
+/// Whether tables of Catmull-Clark or Loop for two rates along a patch edge make the same coefficients: their chains
+/// have as many levels.
+[[nodiscard]] bool haveSameChains(uint32_t rate, uint32_t other);
 } // namespace exact
 
 namespace loop {

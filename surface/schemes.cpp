@@ -112,12 +112,15 @@ uint32_t Scheme::tableRate(uint32_t rate, bool lod) const {
     }
 }
 
-bool serves(const Recipe& tables, const Recipe& recipe) {
-    const bool isHigher =
-        schemeOf(recipe.scheme).rates == RateRule::upTo && recipe.rate > 0 && tables.rate > recipe.rate;
-    Recipe atRate = tables;
-    atRate.rate = isHigher ? recipe.rate : tables.rate;
-    return atRate == recipe;
+bool serves(const Recipe& own, const Tables& tables, const Recipe& recipe) {
+    if (own == recipe) {
+        return true;
+    }
+    Recipe lower = own;
+    lower.rate = recipe.rate;
+    const uint32_t patchRate = tables.isolationSteps > 0 ? (recipe.rate + 1) / 2 : recipe.rate;
+    return schemeOf(recipe.scheme).rates == RateRule::upTo && lower == recipe && recipe.rate > 0 &&
+           recipe.rate < own.rate && exact::haveSameChains(patchRate, tables.rate);
 }
 
 std::span<const Scheme> schemes() {
@@ -151,6 +154,10 @@ Status checkTables(const Tables& tables, const TableSource& source) {
     TableCheck check(tables, source);
     check.begin("tables");
     check.require(isMadeFor(tables, source.recipe), "made for another rate");
+    // What build() refuses: with such tables nobody asks it.
+    check.require(scheme.hasLevels || !source.recipe.lod, "levels of detail, which the scheme does not have");
+    check.require(scheme.hasIndexedMesh || !source.recipe.indexedMesh,
+                  "an indexed mesh, which the scheme does not have");
     // What comes first makes the rest easier to check.
     for (void (*part)(TableCheck&) : {&checkMembers, &checkBicubicPatches, &checkCornerAttributes, &checkIndexedMesh,
                                       &lod::checkLevels, scheme.check}) {

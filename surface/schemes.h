@@ -55,9 +55,10 @@ struct Scheme {
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };
 
-/// Whether tables of one recipe serve another: it is the same, or differs in nothing but its rate and is served by
-/// those of a higher one (RateRule::upTo).
-[[nodiscard]] bool serves(const Recipe& tables, const Recipe& recipe);
+/// Whether tables of the recipe `own` serve another as well as its own would: it is the same, or differs in nothing but
+/// a lower rate (RateRule::upTo) for which the same coefficients are made. Those of much higher rates would serve, too,
+/// but make points in every frame that nobody asks for.
+[[nodiscard]] bool serves(const Recipe& own, const Tables& tables, const Recipe& recipe);
 
 /// Those that hosts can name.
 [[nodiscard]] std::span<const Scheme> schemes();

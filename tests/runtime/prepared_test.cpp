@@ -228,7 +228,7 @@ TEST_F(PreparedCharacters, AreTheSameFromAFile) {
 }
 
 /// Rate 8 was planned; groups ask for less.
-TEST_F(PreparedCharacters, TablesOfAHigherRateServe) {
+TEST_F(PreparedCharacters, TablesOfAHigherRateServeWhereTheyMakeTheSame) {
     const ValidationGuard guard;
     constexpr uint32_t kMesh =
         SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH;
@@ -255,7 +255,9 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServe) {
                 EXPECT_FALSE(expected.empty());
                 own.takeLines();
                 EXPECT_TRUE(bitsOf(own, asset, low) == expected);
-                EXPECT_EQ(notPrepared(own), 0u);
+                // Faces of Pip take a step first, so that rate 8 is 4 along a patch: all below have the same chains.
+                const bool isServed = plan.desc.scheme == SUPPLE_SCHEME_CATMULL_CLARK || rate > 4;
+                EXPECT_EQ(notPrepared(own), isServed ? 0u : 1u);
             }
         }
         Plan higher = high.front();

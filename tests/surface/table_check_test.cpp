@@ -470,6 +470,44 @@ TEST(TableCheck, AnotherSourceIsRefused) {
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.attributes = false; }));
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.mapFrames.resize(1); }));
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.uvMode = cage::UvMode::none; }));
+    EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.rate = 65; }));
+}
+
+/// Builders refuse these; nobody asks them where there are tables.
+TEST(TableCheck, WhatTheSchemeDoesNotHaveIsRefused) {
+    Recipe recipe;
+    recipe.rate = 8;
+    for (const SchemeId scheme : {SchemeId::blend, SchemeId::fragments, SchemeId::loopFragments}) {
+        recipe.scheme = scheme;
+        Sample sample = sampleOf(recipe, test::cube());
+        EXPECT_TRUE(sample.check().ok());
+        sample.recipe.indexedMesh = true;
+        EXPECT_EQ(sample.check().error().message, "tables: an indexed mesh, which the scheme does not have");
+    }
+    Sample sample = sampleOf(recipe, test::cube());
+    sample.recipe.lod = true;
+    EXPECT_EQ(sample.check().error().message, "tables: levels of detail, which the scheme does not have");
+}
+
+TEST(TableCheck, TablesOfAllRatesAreOfOneMesh) {
+    Recipe recipe;
+    recipe.scheme = SchemeId::fragments;
+    recipe.rate = 2;
+    const Sample low = sampleOf(recipe, test::prism(8));
+    recipe.rate = 16;
+    Sample high = sampleOf(recipe, test::prism(8));
+    EXPECT_TRUE(areOfOneMesh(low.tables, high.tables));
+    const auto differs = [&](void (*change)(Tables&)) {
+        Tables other = high.tables;
+        change(other);
+        return !areOfOneMesh(low.tables, other);
+    };
+    EXPECT_FALSE(differs([](Tables&) {}));
+    EXPECT_TRUE(differs([](Tables& t) { --t.isolationSteps; }));
+    EXPECT_TRUE(differs([](Tables& t) { t.poolStride += 16; }));
+    EXPECT_TRUE(differs([](Tables& t) { --t.ranges[0].section.count; }));
+    EXPECT_TRUE(differs([](Tables& t) { t.ranges.clear(); }));
+    EXPECT_TRUE(differs([](Tables& t) { t.uvSets = 1; }));
 }
 
 } // namespace

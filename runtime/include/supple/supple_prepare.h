@@ -40,9 +40,9 @@ typedef struct SupplePrepareDesc {
  * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
  * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
  * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
- * BLEND and FRAGMENTS the rate; of CATMULL_CLARK and LOOP the mapping, and the rate if it is above those that were
- * planned), works as well: suppleCreateGroup builds what is missing, and says so (SUPPLE_MESSAGE_NOT_PREPARED).
- * Pipelines are not prepared here.
+ * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate, but tables of the former two serve lower rates of the same octave;
+ * of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
+ * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
  *
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
