@@ -85,7 +85,12 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
     const std::shared_ptr<const PreparedPiece> of = piece != nullptr ? piece->prepared : nullptr;
     auto scheme = std::make_shared<SchemeTables>();
     scheme->piece = piece;
-    scheme->prepared = prepared->find(recipe, of.get());
+    scheme->prepared = prepared->findServing(recipe, of.get());
+    for (const std::shared_ptr<SchemeTables>& known : schemes) {
+        if (scheme->prepared != nullptr && known->prepared == scheme->prepared) {
+            return known; // of another rate
+        }
+    }
     std::shared_ptr<PreparedTables> own; // what is built for this asset alone
     if (scheme->prepared == nullptr) {
         Result<std::shared_ptr<PreparedTables>> built = prepared->build(recipe, of);

@@ -76,6 +76,18 @@ std::shared_ptr<const PreparedTables> Prepared::find(const surface::Recipe& reci
     return known != tables.end() ? *known : nullptr;
 }
 
+std::shared_ptr<const PreparedTables> Prepared::findServing(const surface::Recipe& recipe,
+                                                            const PreparedPiece* piece) const {
+    std::shared_ptr<const PreparedTables> best;
+    for (const auto& own : tables) {
+        if (own->piece.get() == piece && surface::serves(own->recipe, own->tables, recipe) &&
+            (best == nullptr || own->recipe.rate < best->recipe.rate)) {
+            best = own;
+        }
+    }
+    return best;
+}
+
 Result<std::shared_ptr<PreparedTables>> Prepared::build(const surface::Recipe& recipe,
                                                         const std::shared_ptr<const PreparedPiece>& piece) const {
     Result<surface::Tables> built = surface::buildTables(recipe, cageOf(piece.get()));

@@ -61,6 +61,10 @@ struct Prepared {
     /// Null if the tables were not prepared.
     [[nodiscard]] std::shared_ptr<const PreparedTables> find(const surface::Recipe& recipe,
                                                              const PreparedPiece* piece) const;
+    /// The same, or those of the next higher rate that serve the recipe (surface::serves): what a group draws with them
+    /// has the same bits.
+    [[nodiscard]] std::shared_ptr<const PreparedTables> findServing(const surface::Recipe& recipe,
+                                                                    const PreparedPiece* piece) const;
     /// Builds the tables of a recipe for the piece, or for the whole cage if it is null. They are not kept here.
     /// Refuses what the scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<PreparedTables>>

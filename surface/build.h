@@ -28,6 +28,7 @@ namespace fragments {
 /// Fragments of Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its
 /// fragment: "vertex 7 has 260 faces: ...".
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace fragments
 
 namespace catmull_clark {
@@ -36,6 +37,12 @@ namespace catmull_clark {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 void check(TableCheck& check);
 } // namespace catmull_clark
+
+namespace chains {
+/// Whether tables of Catmull-Clark or Loop for two rates along a patch edge make the same coefficients: their chains
+/// have as many levels.
+[[nodiscard]] bool haveSameChains(uint32_t rate, uint32_t other);
+} // namespace chains
 
 namespace loop {
 /// Loop by patches of one triangle each. Refuses semi-sharp creases, and what catmull_clark::build() does.
@@ -48,6 +55,7 @@ namespace blend {
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage);
 /// See Scheme::boundsMargin.
 [[nodiscard]] float boundsMargin(const cage::Cage& cage);
+void check(TableCheck& check);
 } // namespace blend
 
 namespace polygons {

@@ -45,8 +45,9 @@ void checkPatches(TableCheck& check) {
 bool checkRange(TableCheck& check, const PatchRange& range, uint64_t first) {
     const Tables& tables = check.tables();
     const uint64_t count = range.section.count;
+    const bool hasFragments = !tables.fragments.classes.empty(); // what evaluates its patches
     if (!check.require(isPatchClass(range.patchClass), "an unknown class") ||
-        !check.require(rowOf(range.patchClass).evaluate != Kernel::count, "a class without records") ||
+        !check.require(hasFragments || rowOf(range.patchClass).evaluate != Kernel::count, "a class without records") ||
         !check.require(range.firstPatch == first && count > 0, "they do not follow each other") ||
         !check.within(first, count, tables.patches.size(), "patches") ||
         !check.elements(range.section.table, count * recordElements(tables, range.patchClass))) {
@@ -118,6 +119,20 @@ void checkStages(TableCheck& check) {
     }
 }
 
+/// Steps of subdivision before patches are made of the cage's faces.
+uint32_t mostSteps(SchemeId scheme) {
+    switch (scheme) {
+    case SchemeId::fragments:
+        return 2;
+    case SchemeId::catmullClark:
+    case SchemeId::loopFragments:
+    case SchemeId::blend:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
 /// What must be as the recipe says.
 void checkRecipe(TableCheck& check) {
     check.begin("tables");
@@ -125,7 +140,8 @@ void checkRecipe(TableCheck& check) {
     const Recipe& recipe = check.source().recipe;
     const SchemeId scheme = recipe.scheme;
     const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop,
-               mesh = scheme == SchemeId::polygons;
+               mesh = scheme == SchemeId::polygons,
+               fragments = scheme == SchemeId::fragments || scheme == SchemeId::loopFragments;
     check.require(tables.words.size() % 4 == 0, "no whole elements");
     const auto header = headerOf(tables);
     check.require(tables.words.size() >= header.size() &&
@@ -140,8 +156,8 @@ void checkRecipe(TableCheck& check) {
     check.require(!tables.cornerNormals ||
                       (scheme == SchemeId::prep && recipe.prep.cornerRule == prep::CornerRule::smooth),
                   "corner normals that the scheme does not have");
-    check.require(tables.isolationSteps <= (scheme == SchemeId::catmullClark ? 1u : 0u), "steps of subdivision");
-    check.require(tables.fragments.classes.empty() && tables.fragments.steps == 0, "fragments");
+    check.require(tables.isolationSteps <= mostSteps(scheme), "steps of subdivision");
+    check.require(tables.fragments.classes.empty() != fragments, "fragments not as the recipe says");
     check.require(tables.triangles.indices.empty() != mesh, "triangles not as the recipe says");
     check.require(recipe.lod != tables.lod.edges.empty(), "levels of detail not as the recipe says");
     check.require((recipe.indexedMesh && !mesh) != tables.mesh.edges.empty(), "an indexed mesh not as the recipe says");

@@ -26,13 +26,13 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, "fragments", &fragments::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
-     [](const cage::Cage&) { return 0.001f; }},
+     [](const cage::Cage&) { return 0.001f; }, &fragments::check},
     {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
      [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
-     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin},
-    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true,
-     kAllUvModes, true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
+     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin, &blend::check},
+    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true, kAllUvModes,
+     true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
@@ -47,7 +47,22 @@ constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    false,
                                    kAllUvModes,
                                    false,
-                                   [](const cage::Cage&) { return 0.001f; }};
+                                   [](const cage::Cage&) { return 0.001f; },
+                                   &fragments::check};
+
+static_assert(std::ranges::all_of(kSchemes, [](const Scheme& scheme) { return scheme.check != nullptr; }));
+
+/// Whether the tables are for the recipe's rate, along an edge of what the steps of subdivision leave.
+bool isMadeFor(const Tables& tables, const Recipe& recipe) {
+    if (recipe.rate > kMaxRate) {
+        return false;
+    }
+    uint32_t rate = schemeOf(recipe.scheme).tableRate(recipe.rate, recipe.lod);
+    for (uint32_t step = 0; step < std::min(tables.isolationSteps, 2u); ++step) {
+        rate = (rate + 1) / 2;
+    }
+    return tables.rate == rate;
+}
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
@@ -100,6 +115,17 @@ uint32_t Scheme::tableRate(uint32_t rate, bool lod) const {
     }
 }
 
+bool serves(const Recipe& own, const Tables& tables, const Recipe& recipe) {
+    if (own == recipe) {
+        return true;
+    }
+    Recipe lower = own;
+    lower.rate = recipe.rate;
+    const uint32_t patchRate = tables.isolationSteps > 0 ? (recipe.rate + 1) / 2 : recipe.rate;
+    return schemeOf(recipe.scheme).rates == RateRule::upTo && lower == recipe && recipe.rate > 0 &&
+           recipe.rate < own.rate && chains::haveSameChains(patchRate, tables.rate);
+}
+
 std::span<const Scheme> schemes() {
     return kSchemes;
 }
@@ -126,17 +152,15 @@ Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
     return build(recipe, laid);
 }
 
-bool canCheckTables(SchemeId scheme) {
-    return schemeOf(scheme).check != nullptr;
-}
-
 Status checkTables(const Tables& tables, const TableSource& source) {
     const Scheme& scheme = schemeOf(source.recipe.scheme);
-    const uint32_t rate = scheme.tableRate(source.recipe.rate, source.recipe.lod);
     TableCheck check(tables, source);
     check.begin("tables");
-    check.require(scheme.check != nullptr, "files do not keep those of this scheme");
-    check.require(tables.rate == (tables.isolationSteps > 0 ? (rate + 1) / 2 : rate), "made for another rate");
+    check.require(isMadeFor(tables, source.recipe), "made for another rate");
+    // What build() refuses: with such tables nobody asks it.
+    check.require(scheme.hasLevels || !source.recipe.lod, "levels of detail, which the scheme does not have");
+    check.require(scheme.hasIndexedMesh || !source.recipe.indexedMesh,
+                  "an indexed mesh, which the scheme does not have");
     // What comes first makes the rest easier to check.
     for (void (*part)(TableCheck&) : {&checkMembers, &checkBicubicPatches, &checkCornerAttributes, &checkIndexedMesh,
                                       &lod::checkLevels, scheme.check}) {

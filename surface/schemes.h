@@ -42,8 +42,7 @@ struct Scheme {
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
-    /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h). Null: files do not keep
-    /// its tables.
+    /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h).
     void (*check)(TableCheck& check) = nullptr;
     bool ofMapping = false; ///< its tables differ by mapping (Recipe::wide)
 
@@ -55,6 +54,11 @@ struct Scheme {
     /// Recipe::rate for a group that asks for `rate` segments along an edge of the cage.
     [[nodiscard]] uint32_t tableRate(uint32_t rate, bool lod) const;
 };
+
+/// Whether tables of the recipe `own` serve another as well as its own would: it is the same, or differs in nothing but
+/// a lower rate (RateRule::upTo) for which the same coefficients are made. Those of much higher rates would serve, too,
+/// but make points in every frame that nobody asks for.
+[[nodiscard]] bool serves(const Recipe& own, const Tables& tables, const Recipe& recipe);
 
 /// Those that hosts can name.
 [[nodiscard]] std::span<const Scheme> schemes();

@@ -22,4 +22,13 @@ Status TableCheck::status() const {
     return fault_ ? Status(Error{ErrorCode::asset, *fault_}) : success();
 }
 
+bool areOfOneMesh(const Tables& tables, const Tables& others) {
+    const auto isSame = [](const PatchRange& own, const PatchRange& other) {
+        return own.patchClass == other.patchClass && own.section.count == other.section.count;
+    };
+    return tables.isolationSteps == others.isolationSteps && tables.poolStride == others.poolStride &&
+           tables.attributeOutputs() == others.attributeOutputs() &&
+           std::ranges::equal(tables.ranges, others.ranges, isSame);
+}
+
 } // namespace supple::surface

@@ -75,11 +75,13 @@ private:
     std::optional<std::string> fault_;
 };
 
-/// Whether checkTables() knows the tables of a scheme (Scheme::check). Those of others are built when they are needed.
-[[nodiscard]] bool canCheckTables(SchemeId scheme);
-
 /// Refuses tables with which a kernel could read or write beyond its buffers or loop beyond its bounds, or the library
 /// read beyond an array. Tables that buildTables() made of the same recipe and cage pass. O(words).
 [[nodiscard]] Status checkTables(const Tables& tables, const TableSource& source);
+
+/// Whether tables for several rates (Scheme::hasRates) are of one mesh: what the constructions of one make serves all,
+/// and each has the patches of the others. buildTables() makes such tables of one cage; those of files are compared
+/// where they meet. O(ranges).
+[[nodiscard]] bool areOfOneMesh(const Tables& tables, const Tables& others);
 
 } // namespace supple::surface

@@ -6,6 +6,7 @@
 #include "shaders/shared/surface.h"
 #include "surface/table_check.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 
@@ -47,6 +48,32 @@ bool checkKernels(TableCheck& check, std::initializer_list<StageKernels> kernels
 /// Whether the pool has the limit point of a patch's corner, and the tangents and face coefficients of its spoke and of
 /// the next one (SUPPLE_SPOKE).
 bool checkPatchCorner(TableCheck& check, uint32_t point, uint32_t spokeWord);
+
+/// Whether kernels may write so many coefficients of an instance. What tells the last level of its chains
+/// (LodTables::depth) they may not touch: chains are followed as far as it says.
+[[nodiscard]] inline bool checkTarget(TableCheck& check, uint64_t first, uint64_t count = 1) {
+    const uint64_t depth = check.tables().lod.depth;
+    return check.pool(first, count) && check.require(depth == 0 || depth < first || depth - first >= count,
+                                                     "written where the last level of chains stands");
+}
+
+/// The largest of the first `count` numbers of 16 bits, two a word.
+[[nodiscard]] inline uint32_t largestHalf(const uint32_t* words, uint32_t count) {
+    uint32_t low = 0, high = 0;
+    for (uint32_t k = 0; k < count / 2; ++k) {
+        low = std::max(low, words[k] & 0xFFFFu);
+        high = std::max(high, words[k] >> 16);
+    }
+    if (count % 2 != 0) {
+        low = std::max(low, words[count / 2] & 0xFFFFu);
+    }
+    return std::max(low, high);
+}
+
+/// Follows the rows of a construction by stencils (surface/stencil_table.h) as shaders/subdivision/isolate.comp does:
+/// the vertices and weights that they name, and the coefficients that they write. `vertices`: so many there are to
+/// read, those before Construction::from counted.
+[[nodiscard]] bool checkStencils(TableCheck& check, const Construction& construction, uint64_t vertices);
 
 /// The range whose records include one that begins at an element; null if none does.
 [[nodiscard]] const PatchRange* rangeOfRecord(const Tables& tables, uint64_t element);

@@ -4,8 +4,6 @@
 #include "runtime/api/entry.h"
 #include "runtime/cooked/file.h"
 
-#include <cstring>
-
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
@@ -119,16 +117,16 @@ SuppleResult suppleSavePrepared(SupplePrepared prepared, const char* madeBy, voi
         return SUPPLE_ERROR_ARGUMENT;
     }
     try {
-        const std::vector<std::byte> bytes = runtime::writeCooked(*prepared->prepared, madeBy != nullptr ? madeBy : "");
+        const std::string command = madeBy != nullptr ? madeBy : "";
         const size_t room = *byteCount;
-        *byteCount = bytes.size();
+        *byteCount = runtime::cookedBytes(*prepared->prepared, command);
         if (out == nullptr) {
             return SUPPLE_OK;
         }
-        if (room < bytes.size()) {
+        if (room < *byteCount) {
             return SUPPLE_ERROR_ARGUMENT;
         }
-        std::memcpy(out, bytes.data(), bytes.size());
+        runtime::writeCooked(*prepared->prepared, command, {static_cast<std::byte*>(out), *byteCount});
         return SUPPLE_OK;
     } catch (const std::exception&) {
         return SUPPLE_ERROR_HOST_MEMORY;

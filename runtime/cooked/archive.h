@@ -39,16 +39,22 @@ template <class Enum>
     return number <= static_cast<uint32_t>(kLast<Enum>);
 }
 
-/// Appends values to bytes.
+/// Writes values one behind the other, as long as there is room, and counts their bytes. With no room it counts alone.
 class Writer {
 public:
-    explicit Writer(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+    explicit Writer(std::span<std::byte> out) : out_(out) {}
+    [[nodiscard]] size_t byteCount() const { return count_; }
 
     template <class... T>
     void operator()(const T&... values) {
         (put(values), ...);
     }
-    void put(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+    void put(std::span<const std::byte> bytes) {
+        if (!bytes.empty() && count_ <= out_.size() && bytes.size() <= out_.size() - count_) {
+            std::memcpy(out_.data() + count_, bytes.data(), bytes.size());
+        }
+        count_ += bytes.size();
+    }
 
 private:
     template <Plain T>
@@ -94,7 +100,8 @@ private:
     template <class T>
     requires(std::is_class_v<T> && !Plain<T>) void put(const T& value) { fields(*this, value); }
 
-    std::vector<std::byte>& bytes_;
+    std::span<std::byte> out_;
+    size_t count_ = 0;
 };
 
 /// Takes values out of bytes that may be anybody's. Once something does not fit, it reads nothing more: values stay as

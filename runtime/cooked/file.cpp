@@ -6,7 +6,6 @@
 #include "surface/table_check.h"
 
 #include <algorithm>
-#include <set>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -59,16 +58,49 @@ Status checkHeader(std::span<const std::byte> bytes, Reader& reader, std::string
     return success();
 }
 
-bool keeps(const PreparedTables& tables) {
-    return surface::canCheckTables(tables.recipe.scheme);
-}
-
 constexpr uint32_t kWholeCage = cage::kNone;
 
 uint32_t placeOf(const Prepared& prepared, const std::shared_ptr<const PreparedPiece>& piece) {
     return piece == nullptr
                ? kWholeCage
                : static_cast<uint32_t>(std::ranges::find(prepared.pieces, piece) - prepared.pieces.begin());
+}
+
+/// Room for the header, and all that it is the hash of.
+void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& writer) {
+    constexpr std::array<std::byte, sizeof(Header)> kRoom{};
+    writer.put(std::span<const std::byte>(kRoom));
+    writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
+    writer(static_cast<uint32_t>(prepared.pieces.size()));
+    for (const auto& piece : prepared.pieces) {
+        writer(piece->parts, piece->of);
+    }
+    writer(static_cast<uint32_t>(prepared.tables.size()));
+    for (const auto& own : prepared.tables) {
+        writer(own->recipe, placeOf(prepared, own->piece), own->tables);
+    }
+}
+
+/// What all that follows is read for: the header and the character.
+Status readBeginning(std::span<const std::byte> bytes, const std::string& name, Reader& reader, Prepared& prepared,
+                     bool& plays) {
+    const auto refused = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
+    if (const Status whole = checkHeader(bytes, reader, prepared.madeBy); !whole) {
+        return refused(whole.error().message);
+    }
+    reader(prepared.character, prepared.choices, plays);
+    if (reader.fault()) {
+        return refused(*reader.fault());
+    }
+    cage::Character& character = prepared.character;
+    character.name = name;
+    if (const Status sound = cage::checkCharacter(character); !sound) {
+        return sound.error();
+    }
+    if (prepared.choices.size() != character.parts.size()) {
+        return refused("no scheme is chosen for some part");
+    }
+    return success();
 }
 
 void readPieces(Reader& reader, Prepared& prepared) {
@@ -103,10 +135,6 @@ void readTables(Reader& reader, Prepared& prepared) {
             return;
         }
         own->piece = place != kWholeCage ? prepared.pieces[place] : nullptr;
-        if (!surface::canCheckTables(own->recipe.scheme)) {
-            reader.refuse("tables of a scheme that files do not keep");
-            return;
-        }
         const cage::Character& character = prepared.character;
         const surface::TableSource source{own->recipe,
                                           prepared.cageOf(own->piece.get()).vertexCount(),
@@ -127,60 +155,47 @@ bool isCooked(std::span<const std::byte> bytes) {
     return bytes.size() >= sizeof(Header) && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
-std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy) {
-    std::vector<std::byte> bytes(sizeof(Header));
-    Writer writer(bytes);
-    writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
-    writer(static_cast<uint32_t>(prepared.pieces.size()));
-    for (const auto& piece : prepared.pieces) {
-        writer(piece->parts, piece->of);
-    }
-    writer(static_cast<uint32_t>(std::ranges::count_if(prepared.tables, [](const auto& own) { return keeps(*own); })));
-    for (const auto& own : prepared.tables) {
-        if (keeps(*own)) {
-            writer(own->recipe, placeOf(prepared, own->piece), own->tables);
-        }
-    }
+size_t cookedBytes(const Prepared& prepared, const std::string& madeBy) {
+    Writer counter({});
+    writeAll(prepared, madeBy, counter);
+    return counter.byteCount();
+}
+
+void writeCooked(const Prepared& prepared, const std::string& madeBy, std::span<std::byte> out) {
+    Writer writer(out);
+    writeAll(prepared, madeBy, writer);
     Header header;
-    header.byteCount = bytes.size();
-    header.hash = hashOf(bytes);
-    std::memcpy(bytes.data(), &header, sizeof(header));
+    header.byteCount = out.size();
+    header.hash = hashOf(out);
+    std::memcpy(out.data(), &header, sizeof(header));
+}
+
+std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy) {
+    std::vector<std::byte> bytes(cookedBytes(prepared, madeBy));
+    writeCooked(prepared, madeBy, bytes);
     return bytes;
 }
 
-std::vector<std::string> schemesLeftOut(const Prepared& prepared) {
-    std::set<std::string> names;
-    for (const auto& own : prepared.tables) {
-        if (!keeps(*own)) {
-            names.insert(surface::schemeOf(own->recipe.scheme).name);
-        }
+Result<cage::Character> readCookedCharacter(std::span<const std::byte> bytes, const std::string& name) {
+    Reader reader(bytes);
+    Prepared prepared;
+    bool plays = false;
+    if (const Status read = readBeginning(bytes, name, reader, prepared, plays); !read) {
+        return read.error();
     }
-    return {names.begin(), names.end()};
+    return std::move(prepared.character);
 }
 
 Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, const std::string& name) {
-    const auto refused = [&](const std::string& reason) { return Error{ErrorCode::asset, name + ": " + reason}; };
     Reader reader(bytes);
     auto prepared = std::make_shared<Prepared>();
-    if (const Status whole = checkHeader(bytes, reader, prepared->madeBy); !whole) {
-        return refused(whole.error().message);
-    }
     bool plays = false;
-    reader(prepared->character, prepared->choices, plays);
-    if (reader.fault()) {
-        return refused(*reader.fault());
-    }
-    cage::Character& character = prepared->character;
-    character.name = name;
-    if (const Status sound = cage::checkCharacter(character); !sound) {
-        return sound.error();
-    }
-    if (prepared->choices.size() != character.parts.size()) {
-        return refused("no scheme is chosen for some part");
+    if (const Status read = readBeginning(bytes, name, reader, *prepared, plays); !read) {
+        return read.error();
     }
     prepared->follow();
     if (plays) {
-        prepared->clips = skinning::buildClipTable(character);
+        prepared->clips = skinning::buildClipTable(prepared->character);
     }
     readPieces(reader, *prepared);
     readTables(reader, *prepared);
@@ -188,7 +203,7 @@ Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, c
         reader.refuse("more than a character");
     }
     if (reader.fault()) {
-        return refused(*reader.fault());
+        return Error{ErrorCode::asset, name + ": " + *reader.fault()};
     }
     return prepared;
 }

@@ -24,17 +24,20 @@ namespace supple::runtime {
 /// Whether bytes begin as a cooked file does, of whatever version.
 [[nodiscard]] bool isCooked(std::span<const std::byte> bytes);
 
-/// `madeBy`: the command that makes the file anew, for messages; or empty. Tables that cannot be checked
-/// (surface::canCheckTables) are left out, and a reader builds them when a group needs them.
-[[nodiscard]] std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy);
+/// How many bytes writeCooked() writes. Makes none of them: O(members of lists that are not plain numbers).
+[[nodiscard]] size_t cookedBytes(const Prepared& prepared, const std::string& madeBy);
 
-/// The schemes whose tables are left out, by name and rising.
-[[nodiscard]] std::vector<std::string> schemesLeftOut(const Prepared& prepared);
+/// `madeBy`: the command that makes the file anew, for messages; or empty. `out` has cookedBytes().
+void writeCooked(const Prepared& prepared, const std::string& madeBy, std::span<std::byte> out);
+[[nodiscard]] std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy);
 
 /// Reads a file and checks all that somebody relies on later; it may be anybody's. `name` begins every error, and
 /// becomes Character::name. Refuses files of another version or byte order, and says how to make them anew. No
 /// exception but std::bad_alloc.
 [[nodiscard]] Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, const std::string& name);
+
+/// The character alone, which is checked; what is behind it nobody looks at.
+[[nodiscard]] Result<cage::Character> readCookedCharacter(std::span<const std::byte> bytes, const std::string& name);
 
 /// Refuses what comes from a cooked file if it has tables for the other mapping alone.
 [[nodiscard]] Status checkMapping(const Prepared& prepared, bool wide);

@@ -106,13 +106,21 @@ template <class A, Is<Triangles> T>
 void fields(A& a, T& triangles) {
     a(triangles.vertices, triangles.directions, triangles.indices);
 }
-/// Without what only builders need (Tables::copies) and the tables of fragments, which no file keeps.
+template <class A, Is<Fragments::Class> T>
+void fields(A& a, T& own) {
+    a(own.sharedPoints, own.fragments, own.blocks);
+}
+template <class A, Is<Fragments> T>
+void fields(A& a, T& fragments) {
+    a(fragments.steps, fragments.loop, fragments.scratchStride, fragments.classes);
+}
+/// Without what only builders need (Tables::copies).
 template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {
     a(tables.words, tables.cageStride, tables.poolStride, tables.meshVertices, tables.tangents, tables.faces,
       tables.inner, tables.frames, tables.ring, tables.edgeClasses, tables.coordinates, tables.uvSets, tables.uvMode,
       tables.uvLeaves, tables.faceUvs, tables.mapFrames, tables.attributes, tables.attributeHalves,
-      tables.isolationSteps, tables.rate, tables.triangles, tables.cornerNormals, tables.constructions, tables.ranges,
+      tables.isolationSteps, tables.rate, tables.fragments, tables.triangles, tables.cornerNormals, tables.constructions, tables.ranges,
       tables.patches, tables.drawRanges, tables.lod, tables.mesh, tables.notes);
 }
 

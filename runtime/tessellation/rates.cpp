@@ -8,6 +8,7 @@
 // All surfaces of a group have the rates of the group's ladder. Where a surface lacks one, it is drawn at the nearest
 // that it has.
 #include "runtime/tessellation/own_vertices.h"
+#include "surface/table_check.h"
 
 #include <algorithm>
 
@@ -147,6 +148,13 @@ Status Rates::buildRates() {
         Rate& rate = own_.emplace_back();
         rate.scheme = std::move(*scheme);
         rate.evaluation.rate = recipe.rate >> tables().isolationSteps;
+        // They may come from a file, where each stands for itself.
+        const surface::Tables& own = rate.scheme->tables();
+        if (own.rate != rate.evaluation.rate || !surface::areOfOneMesh(own, tables())) {
+            return Error{ErrorCode::asset,
+                         desc_.asset->character.name + ": the tables for rate " + std::to_string(recipe.rate) +
+                             " are of another mesh than those for rate " + std::to_string(scheme_->recipe().rate)};
+        }
         rate.firstVertex = static_cast<uint32_t>(vertices);
         vertices = rate.evaluation.layOut(rate.scheme->tables(), vertices);
         rate.vertices = static_cast<uint32_t>(vertices) - rate.firstVertex;

@@ -89,7 +89,11 @@ Status Tessellation::buildTables() {
         return Error{ErrorCode::argument,
                      desc_.asset->character.name + ": " + scheme.name + " has no patch coefficients"};
     }
-    const uint32_t taken = own.rate << own.isolationSteps;
+    beginRate_ = own.rate == 0 ? askedRate_ : own.rate;
+    if (own.rate != 0 && scheme.rates == surface::RateRule::upTo) { // they may be those of a higher rate
+        beginRate_ = (askedRate_ + (1u << own.isolationSteps) - 1) >> own.isolationSteps;
+    }
+    const uint32_t taken = beginRate_ << own.isolationSteps;
     if (own.rate != 0 && taken != askedRate_ && !scheme.isMesh()) {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
@@ -101,7 +105,7 @@ Status Tessellation::buildTables() {
     if (own.patches.empty()) {
         wanted_.remove(Stream::previousPositions);
     }
-    evaluation_.rate = own.rate == 0 ? askedRate_ : own.rate;
+    evaluation_.rate = beginRate_;
     return success();
 }
 
@@ -114,7 +118,7 @@ surface::Needs Tessellation::needs() const {
     needs.tangents = wanted_.has(Stream::tangents);
     needs.attributes = wanted_.has(Stream::attributes);
     needs.attributeOutputs = wanted_.attributeOutputs();
-    needs.rate = tables().rate == 0 ? askedRate_ : tables().rate; // though another may be set later
+    needs.rate = beginRate_; // though another may be set later
     return needs;
 }
 

@@ -202,7 +202,8 @@ protected:
     [[nodiscard]] virtual uint32_t scratchStride() const { return program_.scratchStride; }
 
     TessellationDesc desc_;
-    uint32_t askedRate_ = 8;
+    uint32_t askedRate_ = 8; ///< segments along an edge of the cage
+    uint32_t beginRate_ = 8; ///< the same along a patch edge, as the scheme has them
     std::string rateNote_, uvNote_;
     std::shared_ptr<SchemeTables> scheme_;
     surface::Evaluation evaluation_;

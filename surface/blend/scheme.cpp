@@ -1,5 +1,6 @@
 // The blending surface as a scheme: the tables of shaders/shared/{surface,blend}.h.
 #include "shaders/shared/blend.h"
+#include "surface/blend/kernels.h"
 #include "surface/blend/smooth_uvs.h"
 #include "surface/blend/weights.h"
 #include "surface/build.h"
@@ -93,9 +94,8 @@ private:
             return mesh_.classOf(a).ringPoints() < mesh_.classOf(b).ringPoints();
         });
         const auto count = static_cast<uint32_t>(order.size());
-        constexpr KindOfKernel kKernels[] = {{Kernel::blendChart, 0}, {Kernel::blendChartMeshInPool, 0}};
         tables_.constructions.push_back({mesh_.refined ? Stage::assemble : Stage::vertex,
-                                         kKernels[mesh_.refined ? 1 : 0],
+                                         kChartKernels[mesh_.refined ? 1 : 0],
                                          {writer_.element(), count},
                                          kCoefficients * count});
         for (const uint32_t i : order) {

@@ -23,6 +23,10 @@ uint32_t lastChainLevel(uint32_t rate) {
     return rate == 0 ? kLastChainLevel : std::max(kFirstChainLevel, static_cast<uint32_t>(std::bit_width(rate - 1)));
 }
 
+bool haveSameChains(uint32_t rate, uint32_t other) {
+    return lastChainLevel(rate) == lastChainLevel(other);
+}
+
 ChainTables::ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer)
     : mesh_(*desc.mesh), lastLevel_(desc.lastLevel), wide_(desc.wide), lod_(desc.lod), needs_(std::move(needs)),
       fans_(fans), writer_(writer) {}

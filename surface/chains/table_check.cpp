@@ -5,7 +5,6 @@
 #include "surface/chains/chain_tables.h"
 #include "surface/chains/kernels.h"
 #include "surface/chains/leaf_check.h"
-#include "surface/chains/stencil_check.h"
 #include "surface/stencil_table.h"
 #include "surface/table_check_common.h"
 

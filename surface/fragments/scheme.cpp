@@ -331,10 +331,10 @@ private:
                 strips.push_back({column, static_cast<uint32_t>(last + 3)});
                 stripSectors.push_back(sector);
                 for (int32_t a = -1; a <= last + 1; ++a, ++column) {
-                    // Points that no sample of the strip asks for may be missing.
+                    // Points that no sample of the strip asks for may be missing, or lie beyond the halo.
                     const auto at = [&](int32_t y) {
                         const uint32_t point = pointAt(c.key, sector, a, y);
-                        return point == kNoPoint ? 0u : point;
+                        return point < c.after[steps_].points ? point : 0u;
                     };
                     const uint32_t point = at(b);
                     const bool isSample = a >= 0 && a <= last;

@@ -1,5 +1,6 @@
 #include "surface/lod/table_check.h"
 
+#include "shaders/shared/blend.h"
 #include "shaders/shared/lod.h"
 #include "surface/borders.h"
 #include "surface/table_check_common.h"
@@ -23,7 +24,16 @@ bool checkSide(TableCheck& check, Borders borders, std::span<const uint32_t> edg
            check.within(edge[1], 1, cornerCount(domainOf(range->patchClass)), "sides");
 }
 
+/// An edge between charts has both of them.
+uint32_t elementsOf(Borders borders) {
+    return borders == Borders::charts ? 2 : 1;
+}
+
 bool checkLevelEdge(TableCheck& check, Borders borders, std::span<const uint32_t> edge) {
+    if (borders == Borders::charts) {
+        return check.pool(edge[0] & shared::kPoolIndexMask, shared::kChartCoefficients) &&
+               check.pool(edge[4] & shared::kPoolIndexMask, shared::kChartCoefficients);
+    }
     if (borders != Borders::cubics) {
         return checkSide(check, borders, edge);
     }
@@ -32,19 +42,22 @@ bool checkLevelEdge(TableCheck& check, Borders borders, std::span<const uint32_t
 
 void checkLevelEdges(TableCheck& check) {
     check.begin("edges with levels");
-    const LodTables& lod = check.tables().lod;
-    uint64_t next = 0;
-    const uint64_t table = lod.edges.front().section.table;
+    const Tables& tables = check.tables();
+    const LodTables& lod = tables.lod;
+    uint64_t next = 0, element = lod.edges.front().section.table;
     for (const LodTables::Edges& edges : lod.edges) {
         const Section& section = edges.section;
-        if (!check.require(edges.borders < Borders::charts, "a kind that files do not keep") ||
-            !check.require(edges.first == next && section.table == table + next && section.count > 0,
+        const uint32_t each = elementsOf(edges.borders);
+        if (!check.require(edges.borders <= Borders::charts &&
+                               (edges.borders == Borders::charts) == (lod.borders == Borders::charts),
+                           "a kind of other patches") ||
+            !check.require(edges.first == next && section.table == element && section.count > 0,
                            "they do not follow each other") ||
-            !check.elements(section.table, section.count)) {
+            !check.elements(element, uint64_t{each} * section.count)) {
             return;
         }
-        for (uint64_t e = 0; e < section.count; ++e) {
-            if (!checkLevelEdge(check, edges.borders, check.element(section.table + e))) {
+        for (uint64_t e = 0; e < section.count; ++e, element += each) {
+            if (!checkLevelEdge(check, edges.borders, std::span(tables.words).subspan(4 * element, size_t{4} * each))) {
                 return;
             }
         }

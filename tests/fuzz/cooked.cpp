@@ -75,6 +75,20 @@ uint32_t wordLike(uint32_t word, Random& random) {
     }
 }
 
+/// A member of the fragments, if there are any.
+void spoilFragments(surface::Fragments& fragments, Random& random) {
+    if (fragments.classes.empty()) {
+        return;
+    }
+    surface::Fragments::Class& own = fragments.classes[random() % fragments.classes.size()];
+    surface::Section& blocks = own.blocks.empty() ? own.fragments : own.blocks[random() % own.blocks.size()];
+    uint32_t* const members[] = {&fragments.steps,     &fragments.scratchStride, &own.sharedPoints,
+                                 &own.fragments.table, &own.fragments.count,     &blocks.table,
+                                 &blocks.count};
+    uint32_t& member = *members[random() % std::size(members)];
+    member = wordLike(member, random);
+}
+
 /// Spoils words of the tables, or of the lists of the character, in a file that is sound otherwise.
 std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
     cage::Character& character = prepared.character;
@@ -104,6 +118,9 @@ std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
                                      &tables.lod.depth,  &tables.lod.depthLanes, &tables.mesh.edgeCount};
         uint32_t& member = *members[random() % std::size(members)];
         member = wordLike(member, random);
+        if (random() % 2 == 0) {
+            spoilFragments(tables.fragments, random);
+        }
     }
     return fileOf(prepared);
 }

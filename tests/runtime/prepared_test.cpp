@@ -1,4 +1,5 @@
 // Characters that are prepared: what is drawn has the same bits, and what a group builds itself is said.
+#include "runtime/api/descriptions.h"
 #include "tests/support/crowd.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
@@ -6,21 +7,24 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <span>
 
 namespace supple::test {
 namespace {
 
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
+std::vector<std::byte> bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<std::byte> copy(chars.size());
+    std::memcpy(copy.data(), chars.data(), chars.size());
+    return copy;
+}
+
 /// Wren has ten parts, which AUTO draws by several schemes.
 const std::vector<std::byte>& wrenFile() {
-    static const std::vector<std::byte> bytes = [] {
-        std::ifstream file(kWren, std::ios::binary);
-        const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        std::vector<std::byte> copy(chars.size());
-        std::memcpy(copy.data(), chars.data(), chars.size());
-        return copy;
-    }();
+    static const std::vector<std::byte> bytes = bytesOf(kWren);
     return bytes;
 }
 
@@ -55,22 +59,22 @@ SuppleGroupDesc withSize(SuppleGroupDesc desc) {
     return desc;
 }
 
-/// Wren, for all plans or for none.
-SupplePrepared prepareWren(SuppleMapping mapping, bool planned) {
+/// A file, for some plans.
+SupplePrepared prepareFile(std::span<const std::byte> file, SuppleMapping mapping, std::span<const Plan> planned) {
     std::vector<SuppleGroupDesc> descs;
-    for (const Plan& plan : plans()) {
+    for (const Plan& plan : planned) {
         descs.push_back(withSize(plan.desc));
     }
     std::vector<SupplePlannedGroup> groups;
-    for (size_t i = 0; i < descs.size() && planned; ++i) {
-        const bool inView = plans()[i].inView;
+    for (size_t i = 0; i < descs.size(); ++i) {
+        const bool inView = planned[i].inView;
         groups.push_back({&descs[i], inView ? 1u : 0u, inView ? uint32_t{SUPPLE_VIEW_ATTRIBUTES} : 0u});
     }
     SuppleAssetDesc asset{};
     asset.structSize = sizeof(asset);
     asset.name = "wren";
-    asset.bytes = wrenFile().data();
-    asset.byteCount = wrenFile().size();
+    asset.bytes = file.data();
+    asset.byteCount = file.size();
     SupplePrepareDesc desc{};
     desc.structSize = sizeof(desc);
     desc.mapping = mapping;
@@ -80,6 +84,11 @@ SupplePrepared prepareWren(SuppleMapping mapping, bool planned) {
     SupplePrepared prepared = nullptr;
     EXPECT_EQ(supplePrepare(&desc, &prepared), SUPPLE_OK);
     return prepared;
+}
+
+/// Wren, for all plans or for none.
+SupplePrepared prepareWren(SuppleMapping mapping, bool planned) {
+    return prepareFile(wrenFile(), mapping, planned ? std::span(plans()) : std::span<const Plan>());
 }
 
 SuppleAsset assetOf(CrowdContext& context, SupplePrepared prepared) {
@@ -205,9 +214,7 @@ TEST_F(PreparedCharacters, AreTheSameFromAFile) {
             EXPECT_FALSE(bits.empty());
             own.takeLines();
             EXPECT_TRUE(bitsOf(own, cooked, plan) == bits);
-            // Files do not keep the tables of these two.
-            const bool isBuilt = plan.desc.scheme == SUPPLE_SCHEME_FRAGMENTS || plan.desc.scheme == SUPPLE_SCHEME_BLEND;
-            EXPECT_EQ(notPrepared(own) > 0, isBuilt);
+            EXPECT_EQ(notPrepared(own), 0u);
         }
         // A reload takes it, too.
         SuppleAssetDesc desc{};
@@ -218,6 +225,75 @@ TEST_F(PreparedCharacters, AreTheSameFromAFile) {
         EXPECT_FALSE(bitsOf(own, expected, plans()[0]).empty());
         EXPECT_EQ(notPrepared(own), 0u);
     }
+}
+
+/// Rate 8 was planned; groups ask for less.
+TEST_F(PreparedCharacters, TablesOfAHigherRateServeWhereTheyMakeTheSame) {
+    const ValidationGuard guard;
+    constexpr uint32_t kMesh =
+        SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH;
+    const std::vector<std::byte> pip = bytesOf(kPipQuads);
+    std::vector<Plan> high;
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        for (const uint32_t flags : {uint32_t{0}, kMesh}) {
+            high.push_back({"high", {.flags = flags, .capacity = 2, .scheme = scheme, .rate = 8}});
+        }
+    }
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        const SuppleAsset read = own.createAsset(pip, "pip");
+        const SupplePrepared prepared = prepareFile(pip, mapping, high);
+        ASSERT_NE(prepared, nullptr);
+        const SuppleAsset asset = assetOf(own, prepared);
+        suppleDestroyPrepared(prepared);
+        for (const Plan& plan : high) {
+            for (const uint32_t rate : {3u, 4u, 5u, 6u}) {
+                SCOPED_TRACE(std::to_string(plan.desc.scheme) + ", rate " + std::to_string(rate));
+                Plan low = plan;
+                low.desc.rate = rate;
+                const std::vector<std::byte> expected = bitsOf(own, read, low);
+                EXPECT_FALSE(expected.empty());
+                own.takeLines();
+                EXPECT_TRUE(bitsOf(own, asset, low) == expected);
+                const bool isServed = rate > 4;
+                EXPECT_EQ(notPrepared(own), isServed ? 0u : 1u);
+            }
+        }
+        Plan higher = high.front();
+        higher.desc.rate = 9;
+        EXPECT_FALSE(bitsOf(own, asset, higher).empty());
+        EXPECT_EQ(notPrepared(own), 1u);
+    }
+}
+
+/// Each table of such a file is sound by itself.
+TEST_F(PreparedCharacters, RatesOfDifferentMeshesAreRefused) {
+    const Plan& plan = plans().back();
+    const SupplePrepared sound = prepareFile(wrenFile(), SUPPLE_MAPPING_NARROW, {&plan, 1});
+    auto spoilt = std::make_shared<runtime::Prepared>(*sound->prepared);
+    suppleDestroyPrepared(sound);
+    for (auto& own : spoilt->tables) {
+        if (own->recipe.rate == 2) {
+            auto other = std::make_shared<runtime::PreparedTables>(*own);
+            other->tables.poolStride += 16;
+            own = other;
+        }
+    }
+    const SupplePrepared prepared = new SupplePrepared_T{spoilt};
+    const std::vector<std::byte> file = saved(prepared);
+    suppleDestroyPrepared(prepared);
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(file, "wren");
+    TestView view(own, 400'000, SUPPLE_VIEW_ATTRIBUTES);
+    SuppleGroupDesc desc = withSize(plan.desc);
+    desc.asset = asset;
+    desc.view = view.handle();
+    own.takeLines();
+    SuppleGroup group{};
+    EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), SUPPLE_ERROR_ASSET);
+    const std::vector<LogLine> lines = own.takeLines();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0].text, "wren: the tables for rate 2 are of another mesh than those for rate 4");
 }
 
 TEST_F(PreparedCharacters, AFileOfTheOtherMappingIsRefusedByName) {

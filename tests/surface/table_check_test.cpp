@@ -41,14 +41,12 @@ std::vector<test::NamedCage> cages() {
     return all;
 }
 
-std::vector<SchemeId> checkedSchemes() {
-    std::vector<SchemeId> checked;
+std::vector<SchemeId> allSchemes() {
+    std::vector<SchemeId> all{SchemeId::loopFragments};
     for (const Scheme& scheme : schemes()) {
-        if (canCheckTables(scheme.id)) {
-            checked.push_back(scheme.id);
-        }
+        all.push_back(scheme.id);
     }
-    return checked;
+    return all;
 }
 
 /// One recipe's tables of every kShare-th cage from `first` on pass, if the scheme takes it. Returns how many it takes.
@@ -73,7 +71,7 @@ size_t checkSome(const Recipe& recipe, const std::vector<test::NamedCage>& cages
 
 TEST(TableCheck, TablesThatAreBuiltPass) {
     const std::vector<test::NamedCage> all = cages();
-    for (const SchemeId scheme : checkedSchemes()) {
+    for (const SchemeId scheme : allSchemes()) {
         double mostPoolPerWord = 0.0;
         const std::vector<Recipe> recipes = test::recipesOf(scheme);
         for (size_t r = 0; r < recipes.size(); ++r) {
@@ -91,7 +89,7 @@ TEST(TableCheck, TablesOfCharactersPass) {
         const Result<cage::Character> character = cage::readGltfFile(path);
         ASSERT_TRUE(character.ok()) << character.error().message;
         const cage::Cage& cage = character->cage;
-        for (const SchemeId scheme : checkedSchemes()) {
+        for (const SchemeId scheme : allSchemes()) {
             const std::vector<Recipe> recipes = test::recipesOf(scheme);
             Recipe recipe = recipes[7 * checked % recipes.size()];
             recipe.mapFrames = recipe.mapFrames.empty() ? recipe.mapFrames : cage::mapFramesOf(*character);
@@ -210,7 +208,7 @@ TEST(TableCheck, LayoutAndRecipe) {
         {"tables: corner normals that the scheme does not have", [](Tables& t) { t.cornerNormals = true; }},
         {"tables: steps of subdivision", [](Tables& t) { t.isolationSteps = 33; }},
         {"tables: made for another rate", [](Tables& t) { t.rate = 8; }},
-        {"tables: fragments", [](Tables& t) { t.fragments.classes.resize(1); }},
+        {"tables: fragments not as the recipe says", [](Tables& t) { t.fragments.classes.resize(1); }},
         {"tables: triangles not as the recipe says",
          [](Tables& t) {
              t.triangles.indices = {0, 1, 2};
@@ -295,8 +293,7 @@ TEST(TableCheck, IndexedMesh) {
 TEST(TableCheck, Levels) {
     constexpr Change kChanges[] = {
         {"levels of detail: borders of other patches", [](Tables& t) { t.lod.borders = static_cast<Borders>(77); }},
-        {"edges with levels: a kind that files do not keep",
-         [](Tables& t) { t.lod.edges[0].borders = Borders::charts; }},
+        {"edges with levels: a kind of other patches", [](Tables& t) { t.lod.edges[0].borders = Borders::charts; }},
         {"edges with levels: no record of a patch", [](Tables& t) { t.lod.edges[0].borders = Borders::halves; }},
         {"edges with levels: they do not follow each other", [](Tables& t) { t.lod.edges[0].first = 1; }},
         {"edges with levels: they do not follow each other",
@@ -358,6 +355,81 @@ TEST(TableCheck, SectionsOfPrep) {
     expectRefused(sampleOf(recipe, test::cube()), kChanges);
 }
 
+TEST(TableCheck, SectionsOfBlend) {
+    constexpr Change kChanges[] = {
+        {"tables: made for another rate", [](Tables& t) { t.isolationSteps = 2; }},
+        {"constructions: not a step and charts", [](Tables& t) { t.constructions.pop_back(); }},
+        {"constructions: a kernel that the scheme does not run there",
+         [](Tables& t) { t.constructions[0].kernel.kernel = Kernel::subdivisionIsolateMeshInPool; }},
+        {"stencils: vertices that do not begin the pool", [](Tables& t) { t.constructions[0].to = 1; }},
+        {"rows of stencils: 17179869180 and 99 more, of # words",
+         [](Tables& t) { t.constructions[0].section.table = ~0u; }},
+        {"charts: 4294967295 and 49 more, of # elements", [](Tables& t) { t.constructions[1].section.table = ~0u; }},
+        {"charts: 0, of # vertices", [](Tables& t) { t.constructions[0].section.count = 0; }},
+        {"coordinates: 4294967295 and 6 more, of # elements", [](Tables& t) { t.ring = ~0u; }},
+        {"tables: made for another rate", [](Tables& t) { t.rate = 5; }},
+        {"smooth texture coordinates: 100000 and 383 more, of # elements",
+         [](Tables& t) {
+             t.words.resize(400004);
+             t.ranges[0].smoothUvs = 100000;
+         }},
+        {"tables: fragments not as the recipe says", [](Tables& t) { t.fragments.classes.resize(1); }},
+    };
+    Recipe recipe;
+    recipe.scheme = SchemeId::blend;
+    recipe.rate = 8;
+    recipe.uvMode = cage::UvMode::cornersOnly;
+    expectRefused(sampleOf(recipe, test::prism(8)), kChanges);
+}
+
+TEST(TableCheck, SectionsOfFragments) {
+    constexpr Change kChanges[] = {
+        {"tables: fragments not as the recipe says", [](Tables& t) { t.fragments.classes.clear(); }},
+        {"fragments: of another subdivision", [](Tables& t) { t.fragments.loop = true; }},
+        {"fragments: steps of another rate", [](Tables& t) { t.fragments.steps = 33; }},
+        {"tables: steps of subdivision", [](Tables& t) { t.isolationSteps = 3; }},
+        {"tables: made for another rate", [](Tables& t) { t.isolationSteps = 1; }},
+        {"tables: made for another rate", [](Tables& t) { t.rate = 4; }},
+        {"constructions: other steps than of isolation", [](Tables& t) { t.constructions.pop_back(); }},
+        {"constructions: other steps than of isolation", [](Tables& t) { t.constructions[1].to = 1; }},
+        {"constructions: a kernel that the scheme does not run there",
+         [](Tables& t) { t.constructions[1].kernel.kernel = Kernel::subdivisionIsolate; }},
+        {"stencils: 4294967295 and 49 more, of # coefficients", [](Tables& t) { t.constructions[0].to = ~0u; }},
+        {"ranges of patches: a class of another scheme",
+         [](Tables& t) {
+             t.ranges[0].patchClass = PatchClass::blend;
+             for (PatchInfo& patch : t.patches) {
+                 patch.patchClass = PatchClass::blend;
+             }
+         }},
+        {"fragments: classes do not follow each other", [](Tables& t) { ++t.fragments.classes[1].fragments.table; }},
+        {"fragments: classes do not follow each other", [](Tables& t) { t.fragments.classes[0].fragments.count = 0; }},
+        {"fragments: 4294967295 and 15 more, of # elements",
+         [](Tables& t) { t.fragments.classes[0].fragments.table = ~0u; }},
+        {"fragments: another number than in the header",
+         [](Tables& t) { --t.fragments.classes.back().fragments.count; }},
+        {"fragments: another number of kinds of work", [](Tables& t) { t.fragments.classes[0].blocks.pop_back(); }},
+        {"fragments: other points than in the header", [](Tables& t) { --t.fragments.classes[0].sharedPoints; }},
+        {"fragments: another size of the scratch buffer", [](Tables& t) { t.fragments.scratchStride -= 16; }},
+        {"blocks: they do not follow each other", [](Tables& t) { ++t.fragments.classes[1].blocks[0].table; }},
+        {"blocks: 4294967295 and 2 more, of # elements",
+         [](Tables& t) {
+             t.fragments.classes[0].blocks[1] = {~0u, 1};
+         }},
+        {"blocks: another number than of lanes", [](Tables& t) { --t.fragments.classes[0].blocks[0].count; }},
+        {"smooth texture coordinates: 100000 and 3455 more, of # elements",
+         [](Tables& t) {
+             t.words.resize(400004);
+             t.ranges[0].smoothUvs = 100000;
+         }},
+    };
+    Recipe recipe;
+    recipe.scheme = SchemeId::fragments;
+    recipe.rate = 8;
+    recipe.uvMode = cage::UvMode::cornersOnly;
+    expectRefused(sampleOf(recipe, test::prism(8)), kChanges);
+}
+
 TEST(TableCheck, MessagesNameTheWord) {
     Sample sample = pmSample();
     const size_t record = size_t{4} * sample.tables.ranges[0].section.table;
@@ -398,9 +470,44 @@ TEST(TableCheck, AnotherSourceIsRefused) {
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.attributes = false; }));
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.mapFrames.resize(1); }));
     EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.uvMode = cage::UvMode::none; }));
-    EXPECT_FALSE(canCheckTables(SchemeId::blend));
-    EXPECT_FALSE(canCheckTables(SchemeId::fragments));
-    EXPECT_FALSE(canCheckTables(SchemeId::loopFragments));
+    EXPECT_TRUE(refused([](Recipe& recipe, TableSource&) { recipe.rate = 65; }));
+}
+
+/// Builders refuse these; nobody asks them where there are tables.
+TEST(TableCheck, WhatTheSchemeDoesNotHaveIsRefused) {
+    Recipe recipe;
+    recipe.rate = 8;
+    for (const SchemeId scheme : {SchemeId::blend, SchemeId::fragments, SchemeId::loopFragments}) {
+        recipe.scheme = scheme;
+        Sample sample = sampleOf(recipe, test::cube());
+        EXPECT_TRUE(sample.check().ok());
+        sample.recipe.indexedMesh = true;
+        EXPECT_EQ(sample.check().error().message, "tables: an indexed mesh, which the scheme does not have");
+    }
+    Sample sample = sampleOf(recipe, test::cube());
+    sample.recipe.lod = true;
+    EXPECT_EQ(sample.check().error().message, "tables: levels of detail, which the scheme does not have");
+}
+
+TEST(TableCheck, TablesOfAllRatesAreOfOneMesh) {
+    Recipe recipe;
+    recipe.scheme = SchemeId::fragments;
+    recipe.rate = 2;
+    const Sample low = sampleOf(recipe, test::prism(8));
+    recipe.rate = 16;
+    Sample high = sampleOf(recipe, test::prism(8));
+    EXPECT_TRUE(areOfOneMesh(low.tables, high.tables));
+    const auto differs = [&](void (*change)(Tables&)) {
+        Tables other = high.tables;
+        change(other);
+        return !areOfOneMesh(low.tables, other);
+    };
+    EXPECT_FALSE(differs([](Tables&) {}));
+    EXPECT_TRUE(differs([](Tables& t) { --t.isolationSteps; }));
+    EXPECT_TRUE(differs([](Tables& t) { t.poolStride += 16; }));
+    EXPECT_TRUE(differs([](Tables& t) { --t.ranges[0].section.count; }));
+    EXPECT_TRUE(differs([](Tables& t) { t.ranges.clear(); }));
+    EXPECT_TRUE(differs([](Tables& t) { t.uvSets = 1; }));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "shaders/shared/prep.h"
 #include "surface/borders.h"
 #include "surface/patch_class.h"
+#include "tests/surface/table_words_parts.h"
 
 #include <algorithm>
 #include <set>
@@ -26,17 +27,7 @@ public:
 
     std::vector<IndexWord> list() {
         const bool polygons = source_.recipe.scheme == SchemeId::polygons;
-        for (const PatchRange& range : tables_.ranges) {
-            addRange(range);
-        }
-        for (const Construction& construction : tables_.constructions) {
-            addConstruction(construction);
-        }
-        if (polygons) {
-            addSurfaceVertices();
-        } else {
-            addRing();
-        }
+        addOwn(source_.recipe.scheme);
         if (source_.recipe.attributes && !polygons) {
             addCornerAttributes();
         }
@@ -46,6 +37,30 @@ public:
     }
 
 private:
+    /// What is the scheme's own.
+    void addOwn(SchemeId scheme) {
+        WordList list(tables_, words_);
+        if (scheme == SchemeId::blend) {
+            addBlendWords(list, source_);
+            return;
+        }
+        if (scheme == SchemeId::fragments || scheme == SchemeId::loopFragments) {
+            addFragmentWords(list, source_);
+            return;
+        }
+        for (const PatchRange& range : tables_.ranges) {
+            addRange(range);
+        }
+        for (const Construction& construction : tables_.constructions) {
+            addConstruction(construction);
+        }
+        if (scheme == SchemeId::polygons) {
+            addSurfaceVertices();
+        } else {
+            addRing();
+        }
+    }
+
     [[nodiscard]] uint32_t at(size_t word) const { return tables_.words[word]; }
     void add(const char* what, size_t word, std::vector<uint32_t> bad) {
         words_.push_back({what, word, std::move(bad)});
@@ -285,7 +300,9 @@ private:
     void addLevels() {
         const LodTables& lod = tables_.lod;
         for (const LodTables::Edges& edges : lod.edges) {
-            for (size_t i = 0; i < size_t{4} * edges.section.count; ++i) {
+            // Those between charts are the scheme's own.
+            const size_t words = edges.borders == Borders::cubics ? size_t{4} * edges.section.count : 0;
+            for (size_t i = 0; i < words; ++i) {
                 addIndex("coefficient of an edge with levels", size_t{4} * edges.section.table + i, pool_);
             }
         }

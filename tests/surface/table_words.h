@@ -18,7 +18,7 @@ struct IndexWord {
     std::vector<uint32_t> bad;
 };
 
-/// The words of p-rep, P_m and polygons.
+/// The words of all schemes but the exact ones (tests/surface/chains/table_words_test.cpp).
 [[nodiscard]] std::vector<IndexWord> indexWords(const surface::Tables& tables, const surface::TableSource& source);
 
 } // namespace supple::test

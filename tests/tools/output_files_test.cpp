@@ -1,6 +1,8 @@
 // What the command writes to, and what it leaves alone.
 #include "tests/tools/command_runner.h"
 
+#include <array>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -79,6 +81,33 @@ TEST_F(OutputFiles, AReaderWhoHasGoneIsSaid) {
     for (const auto& entry : fs::directory_iterator(file("."))) {
         EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
     }
+}
+
+/// A process that shares the pipe may have made it non-blocking. Here it has room for a page, and its reader is slow.
+TEST_F(OutputFiles, APipeThatDoesNotBlockIsWaitedFor) {
+    constexpr const char* kWren = SUPPLE_SAMPLE_ASSETS "/wren.glb";
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    ASSERT_GT(fcntl(ends[1], F_SETPIPE_SZ, 4096), 0);
+    ASSERT_EQ(fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        execl(SUPPLE_COMMAND, "supple", "inspect", kWren, "--json", nullptr);
+        _exit(127);
+    }
+    close(ends[1]);
+    std::string out;
+    for (char byte = 0; read(ends[0], &byte, 1) == 1;) {
+        out.push_back(byte);
+    }
+    close(ends[0]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_GT(out.size(), 3u * 4096);
+    EXPECT_TRUE(out == run("inspect '" + std::string(kWren) + "' --json").out);
 }
 
 TEST_F(OutputFiles, DevicesAreWrittenToAsTheyAre) {

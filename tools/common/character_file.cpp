@@ -48,14 +48,15 @@ Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags
         return Error{ErrorCode::argument,
                      file.path + ": it is cooked: its polygons, parts, scene and clips were chosen then"};
     }
-    const Result<std::shared_ptr<runtime::Prepared>> cooked = runtime::readCooked(file.bytes, file.path);
-    if (!cooked) {
-        return cooked.error();
+    // Its tables are read with the asset.
+    Result<cage::Character> character = runtime::readCookedCharacter(file.bytes, file.path);
+    if (!character) {
+        return character.error();
     }
-    if (const Status sound = cage::refuseDamages((*cooked)->character); flags.strict && !sound) {
+    if (const Status sound = cage::refuseDamages(*character); flags.strict && !sound) {
         return sound.error();
     }
-    return CharacterFile{std::move(file), {}, flags, (*cooked)->character};
+    return CharacterFile{std::move(file), {}, flags, std::move(*character)};
 }
 
 uint64_t memoryLimit(const ReadOptions& flags) {

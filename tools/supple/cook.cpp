@@ -1,8 +1,6 @@
 // supple cook: a character file to a cooked file, which is loaded without parsing or building anything. Needs no
 // device.
 #include "host/whole_file.h"
-#include "runtime/api/descriptions.h"
-#include "runtime/cooked/file.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/options.h"
@@ -97,13 +95,10 @@ private:
     std::vector<SupplePlannedGroup> planned_;
 };
 
-struct Cooked {
-    std::vector<std::byte> bytes;
-    std::vector<std::string> leftOut; ///< schemes whose tables no file keeps
-};
+using Bytes = std::vector<std::byte>;
 
-Result<Cooked> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, const std::string& madeBy,
-                       bool warns) {
+Result<Bytes> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, const std::string& madeBy,
+                      bool warns) {
     SupplePrepareDesc desc{};
     desc.structSize = sizeof desc;
     desc.mapping = mapping;
@@ -123,19 +118,19 @@ Result<Cooked> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMap
     if (suppleSavePrepared(made, madeBy.c_str(), nullptr, &size) != SUPPLE_OK) {
         return Error{ErrorCode::hostMemory, told.error};
     }
-    Cooked cooked{std::vector<std::byte>(size), runtime::schemesLeftOut(*made->prepared)};
-    if (suppleSavePrepared(made, madeBy.c_str(), cooked.bytes.data(), &size) != SUPPLE_OK) {
+    Bytes cooked(size);
+    if (suppleSavePrepared(made, madeBy.c_str(), cooked.data(), &size) != SUPPLE_OK) {
         return Error{ErrorCode::hostMemory, told.error};
     }
     return cooked;
 }
 
 /// For both mappings: what was prepared for one is prepared once more for the other.
-Result<Cooked> cook(const host::CharacterFile& file, const Plan& plan, const CookOptions& options,
-                    const std::string& madeBy) {
+Result<Bytes> cook(const host::CharacterFile& file, const Plan& plan, const CookOptions& options,
+                   const std::string& madeBy) {
     const host::AssetDescription source(file);
     const bool wide = options.mapping != "narrow";
-    Result<Cooked> first =
+    Result<Bytes> first =
         prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW, madeBy, true);
     if (!first || options.mapping != "both") {
         return first;
@@ -143,8 +138,8 @@ Result<Cooked> cook(const host::CharacterFile& file, const Plan& plan, const Coo
     SuppleAssetDesc cooked{};
     cooked.structSize = sizeof cooked;
     cooked.name = file.path.c_str();
-    cooked.bytes = first->bytes.data();
-    cooked.byteCount = first->bytes.size();
+    cooked.bytes = first->data();
+    cooked.byteCount = first->size();
     return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, madeBy, false);
 }
 
@@ -192,17 +187,14 @@ int runCook(const CookOptions& options) {
     if (const Status filled = plan.fill(options, file->character); !filled) {
         return fail(filled.error());
     }
-    const Result<Cooked> cooked = cook(*file, plan, options, madeByOf(options));
+    const Result<Bytes> cooked = cook(*file, plan, options, madeByOf(options));
     if (!cooked) {
         return fail(cooked.error());
     }
-    if (const Status written = host::writeWhole(options.output, cooked->bytes); !written) {
+    if (const Status written = host::writeWhole(options.output, *cooked); !written) {
         return fail(written.error());
     }
-    std::printf("written %s, %zu bytes\n", printable(options.output).c_str(), cooked->bytes.size());
-    for (const std::string& scheme : cooked->leftOut) {
-        note("tables of " + scheme + " are not kept in files: they are built when a group is made");
-    }
+    std::printf("written %s, %zu bytes\n", printable(options.output).c_str(), cooked->size());
     return kExitOk;
 }
 

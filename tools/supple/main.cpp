@@ -3,10 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <fcntl.h>
 #include <supple/supple.h>
+#include <system_error>
+#include <unistd.h>
 
 namespace {
 
@@ -50,11 +54,35 @@ int run(int argc, char** argv) {
     return exitCode;
 }
 
+/// Others may have made the pipe that is stdout non-blocking, as some terminals and runtimes do to all that share it.
+/// Then it refuses what its reader has left no room for: what is printed would end after 64 KiB. As long as this lives
+/// it blocks.
+class BlockingOutput {
+public:
+    BlockingOutput() {
+        if (flags_ != -1 && (flags_ & O_NONBLOCK) != 0) {
+            (void)fcntl(STDOUT_FILENO, F_SETFL, flags_ & ~O_NONBLOCK);
+        }
+    }
+    ~BlockingOutput() {
+        if (flags_ != -1 && (flags_ & O_NONBLOCK) != 0) {
+            (void)fcntl(STDOUT_FILENO, F_SETFL, flags_);
+        }
+    }
+    BlockingOutput(const BlockingOutput&) = delete;
+    BlockingOutput& operator=(const BlockingOutput&) = delete;
+
+private:
+    int flags_ = fcntl(STDOUT_FILENO, F_GETFL);
+};
+
 /// Flushes what was printed. A full disk or a reader that has gone is a failure, if there is no other.
 int endOutput(int exitCode) {
+    errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
         return exitCode;
-    const int own = supple::tools::fail(supple::tools::kExitBadInput, "stdout: cannot be written");
+    const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : "";
+    const int own = supple::tools::fail(supple::tools::kExitBadInput, "stdout: cannot be written" + why);
     return exitCode == supple::tools::kExitOk ? own : exitCode;
 }
 
@@ -63,6 +91,7 @@ int endOutput(int exitCode) {
 int main(int argc, char** argv) {
     // A write into a closed pipe fails instead, so that no file is left half written.
     std::signal(SIGPIPE, SIG_IGN);
+    const BlockingOutput blocking;
     try {
         return endOutput(run(argc, argv));
     } catch (const std::bad_alloc&) {

@@ -40,8 +40,9 @@ typedef struct SupplePrepareDesc {
  * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
  * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
  * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
- * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate; of CATMULL_CLARK and LOOP the mapping), works as well:
- * suppleCreateGroup builds what is missing, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
+ * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate, but tables of the former two serve lower rates of the same octave;
+ * of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
+ * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
  *
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
@@ -52,7 +53,6 @@ SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepa
  * format can be read: a game cooks its characters when it is built, from files that it keeps.
  *
  * What the file has are the character with its clips and images, and the tables of the groups that were planned. Tables
- * of BLEND and FRAGMENTS are not kept: suppleCreateGroup builds them, and says so (SUPPLE_MESSAGE_NOT_PREPARED). Tables
  * of CATMULL_CLARK and LOOP are for one mapping: a file for both is made by preparing twice, the second time from the
  * bytes of the first.
  *

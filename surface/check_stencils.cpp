@@ -1,8 +1,10 @@
-#include "surface/chains/stencil_check.h"
-
 #include "shaders/shared/subdivision.h"
+#include "surface/table_check_common.h"
 
-namespace supple::surface::chains {
+#include <algorithm>
+
+namespace supple::surface {
+
 namespace {
 
 /// A row as the device reads it.
@@ -93,4 +95,4 @@ bool checkStencils(TableCheck& check, const Construction& construction, uint64_t
     return StencilCheck(check, construction, vertices).run();
 }
 
-} // namespace supple::surface::chains
+} // namespace supple::surface
