@@ -106,7 +106,7 @@ template <class A, Is<Triangles> T>
 void fields(A& a, T& triangles) {
     a(triangles.vertices, triangles.directions, triangles.indices);
 }
-/// Without what only builders need (Tables::copies) and the tables of fragments, which no file keeps.
+/// Without the tables of fragments, which no file keeps.
 template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {
     a(tables.words, tables.ring, tables.poolStride, tables.tangents, tables.faces, tables.inner, tables.edgeClasses,

@@ -22,8 +22,9 @@ namespace {
 
 class Builder {
 public:
-    Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe)
-        : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), writer_(tables_.words) {}
+    Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe, PatchEdges* edges)
+        : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), edges_(edges),
+          writer_(tables_.words) {}
 
     Result<Tables> build() {
         sortVertices();
@@ -40,7 +41,7 @@ public:
             ring.add(v, spokes, topology_.boundary[v] != 0);
         }
         tables_.ring = ring.write();
-        finishTables(recipe_, cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_, edges_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -181,24 +182,54 @@ private:
             const PatchClass patchClass = patch.info.patchClass;
             countPatch(patchClass, p, writer_, tables_);
             ring.setRecord(patch.facet, writer_.element());
+            NetCorners corners;
             std::array<uint32_t, 4> spokes{}, edges{}, normals{};
             for (uint32_t j = 0; j < 4; ++j) {
                 const uint32_t c = patch.cageCorners[j];
                 const uint32_t v = patch.info.corners[j];
-                spokes[j] = spokeWord(cornerSlot(c), slots_[topology_.cornerSpokesBack[c]]);
+                corners.points[j] = v;
+                corners.spokes[j] = cornerSlot(c);
+                corners.nextSpokes[j] = slots_[topology_.cornerSpokesBack[c]];
+                spokes[j] = spokeWord(corners.spokes[j], corners.nextSpokes[j]);
                 const uint32_t edge = topology_.cornerEdges[c];
                 edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
                 edges[j] |= topology_.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
                 normals[j] =
                     isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
             }
-            writer_.put(std::span(patch.info.corners).first(4));
+            writer_.put(corners.points);
             writer_.put(spokes);
             if (patchClass == PatchClass::perturbed) {
                 writer_.put(edges);
             }
             if (tables_.cornerNormals) {
                 writer_.put(normals);
+            }
+            if (edges_ != nullptr) {
+                addSides(patch, corners, edges, normals);
+            }
+        }
+    }
+
+    /// `edges` and `normals` as the record has them.
+    void addSides(const DraftPatch& patch, const NetCorners& corners, const std::array<uint32_t, 4>& edges,
+                  const std::array<uint32_t, 4>& normals) {
+        const NetIndices net(corners, tables_.tangents, tables_.faces, false);
+        edges_->beginPatch();
+        for (uint32_t j = 0; j < 4; ++j) {
+            PatchSide& side = edges_->sides.emplace_back();
+            side.edge = topology_.cornerEdges[patch.cageCorners[j]];
+            side.corner = corners.points[j];
+            side.curve = net.curve(j);
+            side.across = net.inside(j);
+            if ((edges[j] & shared::kStillEdgeOfPatch) == 0) {
+                side.kind = shared::kPerturbedEdges;
+                side.extra = edges[j] & shared::kEdgeOfPatchMask;
+                side.flags |= (edges[j] & shared::kReversedEdgeOfPatch) != 0 ? shared::kSwappedEdge : 0;
+            }
+            if (normals[j] != shared::kNoNormal) {
+                side.flags |= shared::kStoredNormalEdge;
+                side.extra = normals[j];
             }
         }
     }
@@ -226,6 +257,7 @@ private:
     const cage::Topology& topology_;
     const Recipe& recipe_;
     const Options& options_;
+    PatchEdges* edges_; ///< null: nobody asks
     Tables tables_;
     TableWriter writer_;
     std::map<std::pair<uint32_t, bool>, ClassEntry> classes_;
@@ -264,7 +296,7 @@ std::vector<std::string> notesOn(const cage::Cage& cage) {
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology) {
         return topology.error();
@@ -288,7 +320,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    Result<Tables> tables = Builder(cage, *topology, recipe).build();
+    Result<Tables> tables = Builder(cage, *topology, recipe, edges).build();
     if (tables) {
         tables->notes = notesOn(cage);
     }
