@@ -111,7 +111,7 @@ struct LodTables {
     uint32_t depth = 0, depthLanes = 0;
 };
 
-/// What an indexed mesh adds to the tables (surface/indexed_mesh.h). Empty unless the recipe asks for it.
+/// What an indexed mesh adds to the tables (surface/mesh_tables.h). Empty unless the recipe asks for it.
 struct MeshTables {
     /// Records of edges that the same kernel evaluates (shaders/shared/surface.h).
     struct Edges {

@@ -251,7 +251,7 @@ private:
     void addSides(const DraftPatch& patch, const std::array<uint32_t, 4>& points) {
         const bool isRegular = patch.info.patchClass == PatchClass::regular;
         NetCorners corners{points, {}, {}};
-        for (uint32_t i = 0; i < 4; ++i) {
+        for (uint32_t i = 0; i < 4; ++i) { // corners that are not plain have no slots, and no cubic begins there
             const auto [slot, next] = slots_[topology_.cornerSpokes[patch.cageCorners[i]]];
             corners.spokes[i] = slot;
             corners.nextSpokes[i] = next;
@@ -262,7 +262,7 @@ private:
             const uint32_t c = patch.cageCorners[i];
             const ChainTables::Corner corner = cornerOf(c);
             PatchSide& side = edges_->sides.emplace_back();
-            // Faces between creases have normals of their own, and runs of plain vertices all coefficients.
+            // Where there is no normal, the faces between two creases have a limit point of their own.
             side.corner = corner.normal == 0 ? points[i] : corner.chain - corner.normal;
             side.creased = sideSharpness(c) >= kInfiniteSharpness;
             side.borders = isCubic(patch, i) ? Borders::cubics : Borders::halves;

@@ -161,16 +161,16 @@ private:
             const uint32_t c = patch.cageCorners[i];
             PatchSide& side = edges_->sides.emplace_back();
             side.edge = topology_.cornerEdges[c];
-            side.corner = cornerName(c);
+            side.corner = cornerNumber(c);
             side.creased = triangles_.isSharp(c);
             side.borders = isWhole(patch, i) ? Borders::splines : Borders::splineHalves;
             side.kind = patch.info.patchClass == PatchClass::loopRegular ? shared::kTriangleEdges
                                                                          : shared::kIrregularTriangleEdges;
         }
     }
-    /// Triangles between creases have normals of their own. A plain vertex has one limit point and stores no normal:
-    /// its crease has two sides.
-    [[nodiscard]] uint32_t cornerName(uint32_t corner) {
+    /// PatchSide::corner. Triangles between creases have normals of their own. A plain vertex stores none: it is named
+    /// by its limit point and by the side of its crease.
+    [[nodiscard]] uint32_t cornerNumber(uint32_t corner) {
         const uint32_t v = cage_.faceVertices[corner],
                        sector = topology_.cornerSpokes[corner] - topology_.spokeStarts[v];
         if (triangles_.isPlain(v)) {

@@ -56,6 +56,12 @@ private:
     [[nodiscard]] bool isSmoothCorner(uint32_t v) const {
         return options_.cornerRule == CornerRule::smooth && topology_.boundary[v] != 0 && topology_.sectorCount(v) == 1;
     }
+    /// Pool index of the normal that is stored for a vertex, or kNoNormal.
+    [[nodiscard]] uint32_t normalOf(uint32_t v) const {
+        return isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+    }
+    /// Whether the face of a corner runs against the edge behind it.
+    [[nodiscard]] bool isReversed(uint32_t c) const { return topology_.edges[topology_.cornerEdges[c]].corner != c; }
     [[nodiscard]] uint32_t cornerSlot(uint32_t c) const { return slots_[topology_.cornerSpokes[c]]; }
     /// The corner of the same face, so many steps on.
     [[nodiscard]] uint32_t corner(uint32_t c, uint32_t steps) const {
@@ -193,9 +199,8 @@ private:
                 spokes[j] = spokeWord(corners.spokes[j], corners.nextSpokes[j]);
                 const uint32_t edge = topology_.cornerEdges[c];
                 edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
-                edges[j] |= topology_.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
-                normals[j] =
-                    isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+                edges[j] |= isReversed(c) ? shared::kReversedEdgeOfPatch : 0u;
+                normals[j] = normalOf(v);
             }
             writer_.put(corners.points);
             writer_.put(spokes);
@@ -206,30 +211,29 @@ private:
                 writer_.put(normals);
             }
             if (edges_ != nullptr) {
-                addSides(patch, corners, edges, normals);
+                addSides(patch, corners);
             }
         }
     }
 
-    /// `edges` and `normals` as the record has them.
-    void addSides(const DraftPatch& patch, const NetCorners& corners, const std::array<uint32_t, 4>& edges,
-                  const std::array<uint32_t, 4>& normals) {
+    void addSides(const DraftPatch& patch, const NetCorners& corners) {
         const NetIndices net(corners, tables_.tangents, tables_.faces, false);
         edges_->beginPatch();
         for (uint32_t j = 0; j < 4; ++j) {
+            const uint32_t c = patch.cageCorners[j], normal = normalOf(patch.info.corners[j]);
             PatchSide& side = edges_->sides.emplace_back();
-            side.edge = topology_.cornerEdges[patch.cageCorners[j]];
+            side.edge = topology_.cornerEdges[c];
             side.corner = corners.points[j];
             side.curve = net.curve(j);
             side.across = net.inside(j);
-            if ((edges[j] & shared::kStillEdgeOfPatch) == 0) {
+            if (edgeSlots_[side.edge] != cage::kNone) {
                 side.kind = shared::kPerturbedEdges;
-                side.extra = edges[j] & shared::kEdgeOfPatchMask;
-                side.flags |= (edges[j] & shared::kReversedEdgeOfPatch) != 0 ? shared::kSwappedEdge : 0;
+                side.extra = edgeSlots_[side.edge];
+                side.flags |= isReversed(c) ? shared::kSwappedEdge : 0;
             }
-            if (normals[j] != shared::kNoNormal) {
+            if (normal != shared::kNoNormal) {
                 side.flags |= shared::kStoredNormalEdge;
-                side.extra = normals[j];
+                side.extra = normal;
             }
         }
     }
