@@ -2,9 +2,7 @@
 // other schemes it is a mesh in which patches share the samples on their borders. Its surface vertices then are the
 // samples inside the patches, patch after patch; then those along edges, edge after edge; then those at corners.
 //
-// Two patches share the samples of an edge if they compute its border curve from the same coefficients and have the
-// same corner attributes at both ends. Likewise for a corner. Samples that merely lie in the same place are not shared,
-// for example on the two sides of a crease.
+// surface/mesh_tables.h says which samples are shared.
 #pragma once
 
 #include "surface/evaluation.h"
@@ -17,11 +15,6 @@ namespace supple::surface {
 
 /// The number of samples that lie on no edge of the domain.
 [[nodiscard]] uint32_t interiorCount(Domain domain, uint32_t rate);
-
-/// Appends the edges to `tables` (Tables::mesh). Its patches must be of classes whose borders are cubics
-/// (surface/borders.h). `attributes`: the tables have corner attributes. `tangents`: with these, faces whose texture
-/// coordinates turn in different directions share no sample, because their frames have different signs.
-void appendIndexedMesh(Tables& tables, bool attributes, bool tangents);
 
 /// The triangles of one instance, counter-clockwise seen from outside. They are sorted by material, then by part, then
 /// by patch; within a patch they have the order of gridIndices().

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -112,7 +111,7 @@ struct LodTables {
     uint32_t depth = 0, depthLanes = 0;
 };
 
-/// What an indexed mesh adds to the tables (surface/indexed_mesh.h). Empty unless the recipe asks for it.
+/// What an indexed mesh adds to the tables (surface/mesh_tables.h). Empty unless the recipe asks for it.
 struct MeshTables {
     /// Records of edges that the same kernel evaluates (shaders/shared/surface.h).
     struct Edges {
@@ -175,8 +174,6 @@ struct Tables {
     Fragments fragments;          ///< subdivision only
     Triangles triangles;          ///< polygons only
     bool cornerNormals = false;   ///< p-rep with CornerRule::smooth: records have an element of corner normals
-    std::map<uint32_t, uint32_t>
-        copies; ///< catmull-clark, loop: points that are there more than once, and the first of them
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;
@@ -186,6 +183,8 @@ struct Tables {
     std::vector<std::string> notes; ///< what the scheme changed about the cage, one line each
 
     [[nodiscard]] bool has(Stage stage) const;
+    /// That of a patch.
+    [[nodiscard]] const PatchRange& rangeOf(uint32_t patch) const;
     /// Elements of corner attributes a corner.
     [[nodiscard]] uint32_t cornerElements() const {
         return 1u + (uvSets == 2 || faceUvs ? 1u : 0u) + (mapFrames ? 1u : 0u);

@@ -3,9 +3,9 @@
 #include "cage/features.h"
 #include "cage/trim.h"
 #include "surface/build.h"
-#include "surface/indexed_mesh.h"
 #include "surface/lod/table_check.h"
 #include "surface/lod/tables.h"
+#include "surface/mesh_tables.h"
 #include "surface/table_check_common.h"
 #include "surface/table_header.h"
 
@@ -66,7 +66,8 @@ bool isMadeFor(const Tables& tables, const Recipe& recipe) {
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     const Scheme& scheme = schemeOf(recipe.scheme);
-    Result<Tables> tables = scheme.build(recipe, cage);
+    PatchEdges edges;
+    Result<Tables> tables = scheme.build(recipe, cage, recipe.lod || recipe.indexedMesh ? &edges : nullptr);
     if (!tables) {
         return tables;
     }
@@ -85,14 +86,14 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
         if (!scheme.hasLevels) {
             return Error{ErrorCode::argument, std::string(scheme.name) + " has no levels of detail"};
         }
-        lod::appendTables(*tables);
+        lod::appendTables(edges, *tables);
     }
     if (recipe.indexedMesh) {
         if (!scheme.hasIndexedMesh) {
             return Error{ErrorCode::argument, std::string(scheme.name) + " has no indexed mesh"};
         }
         if (!scheme.isMesh()) {
-            appendIndexedMesh(*tables, recipe.attributes, recipe.attributes && recipe.tangents);
+            appendMeshTables(edges, recipe.attributes, recipe.attributes && recipe.tangents, *tables);
         }
     }
     writeHeader(*tables);

@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "surface/patch_edges.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
 #include "surface/table_check.h"
@@ -32,8 +33,9 @@ struct Scheme {
     SchemeId id = SchemeId::pm;
     const char* name = "";
     /// Builds the tables, or says why the scheme cannot take the cage. Recipe::attributes, lod and indexedMesh are not
-    /// its business, except that tables for lod need no rate.
-    Result<Tables> (*build)(const Recipe& recipe, const cage::Cage& cage) = nullptr;
+    /// its business, except that tables for lod need no rate. If levels or an indexed mesh ask, `edges` is not null,
+    /// and takes which sides of patches are one edge.
+    Result<Tables> (*build)(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) = nullptr;
     RateRule rates = RateRule::any;
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
     bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. If not, see hasRates()

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <tuple>
+#include <utility>
 
 namespace supple::surface {
 
@@ -34,6 +35,17 @@ public:
     }
 
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(known_.size()); }
+    /// The sign of a patch's area in the texture coordinates that tangents follow (shaders/evaluate/attributes.comp).
+    /// `numbers`: of its corners.
+    [[nodiscard]] int8_t handOf(std::span<const uint32_t> numbers) const {
+        const glm::vec2 first = mapUv(numbers[0]);
+        float area = 0.0f;
+        for (size_t k = 0; k < numbers.size(); ++k) {
+            const glm::vec2 p = mapUv(numbers[k]) - first, q = mapUv(numbers[(k + 1) % numbers.size()]) - first;
+            area += p.x * q.y - p.y * q.x;
+        }
+        return static_cast<int8_t>(area > 0.0f ? 1 : area < 0.0f ? -1 : 0);
+    }
     /// The first `count` words that a corner has, and the frame of its normal map.
     void put(uint32_t number, size_t count, TableWriter& writer) const {
         const Known& corner = known_[number];
@@ -53,6 +65,13 @@ private:
         uint32_t before = cage::kNone; ///< of the vertex
     };
 
+    [[nodiscard]] glm::vec2 mapUv(uint32_t number) const {
+        const auto& [words, frame, before] = known_[number];
+        const size_t set = frame.uvSet == 1 && !cage_.cornerUvs1.empty() ? 4 : 0;
+        const glm::vec2 uv(std::bit_cast<float>(words[set]), std::bit_cast<float>(words[set + 1]));
+        return recipe_.mapFrames.empty() ? uv : frame.turn(uv);
+    }
+
     const Recipe& recipe_;
     const cage::Cage& cage_;
     bool alike_;                 ///< corners have nothing
@@ -60,8 +79,21 @@ private:
     std::vector<Known> known_;
 };
 
+/// By patch (PatchEdges::hands). `numbers`: by corner, patch by patch.
+std::vector<int8_t> handsOf(const CornerNumbers& known, const std::vector<DraftPatch>& patches,
+                            std::span<const uint32_t> numbers) {
+    std::vector<int8_t> hands;
+    hands.reserve(patches.size());
+    size_t next = 0;
+    for (const DraftPatch& patch : patches) {
+        hands.push_back(known.handOf(numbers.subspan(next, patch.info.cornerCount)));
+        next += patch.info.cornerCount;
+    }
+    return hands;
+}
+
 void writeAttributes(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
-                     TableWriter& writer, Tables& tables) {
+                     TableWriter& writer, Tables& tables, PatchEdges* edges) {
     const size_t elementWords = noteAttributes(cage, tables);
     tables.mapFrames = !recipe.mapFrames.empty();
     CornerNumbers known(recipe, cage);
@@ -92,6 +124,10 @@ void writeAttributes(const Recipe& recipe, const cage::Cage& cage, const std::ve
         }
     }
     (void)writer.element();
+    if (edges != nullptr) {
+        edges->hands = recipe.tangents ? handsOf(known, patches, numbers) : std::vector<int8_t>();
+        edges->attributes = std::move(numbers);
+    }
 }
 
 } // namespace
@@ -117,6 +153,11 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
 bool Tables::hasTangents() const {
     return triangles.indices.empty() ? !ranges.empty() && (!hasIndexedMesh() || mesh.tangents)
                                      : triangles.directions != 0;
+}
+
+const PatchRange& Tables::rangeOf(uint32_t patch) const {
+    return *std::find_if(ranges.begin(), ranges.end(),
+                         [&](const PatchRange& range) { return patch < range.firstPatch + range.section.count; });
 }
 
 bool Tables::has(Stage stage) const {
@@ -189,8 +230,8 @@ void listPatches(const std::vector<DraftPatch>& patches, Tables& tables) {
 }
 
 void finishTables(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
-                  TableWriter& writer, Tables& tables) {
-    writeAttributes(recipe, cage, patches, writer, tables);
+                  TableWriter& writer, Tables& tables, PatchEdges* edges) {
+    writeAttributes(recipe, cage, patches, writer, tables, edges);
     listPatches(patches, tables);
 }
 

@@ -1,6 +1,7 @@
 // Writes the tables of a scheme word by word, and the parts that all schemes have. Private to surface/.
 #pragma once
 
+#include "surface/patch_edges.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
 
@@ -94,8 +95,9 @@ uint32_t noteAttributes(const cage::Cage& cage, Tables& tables);
 /// Lists the patches and what is drawn. `patches` are in device order.
 void listPatches(const std::vector<DraftPatch>& patches, Tables& tables);
 /// Writes what every scheme's tables end with: corner attributes, draw ranges and the list of patches. `patches` are in
-/// device order, and tables.ranges has their classes; this fills in PatchRange::attributes.
+/// device order, and tables.ranges has their classes; this fills in PatchRange::attributes. `edges`, unless it is null,
+/// is told what corners have.
 void finishTables(const Recipe& recipe, const cage::Cage& cage, const std::vector<DraftPatch>& patches,
-                  TableWriter& writer, Tables& tables);
+                  TableWriter& writer, Tables& tables, PatchEdges* edges);
 
 } // namespace supple::surface

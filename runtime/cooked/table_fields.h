@@ -114,7 +114,6 @@ template <class A, Is<Fragments> T>
 void fields(A& a, T& fragments) {
     a(fragments.steps, fragments.loop, fragments.scratchStride, fragments.classes);
 }
-/// Without what only builders need (Tables::copies).
 template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {
     a(tables.words, tables.cageStride, tables.poolStride, tables.meshVertices, tables.tangents, tables.faces,

@@ -19,6 +19,7 @@ static_assert(kCoefficients == shared::kChartCoefficients);
 
 /// Where the tables of one k lie.
 struct TurnTables {
+    std::vector<glm::dvec2> spokes; ///< the directions of a chart's spokes, the first once more at the end
     uint32_t directions = 0, samples = 0;
     uint32_t creaseSamples = 0; ///< 0 where no chart needs them
 };
@@ -26,8 +27,8 @@ struct TurnTables {
 class Builder {
 public:
     /// `rate`: segments along a patch edge; 0: tables for samples at any parameters.
-    Builder(const Mesh& mesh, const cage::Cage& cage, const Recipe& recipe, uint32_t rate)
-        : mesh_(mesh), host_(cage), recipe_(recipe), rate_(rate), writer_(tables_.words) {}
+    Builder(const Mesh& mesh, const cage::Cage& cage, const Recipe& recipe, uint32_t rate, PatchEdges* edges)
+        : mesh_(mesh), host_(cage), recipe_(recipe), rate_(rate), edges_(edges), writer_(tables_.words) {}
 
     Result<Tables> build() {
         tables_.rate = rate_;
@@ -48,7 +49,7 @@ public:
             writeTurns(chartClass);
         }
         writePatches();
-        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_);
+        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_, edges_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -121,10 +122,10 @@ private:
         const auto [known, isNew] = turns_.try_emplace(turns);
         TurnTables& tables = known->second;
         if (isNew) {
-            const std::vector<glm::dvec2> directions = chartDirections(turns);
+            tables.spokes = chartDirections(turns);
             tables.directions = writer_.element();
             for (uint32_t h = 0; h < turns; ++h) {
-                put(directions[h], directions[h + 1]);
+                put(tables.spokes[h], tables.spokes[h + 1]);
             }
         }
         if (rate_ == 0) {
@@ -219,13 +220,47 @@ private:
                 const Corner& corner = mesh_.corners[c];
                 writer_.put(recordWords(poolIndex(corner.chart), mesh_.classOf(corner.chart), corner.sector, c, 0u));
             }
+            if (edges_ != nullptr) {
+                addSides(patches_[p]);
+            }
         }
+    }
+
+    void addSides(const DraftPatch& patch) {
+        const cage::Topology& topology = mesh_.topology;
+        edges_->beginPatch();
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i], next = patch.cageCorners[(i + 1) % 4];
+            const uint32_t twin = topology.twins[c];
+            const auto after = [&](uint32_t corner) {
+                return cage::nextCorner(mesh_.cage, topology.cornerFaces[corner], corner);
+            };
+            PatchSide& side = edges_->sides.emplace_back();
+            side.borders = Borders::charts;
+            side.edge =
+                edgeNumber(topology, c, twin != cage::kNone && isSameSpoke(c, after(twin)) && isSameSpoke(twin, next));
+            side.curve = chartEnd(mesh_.corners[c].chart, mesh_.corners[c].sector);
+            side.across = chartEnd(mesh_.corners[next].chart, mesh_.corners[next].sector + 1);
+        }
+    }
+    /// Whether the spoke that a corner's sector begins with is, in the same chart, the one that another's ends with.
+    [[nodiscard]] bool isSameSpoke(uint32_t begins, uint32_t ends) const {
+        const Corner &a = mesh_.corners[begins], &b = mesh_.corners[ends];
+        return a.chart == b.chart && a.sector == (b.sector + 1) % mesh_.classOf(b.chart).turns();
+    }
+    /// What levels have of an end of an edge: chart, direction in it, 4 / k.
+    [[nodiscard]] std::array<uint32_t, 4> chartEnd(uint32_t chart, uint32_t spoke) const {
+        const ChartClass& chartClass = mesh_.classOf(chart);
+        const glm::dvec2& direction = turns_.at(chartClass.turns()).spokes[spoke];
+        return {poolIndex(chart) | (chartClass.creased() ? shared::kCreasedChart : 0u), floatBits(direction.x),
+                floatBits(direction.y), floatBits(4.0 / chartClass.turns())};
     }
 
     const Mesh& mesh_;
     const cage::Cage& host_;
     const Recipe& recipe_;
     uint32_t rate_;
+    PatchEdges* edges_; ///< null: nobody asks
     Tables tables_;
     TableWriter writer_;
     uint32_t firstChart_ = 0; ///< in the pool
@@ -235,13 +270,13 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     const Result<Mesh> mesh = buildMesh(cage, recipe.blend);
     if (!mesh) {
         return mesh.error();
     }
     const uint32_t rate = std::max(recipe.rate, 1u);
-    return Builder(*mesh, cage, recipe, recipe.lod ? 0 : mesh->refined ? (rate + 1) / 2 : rate).build();
+    return Builder(*mesh, cage, recipe, recipe.lod ? 0 : mesh->refined ? (rate + 1) / 2 : rate, edges).build();
 }
 
 float boundsMargin(const cage::Cage& cage) {

@@ -40,9 +40,9 @@ FanWeights openWeights(uint32_t facets) {
 
 class Builder {
 public:
-    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
-        : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
-          topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
+    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe, PatchEdges* edges)
+        : host_(host), recipe_(recipe), edges_(edges), mesh_(isolation.mesh), parent_(isolation.parent),
+          cage_(parent_.cage), topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
           rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words),
           fans_(lastLevel_, writer_),
           chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
@@ -76,7 +76,7 @@ public:
             ring.add(run.vertex, corners_.spokesOf(run), !run.closed);
         }
         tables_.ring = ring.write();
-        finishTables(recipe_, cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_, edges_);
         if (const Status smooth = writeUvLeaves(recipe_, host_, {Subdivision::catmullClark, steps(), lastLevel_},
                                                 patches_, fans_, writer_, tables_);
             !smooth) {
@@ -170,7 +170,6 @@ private:
         tables_.tangents = point;
         tables_.faces = tables_.tangents + slot;
         firstLevelOne_ = tables_.faces + slot;
-        tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
         const uint32_t next = chains_.layOut(firstLevelOne_ + levelOne_.count());
         tables_.meshVertices = steps() ? next : 0; // the mesh
         tables_.poolStride = poolStrideFor(next + (steps() ? cage_.vertexCount() : 0));
@@ -242,21 +241,61 @@ private:
             if (patch.info.patchClass != PatchClass::regular) {
                 writeIrregular(patch, nets_[netOfPatch_[p]]);
             }
+            if (edges_ != nullptr) {
+                addSides(patch, points);
+            }
         }
+    }
+
+    /// `points`: the limit points of its corners.
+    void addSides(const DraftPatch& patch, const std::array<uint32_t, 4>& points) {
+        const bool isRegular = patch.info.patchClass == PatchClass::regular;
+        NetCorners corners{points, {}, {}};
+        for (uint32_t i = 0; i < 4; ++i) { // corners that are not plain have no slots, and no cubic begins there
+            const auto [slot, next] = slots_[topology_.cornerSpokes[patch.cageCorners[i]]];
+            corners.spokes[i] = slot;
+            corners.nextSpokes[i] = next;
+        }
+        const NetIndices net(corners, tables_.tangents, tables_.faces, false);
+        edges_->beginPatch();
+        for (uint32_t i = 0; i < 4; ++i) {
+            const uint32_t c = patch.cageCorners[i];
+            const ChainTables::Corner corner = cornerOf(c);
+            PatchSide& side = edges_->sides.emplace_back();
+            // Where there is no normal, the faces between two creases have a limit point of their own.
+            side.corner = corner.normal == 0 ? points[i] : corner.chain - corner.normal;
+            side.creased = sideSharpness(c) >= kInfiniteSharpness;
+            side.borders = isCubic(patch, i) ? Borders::cubics : Borders::halves;
+            side.edge = edgeNumber(topology_, c, !side.creased || side.borders == Borders::halves);
+            if (side.borders == Borders::cubics) {
+                side.curve = net.curve(i);
+            }
+            if (isRegular) {
+                side.across = net.inside(i);
+            } else {
+                side.kind = shared::kHalvesEdges;
+            }
+        }
+    }
+
+    /// Whether both ends of a side are plain: then it is a cubic.
+    [[nodiscard]] bool isCubic(const DraftPatch& patch, uint32_t side) const {
+        const auto plain = [&](uint32_t i) {
+            return corners_.kind(cage_.faceVertices[patch.cageCorners[i % 4]]) == VertexKind::plain;
+        };
+        return plain(side) && plain(side + 1);
     }
 
     void writeIrregular(const DraftPatch& patch, const QuadNet& net) {
         std::array<uint32_t, 4> windows{}, sharpness{}, normals{};
         uint32_t flags = 0;
         for (uint32_t i = 0; i < 4; ++i) {
-            const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
-            const uint32_t end = cage_.faceVertices[patch.cageCorners[(i + 1) % 4]];
+            const uint32_t c = patch.cageCorners[i];
             const ChainTables::Corner corner = cornerOf(c);
             sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
             normals[i] = corner.normal;
             windows[i] = corner.windows;
-            const bool cubic = corners_.kind(v) == VertexKind::plain && corners_.kind(end) == VertexKind::plain;
-            flags |= cubic ? 1u << (shared::kCubicSide + i) : 0u;
+            flags |= isCubic(patch, i) ? 1u << (shared::kCubicSide + i) : 0u;
         }
         writer_.put(windows);
         writer_.put(sharpness);
@@ -267,6 +306,7 @@ private:
 
     const cage::Cage& host_;
     const Recipe& recipe_;
+    PatchEdges* edges_; ///< null: nobody asks
     const subdivision::Mesh& mesh_;
     const RefinedMesh& parent_;
     const cage::Cage& cage_;
@@ -293,12 +333,12 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     const Result<Isolation> isolation = subdivision::isolateCage(cage, Subdivision::catmullClark);
     if (!isolation) {
         return isolation.error();
     }
-    return Builder(cage, *isolation, recipe).build();
+    return Builder(cage, *isolation, recipe, edges).build();
 }
 
 } // namespace supple::surface::catmull_clark

@@ -60,14 +60,6 @@ void NeededRows::numberAgain(std::span<uint32_t> net) {
     }
 }
 
-std::map<uint32_t, uint32_t> NeededRows::copiesFrom(uint32_t begin) const {
-    std::map<uint32_t, uint32_t> copies;
-    for (const auto& [number, first] : firsts_) {
-        copies.emplace_hint(copies.end(), begin + number, begin + first);
-    }
-    return copies;
-}
-
 std::vector<uint32_t> patchesByNeighbours(const std::vector<DraftPatch>& patches, const cage::Cage& cage,
                                           const cage::Topology& topology) {
     std::vector<uint32_t> patchOf(cage.faceCount(), kNone), faces, order;

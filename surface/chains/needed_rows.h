@@ -28,8 +28,6 @@ public:
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(rows_.size()); }
     /// The last number of a row that is needed.
     [[nodiscard]] uint32_t number(uint32_t row) const { return numbers_[row]; }
-    /// For each further number of a row its first one, both counted from `begin`.
-    [[nodiscard]] std::map<uint32_t, uint32_t> copiesFrom(uint32_t begin) const;
 
 private:
     void add(uint32_t row);
@@ -39,7 +37,7 @@ private:
     void numberAgain(std::span<uint32_t> net);
 
     std::vector<uint32_t> numbers_, rows_;
-    std::map<uint32_t, uint32_t> firsts_;
+    std::map<uint32_t, uint32_t> firsts_; ///< by further number of a row: its first one
     uint32_t farthest_;
 };
 

@@ -58,6 +58,20 @@ CornerKind Triangles::kindOf(uint32_t corner) const {
     return passes ? CornerKind::creased : CornerKind::plain;
 }
 
+bool Triangles::isBehindCrease(uint32_t vertex, uint32_t sector) const {
+    const cage::Topology& topology = mesh_.topology;
+    if (topology.boundary[vertex] != 0) {
+        return false;
+    }
+    for (uint32_t k = 0; k < kOpposite; ++k) {
+        const uint32_t edge = cage::spokeEdge(mesh_.cage, topology, topology.spokeStarts[vertex] + k);
+        if (mesh_.edgeSharpness[edge] > 0.0f) {
+            return sector < k || sector >= k + kOpposite;
+        }
+    }
+    return false;
+}
+
 uint32_t Triangles::flagsOf(std::span<const uint32_t> corners) const {
     uint32_t flags = 0;
     for (uint32_t i = 0; i < 3; ++i) {

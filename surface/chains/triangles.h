@@ -52,6 +52,9 @@ public:
 
     [[nodiscard]] bool isPlain(uint32_t vertex) const { return plain_[vertex] != 0; }
     [[nodiscard]] CornerKind kindOf(uint32_t corner) const;
+    /// Of the two sides of the crease through a plain vertex, whether a sector lies on the second one, which begins
+    /// with the later of the two spokes.
+    [[nodiscard]] bool isBehindCrease(uint32_t vertex, uint32_t sector) const;
     /// As chains::Corners::firstCorner(), and a bit per corner from that one on that has a chain.
     [[nodiscard]] uint8_t firstCorner(uint32_t face) const;
     [[nodiscard]] uint32_t chainsOf(uint32_t face) const { return chainsFrom(face, firstCorner(face)); }

@@ -101,7 +101,7 @@ public:
             tables_.ranges.push_back(
                 {loop_ ? PatchClass::loop : PatchClass::fragment, {0, static_cast<uint32_t>(patches_.size())}, 0, 0});
         }
-        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_);
+        finishTables(recipe_, mesh_.cage, patches_, writer_, tables_, nullptr);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -571,7 +571,7 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* /*edges*/) {
     const Result<Mesh> mesh =
         buildMesh(cage, recipe.scheme == SchemeId::loopFragments ? Subdivision::loop : Subdivision::catmullClark);
     if (!mesh) {

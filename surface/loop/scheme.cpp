@@ -22,10 +22,10 @@ using subdivision::Isolation;
 
 class Builder {
 public:
-    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe)
-        : host_(host), recipe_(recipe), mesh_(isolation.mesh), parent_(isolation.parent), cage_(parent_.cage),
-          topology_(parent_.topology), triangles_(parent_), lastLevel_(chains::lastChainLevel(recipe.rate)),
-          writer_(tables_.words), fans_(lastLevel_, writer_),
+    Builder(const cage::Cage& host, const Isolation& isolation, const Recipe& recipe, PatchEdges* edges)
+        : host_(host), recipe_(recipe), edges_(edges), mesh_(isolation.mesh), parent_(isolation.parent),
+          cage_(parent_.cage), topology_(parent_.topology), triangles_(parent_),
+          lastLevel_(chains::lastChainLevel(recipe.rate)), writer_(tables_.words), fans_(lastLevel_, writer_),
           chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
           vertices_(cage_.vertexCount()), levelOne_(mesh_.stencils.back().rows()) {
         tables_.rate = recipe.rate;
@@ -54,8 +54,11 @@ public:
             if (netOfPatch_[p] != cage::kNone) {
                 writeIrregular(patches[p], nets_[netOfPatch_[p]]);
             }
+            if (edges_ != nullptr) {
+                addSides(patches[p]);
+            }
         }
-        finishTables(recipe_, cage_, patches, writer_, tables_);
+        finishTables(recipe_, cage_, patches, writer_, tables_, edges_);
         if (const Status smooth = chains::writeUvLeaves(recipe_, host_, {Subdivision::loop, false, lastLevel_}, patches,
                                                         fans_, writer_, tables_);
             !smooth) {
@@ -104,7 +107,6 @@ private:
         }
         firstVertex_ = next;
         firstLevelOne_ = firstVertex_ + vertices_.count();
-        tables_.copies = levelOne_.copiesFrom(firstLevelOne_);
         next = firstLevelOne_ + levelOne_.count();
         for (uint32_t& limit : limits_) {
             limit = limit == cage::kNone ? next++ : limit;
@@ -152,6 +154,31 @@ private:
         }
         writer_.put({flagsOf(patch)});
     }
+
+    void addSides(const DraftPatch& patch) {
+        edges_->beginPatch();
+        for (uint32_t i = 0; i < 3; ++i) {
+            const uint32_t c = patch.cageCorners[i];
+            PatchSide& side = edges_->sides.emplace_back();
+            side.edge = topology_.cornerEdges[c];
+            side.corner = cornerNumber(c);
+            side.creased = triangles_.isSharp(c);
+            side.borders = isWhole(patch, i) ? Borders::splines : Borders::splineHalves;
+            side.kind = patch.info.patchClass == PatchClass::loopRegular ? shared::kTriangleEdges
+                                                                         : shared::kIrregularTriangleEdges;
+        }
+    }
+    /// PatchSide::corner. Triangles between creases have normals of their own. A plain vertex stores none: it is named
+    /// by its limit point and by the side of its crease.
+    [[nodiscard]] uint32_t cornerNumber(uint32_t corner) {
+        const uint32_t v = cage_.faceVertices[corner],
+                       sector = topology_.cornerSpokes[corner] - topology_.spokeStarts[v];
+        if (triangles_.isPlain(v)) {
+            return 2 * limits_[v] + (triangles_.isBehindCrease(v, sector) ? 1 : 0);
+        }
+        const ChainTables::Corner own = chains_.cornerOf(v, sector);
+        return 2 * (own.chain - own.normal);
+    }
     /// What follows of an irregular one.
     void writeIrregular(const DraftPatch& patch, const TriangleNet& net) {
         std::array<uint32_t, 4> chains{}, windows{}, normals{};
@@ -172,6 +199,7 @@ private:
 
     const cage::Cage& host_;
     const Recipe& recipe_;
+    PatchEdges* edges_; ///< null: nobody asks
     const subdivision::Mesh& mesh_;
     const RefinedMesh& parent_;
     const cage::Cage& cage_;
@@ -192,7 +220,7 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     if (cage::hasSemiSharpCreases(cage)) {
         return Error{ErrorCode::asset, "creases are semi-sharp: Loop patches have hard ones"};
     }
@@ -200,7 +228,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!isolation) {
         return isolation.error();
     }
-    return Builder(cage, *isolation, recipe).build();
+    return Builder(cage, *isolation, recipe, edges).build();
 }
 
 } // namespace supple::surface::loop

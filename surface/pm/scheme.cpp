@@ -39,8 +39,8 @@ uint32_t innerCount(PatchClass patchClass) {
 
 class Builder {
 public:
-    Builder(const Mesh& mesh, const Recipe& recipe)
-        : mesh_(mesh), cage_(mesh.cage), recipe_(recipe), writer_(tables_.words) {}
+    Builder(const Mesh& mesh, const Recipe& recipe, PatchEdges* edges)
+        : mesh_(mesh), cage_(mesh.cage), recipe_(recipe), edges_(edges), writer_(tables_.words) {}
 
     Result<Tables> build() {
         tables_.notes = mesh_.notes;
@@ -56,7 +56,7 @@ public:
         writePatches();
         addFacets();
         writeRing();
-        finishTables(recipe_, cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_, edges_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -250,22 +250,83 @@ private:
             const PatchClass patchClass = patch.info.patchClass;
             countPatch(patchClass, p, writer_, tables_);
             records_.push_back(writer_.element());
+            if (edges_ != nullptr) {
+                edges_->beginPatch();
+            }
             if (patchClass > PatchClass::polar) {
                 writeFacet(patch, inner_[p]);
                 continue;
             }
-            std::array<uint32_t, 4> points{}, spokes{};
+            NetCorners corners;
+            std::array<uint32_t, 4> spokes{};
             for (uint32_t i = 0; i < patch.info.cornerCount; ++i) {
                 const FacetCorner& c = corner(patch, i);
-                points[i] = points_[c.fan];
+                corners.points[i] = points_[c.fan];
+                corners.spokes[i] = slots_[c.slot];
+                corners.nextSpokes[i] = slots_[c.slotBack];
                 spokes[i] = spokeWord(slots_[c.slot], slots_[c.slotBack]);
             }
             if (patchClass == PatchClass::polar) {
-                points[3] = inner_[p];
+                corners.points[3] = inner_[p];
                 spokes[3] = apexes.at(apexWeights(patch));
             }
-            writer_.put(points);
+            writer_.put(corners.points);
             writer_.put(spokes);
+            if (edges_ != nullptr) {
+                addNetSides(patch, corners);
+            }
+        }
+    }
+
+    /// A side of a facet, but for what its record is made of. Where a fan ends at the edge, each facet has a tangent of
+    /// its own there.
+    [[nodiscard]] PatchSide sideOf(const DraftPatch& patch, uint32_t i) const {
+        const FacetCorner &own = corner(patch, i), &next = corner(patch, i + 1);
+        PatchSide side;
+        side.edge = edgeNumber(mesh_.topology, patch.cageCorners[i],
+                               own.across != cage::kNone && next.acrossBack != cage::kNone);
+        side.corner = points_[own.fan];
+        return side;
+    }
+
+    /// The sides of a bicubic patch: its facet's, and the apex if it is polar.
+    void addNetSides(const DraftPatch& patch, const NetCorners& corners) {
+        const bool polar = patch.info.patchClass == PatchClass::polar;
+        const NetIndices net(corners, tables_.tangents, tables_.faces, polar);
+        for (uint32_t i = 0; i < 4; ++i) {
+            const bool isApex = polar && i == 2;
+            PatchSide& side = edges_->sides.emplace_back(isApex ? PatchSide{} : sideOf(patch, polar && i == 3 ? 2 : i));
+            side.curve = net.curve(i);
+            side.across = net.inside(i);
+            if (isApex) { // one edge for all patches round it, behind those of the topology
+                side.isPoint = true;
+                side.corner = corners.points[2];
+                side.edge = 2 * static_cast<uint32_t>(mesh_.topology.edges.size()) + corners.points[2];
+            } else if (polar && i != 0) {
+                side.kind = shared::kMixedEdges;
+                side.flags = i == 1 ? shared::kApexLastEdge : shared::kApexFirstEdge;
+            }
+        }
+    }
+
+    /// The sides of a patch of sectors.
+    void addSectorSides(const DraftPatch& patch, uint32_t inner) {
+        const uint32_t m = patch.info.cornerCount, singular = singularCorners(patch);
+        const uint32_t first = inner + 1; // b211, b121, b112 a sector
+        for (uint32_t i = 0; i < m; ++i) {
+            const FacetCorner &own = corner(patch, i), &next = corner(patch, i + 1);
+            const uint32_t last = (i + m - 1) % m;
+            PatchSide& side = edges_->sides.emplace_back(sideOf(patch, i));
+            side.kind = shared::kMixedEdges;
+            side.curve = {points_[own.fan], tables_.tangents + slots_[own.slot],
+                          tables_.tangents + slots_[next.slotBack], points_[next.fan]};
+            side.across = {tables_.tangents + slots_[own.slotBack], first + 3 * i, first + 3 * i + 1,
+                           tables_.tangents + slots_[next.slot]};
+            side.flags = m;
+            if ((singular & 1u << i) != 0) {
+                side.flags |= shared::kSingularEdge;
+                side.extra = first + 3 * last + 1;
+            }
         }
     }
 
@@ -284,6 +345,9 @@ private:
         }
         words[SUPPLE_PM_INNER_WORD(m)] = inner | singularCorners(patch) << kInnerBits;
         writer_.put(std::span(words).first(size_t{4} * SUPPLE_PM_RECORD_ELEMENTS(m)));
+        if (edges_ != nullptr) {
+            addSectorSides(patch, inner);
+        }
     }
 
     /// A bit a corner whose fan is one facet on a smooth curve: its two tangents lie on one line.
@@ -299,6 +363,7 @@ private:
     const Mesh& mesh_;
     const cage::Cage& cage_;
     const Recipe& recipe_;
+    PatchEdges* edges_; ///< null: nobody asks
     Tables tables_;
     TableWriter writer_;
     std::vector<DraftPatch> patches_;
@@ -312,7 +377,7 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     const Result<Mesh> mesh = buildMesh(cage);
     if (!mesh) {
         return mesh.error();
@@ -325,7 +390,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    return Builder(*mesh, recipe).build();
+    return Builder(*mesh, recipe, edges).build();
 }
 
 float boundsMargin(const cage::Cage& cage) {

@@ -256,7 +256,7 @@ private:
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* /*edges*/) {
     // Every corner may have a frame, and a record with attributes.
     if (cage.cornerCount() > std::numeric_limits<uint32_t>::max() / 32) {
         return Error{ErrorCode::limit, std::to_string(cage.cornerCount()) + " corners: polygons takes " +

@@ -22,8 +22,9 @@ namespace {
 
 class Builder {
 public:
-    Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe)
-        : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), writer_(tables_.words) {}
+    Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe, PatchEdges* edges)
+        : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), edges_(edges),
+          writer_(tables_.words) {}
 
     Result<Tables> build() {
         sortVertices();
@@ -40,7 +41,7 @@ public:
             ring.add(v, spokes, topology_.boundary[v] != 0);
         }
         tables_.ring = ring.write();
-        finishTables(recipe_, cage_, patches_, writer_, tables_);
+        finishTables(recipe_, cage_, patches_, writer_, tables_, edges_);
         const Status smooth = writeUvs();
         if (!smooth) {
             return smooth.error();
@@ -55,6 +56,12 @@ private:
     [[nodiscard]] bool isSmoothCorner(uint32_t v) const {
         return options_.cornerRule == CornerRule::smooth && topology_.boundary[v] != 0 && topology_.sectorCount(v) == 1;
     }
+    /// Pool index of the normal that is stored for a vertex, or kNoNormal.
+    [[nodiscard]] uint32_t normalOf(uint32_t v) const {
+        return isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+    }
+    /// Whether the face of a corner runs against the edge behind it.
+    [[nodiscard]] bool isReversed(uint32_t c) const { return topology_.edges[topology_.cornerEdges[c]].corner != c; }
     [[nodiscard]] uint32_t cornerSlot(uint32_t c) const { return slots_[topology_.cornerSpokes[c]]; }
     /// The corner of the same face, so many steps on.
     [[nodiscard]] uint32_t corner(uint32_t c, uint32_t steps) const {
@@ -181,24 +188,52 @@ private:
             const PatchClass patchClass = patch.info.patchClass;
             countPatch(patchClass, p, writer_, tables_);
             ring.setRecord(patch.facet, writer_.element());
+            NetCorners corners;
             std::array<uint32_t, 4> spokes{}, edges{}, normals{};
             for (uint32_t j = 0; j < 4; ++j) {
                 const uint32_t c = patch.cageCorners[j];
                 const uint32_t v = patch.info.corners[j];
-                spokes[j] = spokeWord(cornerSlot(c), slots_[topology_.cornerSpokesBack[c]]);
+                corners.points[j] = v;
+                corners.spokes[j] = cornerSlot(c);
+                corners.nextSpokes[j] = slots_[topology_.cornerSpokesBack[c]];
+                spokes[j] = spokeWord(corners.spokes[j], corners.nextSpokes[j]);
                 const uint32_t edge = topology_.cornerEdges[c];
                 edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
-                edges[j] |= topology_.edges[edge].corner == c ? 0u : shared::kReversedEdgeOfPatch;
-                normals[j] =
-                    isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+                edges[j] |= isReversed(c) ? shared::kReversedEdgeOfPatch : 0u;
+                normals[j] = normalOf(v);
             }
-            writer_.put(std::span(patch.info.corners).first(4));
+            writer_.put(corners.points);
             writer_.put(spokes);
             if (patchClass == PatchClass::perturbed) {
                 writer_.put(edges);
             }
             if (tables_.cornerNormals) {
                 writer_.put(normals);
+            }
+            if (edges_ != nullptr) {
+                addSides(patch, corners);
+            }
+        }
+    }
+
+    void addSides(const DraftPatch& patch, const NetCorners& corners) {
+        const NetIndices net(corners, tables_.tangents, tables_.faces, false);
+        edges_->beginPatch();
+        for (uint32_t j = 0; j < 4; ++j) {
+            const uint32_t c = patch.cageCorners[j], normal = normalOf(patch.info.corners[j]);
+            PatchSide& side = edges_->sides.emplace_back();
+            side.edge = topology_.cornerEdges[c];
+            side.corner = corners.points[j];
+            side.curve = net.curve(j);
+            side.across = net.inside(j);
+            if (edgeSlots_[side.edge] != cage::kNone) {
+                side.kind = shared::kPerturbedEdges;
+                side.extra = edgeSlots_[side.edge];
+                side.flags |= isReversed(c) ? shared::kSwappedEdge : 0;
+            }
+            if (normal != shared::kNoNormal) {
+                side.flags |= shared::kStoredNormalEdge;
+                side.extra = normal;
             }
         }
     }
@@ -226,6 +261,7 @@ private:
     const cage::Topology& topology_;
     const Recipe& recipe_;
     const Options& options_;
+    PatchEdges* edges_; ///< null: nobody asks
     Tables tables_;
     TableWriter writer_;
     std::map<std::pair<uint32_t, bool>, ClassEntry> classes_;
@@ -264,7 +300,7 @@ std::vector<std::string> notesOn(const cage::Cage& cage) {
 
 } // namespace
 
-Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
+Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
     const Result<cage::Topology> topology = cage::buildTopology(cage);
     if (!topology) {
         return topology.error();
@@ -288,7 +324,7 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage) {
     if (!fits) {
         return fits.error();
     }
-    Result<Tables> tables = Builder(cage, *topology, recipe).build();
+    Result<Tables> tables = Builder(cage, *topology, recipe, edges).build();
     if (tables) {
         tables->notes = notesOn(cage);
     }

@@ -131,10 +131,11 @@ TEST_P(ExactOnGpu, PointsOfLargeCagesComeAgain) {
     const cage::Cage cage = largePoleOfQuads();
     surface::Recipe recipe;
     recipe.rate = 2;
-    Result<surface::Tables> tables = surface::catmull_clark::build(recipe, cage);
+    surface::PatchEdges edges;
+    Result<surface::Tables> tables = surface::catmull_clark::build(recipe, cage, &edges);
     ASSERT_TRUE(tables);
     const ExactQuads quads(cage);
-    expectCopies(std::move(*tables), cage.faceCount(), quads.isolation.parent.topology.edges.size());
+    expectCopies(std::move(*tables), edges, cage.faceCount(), quads.isolation.parent.topology.edges.size());
     Worst worst;
     ASSERT_NO_FATAL_FAILURE(compare(*device, cage, 2, 17, worst));
     EXPECT_LE(worst.position, 1e-6);

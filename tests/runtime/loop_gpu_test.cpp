@@ -142,10 +142,11 @@ TEST_P(LoopOnGpu, PointsOfLargeCagesComeAgain) {
     const cage::Cage cage = largePoleOfTriangles();
     surface::Recipe recipe;
     recipe.rate = 2;
-    Result<surface::Tables> tables = surface::loop::build(recipe, cage);
+    surface::PatchEdges edges;
+    Result<surface::Tables> tables = surface::loop::build(recipe, cage, &edges);
     ASSERT_TRUE(tables);
     const LoopTriangles triangles(cage);
-    expectCopies(std::move(*tables), cage.faceCount(), triangles.isolation.parent.topology.edges.size());
+    expectCopies(std::move(*tables), edges, cage.faceCount(), triangles.isolation.parent.topology.edges.size());
     Worst worst;
     ASSERT_NO_FATAL_FAILURE(compare(*device, cage, 2, 17, worst));
     EXPECT_LE(worst.position, 1e-6);

@@ -2,14 +2,17 @@
 // come again (surface/chains/needed_rows.h).
 #pragma once
 
-#include "surface/indexed_mesh.h"
+#include "shaders/shared/subdivision.h"
 #include "surface/lod/tables.h"
+#include "surface/mesh_tables.h"
 #include "tests/support/meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
-#include <utility>
+#include <set>
+#include <vector>
 
 namespace supple::test {
 
@@ -68,13 +71,35 @@ struct PoleRings {
     return makeCage(rings.positions(), polygons);
 }
 
-/// Points come again, but not many; and both sides of an edge still know it as one, at levels and in an indexed mesh.
-inline void expectCopies(surface::Tables tables, size_t faces, size_t edges) {
-    EXPECT_GT(tables.copies.size(), 100u);
-    EXPECT_LT(tables.copies.size(), faces / 2);
-    surface::lod::appendTables(tables);
+/// How many points that stencils make are there already. The tables must be so large that their rows have whole words.
+[[nodiscard]] inline size_t repeatedPoints(const surface::Tables& tables) {
+    size_t rows = 0;
+    std::set<std::vector<uint32_t>> distinct; // by what they are made of
+    for (const surface::Construction& made : tables.constructions) {
+        if (made.kernel != surface::KindOfKernel{surface::Kernel::subdivisionIsolate, shared::kWholeWords}) {
+            continue;
+        }
+        rows += made.section.count;
+        for (size_t r = 0; r < made.section.count; ++r) {
+            const uint32_t* record = &tables.words[size_t{4} * made.section.table + 3 * r];
+            const uint32_t* list = &tables.words[record[0]]; // of pairs, then a vertex more than they have
+            std::vector<uint32_t> row(list, list + 2 * size_t{*list} + 2);
+            row.push_back(record[2]); // weights
+            distinct.insert(std::move(row));
+        }
+    }
+    EXPECT_GT(rows, 0u);
+    return rows - distinct.size();
+}
+
+/// Points come again, but not many; and both sides of an edge still are one, at levels and in an indexed mesh.
+inline void expectCopies(surface::Tables tables, const surface::PatchEdges& given, size_t faces, size_t edges) {
+    const size_t again = repeatedPoints(tables);
+    EXPECT_GT(again, 100u);
+    EXPECT_LT(again, faces / 2);
+    surface::lod::appendTables(given, tables);
     EXPECT_EQ(tables.lod.edgeCount, edges);
-    surface::appendIndexedMesh(tables, false, false);
+    surface::appendMeshTables(given, false, false, tables);
     EXPECT_EQ(tables.mesh.edgeCount, edges);
 }
 

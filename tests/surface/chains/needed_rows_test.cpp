@@ -1,5 +1,6 @@
 #include "surface/build.h"
 #include "surface/chains/needed_rows.h"
+#include "tests/support/large_pole.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
@@ -32,22 +33,7 @@ TEST(NeededRows, RowsOfANetLieNearEachOther) {
             ASSERT_EQ(rows.rows()[numbers[i]], net[i]);
         }
     }
-    // Every further number of a row knows the first.
-    const std::map<uint32_t, uint32_t> copies = rows.copiesFrom(0);
-    std::vector<uint32_t> firsts(kAll, cage::kNone);
-    for (uint32_t number = 0; number < rows.count(); ++number) {
-        uint32_t& first = firsts[rows.rows()[number]];
-        const auto known = copies.find(number);
-        if (first == cage::kNone) {
-            first = number;
-            ASSERT_EQ(known, copies.end());
-        } else {
-            ASSERT_NE(known, copies.end());
-            ASSERT_EQ(known->second, first);
-        }
-    }
-    EXPECT_FALSE(copies.empty());
-    EXPECT_EQ(rows.copiesFrom(7).begin()->first, copies.begin()->first + 7);
+    EXPECT_GT(rows.count(), kAll) << "some have several numbers";
 }
 
 TEST(NeededRows, EachIsThereOnceWhereAllAreNear) {
@@ -58,7 +44,6 @@ TEST(NeededRows, EachIsThereOnceWhereAllAreNear) {
     EXPECT_EQ(net, (std::vector<uint32_t>{0, 1, 0, 2}));
     EXPECT_EQ(other, (std::vector<uint32_t>{2, 3}));
     EXPECT_EQ(rows.rows(), (std::vector<uint32_t>{7, 3, 90, 4}));
-    EXPECT_TRUE(rows.copiesFrom(0).empty());
 }
 
 // The net of a vertex with as many faces as chains take, half of it numbered long ago.
@@ -99,8 +84,8 @@ TEST(NeededRows, ShuffledCagesNeedNoMorePoints) {
     const Result<surface::Tables> again = surface::catmull_clark::build(recipe, shuffled);
     ASSERT_TRUE(tables && again);
     EXPECT_GT(tables->poolStride, 150000u); // 16 bits are not enough for all of it
-    EXPECT_TRUE(tables->copies.empty());
-    EXPECT_TRUE(again->copies.empty());
+    EXPECT_EQ(repeatedPoints(*tables), 0u);
+    EXPECT_EQ(repeatedPoints(*again), 0u);
     EXPECT_EQ(again->poolStride, tables->poolStride);
     EXPECT_NEAR(static_cast<double>(again->words.size()), static_cast<double>(tables->words.size()),
                 0.01 * static_cast<double>(tables->words.size()));
