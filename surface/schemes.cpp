@@ -31,8 +31,8 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
     {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin, &blend::check},
-    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true, kAllUvModes,
-     true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
+    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true,
+     kAllUvModes, true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
     // Its vertices are the cage's.
     {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},

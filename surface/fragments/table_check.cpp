@@ -1,9 +1,9 @@
 // Follows the tables of shaders/shared/subdivision.h as the kernels of shaders/subdivision do.
 #include "shaders/shared/subdivision.h"
 #include "surface/build.h"
+#include "surface/fragments/class_check.h"
 #include "surface/grid.h"
 #include "surface/stencil_table.h"
-#include "surface/fragments/class_check.h"
 #include "surface/table_check_common.h"
 
 #include <array>
