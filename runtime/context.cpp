@@ -80,6 +80,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     }
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
+    context->device_->uploads = &context->uploads_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
 
     Result<surface::Passes> passes = surface::Passes::create(d, *context->pipelines_, shaders);
@@ -205,6 +206,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     completedFrame_ = completedFrame;
     frameOpen_ = true;
     origin_ = nextOrigin_;
+    uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
     return success();
 }
@@ -214,31 +216,13 @@ void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::
     device_->ledger->allowsMore = std::move(allowsMore);
 }
 
-template <class F>
-void Context::forViews(F&& visit) {
-    views.forEach(visit);
-    for (const Retired<View>& view : retiredViews_) {
-        visit(*view.object);
-    }
-}
-
-template <class F>
-void Context::forMembers(F&& visit) {
-    visit(pairs_);
-    groups.forEach(visit);
-    forViews(visit);
-    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
-    for (const Retired<Group>& group : retired_) {
-        visit(*group.object);
-    }
-}
-
 Status Context::cancelFrame() {
     if (Status open = checkOpen("suppleCancelFrame"); !open) {
         return open;
     }
     frameOpen_ = false;
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
+    uploads_.cancelFrame();
     timings.cancelFrame();
     return success();
 }
@@ -384,6 +368,9 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
         const auto leader =
             std::ranges::find_if(remade, [&](const Remade& other) { return other.id == group.leader(); });
         shared.instances = leader->group->sharedInstances();
+    }
+    if (!asyncCompute_ || group.askedFrame() != frame_) { // else the draws may not have taken the indices over yet
+        shared.before = &group;
     }
     GroupRecipe recipe = group.recipe();
     remaking.change(recipe);

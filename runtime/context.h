@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/pipelines.h"
 #include "gpu/static_buffers.h"
+#include "gpu/uploads.h"
 #include "runtime/asset.h"
 #include "runtime/group.h"
 #include "runtime/slot_map.h"
@@ -48,8 +49,20 @@ public:
     /// Every kernel that the groups may run, as dispatches of nothing, behind the uploads of recordUploads: drivers
     /// that compile a pipeline at its first dispatch do it then.
     [[nodiscard]] Status recordWarmUp(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> wanted);
-    /// Static tables of the group, if any are due; returns their bytes. Groups of other threads may share them.
-    VkDeviceSize recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// What recordPendingStatics() has done.
+    struct Statics {
+        VkDeviceSize bytes = 0; ///< uploaded
+        bool there = false;     ///< all that the group needs is on the device
+    };
+    /// Static data of the group, if any is due. Groups of other threads may share it.
+    [[nodiscard]] Statics recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// Bytes of static data a frame uploads at most; 0: no bound.
+    [[nodiscard]] Status setUploadBudget(VkDeviceSize bytes);
+    /// Of one group, with what it shares.
+    [[nodiscard]] SuppleUploadState uploadState(const Group& group) const;
+    [[nodiscard]] SuppleUploadState uploadState(Asset& asset) const;
+    /// Of all there is.
+    [[nodiscard]] SuppleUploadState uploadState() const;
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
     [[nodiscard]] static SuppleSyncScope firstScope();
@@ -112,6 +125,7 @@ private:
     void forMembers(F&& visit); ///< all that takes part in frames (gpu::FrameMember), those in flight too
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
     [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
+    [[nodiscard]] gpu::StaticCount newCount() const; ///< under uploading_
     /// Why a group that follows another cannot be recorded; null if it can.
     [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
@@ -152,7 +166,9 @@ private:
     std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
-    std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time
+    mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
+    gpu::Uploads uploads_;
+    mutable uint64_t statesAsked_ = 0; ///< gpu::StaticCount::number
     /// Destroyed by the host, perhaps still in flight. Frames that do not record a group may draw it all the same: so
     /// it is in use up to the frame in which it was destroyed.
     template <class T>
@@ -175,5 +191,24 @@ private:
     std::vector<Retired<Group>> retired_;
     std::vector<Retired<View>> retiredViews_;
 };
+
+template <class F>
+void Context::forViews(F&& visit) {
+    views.forEach(visit);
+    for (const Retired<View>& view : retiredViews_) {
+        visit(*view.object);
+    }
+}
+
+template <class F>
+void Context::forMembers(F&& visit) {
+    visit(pairs_);
+    groups.forEach(visit);
+    forViews(visit);
+    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
+    for (const Retired<Group>& group : retired_) {
+        visit(*group.object);
+    }
+}
 
 } // namespace supple::runtime

@@ -404,10 +404,15 @@ void View::cancelFrame(uint64_t frame) {
     }
 }
 
-void View::addTransfers(Transfers& transfers) const {
+void View::recordNoDraws(VkCommandBuffer commandBuffer) const {
+    device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodDraws * VkDeviceSize{4},
+                              (kLodRecords - kLodDraws) * VkDeviceSize{4}, 0);
+}
+
+void View::addTransfers(Transfers& transfers, uint64_t frame) const {
     transfers.add(words_.buffer(), kLodBuckets * VkDeviceSize{4});
     streams_.addTransfers(transfers, true);
-    if (indicesRelease_.recordedIn(recordedFrame_)) {
+    if (indicesRelease_.recordedIn(frame)) {
         transfers.add(static_.buffer(0));
     }
 }

@@ -4,6 +4,7 @@
 #include "surface/indexed_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -62,16 +63,23 @@ Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation
     return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
-Status OwnVertices::createIndices(std::span<const std::byte> indices) {
+Status OwnVertices::createIndices(std::vector<std::byte>& indices) {
+    const auto bytes = std::make_shared<const std::vector<std::byte>>(std::exchange(indices, {}));
+    const Tessellation* const before = std::exchange(desc_.before, nullptr);
+    const SharedIndices* const known = before != nullptr ? before->indices() : nullptr;
+    if (known != nullptr && &before->scheme() == scheme_.get() && known->buffers->size(0) == bytes->size()) {
+        indices_ = *known;
+        return success();
+    }
     const gpu::StaticRequest request{"supple grid indices",
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     indices};
+                                     *bytes, bytes};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, {&request, 1});
     if (!statics) {
         return statics.error();
     }
-    indices_ = std::move(*statics);
+    indices_.buffers = std::make_shared<gpu::StaticBuffers>(std::move(*statics));
     return success();
 }
 
@@ -102,7 +110,7 @@ void OwnVertices::fillGrid(SuppleGridOutput& output) const {
     output.rate = evaluation_.rate;
     output.vertexCount = vertexCount_;
     output.verticesPerInstance = evaluation_.verticesPerInstance;
-    output.indices = {indices_.buffer(0), 0, indices_.size(0), indexBytes_};
+    output.indices = {indices_.buffers->buffer(0), 0, indices_.buffers->size(0), indexBytes_};
     output.drawRanges = draws_.data();
     output.drawRangeCount = static_cast<uint32_t>(draws_.size());
     output.rates = rates_.data();
@@ -111,22 +119,22 @@ void OwnVertices::fillGrid(SuppleGridOutput& output) const {
 
 void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
     streams_.addTransfers(transfers, attributes_.recordedIn(frame));
-    if (indicesRelease_.recordedIn(frame)) {
-        transfers.add(indices_.buffer(0));
+    if (indices_.release.recordedIn(frame)) {
+        transfers.add(indices_.buffers->buffer(0));
     }
 }
 
 Status OwnVertices::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                const Visibility& visibility) {
-    addMember(indices_);
-    addMember(indicesRelease_);
+    addMember(*indices_.buffers);
+    addMember(indices_.release);
     addMember(attributes_);
     return Tessellation::createSets(cages, listing, visibility);
 }
 
 VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
-    if (indicesRelease_.due()) { // the indices are on the device by now
-        indicesRelease_.record(frame);
+    if (indices_.release.due()) { // the indices are on the device by now
+        indices_.release.record(frame);
     }
     return Tessellation::recordUpload(commandBuffer, frame, changed);
 }

@@ -14,8 +14,9 @@ public:
     [[nodiscard]] BoundBytes boundBytes() const override;
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.use(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.buffers->use(); }
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
+    [[nodiscard]] const SharedIndices* indices() const override { return &indices_; }
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
@@ -32,7 +33,8 @@ protected:
     [[nodiscard]] Status setVertexCount(uint64_t vertices);
     /// Lays out one mesh per instance: its index buffer, and a draw range per material and part at the end of draws_.
     [[nodiscard]] Result<std::vector<std::byte>> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
-    [[nodiscard]] Status createIndices(std::span<const std::byte> indices);
+    /// Takes the bytes, unless the surface before has the same.
+    [[nodiscard]] Status createIndices(std::vector<std::byte>& indices);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
     virtual void recordAttributeSteps(VkCommandBuffer commandBuffer) const;
@@ -40,9 +42,9 @@ protected:
 
     uint32_t vertexCount_ = 0; ///< of an instance
     VertexStreams streams_;
-    gpu::StaticBuffers indices_; ///< 0: grid indices
+    SharedIndices indices_;
     uint32_t indexBytes_ = 2;
-    RecordedOnce indicesRelease_, attributes_;
+    RecordedOnce attributes_;
     std::vector<SuppleDrawRange> draws_;
     std::vector<SuppleRate> rates_; ///< what is drawn at each rate
 };

@@ -181,7 +181,6 @@ Culling::Needs Rates::cullingNeeds() const {
 Status Rates::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                          const Visibility& visibility) {
     Status status = createIndices(indexData_);
-    indexData_ = {};
     status = status ? OwnVertices::createSets(cages, listing, visibility) : status;
     for (Rate& rate : own_) {
         addMember(rate.scheme->buffers);
