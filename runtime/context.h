@@ -7,10 +7,11 @@
 #include "gpu/uploads.h"
 #include "runtime/asset.h"
 #include "runtime/group.h"
+#include "runtime/planned_pipelines.h"
+#include "runtime/shared_passes.h"
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
 #include "runtime/view.h"
-#include "skinning/pose_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
 
@@ -56,6 +57,8 @@ public:
     };
     /// Static data of the group, if any is due. Groups of other threads may share it.
     [[nodiscard]] Statics recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// Makes every pipeline that the group will need. Any thread may call it, beside all that others do.
+    [[nodiscard]] Status makePipelines(const Prepared& prepared, const PlannedGroup& group);
     /// Bytes of static data a frame uploads at most; 0: no bound.
     [[nodiscard]] Status setUploadBudget(VkDeviceSize bytes);
     /// Of one group, with what it shares.
@@ -118,7 +121,7 @@ private:
     /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
     void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
-    [[nodiscard]] Status prepareBounds(); ///< sees to it that bounds_ is there
+    [[nodiscard]] Status prepareBounds(); ///< sees to it that the pass can be recorded
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
     template <class F>
@@ -161,9 +164,7 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     CageStageTable stages_;
-    std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view or group with bounds
-    std::unique_ptr<OcclusionPass> occlusion_; ///< and by the first with occlusion
-    std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
+    std::unique_ptr<SharedPasses> passes_;
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time

@@ -13,6 +13,7 @@
 #include "runtime/instance_set.h"
 #include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
+#include "runtime/surface_outputs.h"
 #include "runtime/surface_recipe.h"
 #include "runtime/surface_sets.h"
 #include "runtime/vertex_streams.h"
@@ -174,6 +175,7 @@ protected:
     /// Builds the tables of the description; `rate` in segments along an edge of the cage.
     [[nodiscard]] Status buildTables();
     /// What the passes write for this group.
+    [[nodiscard]] OutputWish outputWish() const;
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();
     /// The passes of tables at a rate or at levels.
