@@ -432,10 +432,10 @@ void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, 
 }
 
 /// Views of which no group is there: `waiting` are the groups that the frame leaves out.
-void recordEmptyViews(VkCommandBuffer commandBuffer, const Group* waiting) {
+void recordEmptyViews(const Frame& frame, const Group* waiting) {
     for (const Group* group = waiting; group != nullptr; group = group->link.next) {
         if (group->link.leadsView) {
-            group->view()->recordNoDraws(commandBuffer);
+            group->view()->recordNoDraws(frame.commands, frame.number);
         }
     }
 }
@@ -588,7 +588,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     recordPass(frame, kUploads, timing);
     const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });
     markLeaders(groups);
-    recordEmptyViews(commandBuffer, groups.second);
+    recordEmptyViews(frame, groups.second);
     recordBarrier(frame, Behind::uploads);
     frame.groups = groups.first;
     for (const Row& row : kPasses) {

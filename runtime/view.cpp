@@ -103,6 +103,7 @@ Status View::createBuffers() {
     addMember(clear_);
     addMember(static_);
     addMember(indicesRelease_);
+    addMember(noDraws_);
     const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
@@ -266,6 +267,7 @@ uint32_t View::room() const {
 
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedFrame_ = frame;
+    noDraws_.renew();
     if (indicesRelease_.due()) { // they are on the device by now
         indicesRelease_.record(frame);
     }
@@ -404,7 +406,14 @@ void View::cancelFrame(uint64_t frame) {
     }
 }
 
-void View::recordNoDraws(VkCommandBuffer commandBuffer) const {
+void View::recordNoDraws(VkCommandBuffer commandBuffer, uint64_t frame) {
+    if (!noDraws_.due()) {
+        return;
+    }
+    noDraws_.record(frame);
+    if (clear_.recordedIn(frame)) {
+        return; // of the same words
+    }
     device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodDraws * VkDeviceSize{4},
                               (kLodRecords - kLodDraws) * VkDeviceSize{4}, 0);
 }
