@@ -43,16 +43,25 @@ Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const Schem
     if (!finest) {
         return finest.error();
     }
-    if (!surface->hasRates) {
+    const PreparedTables* measured = finest->get();
+    const auto measure = [&] { // without a view nobody asks
+        if (group.viewFlags &&
+            std::ranges::find(prepared.measures, measured, &Prepared::Measure::tables) == prepared.measures.end()) {
+            prepared.measures.push_back({measured, prepared.measureOf(*measured)});
+        }
         return success();
+    };
+    if (!surface->hasRates) {
+        return measure();
     }
     for (const surface::Recipe& below : ratesBelow(surface->recipe, (*finest)->tables)) {
         const auto own = tablesFor(prepared, below, surface->piece);
         if (!own) {
             return own.error();
         }
+        measured = own->get(); // the last one's tables are the surface's
     }
-    return success();
+    return measure();
 }
 
 } // namespace

@@ -168,8 +168,7 @@ Status Rates::join(const InstanceWindows&) {
 Culling::Needs Rates::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    // Rates count along edges of the cage.
-    needs.measure = surface::lod::measureInstance(cage(), 0, 1.0f, &desc_.asset->character.cage);
+    needs.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
     needs.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];
