@@ -128,9 +128,9 @@ std::vector<PartPatches> Surfaces::partPatches() const {
     std::vector<PartPatches> counts(partCount_);
     for (const std::unique_ptr<Tessellation>& surface : all_) {
         const bool atLevels = surface->kind() == SUPPLE_TESSELLATION_LEVELS;
-        for (const surface::PatchInfo& patch : surface->tables().patches) {
-            ++counts[patch.part].all;
-            counts[patch.part].atLevels += atLevels ? 1 : 0;
+        for (const surface::DrawRange& range : surface->tables().drawRanges) {
+            counts[range.part].all += range.patchCount;
+            counts[range.part].atLevels += atLevels ? range.patchCount : 0;
         }
     }
     return counts;

@@ -63,7 +63,7 @@ Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
 
 Status OneRate::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                            const Visibility& visibility) {
-    const Status made = createIndices(indexData_);
+    const Status made = createIndices(std::exchange(indexData_, {}));
     rates_.front().instances = visibility.list().slots();
     return made ? OwnVertices::createSets(cages, listing, visibility) : made;
 }

@@ -43,7 +43,7 @@ protected:
 
     void setDraws(std::vector<SuppleDrawRange> draws);
 
-    std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
+    IndexBytes indexData_; ///< until the index buffer is made
     HostDraws hostDraws_;
     uint32_t drawWindows_ = 1;
 };

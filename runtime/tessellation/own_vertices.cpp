@@ -46,7 +46,7 @@ void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     attributes_.renew(wanted_.has(Stream::attributes));
 }
 
-Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
+Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
     const uint32_t mostIndex = desc_.device->limits.maxDrawIndexedIndexValue;
     if (vertices > mostIndex) {
         return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(vertices) +
@@ -54,27 +54,25 @@ Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation
                                            std::to_string(mostIndex)};
     }
     indexBytes_ = sizeof(uint32_t);
-    const surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation);
+    surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation);
     for (const surface::IndexedMesh::Range& from : mesh.ranges) {
         draws_.push_back(
             {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertices, 0, from.firstIndex, from.indexCount, from.part});
     }
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(mesh.indices));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    return IndexBytes(std::move(mesh.indices));
 }
 
-Status OwnVertices::createIndices(std::vector<std::byte>& indices) {
-    const auto bytes = std::make_shared<const std::vector<std::byte>>(std::exchange(indices, {}));
+Status OwnVertices::createIndices(IndexBytes indices) {
     const Tessellation* const before = std::exchange(desc_.before, nullptr);
     const SharedIndices* const known = before != nullptr ? before->indices() : nullptr;
-    if (known != nullptr && &before->scheme() == scheme_.get() && known->buffers->size(0) == bytes->size()) {
+    if (known != nullptr && &before->scheme() == scheme_.get() && known->buffers->size(0) == indices.bytes.size()) {
         indices_ = *known;
         return success();
     }
     const gpu::StaticRequest request{"supple grid indices",
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     *bytes, bytes};
+                                     indices.bytes, std::move(indices.keeper)};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, {&request, 1});
     if (!statics) {
         return statics.error();
@@ -170,13 +168,6 @@ void GridDraws::addRate(const surface::Tables& tables, uint32_t rate) {
             indices_.insert(indices_.end(), indices.begin(), indices.end());
         }
     }
-}
-
-std::vector<std::byte> GridDraws::takeIndices() {
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(indices_));
-    std::vector<std::byte> taken(bytes.begin(), bytes.end());
-    indices_ = {};
-    return taken;
 }
 
 void GridDraws::append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,

@@ -4,10 +4,25 @@
 
 #include "runtime/tessellation/tessellation.h"
 
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
+
+/// What an index buffer is made of.
+struct IndexBytes {
+    IndexBytes() = default;
+    template <class Index>
+    explicit IndexBytes(std::vector<Index> indices) {
+        const auto kept = std::make_shared<const std::vector<Index>>(std::move(indices));
+        bytes = std::as_bytes(std::span(*kept));
+        keeper = kept;
+    }
+    std::span<const std::byte> bytes;
+    std::shared_ptr<const void> keeper; ///< of the bytes
+};
 
 class OwnVertices : public Tessellation {
 public:
@@ -32,9 +47,9 @@ protected:
     /// Takes the vertices that layOut() has counted, without padding.
     [[nodiscard]] Status setVertexCount(uint64_t vertices);
     /// Lays out one mesh per instance: its index buffer, and a draw range per material and part at the end of draws_.
-    [[nodiscard]] Result<std::vector<std::byte>> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
+    [[nodiscard]] Result<IndexBytes> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
     /// Takes the bytes, unless the surface before has the same.
-    [[nodiscard]] Status createIndices(std::vector<std::byte>& indices);
+    [[nodiscard]] Status createIndices(IndexBytes indices);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
     virtual void recordAttributeSteps(VkCommandBuffer commandBuffer) const;
@@ -55,7 +70,7 @@ public:
     /// Adds the grids of a rate, one for every domain in use.
     void addRate(const surface::Tables& tables, uint32_t rate);
     /// The index buffer of all rates that were added, 16 bits an index.
-    [[nodiscard]] std::vector<std::byte> takeIndices();
+    [[nodiscard]] IndexBytes takeIndices() { return IndexBytes(std::exchange(indices_, {})); }
     /// Appends the draw ranges of the index-th rate to `draws`. `firstVertex` goes on behind them.
     void append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,
                 std::vector<SuppleDrawRange>& draws) const;
