@@ -50,6 +50,8 @@
  *     its groups (suppleRecord), into a command buffer of its own. The log callback must then expect calls from these
  *     threads at the same time. In this, groups of one view are one group, and so are a group and those that follow it
  *     (SuppleGroupDesc.instancesOf). Everything else, such as creating assets, groups and views, is for one thread.
+ *   - supplePrepare and suppleMakePipelines are for any thread at any time: they read characters, build tables and make
+ *     pipelines while the thread of frames records.
  *   - Different contexts are independent.
  *   - Supple has no threads. It uses the host's only through SuppleContextDesc.runJobs.
  *
@@ -1004,9 +1006,9 @@ typedef struct SuppleSyncScope {
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
 
 /** Bounds the bytes of static data (tables of skins, clips and schemes, indices) that a frame uploads; 0, as at first:
- * no bound. Call it at any time. It applies at once, also to what waits already, and takes `bytesPerFrame` of mapped
- * memory for each frame in flight: all static data of what is created from then on goes through it. Memory that an
- * earlier bound took is freed once the frames with it are complete.
+ * no bound. Call it whenever no other call of the context runs. It applies at once, also to what waits already, and
+ * takes `bytesPerFrame` of mapped memory for each frame in flight: all static data of what is created from then on goes
+ * through it. Memory that an earlier bound took is freed once the frames with it are complete.
  *
  * What does not fit goes up with the next frames. The groups of suppleRecord are served in their order, so put first
  * what must be seen first; suppleRecordUploads and suppleRecordWarmUp serve all groups. A group whose data, or whose
