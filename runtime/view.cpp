@@ -103,7 +103,6 @@ Status View::createBuffers() {
     addMember(clear_);
     addMember(static_);
     addMember(indicesRelease_);
-    addMember(noDraws_);
     const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
@@ -401,6 +400,7 @@ void View::beginFrame(uint64_t completedFrame) {
 
 void View::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
+    noDraws_.cancelFrame(frame);
     for (Solved& solved : solved_) {
         solved.frame = solved.frame == frame ? 0 : solved.frame;
     }
