@@ -1,6 +1,5 @@
 // Static data by a budget (suppleSetUploadBudget): groups wait for theirs and draw nothing, and then have the bits of
 // groups that never waited, whatever happens in between.
-#include "tests/support/allocation_count.h"
 #include "tests/support/drawn_patches.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/rigged_tube.h"
@@ -429,6 +428,44 @@ TEST_F(BudgetedUploads, GoOnWhereGroupsAndAssetsGo) {
     }
     stays.await();
     EXPECT_EQ(stateOf(*own).bytesLeft, 0u);
+}
+
+TEST_F(BudgetedUploads, AreHandedOverOnce) {
+    const ValidationGuard guard;
+    LoggedContext own(*testDevice(), [](SuppleContextDesc& desc) {
+        desc.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
+        desc.drawQueueFamily = desc.queueFamily;
+    });
+    ASSERT_EQ(suppleSetUploadBudget(own.handle(), kBudget), SUPPLE_OK);
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(own.handle(), asset), SUPPLE_OK);
+    const SmallGroup group = createGroup(own.handle(), asset, {.scheme = SUPPLE_SCHEME_PM, .rate = 8});
+    ASSERT_EQ(group.result, SUPPLE_OK);
+    const VkBuffer indices = outputOf(own.handle(), group.group).grid.indices.buffer;
+    const auto handedOver = [&] {
+        std::vector<VkBufferMemoryBarrier2> barriers(64);
+        auto count = static_cast<uint32_t>(barriers.size());
+        EXPECT_EQ(suppleGetAcquireBarriers(own.handle(), &group.group, 1, kAnyUse, barriers.data(), &count), SUPPLE_OK);
+        barriers.resize(count);
+        EXPECT_GT(count, 1u);
+        return std::ranges::count(barriers, indices, &VkBufferMemoryBarrier2::buffer);
+    };
+    SuppleUploadState state{};
+    state.structSize = sizeof(state);
+    uint32_t frames = 0;
+    do {
+        own.evaluate({&group.group, 1});
+        EXPECT_EQ(suppleGetGroupUploadState(own.handle(), group.group, &state), SUPPLE_OK);
+        EXPECT_EQ(handedOver(), static_cast<ptrdiff_t>(state.complete)) << "frame " << frames;
+    } while (state.complete == 0 && ++frames < kMostFrames);
+    EXPECT_GT(frames, 1u);
+    own.evaluate({&group.group, 1});
+    EXPECT_EQ(handedOver(), 0);
+    own.beginFrame();
+    ASSERT_EQ(suppleSetCapacity(own.handle(), group.group, 2), SUPPLE_OK);
+    own.evaluate({&group.group, 1});
+    EXPECT_EQ(outputOf(own.handle(), group.group).grid.indices.buffer, indices);
+    EXPECT_EQ(handedOver(), 0) << "the draws have it";
 }
 
 TEST_F(BudgetedUploads, AllocateNothingWhileTheyAreRecorded) {
