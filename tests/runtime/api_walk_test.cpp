@@ -2021,8 +2021,8 @@ void uploads(Rows& r) {
         return suppleGetGroupUploadState(w.handle(), w.mine.main.group, state);
     });
     r.nullContext(kBudget, [](World&, SuppleContext c) { return suppleSetUploadBudget(c, 1); });
-    r.refuse(kBudget, "more than any memory has", SUPPLE_MESSAGE_LIMIT,
-             [](World& w) { return suppleSetUploadBudget(w.handle(), UINT64_MAX); });
+    r.add(kBudget, "more than any memory has", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+          [](World& w) { return suppleSetUploadBudget(w.handle(), UINT64_MAX); });
     r.accept(kBudget, "valid, and taken away", [](World& w) {
         EXPECT_EQ(suppleSetUploadBudget(w.handle(), 4096), SUPPLE_OK);
         return suppleSetUploadBudget(w.handle(), 0);

@@ -1019,7 +1019,7 @@ SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuff
  * there, it is there at once. suppleReloadAsset brings new data, for which its groups wait.
  *
  * With 0, the call takes memory for all that waits, and the next suppleRecord uploads it.
- * Errors: device memory; then nothing has changed. */
+ * Errors: device memory, or more than the device has for a buffer; then nothing has changed. */
 SUPPLE_API SuppleResult suppleSetUploadBudget(SuppleContext context, VkDeviceSize bytesPerFrame);
 
 /** Static data on its way to the device. */
