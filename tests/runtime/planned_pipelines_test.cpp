@@ -21,7 +21,12 @@ struct PlannedCase {
     uint32_t viewFlags = 0;
 };
 constexpr uint32_t kStreams = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
+/// The last part of ten has another scheme than the others.
+constexpr SuppleScheme kPartSchemes[10] = {
+    SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO,
+    SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_POLYGONS};
 const PlannedCase kPlannedCases[] = {
+    {"parts", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .partSchemes = kPartSchemes, .partSchemeCount = 10}},
     {"auto", {.flags = kStreams | SUPPLE_GROUP_BOUNDS, .rate = 4}},
     {"patches", {.flags = SUPPLE_GROUP_PATCHES, .scheme = SUPPLE_SCHEME_PM, .rate = 3}},
     {"mesh", {.flags = kStreams | SUPPLE_GROUP_INDEXED_MESH, .scheme = SUPPLE_SCHEME_PM, .rate = 3}},

@@ -223,6 +223,15 @@ TEST_P(UploadsOf, BeginAnewWhereTheAssetIsReloaded) {
     EXPECT_EQ(own->reloadAsset(asset, uploadedTube(12)), SUPPLE_OK);
     EXPECT_GT(made.tubes->await(), 1u);
     EXPECT_TRUE(made.tubes->last == drawn);
+    // In a view a version takes the place of the one before the last, whose draws no frame has taken away but those in
+    // which all wait.
+    EXPECT_EQ(own->reloadAsset(asset, uploadedTube()), SUPPLE_OK);
+    for (uint32_t i = 0; i < 3; ++i) {
+        EXPECT_TRUE(made.tubes->drawn().empty());
+    }
+    EXPECT_EQ(own->reloadAsset(asset, uploadedTube(12)), SUPPLE_OK);
+    EXPECT_GT(made.tubes->await(), 1u);
+    EXPECT_TRUE(made.tubes->last == drawn);
 }
 
 TEST_P(UploadsOf, AreFinishedByTheNextFrameWhereTheBudgetEnds) {
