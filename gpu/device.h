@@ -50,6 +50,8 @@ struct DeviceDesc {
     MappingChoice mapping = MappingChoice::automatic;
 };
 
+class Uploads;
+
 /// Everything here is constant after create(); usable from any thread.
 struct Device {
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -58,6 +60,8 @@ struct Device {
     const VkAllocationCallbacks* allocator = nullptr;
     MemorySource memorySource;
     std::shared_ptr<MemoryLedger> ledger = std::make_shared<MemoryLedger>(); ///< what it counts does change
+    /// Set behind create(): the budget of static data, of which the same is true. Null: there is no bound.
+    Uploads* uploads = nullptr;
     bool debugUtils = false;
     Functions vk;
     Mapping mapping;

@@ -9,14 +9,26 @@
 
 namespace supple::gpu {
 
+/// What static data is on its way.
+struct StaticCount {
+    uint64_t number = 0;         ///< of the count, never 0: what stands in several lists counts once
+    uint64_t frame = 0;          ///< the open one
+    VkDeviceSize bytes = 0;      ///< in all
+    VkDeviceSize left = 0;       ///< that no frame has uploaded yet
+    VkDeviceSize frameBytes = 0; ///< that the open frame uploads
+};
+
 /// Whatever uploads something once, has kernels to warm up, or must know when frames end. Each overrides what it needs.
 class FrameMember {
 public:
-    /// Whether recordStatics() would record anything.
+    /// Whether something is due for recordStatics().
     [[nodiscard]] virtual bool staticsPending() const { return false; }
-    /// Uploads and clears that are recorded once; the bytes. The caller puts the barrier after it, and sees to it that
-    /// no other thread does the same: members may be shared.
+    /// Uploads and clears that are recorded once, as far as the frame's budget goes; the bytes. The caller puts the
+    /// barrier after it, and sees to it that no other thread does the same: members may be shared.
     virtual VkDeviceSize recordStatics(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return 0; }
+    virtual void countStatics(StaticCount& /*count*/) const {}
+    /// There is no budget any more: takes the memory for what is due.
+    [[nodiscard]] virtual Status stageStatics() { return success(); }
     /// Every kernel that frames may run, as dispatches of nothing.
     virtual void recordWarmUp(VkCommandBuffer /*commandBuffer*/) const {}
     /// A frame begins, and all up to `completedFrame` are complete.
@@ -51,6 +63,18 @@ public:
             bytes += member->recordStatics(commandBuffer, frame);
         }
         return bytes;
+    }
+    void countStatics(StaticCount& count) const override {
+        for (const FrameMember* const member : members_) {
+            member->countStatics(count);
+        }
+    }
+    [[nodiscard]] Status stageStatics() override {
+        Status status = success();
+        for (FrameMember* const member : members_) {
+            status = status ? member->stageStatics() : status;
+        }
+        return status;
     }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
         for (const FrameMember* const member : members_) {

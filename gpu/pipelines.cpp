@@ -17,31 +17,86 @@ Result<Kernel> Pipelines::get(const ComputeLayout& layout, const Spirv& spirv, s
 }
 
 Pipelines::Batch::~Batch() {
-    pipelines_.entries_.remove_if([&](const Entry& entry) {
-        return entry.pipeline.get() == VK_NULL_HANDLE &&
-               std::find(missing_.begin(), missing_.end(), &entry) != missing_.end();
+    const std::scoped_lock lock(pipelines_.mutex_);
+    giveUp();
+    for (Entry* const entry : others_) {
+        --entry->waiting;
+    }
+    pipelines_.entries_.remove_if([](const Entry& entry) {
+        return entry.pipeline.get() == VK_NULL_HANDLE && !entry.beingMade && entry.waiting == 0;
     });
+}
+
+void Pipelines::Batch::giveUp() {
+    for (Entry* const entry : missing_) {
+        entry->beingMade = false;
+    }
+    missing_.clear();
+    pipelines_.changed_.notify_all();
 }
 
 Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, std::span<const Constant> constants,
                              const char* name) {
     const uint32_t* words = wordsOf(*pipelines_.device_, spirv).data();
     const VkPipelineLayout pipelineLayout = layout.pipelineLayout.get();
+    const std::scoped_lock lock(pipelines_.mutex_);
     std::list<Entry>& entries = pipelines_.entries_;
     auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& known) {
         return wordsOf(*pipelines_.device_, known.spirv).data() == words && known.layout == pipelineLayout &&
                std::equal(known.constants.begin(), known.constants.end(), constants.begin(), constants.end());
     });
-    missing_.reserve(missing_.size() + 1); // an entry without a pipeline is always some batch's
+    // Room before anything changes: an entry that is being made is always some batch's.
+    missing_.reserve(missing_.size() + 1);
+    others_.reserve(others_.size() + 1);
     if (entry == entries.end()) {
-        entry = entries.insert(entry, Entry{spirv, pipelineLayout, {constants.begin(), constants.end()}, name, {}});
+        entry = entries.insert(entry,
+                               Entry{spirv, pipelineLayout, {constants.begin(), constants.end()}, name, {}, true, 0});
         missing_.push_back(&*entry);
+    } else if (entry->pipeline.get() == VK_NULL_HANDLE) {
+        const auto has = [&](const std::vector<Entry*>& list) {
+            return std::ranges::find(list, &*entry) != list.end();
+        };
+        if (!entry->beingMade) { // given up, and others wait for it
+            entry->beingMade = true;
+            missing_.push_back(&*entry);
+        } else if (!has(missing_) && !has(others_)) {
+            ++entry->waiting;
+            others_.push_back(&*entry);
+        }
     }
     return Kernel{&entry->pipeline, pipelineLayout};
 }
 
 Status Pipelines::Batch::make() {
+    // Its own first: batches that wait for each other go on.
+    Status status = makeMissing();
+    while (status && !others_.empty()) {
+        awaitOthers();
+        status = makeMissing();
+    }
+    return status;
+}
+
+void Pipelines::Batch::awaitOthers() {
+    std::unique_lock lock(pipelines_.mutex_);
+    missing_.reserve(others_.size());
+    pipelines_.changed_.wait(
+        lock, [&] { return std::ranges::none_of(others_, [](const Entry* entry) { return entry->beingMade; }); });
+    for (Entry* const entry : others_) {
+        --entry->waiting;
+        if (entry->pipeline.get() == VK_NULL_HANDLE) {
+            entry->beingMade = true;
+            missing_.push_back(entry);
+        }
+    }
+    others_.clear();
+}
+
+Status Pipelines::Batch::makeMissing() {
     const auto count = static_cast<uint32_t>(missing_.size());
+    if (count == 0) {
+        return success();
+    }
     std::vector<Result<PipelineHandle>> made;
     for (const Entry* entry : missing_) {
         made.emplace_back(Error{ErrorCode::argument, "pipeline " + entry->name + ": runJobs has not run its job"});
@@ -56,18 +111,20 @@ Status Pipelines::Batch::make() {
             outOfMemory = true;
         }
     };
-    if (count > 0 && pipelines_.runJobs_) {
+    if (pipelines_.runJobs_) {
         pipelines_.runJobs_(count, job);
     } else {
         for (uint32_t i = 0; i < count && (i == 0 || made[i - 1]); ++i) {
             job(i);
         }
     }
+    const std::scoped_lock lock(pipelines_.mutex_);
     for (uint32_t i = 0; i < count; ++i) {
         if (made[i]) {
             missing_[i]->pipeline = std::move(*made[i]);
         }
     }
+    giveUp();
     if (outOfMemory) {
         return Error{ErrorCode::hostMemory, "out of memory for pipelines"};
     }

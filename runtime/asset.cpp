@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -10,9 +11,22 @@ namespace {
 constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
+using Words = std::shared_ptr<const std::vector<uint32_t>>;
+
+/// Words that stay where they are as long as their owner.
+template <class Owner>
+Words wordsIn(const std::shared_ptr<Owner>& owner, const std::vector<uint32_t>& words) {
+    return Words(owner, &words);
+}
+/// Words that nobody else needs: they go when they are uploaded.
+Words takenFrom(std::vector<uint32_t>& words) {
+    return std::make_shared<const std::vector<uint32_t>>(std::exchange(words, {}));
+}
+
 /// Tables on the device, in a buffer that debuggers see as "supple <table>". `of` begins the messages.
 Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& of, const std::string& table,
-                                  std::span<const uint32_t> words) {
+                                  const Words& shared) {
+    const std::span<const uint32_t> words = *shared;
     // The narrow mapping also reads tables word by word through a texel view.
     const bool texelsFit = device.mapping.wide || words.size() <= device.limits.maxTexelBufferElements;
     if (words.size_bytes() > device.bufferWindow(16) || !texelsFit) {
@@ -20,7 +34,7 @@ Result<gpu::StaticBuffers> upload(const gpu::Device& device, const std::string& 
                                            " bytes exceed the device's storage-buffer range or texel-buffer elements"};
     }
     const std::string name = "supple " + table;
-    const gpu::StaticRequest request{name.c_str(), kTableUsage, std::as_bytes(words)};
+    const gpu::StaticRequest request{name.c_str(), kTableUsage, std::as_bytes(words), shared};
     Result<gpu::StaticBuffers> buffers = gpu::StaticBuffers::create(device, {&request, 1});
     if (!buffers) {
         return Error{buffers.error().code, of + buffers.error().message};
@@ -36,24 +50,26 @@ Asset::Asset(std::shared_ptr<const Prepared> of)
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, cage::Character character) {
     const std::shared_ptr<Prepared> own = Prepared::of(std::move(character));
-    Result<std::shared_ptr<Asset>> asset = create(device, own);
-    if (asset) {
-        (*asset)->ownsPrepared = true;
-        own->deform.words = {};
-    }
-    return asset;
+    auto asset = std::make_shared<Asset>(own);
+    asset->ownsPrepared = true;
+    const Status made = asset->makeSkin(device, takenFrom(own->deform.words));
+    return made ? Result<std::shared_ptr<Asset>>(std::move(asset)) : made.error();
 }
 
 Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, std::shared_ptr<const Prepared> prepared) {
     auto asset = std::make_shared<Asset>(std::move(prepared));
-    const skinning::DeformTable& deform = asset->prepared->deform;
-    Result<gpu::StaticBuffers> buffers = upload(device, asset->character.name + ": ", "skin tables", deform.words);
-    if (!buffers) {
-        return buffers.error();
+    const Status made = asset->makeSkin(device, wordsIn(asset->prepared, asset->prepared->deform.words));
+    return made ? Result<std::shared_ptr<Asset>>(std::move(asset)) : made.error();
+}
+
+Status Asset::makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words) {
+    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", "skin tables", words);
+    if (!made) {
+        return made.error();
     }
-    asset->buffers = std::move(*buffers);
-    asset->firstInfluences = deform.firstInfluences;
-    return asset;
+    buffers = std::move(*made);
+    firstInfluences = prepared->deform.firstInfluences;
+    return success();
 }
 
 Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, const std::vector<uint32_t>& wanted) {
@@ -66,7 +82,7 @@ Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, co
     piece->prepared = prepared->pieceOf(wanted);
     std::vector<uint32_t> words = piece->prepared->of.vertices;
     words.resize((words.size() + 3) / 4 * 4);
-    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "vertices of a piece", words);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "vertices of a piece", takenFrom(words));
     if (!buffers) {
         return buffers.error();
     }
@@ -100,15 +116,13 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
         own = std::move(*built);
         scheme->prepared = own;
     }
-    Result<gpu::StaticBuffers> buffers =
-        upload(device, character.name + ": ", "surface tables", scheme->tables().words);
+    const Words words =
+        own != nullptr ? takenFrom(own->tables.words) : wordsIn(scheme->prepared, scheme->prepared->tables.words);
+    Result<gpu::StaticBuffers> buffers = upload(device, character.name + ": ", "surface tables", words);
     if (!buffers) {
         return buffers.error();
     }
     scheme->buffers = std::move(*buffers);
-    if (own != nullptr) {
-        own->tables.words = {};
-    }
     if (own != nullptr && !ownsPrepared) {
         builtLate.push_back(std::string("the tables of ") + surface::schemeOf(recipe.scheme).name +
                             (!surface::schemeOf(recipe.scheme).ofMapping ? ""
@@ -123,17 +137,25 @@ Status Asset::makeClips(const gpu::Device& device) {
     if (!clips.empty()) {
         return success();
     }
-    skinning::ClipTable table = prepared->clips ? *prepared->clips : skinning::buildClipTable(character);
+    std::shared_ptr<const skinning::ClipTable> table;
+    Words words;
+    if (prepared->clips) {
+        table = std::shared_ptr<const skinning::ClipTable>(prepared, &*prepared->clips);
+        words = wordsIn(prepared, table->words);
+    } else {
+        const auto own = std::make_shared<skinning::ClipTable>(skinning::buildClipTable(character));
+        words = takenFrom(own->words);
+        table = own;
+    }
     if (!prepared->clips && !ownsPrepared) {
         builtLate.emplace_back("the tables of the clips");
     }
-    Result<gpu::StaticBuffers> buffers = upload(device, "", "clip tables", table.words);
-    if (!buffers) {
-        return buffers.error();
+    Result<gpu::StaticBuffers> made = upload(device, "", "clip tables", words);
+    if (!made) {
+        return made.error();
     }
-    clips = std::move(*buffers);
+    clips = std::move(*made);
     clipTable = std::move(table);
-    clipTable.words = {};
     return success();
 }
 

@@ -29,7 +29,7 @@ struct SchemeTables {
 };
 
 struct Asset {
-    /// If it is the asset's own, the words of its tables are gone: they lie in staging memory.
+    /// If it is the asset's own, the words of its tables are gone: who uploads them has them.
     const std::shared_ptr<const Prepared> prepared;
     // All of them are its.
     const cage::Character& character;
@@ -42,8 +42,8 @@ struct Asset {
     uint32_t firstInfluences = 0;  ///< skinning::DeformTable
     mutable ClipBounds clipBounds; ///< what has been asked for
     // Made for the first group that plays on the device:
-    skinning::ClipTable clipTable; ///< without its words
-    gpu::StaticBuffers clips;      ///< 0: the clip table
+    std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words may be gone
+    gpu::StaticBuffers clips;                             ///< 0: the clip table
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -55,6 +55,8 @@ struct Asset {
     /// Takes what was prepared for anybody.
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device,
                                                                std::shared_ptr<const Prepared> prepared);
+    /// For create().
+    [[nodiscard]] Status makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words);
     /// Finds or makes the piece of some parts (rising).
     [[nodiscard]] Result<std::shared_ptr<AssetPiece>> pieceOf(const gpu::Device& device,
                                                               const std::vector<uint32_t>& parts);
@@ -69,6 +71,18 @@ struct Asset {
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
+    /// What all groups share, and the tables of those that there have been.
+    template <class F>
+    void forStatics(F&& visit) {
+        visit(buffers);
+        visit(clips);
+        for (const std::shared_ptr<AssetPiece>& piece : pieces) {
+            visit(piece->vertices);
+        }
+        for (const std::shared_ptr<SchemeTables>& scheme : schemes) {
+            visit(scheme->buffers);
+        }
+    }
 };
 
 } // namespace supple::runtime

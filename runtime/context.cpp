@@ -80,7 +80,9 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     }
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
+    context->device_->uploads = &context->uploads_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
+    context->passes_ = std::make_unique<SharedPasses>(d, *context->pipelines_);
 
     Result<surface::Passes> passes = surface::Passes::create(d, *context->pipelines_, shaders);
     if (!passes) {
@@ -205,6 +207,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     completedFrame_ = completedFrame;
     frameOpen_ = true;
     origin_ = nextOrigin_;
+    uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
     return success();
 }
@@ -214,31 +217,13 @@ void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::
     device_->ledger->allowsMore = std::move(allowsMore);
 }
 
-template <class F>
-void Context::forViews(F&& visit) {
-    views.forEach(visit);
-    for (const Retired<View>& view : retiredViews_) {
-        visit(*view.object);
-    }
-}
-
-template <class F>
-void Context::forMembers(F&& visit) {
-    visit(pairs_);
-    groups.forEach(visit);
-    forViews(visit);
-    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
-    for (const Retired<Group>& group : retired_) {
-        visit(*group.object);
-    }
-}
-
 Status Context::cancelFrame() {
     if (Status open = checkOpen("suppleCancelFrame"); !open) {
         return open;
     }
     frameOpen_ = false;
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
+    uploads_.cancelFrame();
     timings.cancelFrame();
     return success();
 }
@@ -276,12 +261,10 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     if (asset == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
-    if (desc.poseSource == SUPPLE_POSES_PLAYBACK && pose_ == nullptr) {
-        Result<skinning::PosePass> pose = skinning::PosePass::create(*device_, *pipelines_);
-        if (!pose) {
+    if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
+        if (const Result<skinning::PosePass*> pose = passes_->pose(); !pose) {
             return pose.error();
         }
-        pose_ = std::make_unique<skinning::PosePass>(std::move(*pose));
     }
     if ((desc.flags & SUPPLE_GROUP_BOUNDS) != 0) {
         if (const Status prepared = prepareBounds(); !prepared) {
@@ -337,11 +320,11 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     shared.device = device_.get();
     shared.pipelines = pipelines_.get();
     shared.stages = &stages_;
-    shared.pose = pose_.get();
+    shared.pose = passes_->knownPose();
     shared.surface = &surface_;
     shared.pairs = &pairs_;
-    shared.bounds = bounds_.get();
-    shared.occlusion = occlusion_.get();
+    shared.bounds = passes_->knownBounds();
+    shared.occlusion = passes_->knownOcclusion();
     shared.view = std::move(view);
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
@@ -384,6 +367,9 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
         const auto leader =
             std::ranges::find_if(remade, [&](const Remade& other) { return other.id == group.leader(); });
         shared.instances = leader->group->sharedInstances();
+    }
+    if (!asyncCompute_ || group.askedFrame() != frame_) { // else the draws may not have taken the indices over yet
+        shared.before = &group;
     }
     GroupRecipe recipe = group.recipe();
     remaking.change(recipe);
@@ -493,27 +479,19 @@ void Context::setOrigin(const glm::dvec3& origin) {
 }
 
 Status Context::prepareBounds() {
-    if (bounds_ != nullptr) {
-        return success();
-    }
-    Result<BoundsPass> bounds = BoundsPass::create(*device_, *pipelines_);
-    if (!bounds) {
-        return bounds.error();
-    }
-    bounds_ = std::make_unique<BoundsPass>(std::move(*bounds));
-    return success();
+    const Result<BoundsPass*> bounds = passes_->bounds();
+    return bounds ? (*bounds)->prepare() : bounds.error();
 }
 
 Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
     if (const Status prepared = prepareBounds(); !prepared) {
         return prepared.error();
     }
-    if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0 && occlusion_ == nullptr) {
-        Result<OcclusionPass> occlusion = OcclusionPass::create(*device_, *pipelines_);
-        if (!occlusion) {
-            return occlusion.error();
+    if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0) {
+        const Result<OcclusionPass*> occlusion = passes_->occlusion();
+        if (const Status prepared = occlusion ? (*occlusion)->prepare() : occlusion.error(); !prepared) {
+            return prepared.error();
         }
-        occlusion_ = std::make_unique<OcclusionPass>(std::move(*occlusion));
     }
     Result<std::shared_ptr<View>> view = View::create(*device_, surface_, framesInFlight_, desc);
     if (!view) {
@@ -521,6 +499,11 @@ Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
     }
     makeRoom(retiredViews_, views.slotCount() + 1);
     return views.insert(std::move(*view));
+}
+
+Status Context::makePipelines(const Prepared& prepared, const PlannedGroup& group) {
+    return runtime::makePipelines({device_.get(), pipelines_.get(), passes_.get(), &surface_, &stages_}, prepared,
+                                  group);
 }
 
 bool Context::destroyView(uint64_t id) {

@@ -4,12 +4,14 @@
 #include "gpu/device.h"
 #include "gpu/pipelines.h"
 #include "gpu/static_buffers.h"
+#include "gpu/uploads.h"
 #include "runtime/asset.h"
 #include "runtime/group.h"
+#include "runtime/planned_pipelines.h"
+#include "runtime/shared_passes.h"
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
 #include "runtime/view.h"
-#include "skinning/pose_pass.h"
 #include "supple/supple.h"
 #include "surface/passes.h"
 
@@ -48,8 +50,22 @@ public:
     /// Every kernel that the groups may run, as dispatches of nothing, behind the uploads of recordUploads: drivers
     /// that compile a pipeline at its first dispatch do it then.
     [[nodiscard]] Status recordWarmUp(VkCommandBuffer commandBuffer, std::span<const SuppleGroup> wanted);
-    /// Static tables of the group, if any are due; returns their bytes. Groups of other threads may share them.
-    VkDeviceSize recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// What recordPendingStatics() has done.
+    struct Statics {
+        VkDeviceSize bytes = 0; ///< uploaded
+        bool there = false;     ///< all that the group needs is on the device
+    };
+    /// Static data of the group, if any is due. Groups of other threads may share it.
+    [[nodiscard]] Statics recordPendingStatics(VkCommandBuffer commandBuffer, Group& group);
+    /// Makes every pipeline that the group will need. Any thread may call it, beside all that others do.
+    [[nodiscard]] Status makePipelines(const Prepared& prepared, const PlannedGroup& group);
+    /// Bytes of static data a frame uploads at most; 0: no bound.
+    [[nodiscard]] Status setUploadBudget(VkDeviceSize bytes);
+    /// Of one group, with what it shares.
+    [[nodiscard]] SuppleUploadState uploadState(const Group& group) const;
+    [[nodiscard]] SuppleUploadState uploadState(Asset& asset) const;
+    /// Of all there is.
+    [[nodiscard]] SuppleUploadState uploadState() const;
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
     [[nodiscard]] static SuppleSyncScope firstScope();
@@ -105,13 +121,14 @@ private:
     /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
     void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
-    [[nodiscard]] Status prepareBounds(); ///< sees to it that bounds_ is there
+    [[nodiscard]] Status prepareBounds(); ///< sees to it that the pass can be recorded
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold
     template <class F>
     void forMembers(F&& visit); ///< all that takes part in frames (gpu::FrameMember), those in flight too
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
     [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
+    [[nodiscard]] gpu::StaticCount newCount() const; ///< under uploading_
     /// Why a group that follows another cannot be recorded; null if it can.
     [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
@@ -147,12 +164,12 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     CageStageTable stages_;
-    std::unique_ptr<BoundsPass> bounds_;       ///< made by the first view or group with bounds
-    std::unique_ptr<OcclusionPass> occlusion_; ///< and by the first with occlusion
-    std::unique_ptr<skinning::PosePass> pose_; ///< made for the first group that plays on the device
+    std::unique_ptr<SharedPasses> passes_;
     surface::Passes surface_;
     gpu::StaticBuffers pairs_;
-    std::mutex uploads_; ///< static tables are shared by groups that may be recorded at the same time
+    mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
+    gpu::Uploads uploads_;
+    mutable uint64_t statesAsked_ = 0; ///< gpu::StaticCount::number
     /// Destroyed by the host, perhaps still in flight. Frames that do not record a group may draw it all the same: so
     /// it is in use up to the frame in which it was destroyed.
     template <class T>
@@ -175,5 +192,24 @@ private:
     std::vector<Retired<Group>> retired_;
     std::vector<Retired<View>> retiredViews_;
 };
+
+template <class F>
+void Context::forViews(F&& visit) {
+    views.forEach(visit);
+    for (const Retired<View>& view : retiredViews_) {
+        visit(*view.object);
+    }
+}
+
+template <class F>
+void Context::forMembers(F&& visit) {
+    visit(pairs_);
+    groups.forEach(visit);
+    forViews(visit);
+    // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
+    for (const Retired<Group>& group : retired_) {
+        visit(*group.object);
+    }
+}
 
 } // namespace supple::runtime

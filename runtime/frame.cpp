@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -65,12 +66,66 @@ struct Frame {
     }
 };
 
+/// Linked groups in two lists.
+struct Separated {
+    Group* first = nullptr;
+    Group* second = nullptr;
+};
+/// The first list has those that `isFirst` holds for. Each keeps its order.
+template <class Predicate>
+Separated separate(Group* groups, Predicate&& isFirst) {
+    Separated result;
+    Group** firstEnd = &result.first;
+    Group** secondEnd = &result.second;
+    while (groups != nullptr) {
+        Group* const group = groups;
+        groups = std::exchange(group->link.next, nullptr);
+        Group**& end = isFirst(*group) ? firstEnd : secondEnd;
+        *end = group;
+        end = &group->link.next;
+    }
+    return result;
+}
+Group* join(const Separated& lists) {
+    Group* first = lists.first;
+    Group** end = &first;
+    while (*end != nullptr) {
+        end = &(*end)->link.next;
+    }
+    *end = lists.second;
+    return first;
+}
+/// The first of `groups` that belongs to the view; null: none does.
+const Group* firstOf(const Group* groups, const View* view) {
+    while (groups != nullptr && groups->view() != view) {
+        groups = groups->link.next;
+    }
+    return groups;
+}
+/// Finds the first group of each view. Those of the second list come behind all of the first.
+void markLeaders(const Separated& lists) {
+    for (Group* const list : {lists.first, lists.second}) {
+        for (Group* group = list; group != nullptr; group = group->link.next) {
+            const View* const view = group->view();
+            const Group* const leads = view == nullptr ? nullptr : firstOf(lists.first, view);
+            group->link.leadsView =
+                view != nullptr && (leads != nullptr ? leads : firstOf(lists.second, view)) == group;
+        }
+    }
+}
+
 // What passes record for one group. A cost of nothing: the group has no such pass.
 
 PassCost recordUpload(const Frame& frame, Group& group) {
-    const VkDeviceSize statics = frame.context.recordPendingStatics(frame.commands, group);
+    const Context::Statics statics = frame.context.recordPendingStatics(frame.commands, group);
+    // Those that follow a group come behind it.
+    const std::shared_ptr<Group> leader = group.follows() ? frame.context.groups.find(group.leader()) : nullptr;
+    if (!statics.there || (leader != nullptr && leader->waitsIn(frame.number))) {
+        group.recordWaiting(frame.commands, frame.number);
+        return {0, statics.bytes};
+    }
     PassCost cost = group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin()});
-    cost.bytes += statics;
+    cost.bytes += statics.bytes;
     if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
         cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
     }
@@ -241,8 +296,10 @@ struct Row {
     bool timed = true; ///< false: part of the pass before, without label and timing
 };
 
+/// The first of a frame: it finds out which groups the others are for.
+constexpr Row kUploads = {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::nothing};
+
 constexpr Row kPasses[] = {
-    {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::uploads},
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
@@ -376,6 +433,15 @@ void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, 
     frame.computeBarrier();
 }
 
+/// Views of which no group is there: `waiting` are the groups that the frame leaves out.
+void recordEmptyViews(const Frame& frame, const Group* waiting) {
+    for (const Group* group = waiting; group != nullptr; group = group->link.next) {
+        if (group->link.leadsView) {
+            group->view()->recordNoDraws(frame.commands, frame.number);
+        }
+    }
+}
+
 /// The stages that some group has, each a pass of its own.
 void recordCageStages(const Frame& frame, std::span<const CageStageRow> rows, Timings::Recording& timing) {
     for (size_t stage = 0; stage < rows.size(); ++stage) {
@@ -405,8 +471,8 @@ const char* Context::faultOfLeader(const Group& group, const SuppleRecordDesc& d
     }
     const auto isLeader = [&](const SuppleGroup& other) { return other.id == group.leader(); };
     const bool now = std::any_of(desc.groups, desc.groups + desc.groupCount, isLeader);
-    return now || leader->passesFrame() == frame_ ? nullptr
-                                                  : "the group whose instances it draws is not recorded in this frame";
+    return now || leader->askedFrame() == frame_ ? nullptr
+                                                 : "the group whose instances it draws is not recorded in this frame";
 }
 
 Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
@@ -421,7 +487,7 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
-        if (group->passesFrame() == frame_) {
+        if (group->askedFrame() == frame_) {
             return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
         }
         if (const char* const fault = faultOfLeader(*group, desc)) {
@@ -434,30 +500,31 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
         if (view != nullptr && view->lastRecordedFrame() == frame_) {
             return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
         }
-        bool leads = view != nullptr;
         for (const Group* other = first; other != nullptr; other = other->link.next) {
             if (other == group) {
                 return refuse(ErrorCode::argument, "listed twice");
             }
-            leads = leads && other->view() != view;
         }
-        group->link = {nullptr, desc.groups[g], leads};
+        group->link = {nullptr, desc.groups[g]};
         *last = group;
         last = &group->link.next;
     }
-    return first;
+    // Whether a group is left out, those that follow it must know.
+    const Separated own = separate(first, [](const Group& group) { return !group.follows(); });
+    return join(own);
 }
 
-VkDeviceSize Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
-    const std::scoped_lock lock(uploads_);
-    return group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
+    const std::scoped_lock lock(uploading_);
+    const VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+    return {bytes, !group.staticsPending()};
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
     if (Status open = checkOpen("suppleRecordUploads"); !open) {
         return open;
     }
-    const std::scoped_lock lock(uploads_);
+    const std::scoped_lock lock(uploading_);
     bool recorded = false;
     groups.forEach([&](Group& group) {
         if (group.staticsPending()) {
@@ -507,7 +574,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return linked.error();
     }
     const gpu::Device& device = *device_;
-    const Frame frame{device, commandBuffer, frame_, framesInFlight_, desc.time, *linked, *this};
+    Frame frame{device, commandBuffer, frame_, framesInFlight_, desc.time, *linked, *this};
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
@@ -520,6 +587,12 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         frame.forEach([&](Group& group) { surfaces += static_cast<uint32_t>(group.surfaces().size()); });
         timing = timings.open(commandBuffer, surfaces, static_cast<uint32_t>(stages_.rows().size()));
     }
+    recordPass(frame, kUploads, timing);
+    const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });
+    markLeaders(groups);
+    recordEmptyViews(frame, groups.second);
+    recordBarrier(frame, Behind::uploads);
+    frame.groups = groups.first;
     for (const Row& row : kPasses) {
         if (row.work.isCageStages()) {
             recordCageStages(frame, stages_.rows(), timing);
@@ -528,6 +601,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         }
     }
     timing.end();
+    frame.groups = join(groups);
     if (asyncCompute_) {
         Releases releases(device, commandBuffer, families_, {lastScope().stages, lastScope().access});
         frame.forEach([&](Group& group) { group.addTransfers(releases, group.link.leadsView); });
@@ -553,7 +627,7 @@ Result<uint32_t> Context::acquireBarriers(std::span<const SuppleGroup> wanted, S
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
-        if (group->passesFrame() != frame_ || !frameOpen_) {
+        if (group->askedFrame() != frame_ || !frameOpen_) {
             return refuse(ErrorCode::order, "not recorded in this frame");
         }
     }

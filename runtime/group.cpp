@@ -61,7 +61,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     tessellation.group = desc;
     tessellation.framesInFlight = shared.framesInFlight;
     tessellation.handsOver = shared.handsOver;
-    Result<Surfaces> surfaces = Surfaces::create(tessellation);
+    Result<Surfaces> surfaces =
+        Surfaces::create(tessellation, shared.before != nullptr ? &shared.before->surfaces_ : nullptr);
     if (!surfaces) {
         return surfaces.error();
     }
@@ -311,7 +312,22 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
     return FrameMembers::recordStatics(commandBuffer, frame);
 }
 
+void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
+    waitingFrame_ = lastRecordedFrame_ = frame;
+    if (!noDraws_.due()) {
+        return;
+    }
+    noDraws_.record(frame);
+    for (const auto& surface : surfaces_) {
+        surface->recordNoDraws(commandBuffer);
+    }
+    if (culling_ != nullptr) {
+        culling_->recordNoDraws(commandBuffer);
+    }
+}
+
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
+    noDraws_.renew();
     passesFrame_ = lastRecordedFrame_ = frame.number;
     const bool changed = listing_.changed(slots());
     PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
@@ -341,7 +357,7 @@ void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) 
 
 bool Group::noteUnrecordedFrame() {
     constexpr uint32_t kFrames = 8;
-    if (passesFrame_ != 0 || !outputsAsked_ || unrecordedFrames_ >= kFrames) {
+    if (askedFrame() != 0 || !outputsAsked_ || unrecordedFrames_ >= kFrames) {
         return false;
     }
     bool anyVisible = false;
@@ -361,15 +377,16 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
         transfers.add(listedBounds_->bounds().buffer);
     }
     for (const auto& surface : surfaces_) {
-        surface->addTransfers(transfers, passesFrame_);
+        surface->addTransfers(transfers, askedFrame());
     }
     if (withView) {
-        view()->addTransfers(transfers);
+        view()->addTransfers(transfers, askedFrame());
     }
 }
 
 void Group::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
+    noDraws_.cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();
     }

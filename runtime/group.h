@@ -17,9 +17,12 @@
 #include "runtime/view.h"
 #include "supple/supple.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace supple::runtime {
+
+class Group;
 
 /// What the group borrows from its context.
 struct GroupShared {
@@ -34,8 +37,9 @@ struct GroupShared {
     std::shared_ptr<View> view;               ///< of the description
     std::shared_ptr<InstanceSet> instances;   ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
-    uint32_t firstGeneration = 1; ///< of the instances
-    bool handsOver = false;       ///< to another queue family: every output is written anew in every frame
+    uint32_t firstGeneration = 1;  ///< of the instances
+    bool handsOver = false;        ///< to another queue family: every output is written anew in every frame
+    const Group* before = nullptr; ///< whose indices it may take over; null: none
 };
 
 class Group final : public gpu::FrameMembers {
@@ -95,6 +99,9 @@ public:
         double time = 0.0;      ///< the host's, in seconds
         glm::dvec3 origin{0.0}; ///< where the coordinates of the device begin
     };
+    /// The frame leaves the group out, though it is recorded: what it needs is not there yet. Its draws draw nothing,
+    /// but for those of a view, which has them for all its groups.
+    void recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame);
     /// This frame's poses, its list of instances and what to draw of them.
     PassCost recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame);
     /// Notes that the frame has something of the group. recordStatics() and recordUpload() do so themselves.
@@ -118,6 +125,10 @@ public:
 
     /// The last frame that has the group's passes, and the last that has anything of it.
     [[nodiscard]] uint64_t passesFrame() const { return passesFrame_; }
+    /// The last that suppleRecord was called for it: with its passes or, as it waits, without.
+    [[nodiscard]] uint64_t askedFrame() const { return std::max(passesFrame_, waitingFrame_); }
+    /// Whether the frame has left it out.
+    [[nodiscard]] bool waitsIn(uint64_t frame) const { return waitingFrame_ == frame && frame != 0; }
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
     void cancelFrame(uint64_t frame) override;
 
@@ -158,7 +169,8 @@ private:
     std::unique_ptr<BoundsReadback> boundsReadback_;
     CageStages stages_;
     Surfaces surfaces_;
-    uint64_t passesFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    RecordedOnce noDraws_;
     bool outputsAsked_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };

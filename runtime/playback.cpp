@@ -31,11 +31,11 @@ uint32_t scratchStride(const skinning::ClipTable& table) {
 } // namespace
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout) {
-    return std::max(stateStride(layout), scratchStride(asset.clipTable)) * gpu::kVec4Bytes;
+    return std::max(stateStride(layout), scratchStride(*asset.clipTable)) * gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
-    const skinning::ClipTable& table = desc.asset->clipTable;
+    const skinning::ClipTable& table = *desc.asset->clipTable;
     Playback playback;
     playback.device_ = desc.device;
     playback.pass_ = desc.pass;
@@ -190,7 +190,7 @@ void Playback::evaluate(uint32_t slot) {
         evaluated_.traveled = glm::dmat4(1.0);
     } else {
         skinning::PlaybackState::Layers layers;
-        const skinning::PlaybackDesc desc = own.read(asset_->clipTable, layers);
+        const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, layers);
         skinning::poseNodes(character, asset_->rig, desc, time_, jointMasks_, evaluated_.memory);
         skinning::jointTransforms(character.skin, evaluated_.memory.nodes, evaluated_.joints);
         evaluated_.traveled = skinning::toMatrix(skinning::traveledBy(character, desc, time_));
@@ -222,7 +222,7 @@ void Playback::reset(uint32_t slot) {
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     forget(slot);
-    state(slot).set(asset_->character, asset_->clipTable, desc);
+    state(slot).set(asset_->character, *asset_->clipTable, desc);
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
         adds_ = adds_ || layer.mode == skinning::LayerMode::additive;
@@ -262,7 +262,7 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
 }
 
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
-    skinning::writeMask(asset_->clipTable, asset_->rig, joints, morphs,
+    skinning::writeMask(*asset_->clipTable, asset_->rig, joints, morphs,
                         std::span(masks_).subspan((mask - 1) * maskFloats(), maskFloats()));
     const std::span<float> own = std::span(jointMasks_).subspan(size_t{mask - 1} * push_.jointCount, push_.jointCount);
     if (joints.empty()) {
@@ -290,7 +290,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
         return;
     }
     skinning::PlaybackState::Layers memory, kept;
-    skinning::PlaybackDesc desc = before.read(other.asset_->clipTable, memory);
+    skinning::PlaybackDesc desc = before.read(*other.asset_->clipTable, memory);
     if (!desc.layers.empty() && match.clips[desc.layers.front().clip] == cage::kNone) {
         desc.travels = false; // it was the first layer's movement
     }
@@ -309,7 +309,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 }
 
 void Playback::takeOverMasks(const Playback& other, const AssetMatch& match) {
-    std::vector<float> joints(push_.jointCount), morphs(asset_->clipTable.targetCount);
+    std::vector<float> joints(push_.jointCount), morphs(asset_->clipTable->targetCount);
     for (uint32_t mask = 1; mask <= kMaxMasks; ++mask) {
         const MaskKind kind = other.masksSet_[mask - 1];
         if (kind == MaskKind::none) {
@@ -321,7 +321,7 @@ void Playback::takeOverMasks(const Playback& other, const AssetMatch& match) {
         }
         const std::span<const float> values =
             std::span(other.masks_).subspan((mask - 1) * other.maskFloats(), other.maskFloats());
-        const std::span<const float> before = skinning::morphMaskOf(other.asset_->clipTable, values);
+        const std::span<const float> before = skinning::morphMaskOf(*other.asset_->clipTable, values);
         for (uint32_t t = 0; t < morphs.size(); ++t) {
             const float unnamed = kind == MaskKind::joints ? 0.0f : 1.0f;
             morphs[t] = match.targets[t] != cage::kNone ? before[match.targets[t]] : unnamed;

@@ -1,6 +1,5 @@
 #include "runtime/prepare.h"
 
-#include "runtime/part_schemes.h"
 #include "runtime/surface_recipe.h"
 
 #include <algorithm>
@@ -35,34 +34,57 @@ std::shared_ptr<const PreparedPiece> pieceFor(Prepared& prepared, const std::vec
 }
 
 Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts, bool wide) {
-    const std::shared_ptr<const PreparedPiece> piece = pieceFor(prepared, parts.parts);
+    const Result<PlannedSurface> surface =
+        plannedSurface(prepared, group, parts, pieceFor(prepared, parts.parts), wide);
+    if (!surface) {
+        return surface.error();
+    }
+    const auto finest = tablesFor(prepared, surface->recipe, surface->piece);
+    if (!finest) {
+        return finest.error();
+    }
+    const PreparedTables* measured = finest->get();
+    const auto measure = [&] { // without a view nobody asks
+        if (group.viewFlags &&
+            std::ranges::find(prepared.measures, measured, &Prepared::Measure::tables) == prepared.measures.end()) {
+            prepared.measures.push_back({measured, prepared.measureOf(*measured)});
+        }
+        return success();
+    };
+    if (!surface->hasRates) {
+        return measure();
+    }
+    for (const surface::Recipe& below : ratesBelow(surface->recipe, (*finest)->tables)) {
+        const auto own = tablesFor(prepared, below, surface->piece);
+        if (!own) {
+            return own.error();
+        }
+        measured = own->get(); // the last one's tables are the surface's
+    }
+    return measure();
+}
+
+} // namespace
+
+Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts,
+                                      std::shared_ptr<const PreparedPiece> piece, bool wide) {
+    PlannedSurface surface;
     const cage::Cage& cage = prepared.cageOf(piece.get());
+    surface.piece = std::move(piece);
     const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), cage);
     SuppleGroupDesc desc = group.desc;
     desc.flags = surfaceFlags(desc.flags, drawer.scheme, parts.chosen);
-    const Result<SurfaceRecipe> recipe = surfaceRecipe(
+    Result<SurfaceRecipe> recipe = surfaceRecipe(
         {prepared.character, parts.parts, cage, desc, drawer.scheme, parts.chosen, group.viewFlags, wide});
     if (!recipe) {
         return recipe.error();
     }
-    const auto finest = tablesFor(prepared, recipe->recipe, piece);
-    if (!finest) {
-        return finest.error();
-    }
+    surface.recipe = recipe->recipe;
+    surface.groupFlags = desc.flags;
     const surface::Scheme& scheme = surface::schemeOf(drawer.scheme);
-    if (!group.viewFlags || scheme.hasLevels || !scheme.hasRates()) {
-        return success();
-    }
-    for (const surface::Recipe& below : ratesBelow(recipe->recipe, (*finest)->tables)) {
-        const auto own = tablesFor(prepared, below, piece);
-        if (!own) {
-            return own.error();
-        }
-    }
-    return success();
+    surface.hasRates = group.viewFlags && !scheme.hasLevels && scheme.hasRates();
+    return surface;
 }
-
-} // namespace
 
 Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK && !prepared.clips) {

@@ -1,6 +1,7 @@
 // What groups will need of a character, built before there are any: no device, no context.
 #pragma once
 
+#include "runtime/part_schemes.h"
 #include "runtime/prepared.h"
 #include "supple/supple.h"
 
@@ -14,6 +15,17 @@ struct PlannedGroup {
     const SuppleGroupDesc& desc;       ///< checked; asset, capacity, view and instancesOf do not matter
     std::optional<uint32_t> viewFlags; ///< of its view, if it will have one
 };
+
+/// A surface of a group that is to come.
+struct PlannedSurface {
+    std::shared_ptr<const PreparedPiece> piece; ///< null: all parts
+    surface::Recipe recipe;                     ///< of its tables or, if it has rates, of the finest
+    uint32_t groupFlags = 0;                    ///< surfaceFlags()
+    bool hasRates = false;                      ///< its instances have one of several rates: ratesBelow()
+};
+[[nodiscard]] Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGroup& group,
+                                                    const SchemeParts& parts,
+                                                    std::shared_ptr<const PreparedPiece> piece, bool wide);
 
 /// Adds what the group will need and `prepared` does not have. Refuses what creating the group would refuse of the
 /// character.

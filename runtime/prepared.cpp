@@ -1,6 +1,7 @@
 #include "runtime/prepared.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace supple::runtime {
 
@@ -36,6 +37,12 @@ void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& 
         }
     }
 }
+
+/// How much more curves bend in places than their cage says, by surface::Borders: found by
+/// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact quads bend more
+/// at irregular vertices.
+constexpr float kUneven[] = {1.0f, 1.5f, 1.0f, 1.0f, 2.0f};
+static_assert(std::size(kUneven) == static_cast<size_t>(surface::Borders::charts) + 1);
 
 } // namespace
 
@@ -98,6 +105,19 @@ Result<std::shared_ptr<PreparedTables>> Prepared::build(const surface::Recipe& r
         nameInWhole(piece->of, built->patches);
     }
     return std::make_shared<PreparedTables>(PreparedTables{recipe, piece, std::move(*built)});
+}
+
+surface::lod::InstanceMeasure Prepared::measureOf(const PreparedTables& of) const {
+    const auto known = std::ranges::find(measures, &of, &Measure::tables);
+    if (known != measures.end()) {
+        return known->measure;
+    }
+    const cage::Cage& cage = cageOf(of.piece.get());
+    if (!of.recipe.lod) { // rates count along edges of the cage
+        return surface::lod::measureInstance(cage, 0, 1.0f, &character.cage);
+    }
+    return surface::lod::measureInstance(cage, of.tables.isolationSteps,
+                                         kUneven[static_cast<size_t>(of.tables.lod.borders)], &character.cage);
 }
 
 } // namespace supple::runtime

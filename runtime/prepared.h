@@ -9,6 +9,7 @@
 #include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "surface/choice.h"
+#include "surface/lod/instance.h"
 #include "surface/schemes.h"
 
 #include <memory>
@@ -49,6 +50,12 @@ struct Prepared {
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
+    /// Of tables that a group of a view is to have: how the level of an instance is measured.
+    struct Measure {
+        const PreparedTables* tables = nullptr;
+        surface::lod::InstanceMeasure measure;
+    };
+    std::vector<Measure> measures;
     std::string madeBy; ///< the command that made the cooked file that it comes from, or empty
 
     /// Without clips, pieces and tables.
@@ -70,6 +77,8 @@ struct Prepared {
     [[nodiscard]] Result<std::shared_ptr<PreparedTables>>
     build(const surface::Recipe& recipe, const std::shared_ptr<const PreparedPiece>& piece) const;
 
+    /// Finds the measure, or makes one that is not kept here.
+    [[nodiscard]] surface::lod::InstanceMeasure measureOf(const PreparedTables& of) const;
     /// The cage of the piece, or the whole cage if it is null.
     [[nodiscard]] const cage::Cage& cageOf(const PreparedPiece* piece) const {
         return piece != nullptr ? piece->of.cage : character.cage;

@@ -49,6 +49,7 @@ public:
         return 0;
     }
     void cancelFrame(uint64_t frame) override { once_.cancelFrame(frame); }
+    [[nodiscard]] bool recordedIn(uint64_t frame) const { return once_.recordedIn(frame); }
 
 private:
     struct Run {

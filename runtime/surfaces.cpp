@@ -59,7 +59,7 @@ Result<std::vector<TessellationDesc>> describeAll(const TessellationDesc& group)
 
 } // namespace
 
-Result<Surfaces> Surfaces::create(const TessellationDesc& desc) {
+Result<Surfaces> Surfaces::create(const TessellationDesc& desc, const Surfaces* before) {
     Result<std::vector<TessellationDesc>> descs = describeAll(desc);
     if (!descs) {
         return descs.error();
@@ -70,6 +70,7 @@ Result<Surfaces> Surfaces::create(const TessellationDesc& desc) {
     for (TessellationDesc& own : *descs) {
         own.group.partSchemes = nullptr; // the caller's
         own.countsHidden = !counted;
+        own.before = before != nullptr && own.surface < before->size() ? &(*before)[own.surface] : nullptr;
         Result<std::unique_ptr<Tessellation>> made = Tessellation::create(own);
         if (!made) {
             return made.error();
@@ -127,9 +128,9 @@ std::vector<PartPatches> Surfaces::partPatches() const {
     std::vector<PartPatches> counts(partCount_);
     for (const std::unique_ptr<Tessellation>& surface : all_) {
         const bool atLevels = surface->kind() == SUPPLE_TESSELLATION_LEVELS;
-        for (const surface::PatchInfo& patch : surface->tables().patches) {
-            ++counts[patch.part].all;
-            counts[patch.part].atLevels += atLevels ? 1 : 0;
+        for (const surface::DrawRange& range : surface->tables().drawRanges) {
+            counts[range.part].all += range.patchCount;
+            counts[range.part].atLevels += atLevels ? range.patchCount : 0;
         }
     }
     return counts;

@@ -12,7 +12,8 @@ namespace supple::runtime {
 class Surfaces {
 public:
     /// `desc` as for a surface of all parts, with the group's own description. Refuses what a scheme cannot take.
-    [[nodiscard]] static Result<Surfaces> create(const TessellationDesc& desc);
+    /// `before`: those of the group whose place this one takes; null: none.
+    [[nodiscard]] static Result<Surfaces> create(const TessellationDesc& desc, const Surfaces* before);
 
     [[nodiscard]] size_t size() const { return all_.size(); }
     [[nodiscard]] Tessellation& operator[](size_t index) { return *all_[index]; }

@@ -266,6 +266,7 @@ uint32_t View::room() const {
 
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedFrame_ = frame;
+    noDraws_.renew();
     if (indicesRelease_.due()) { // they are on the device by now
         indicesRelease_.record(frame);
     }
@@ -399,15 +400,28 @@ void View::beginFrame(uint64_t completedFrame) {
 
 void View::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
+    noDraws_.cancelFrame(frame);
     for (Solved& solved : solved_) {
         solved.frame = solved.frame == frame ? 0 : solved.frame;
     }
 }
 
-void View::addTransfers(Transfers& transfers) const {
+void View::recordNoDraws(VkCommandBuffer commandBuffer, uint64_t frame) {
+    if (!noDraws_.due()) {
+        return;
+    }
+    noDraws_.record(frame);
+    if (clear_.recordedIn(frame)) {
+        return; // of the same words
+    }
+    device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodDraws * VkDeviceSize{4},
+                              (kLodRecords - kLodDraws) * VkDeviceSize{4}, 0);
+}
+
+void View::addTransfers(Transfers& transfers, uint64_t frame) const {
     transfers.add(words_.buffer(), kLodBuckets * VkDeviceSize{4});
     streams_.addTransfers(transfers, true);
-    if (indicesRelease_.recordedIn(recordedFrame_)) {
+    if (indicesRelease_.recordedIn(frame)) {
         transfers.add(static_.buffer(0));
     }
 }

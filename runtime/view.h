@@ -72,7 +72,9 @@ public:
     void cancelFrame(uint64_t frame) override;
     /// What the frame hands over with the first of its groups. Of the words only those that hosts read: the others must
     /// keep what is in them from frame to frame.
-    void addTransfers(Transfers& transfers) const;
+    void addTransfers(Transfers& transfers, uint64_t frame) const;
+    /// All draws of groups with levels become none, in a frame that leaves out all groups of the view.
+    void recordNoDraws(VkCommandBuffer commandBuffer, uint64_t frame);
     /// Of the newest completed frame; frame 0: none has.
     [[nodiscard]] const SuppleViewStatistics& statistics() const { return newest_; }
     /// Of a frame that is completed and whose place no other has taken yet, as from beginFrame on until the next
@@ -121,6 +123,7 @@ private:
     uint32_t forms_ = 0; ///< bits of those that runs have
     ZeroedOnce clear_;   ///< of histograms, which the solver clears from then on
     RecordedOnce indicesRelease_;
+    RecordedOnce noDraws_; ///< due: the last frame of the view may have left draws
     uint64_t recordedFrame_ = 0;
     struct Solved {
         uint64_t frame = 0;

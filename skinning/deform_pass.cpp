@@ -155,22 +155,30 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device, gpu::Pipelines&
     return pass;
 }
 
-Status DeformPass::prepare(SkinningMode mode, bool morphs) {
+Result<gpu::Kernel> DeformPass::make(SkinningMode mode, bool morphs) const {
     constexpr const char* kNames[2][2] = {
         {"supple deform", "supple deform, morphs"},
         {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
     const auto m = static_cast<uint32_t>(mode), t = uint32_t{morphs};
     const gpu::Constant constants[] = {{kMorphsConstant, t}, {kDualQuaternionsConstant, m}};
-    const Result<gpu::Kernel> kernel = pipelines_->get(layout_, deform_deform_comp, constants, kNames[m][t]);
+    return pipelines_->get(layout_, deform_deform_comp, constants, kNames[m][t]);
+}
+
+Result<gpu::Kernel> DeformPass::makeGather() const {
+    return pipelines_->get(layout_, deform_gather_comp, {}, "supple gather");
+}
+
+Status DeformPass::prepare(SkinningMode mode, bool morphs) {
+    const Result<gpu::Kernel> kernel = make(mode, morphs);
     if (!kernel) {
         return kernel.error();
     }
-    kernels_[m][t] = *kernel;
+    kernels_[static_cast<size_t>(mode)][morphs ? 1 : 0] = *kernel;
     return success();
 }
 
 Status DeformPass::prepareGather() {
-    const Result<gpu::Kernel> kernel = pipelines_->get(layout_, deform_gather_comp, {}, "supple gather");
+    const Result<gpu::Kernel> kernel = makeGather();
     if (!kernel) {
         return kernel.error();
     }

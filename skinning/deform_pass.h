@@ -52,10 +52,14 @@ public:
     /// Both must outlive the pass.
     [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
 
-    /// Creates the pipeline of a mode, with or without morph targets, if it is not there.
-    [[nodiscard]] Status prepare(SkinningMode mode, bool morphs);
+    // Pipelines are made if they are not there: on any thread, also beside recording.
+    /// That of a mode, with or without morph targets.
+    [[nodiscard]] Result<gpu::Kernel> make(SkinningMode mode, bool morphs) const;
+    /// That of recordGather().
+    [[nodiscard]] Result<gpu::Kernel> makeGather() const;
 
-    /// The same for recordGather().
+    // The same for what is to be recorded.
+    [[nodiscard]] Status prepare(SkinningMode mode, bool morphs);
     [[nodiscard]] Status prepareGather();
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }

@@ -7,6 +7,8 @@
 #include "shaders/pose_roots_comp.h"
 #include "shaders/shared/specialization.h"
 
+#include <algorithm>
+
 namespace supple::skinning {
 namespace {
 
@@ -38,35 +40,38 @@ Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pip
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    const struct {
-        gpu::Kernel* target;
-        const gpu::Spirv& spirv;
-        const char* name;
-    } kernels[] = {{&pass.locals_[0], pose_locals_comp, "supple pose, local matrices"},
-                   {&pass.locals_[1], pose_locals_comp_ADDS, "supple pose, local matrices, additive"},
-                   {&pass.roots_, pose_roots_comp, "supple pose, roots"}};
-    gpu::Pipelines::Batch batch(pipelines);
-    for (const auto& [target, spirv, name] : kernels) {
-        *target = batch.get(pass.layout_, spirv, {}, name);
-    }
-    if (const Status made = batch.make(); !made) {
-        return made.error();
-    }
     return pass;
 }
 
-Status PosePass::prepare(SkinningMode mode) {
+Result<PosePass::Kernels> PosePass::kernels(SkinningMode mode) const {
     const bool dual = mode == SkinningMode::dualQuaternion;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
         {kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
-    const Result<gpu::Kernel> made =
-        pipelines_->get(layout_, pose_palette_comp, constants,
-                        dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
+    gpu::Pipelines::Batch batch(*pipelines_);
+    Kernels found;
+    found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
+    found.locals[1] = batch.get(layout_, pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive");
+    found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
+    found.palette = batch.get(layout_, pose_palette_comp, constants,
+                              dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
+    const Status made = batch.make();
+    return made ? Result<Kernels>(found) : made.error();
+}
+
+Status PosePass::make(SkinningMode mode) const {
+    const Result<Kernels> made = kernels(mode);
+    return made ? success() : made.error();
+}
+
+Status PosePass::prepare(SkinningMode mode) {
+    const Result<Kernels> made = kernels(mode);
     if (!made) {
         return made.error();
     }
-    palette_[static_cast<size_t>(mode)] = *made;
+    std::ranges::copy(made->locals, locals_);
+    roots_ = made->roots;
+    palette_[static_cast<size_t>(mode)] = made->palette;
     return success();
 }
 

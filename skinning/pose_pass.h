@@ -12,7 +12,9 @@ class PosePass {
 public:
     /// Both must outlive the pass.
     [[nodiscard]] static Result<PosePass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
-    /// Makes the palettes of a mode, which the first group with it calls for.
+    /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording.
+    [[nodiscard]] Status make(SkinningMode mode) const;
+    /// The same for what is to be recorded.
     [[nodiscard]] Status prepare(SkinningMode mode);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
@@ -25,6 +27,11 @@ public:
                        const shared::PosePush& push) const;
 
 private:
+    struct Kernels {
+        gpu::Kernel locals[2]; ///< by whether layers may be additive
+        gpu::Kernel roots, palette;
+    };
+    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
     void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push,
                 const gpu::Kernel& kernel, uint64_t groups) const;
 

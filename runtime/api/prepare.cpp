@@ -9,10 +9,10 @@ using namespace supple::api; // NOLINT
 
 namespace {
 
-constexpr const char* kHere = "supplePrepare";
+constexpr const char* kPrepare = "supplePrepare";
 
 Error here(const Error& error) {
-    return {error.code, std::string(kHere) + ": " + error.message};
+    return {error.code, std::string(kPrepare) + ": " + error.message};
 }
 
 Error here(ErrorCode code, const std::string& reason) {
@@ -30,11 +30,35 @@ Result<std::shared_ptr<runtime::Prepared>> readCharacter(const SupplePrepareDesc
     if (isCooked(asset)) {
         return readCookedAsset(asset);
     }
-    Result<cage::Character> character = readAsset(kHere, asset);
+    Result<cage::Character> character = readAsset(kPrepare, asset);
     if (!character) {
         return character.error();
     }
     return runtime::Prepared::of(std::move(*character));
+}
+
+/// Calls `work` for each planned group until it fails. `function` begins the messages.
+template <class Work>
+Status forPlanned(const char* function, const SupplePlannedGroup* groups, uint32_t groupCount, Work&& work) {
+    for (uint32_t g = 0; g < groupCount; ++g) {
+        const SupplePlannedGroup& planned = groups[g];
+        const auto refuse = [&](ErrorCode code, const std::string& reason) {
+            return Error{code, std::string(function) + ": groups[" + std::to_string(g) + "]: " + reason};
+        };
+        GivenGroup group;
+        if (const std::optional<Error> fault = group.takePlanned(planned.desc, planned.inView != 0)) {
+            return refuse(fault->code, fault->message);
+        }
+        if (planned.inView == 0 && planned.viewFlags != 0) {
+            return refuse(ErrorCode::argument, "viewFlags without a view");
+        }
+        const std::optional<uint32_t> flags =
+            planned.inView != 0 ? std::optional<uint32_t>(planned.viewFlags) : std::nullopt;
+        if (const Status status = work({group.desc, flags}); !status) {
+            return refuse(status.error().code, status.error().message);
+        }
+    }
+    return success();
 }
 
 Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc& desc) {
@@ -48,23 +72,11 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
     if (!prepared) {
         return prepared.error();
     }
-    for (uint32_t g = 0; g < desc.groupCount; ++g) {
-        const SupplePlannedGroup& planned = desc.groups[g];
-        const std::string name = "groups[" + std::to_string(g) + "]: ";
-        GivenGroup group;
-        if (const std::optional<Error> fault = group.takePlanned(planned.desc, planned.inView != 0)) {
-            return here(fault->code, name + fault->message);
-        }
-        if (planned.inView == 0 && planned.viewFlags != 0) {
-            return here(ErrorCode::argument, name + "viewFlags without a view");
-        }
-        const std::optional<uint32_t> flags =
-            planned.inView != 0 ? std::optional<uint32_t>(planned.viewFlags) : std::nullopt;
-        if (const Status status =
-                runtime::prepareFor(**prepared, {group.desc, flags}, desc.mapping != SUPPLE_MAPPING_NARROW);
-            !status) {
-            return here(status.error().code, name + status.error().message);
-        }
+    const Status status = forPlanned(kPrepare, desc.groups, desc.groupCount, [&](const runtime::PlannedGroup& group) {
+        return runtime::prepareFor(**prepared, group, desc.mapping != SUPPLE_MAPPING_NARROW);
+    });
+    if (!status) {
+        return status.error();
     }
     return std::shared_ptr<const runtime::Prepared>(*prepared);
 }
@@ -110,6 +122,19 @@ SuppleResult supplePrepare(const SupplePrepareDesc* given, SupplePrepared* out) 
     } catch (const std::exception&) {
         return SUPPLE_ERROR_HOST_MEMORY; // nothing else is thrown at us
     }
+}
+
+SuppleResult suppleMakePipelines(SuppleContext handle, SupplePrepared prepared, const SupplePlannedGroup* groups,
+                                 uint32_t groupCount) {
+    constexpr const char* kHere = "suppleMakePipelines";
+    return onDevice(handle, kHere, [&](Context& context) {
+        if (prepared == nullptr || (groups == nullptr && groupCount > 0)) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "prepared or groups is null");
+        }
+        return reportStatus(context, forPlanned(kHere, groups, groupCount, [&](const runtime::PlannedGroup& group) {
+                                return context.makePipelines(*prepared->prepared, group);
+                            }));
+    });
 }
 
 SuppleResult suppleSavePrepared(SupplePrepared prepared, const char* madeBy, void* out, size_t* byteCount) {

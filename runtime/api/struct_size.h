@@ -44,6 +44,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SupplePrepareDesc)                                                                                               \
     X(SupplePoseDesc)                                                                                                  \
     X(SuppleRootMotion)                                                                                                \
+    X(SuppleUploadState)                                                                                               \
     X(SupplePlaybackDesc)                                                                                              \
     X(SuppleMaskDesc)                                                                                                  \
     X(SuppleViewDesc)                                                                                                  \

@@ -84,26 +84,42 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines&
     if (!status) {
         return status.error();
     }
-    gpu::Pipelines::Batch batch(pipelines);
-    pass.bounds_ = batch.get(pass.boundsLayout_, bounds_bounds_comp, {}, "supple bounds");
-    pass.sizes_ = batch.get(pass.listLayout_, bounds_size_comp, {}, "supple sizes of instances");
-    pass.list_ = batch.get(pass.listLayout_, bounds_list_comp, {}, "supple list of instances");
-    status = batch.make();
-    if (!status) {
-        return status.error();
-    }
     return pass;
+}
+
+BoundsPass::Kernels BoundsPass::kernels(gpu::Pipelines::Batch& batch) const {
+    return {batch.get(boundsLayout_, bounds_bounds_comp, {}, "supple bounds"),
+            batch.get(listLayout_, bounds_size_comp, {}, "supple sizes of instances"),
+            batch.get(listLayout_, bounds_list_comp, {}, "supple list of instances")};
+}
+
+BoundsPass::RateKernels BoundsPass::rateKernels(gpu::Pipelines::Batch& batch) const {
+    return {batch.get(listLayout_, bounds_demand_comp, {}, "supple demand of rates"),
+            batch.get(listLayout_, bounds_rates_comp, {}, "supple lists of rates")};
+}
+
+Status BoundsPass::make(bool rates) const {
+    gpu::Pipelines::Batch batch(*pipelines_);
+    (void)kernels(batch);
+    if (rates) {
+        (void)rateKernels(batch);
+    }
+    return batch.make();
+}
+
+Status BoundsPass::prepare() {
+    gpu::Pipelines::Batch batch(*pipelines_);
+    const Kernels found = kernels(batch);
+    const Status made = batch.make();
+    kernels_ = made ? found : kernels_;
+    return made;
 }
 
 Status BoundsPass::prepareRates() {
     gpu::Pipelines::Batch batch(*pipelines_);
-    const gpu::Kernel demand = batch.get(listLayout_, bounds_demand_comp, {}, "supple demand of rates");
-    const gpu::Kernel rates = batch.get(listLayout_, bounds_rates_comp, {}, "supple lists of rates");
+    const RateKernels found = rateKernels(batch);
     const Status made = batch.make();
-    if (made) {
-        demand_ = demand;
-        rates_ = rates;
-    }
+    rateKernels_ = made ? found : rateKernels_;
     return made;
 }
 
@@ -121,34 +137,35 @@ uint64_t BoundsPass::groupsFor(uint32_t lanes) const {
 }
 
 void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
-    record(commandBuffer, bounds_, set, push,
+    record(commandBuffer, kernels_.bounds, set, push,
            device_->mapping.wide ? push.instanceCount : groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
-    record(commandBuffer, sizes_, set, push, groupsFor(push.instanceCount));
+    record(commandBuffer, kernels_.sizes, set, push, groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
-    record(commandBuffer, demand_, set, push, groupsFor(push.instanceCount));
+    record(commandBuffer, rateKernels_.demand, set, push, groupsFor(push.instanceCount));
 }
 
 void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
-    record(commandBuffer, list_, set, push, 1);
+    record(commandBuffer, kernels_.list, set, push, 1);
 }
 
 void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
-    record(commandBuffer, rates_, set, push, 1);
+    record(commandBuffer, rateKernels_.rates, set, push, 1);
 }
 
 void BoundsPass::recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const {
     const std::array<std::byte, kPushBytes> push{};
-    for (const gpu::Kernel* kernel : {&bounds_, &sizes_, &list_, &demand_, &rates_}) {
-        if (kernel->pipeline != VK_NULL_HANDLE) { // rates are made when a group has some
+    for (const gpu::Kernel* kernel :
+         {&kernels_.bounds, &kernels_.sizes, &kernels_.list, &rateKernels_.demand, &rateKernels_.rates}) {
+        if (kernel->pipeline != nullptr) { // rates are made when a group has some
             gpu::computeBarrier(*device_, commandBuffer);
-            gpu::bind(*device_, commandBuffer, *kernel, kernel == &bounds_ ? ofWindow : ofGroup,
+            gpu::bind(*device_, commandBuffer, *kernel, kernel == &kernels_.bounds ? ofWindow : ofGroup,
                       std::span<const std::byte>(push));
             gpu::dispatchLinear(*device_, commandBuffer, 0);
         }

@@ -58,7 +58,11 @@ class BoundsPass {
 public:
     /// `pipelines` must outlive the pass.
     [[nodiscard]] static Result<BoundsPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
-    /// Makes the passes of instances of several rates, which the first group that has some calls for.
+    /// Makes the pipelines if they are not there, with those of instances of several rates or without: on any thread,
+    /// also beside recording.
+    [[nodiscard]] Status make(bool rates) const;
+    // The same for what is to be recorded. The first group of several rates calls for theirs.
+    [[nodiscard]] Status prepare();
     [[nodiscard]] Status prepareRates();
 
     /// The set of a window binds its cages; the set of a group is for all other passes.
@@ -80,6 +84,14 @@ public:
     void recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const;
 
 private:
+    struct Kernels {
+        gpu::Kernel bounds, sizes, list;
+    };
+    struct RateKernels {
+        gpu::Kernel demand, rates;
+    };
+    [[nodiscard]] Kernels kernels(gpu::Pipelines::Batch& batch) const;
+    [[nodiscard]] RateKernels rateKernels(gpu::Pipelines::Batch& batch) const;
     template <class Push>
     void record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set, const Push& push,
                 uint64_t groups) const;
@@ -88,7 +100,8 @@ private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout boundsLayout_, listLayout_;
-    gpu::Kernel bounds_, sizes_, list_, demand_, rates_;
+    Kernels kernels_;
+    RateKernels rateKernels_;
 };
 
 } // namespace supple::runtime

@@ -320,6 +320,13 @@ SuppleBufferRange Culling::rateList(uint32_t rate) const {
     return {list_.buffer(), first * kWordBytes, (2 + partCount()) * windows_->capacity * kWordBytes, kWordBytes};
 }
 
+void Culling::recordNoDraws(VkCommandBuffer commandBuffer) const {
+    if (!draws_.empty()) {
+        const VkDeviceSize first = VkDeviceSize{firstArgument() + firstDraw()} * kWordBytes;
+        device_->vk.CmdFillBuffer(commandBuffer, list_.buffer(), first, kDrawWords * draws_.size() * kWordBytes, 0);
+    }
+}
+
 VkDeviceSize Culling::drawOffset(size_t surface) const {
     return VkDeviceSize{firstArgument() + firstDraw() + kDrawWords * places_[surface].firstDraw} * kWordBytes;
 }

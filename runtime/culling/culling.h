@@ -85,6 +85,8 @@ public:
     PassCost recordRates(VkCommandBuffer commandBuffer, bool counted) const;
 
     [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot
+    /// The draws of all surfaces that have rates become none, until a frame lists instances.
+    void recordNoDraws(VkCommandBuffer commandBuffer) const;
     [[nodiscard]] bool hasRates() const { return rateCount_ > 0; }
 
     /// The instances of a rate in a window. Argument 0 is that of the rate's first step of the surface.

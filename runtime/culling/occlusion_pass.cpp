@@ -24,12 +24,18 @@ Result<OcclusionPass> OcclusionPass::create(const gpu::Device& device, gpu::Pipe
         return layout.error();
     }
     pass.layout_ = std::move(*layout);
-    const Result<gpu::Kernel> made = pipelines.get(pass.layout_, bounds_occlude_comp, {}, "supple occlusion");
-    if (!made) {
-        return made.error();
-    }
-    pass.kernel_ = *made;
+    pass.pipelines_ = &pipelines;
     return pass;
+}
+
+Result<gpu::Kernel> OcclusionPass::make() const {
+    return pipelines_->get(layout_, bounds_occlude_comp, {}, "supple occlusion");
+}
+
+Status OcclusionPass::prepare() {
+    const Result<gpu::Kernel> made = make();
+    kernel_ = made ? *made : kernel_;
+    return made ? success() : made.error();
 }
 
 void OcclusionPass::writePyramid(VkDescriptorSet set, VkImageView pyramid, VkImageLayout imageLayout) const {

@@ -11,7 +11,12 @@ namespace supple::runtime {
 
 class OcclusionPass {
 public:
+    /// `pipelines` must outlive the pass.
     [[nodiscard]] static Result<OcclusionPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    /// Makes the pipeline if it is not there: on any thread, also beside recording.
+    [[nodiscard]] Result<gpu::Kernel> make() const;
+    /// The same for what is to be recorded.
+    [[nodiscard]] Status prepare();
 
     /// Bounds, states and the host's list at the bindings of shaders/shared/bounds.h; the pyramid by writePyramid().
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
@@ -23,6 +28,7 @@ public:
 
 private:
     const gpu::Device* device_ = nullptr;
+    gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
     gpu::Kernel kernel_;
 };

@@ -88,6 +88,14 @@ public:
     CageKernels& operator=(const CageKernels&) = delete;
 };
 
+/// What the pipelines of a group's stages depend on, before there is a group.
+struct PlannedStages {
+    skinning::SkinningMode skinning = skinning::SkinningMode::linear;
+    bool morphs = false;  ///< the character has morph targets
+    bool deforms = false; ///< as CageStageDesc::deforms
+    bool pieces = false;  ///< a surface is made of some of the parts
+};
+
 struct CageStageRow {
     SupplePass pass;         ///< its label, and the timings that it counts in
     bool perSurface = false; ///< recorded for each surface of a group, else once
@@ -96,6 +104,9 @@ struct CageStageRow {
     /// Called for the first group that wants it. Rows with the same function share what it makes.
     Result<std::unique_ptr<CageKernels>> (*makeKernels)(const gpu::Device&, gpu::Pipelines&);
     Result<std::unique_ptr<CageStage>> (*make)(const CageStageDesc&, CageKernels&);
+    /// Makes the pipelines of a group that is to come, if it will have the stage: on any thread, also beside recording.
+    /// Null: they are made with the kernels.
+    Status (*makePipelines)(const PlannedStages&, const CageKernels&) = nullptr;
 };
 
 } // namespace supple::runtime

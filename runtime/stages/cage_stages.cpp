@@ -16,6 +16,7 @@ std::span<const CageStageRow> cageStageRows() {
 }
 
 Result<CageKernels*> CageStageTable::kernels(size_t row, const gpu::Device& device, gpu::Pipelines& pipelines) {
+    const std::scoped_lock lock(*mutex_);
     for (size_t other = 0; other < rows_.size() && kernels_[row] == nullptr; ++other) {
         if (rows_[other].makeKernels == rows_[row].makeKernels) {
             kernels_[row] = kernels_[other];
@@ -29,6 +30,23 @@ Result<CageKernels*> CageStageTable::kernels(size_t row, const gpu::Device& devi
         kernels_[row] = std::move(*made);
     }
     return kernels_[row].get();
+}
+
+Status CageStageTable::makePipelines(const PlannedStages& planned, const gpu::Device& device,
+                                     gpu::Pipelines& pipelines) {
+    for (size_t row = 0; row < rows_.size(); ++row) {
+        if (rows_[row].makePipelines == nullptr) {
+            continue;
+        }
+        const Result<CageKernels*> own = kernels(row, device, pipelines);
+        if (!own) {
+            return own.error();
+        }
+        if (Status made = rows_[row].makePipelines(planned, **own); !made) {
+            return made;
+        }
+    }
+    return success();
 }
 
 Status CageStages::create(CageStageTable& table, gpu::Pipelines& pipelines, const CageStageDesc& desc) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -21,12 +22,17 @@ public:
     explicit CageStageTable(std::span<const CageStageRow> rows) : rows_(rows), kernels_(rows.size()) {}
 
     [[nodiscard]] std::span<const CageStageRow> rows() const { return rows_; }
-    /// Makes the row's kernels if they are not there. Pipelines that exist know their layouts, so kernels stay.
+    /// Makes the row's kernels if they are not there, on any thread. Pipelines that exist know their layouts, so
+    /// kernels stay.
     [[nodiscard]] Result<CageKernels*> kernels(size_t row, const gpu::Device& device, gpu::Pipelines& pipelines);
+    /// Makes the pipelines of all stages of a group that is to come: on any thread, also beside recording.
+    [[nodiscard]] Status makePipelines(const PlannedStages& planned, const gpu::Device& device,
+                                       gpu::Pipelines& pipelines);
 
 private:
     std::span<const CageStageRow> rows_;
-    std::vector<std::shared_ptr<CageKernels>> kernels_; ///< by row
+    std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>(); ///< of kernels_
+    std::vector<std::shared_ptr<CageKernels>> kernels_;                  ///< by row
 };
 
 /// The stages of a group, by row. Passes on what concerns all of them.

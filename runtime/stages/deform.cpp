@@ -78,4 +78,12 @@ Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKer
     return std::unique_ptr<CageStage>(std::make_unique<Deform>(desc, pass));
 }
 
+Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels) {
+    if (!planned.deforms) {
+        return success();
+    }
+    const auto made = static_cast<const DeformKernels&>(kernels).pass.make(planned.skinning, planned.morphs);
+    return made ? success() : made.error();
+}
+
 } // namespace supple::runtime

@@ -14,7 +14,9 @@ struct DeformKernels final : CageKernels {
 
 [[nodiscard]] bool wantsDeform(const CageStageDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels);
+[[nodiscard]] Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM, false, wantsDeform, makeDeformKernels, makeDeform};
+inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM, false,      wantsDeform,
+                                         makeDeformKernels,  makeDeform, makeDeformPipelines};
 
 } // namespace supple::runtime

@@ -111,4 +111,12 @@ Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKer
     return std::unique_ptr<CageStage>(std::make_unique<Gather>(desc, pass));
 }
 
+Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels) {
+    if (!planned.pieces) {
+        return success();
+    }
+    const Result<gpu::Kernel> made = static_cast<const DeformKernels&>(kernels).pass.makeGather();
+    return made ? success() : made.error();
+}
+
 } // namespace supple::runtime

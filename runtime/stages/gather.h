@@ -7,7 +7,9 @@ namespace supple::runtime {
 
 [[nodiscard]] bool wantsGather(const CageStageDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels);
+[[nodiscard]] Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM, true, wantsGather, makeDeformKernels, makeGather};
+inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM, true,       wantsGather,
+                                         makeDeformKernels,  makeGather, makeGatherPipelines};
 
 } // namespace supple::runtime

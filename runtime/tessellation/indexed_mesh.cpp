@@ -24,7 +24,7 @@ Status IndexedMesh::begin() {
     if (!status) {
         return status;
     }
-    Result<std::vector<std::byte>> indices = layOutMesh(evaluation_, vertexCount_);
+    Result<IndexBytes> indices = layOutMesh(evaluation_, vertexCount_);
     if (!indices) {
         return indices.error();
     }

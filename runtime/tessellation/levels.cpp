@@ -5,19 +5,12 @@
 #include "surface/lod/tables.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace supple::runtime {
 
 using namespace supple::shared;
 
 namespace {
-
-/// How much more curves bend in places than their cage says, by surface::Borders: found by
-/// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact quads bend more
-/// at irregular vertices.
-constexpr float kUneven[] = {1.0f, 1.5f, 1.0f, 1.0f, 2.0f};
-static_assert(std::size(kUneven) == static_cast<size_t>(surface::Borders::charts) + 1);
 
 class Levels final : public Tessellation {
 public:
@@ -133,9 +126,7 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Needs Levels::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    needs.measure =
-        surface::lod::measureInstance(cage(), tables().isolationSteps,
-                                      kUneven[static_cast<size_t>(tables().lod.borders)], &desc_.asset->character.cage);
+    needs.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
     needs.margin = boundsMargin();
     return needs;
 }

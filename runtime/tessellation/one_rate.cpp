@@ -35,6 +35,13 @@ VkDeviceSize HostDraws::recordUpload(const gpu::Device& device, VkCommandBuffer 
     return staging_.recordCopy(device, commandBuffer, 0, buffer_.buffer(), 0, buffer_.size());
 }
 
+void HostDraws::recordNone(const gpu::Device& device, VkCommandBuffer commandBuffer) {
+    changed_ = true;
+    if (buffer_.size() > 0) {
+        device.vk.CmdFillBuffer(commandBuffer, buffer_.buffer(), 0, VK_WHOLE_SIZE, 0);
+    }
+}
+
 void OneRate::setDraws(std::vector<SuppleDrawRange> draws) {
     draws_ = std::move(draws);
     rates_.resize(1);
@@ -56,8 +63,7 @@ Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
 
 Status OneRate::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                            const Visibility& visibility) {
-    const Status made = createIndices(indexData_);
-    indexData_ = {};
+    const Status made = createIndices(std::exchange(indexData_, {}));
     rates_.front().instances = visibility.list().slots();
     return made ? OwnVertices::createSets(cages, listing, visibility) : made;
 }

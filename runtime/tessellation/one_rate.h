@@ -15,6 +15,8 @@ public:
     /// `listed`: the list of instances has changed. `always`: upload though nothing has. Returns the bytes.
     VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, bool listed, bool always,
                               std::span<const SuppleDrawRange> draws, const InstanceWindows& windows);
+    /// Until the next upload there are no draws.
+    void recordNone(const gpu::Device& device, VkCommandBuffer commandBuffer);
     [[nodiscard]] const gpu::PlannedBuffer& buffer() const { return buffer_; }
 
 private:
@@ -31,6 +33,7 @@ public:
                                     const Visibility& visibility) override;
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
+    void recordNoDraws(VkCommandBuffer commandBuffer) override { hostDraws_.recordNone(*desc_.device, commandBuffer); }
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
     PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
@@ -40,7 +43,7 @@ protected:
 
     void setDraws(std::vector<SuppleDrawRange> draws);
 
-    std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
+    IndexBytes indexData_; ///< until the index buffer is made
     HostDraws hostDraws_;
     uint32_t drawWindows_ = 1;
 };

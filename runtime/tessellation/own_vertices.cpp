@@ -4,6 +4,7 @@
 #include "surface/indexed_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -45,7 +46,7 @@ void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     attributes_.renew(wanted_.has(Stream::attributes));
 }
 
-Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
+Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
     const uint32_t mostIndex = desc_.device->limits.maxDrawIndexedIndexValue;
     if (vertices > mostIndex) {
         return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(vertices) +
@@ -53,25 +54,30 @@ Result<std::vector<std::byte>> OwnVertices::layOutMesh(const surface::Evaluation
                                            std::to_string(mostIndex)};
     }
     indexBytes_ = sizeof(uint32_t);
-    const surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation);
+    surface::IndexedMesh mesh = surface::indexedMesh(tables(), evaluation);
     for (const surface::IndexedMesh::Range& from : mesh.ranges) {
         draws_.push_back(
             {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertices, 0, from.firstIndex, from.indexCount, from.part});
     }
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(mesh.indices));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    return IndexBytes(std::move(mesh.indices));
 }
 
-Status OwnVertices::createIndices(std::span<const std::byte> indices) {
+Status OwnVertices::createIndices(IndexBytes indices) {
+    const Tessellation* const before = std::exchange(desc_.before, nullptr);
+    const SharedIndices* const known = before != nullptr ? before->indices() : nullptr;
+    if (known != nullptr && &before->scheme() == scheme_.get() && known->buffers->size(0) == indices.bytes.size()) {
+        indices_ = *known;
+        return success();
+    }
     const gpu::StaticRequest request{"supple grid indices",
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     indices};
+                                     indices.bytes, std::move(indices.keeper)};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, {&request, 1});
     if (!statics) {
         return statics.error();
     }
-    indices_ = std::move(*statics);
+    indices_.buffers = std::make_shared<gpu::StaticBuffers>(std::move(*statics));
     return success();
 }
 
@@ -102,7 +108,7 @@ void OwnVertices::fillGrid(SuppleGridOutput& output) const {
     output.rate = evaluation_.rate;
     output.vertexCount = vertexCount_;
     output.verticesPerInstance = evaluation_.verticesPerInstance;
-    output.indices = {indices_.buffer(0), 0, indices_.size(0), indexBytes_};
+    output.indices = {indices_.buffers->buffer(0), 0, indices_.buffers->size(0), indexBytes_};
     output.drawRanges = draws_.data();
     output.drawRangeCount = static_cast<uint32_t>(draws_.size());
     output.rates = rates_.data();
@@ -111,22 +117,22 @@ void OwnVertices::fillGrid(SuppleGridOutput& output) const {
 
 void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
     streams_.addTransfers(transfers, attributes_.recordedIn(frame));
-    if (indicesRelease_.recordedIn(frame)) {
-        transfers.add(indices_.buffer(0));
+    if (indices_.release.recordedIn(frame)) {
+        transfers.add(indices_.buffers->buffer(0));
     }
 }
 
 Status OwnVertices::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                const Visibility& visibility) {
-    addMember(indices_);
-    addMember(indicesRelease_);
+    addMember(*indices_.buffers);
+    addMember(indices_.release);
     addMember(attributes_);
     return Tessellation::createSets(cages, listing, visibility);
 }
 
 VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
-    if (indicesRelease_.due()) { // the indices are on the device by now
-        indicesRelease_.record(frame);
+    if (indices_.release.due()) { // the indices are on the device by now
+        indices_.release.record(frame);
     }
     return Tessellation::recordUpload(commandBuffer, frame, changed);
 }
@@ -162,13 +168,6 @@ void GridDraws::addRate(const surface::Tables& tables, uint32_t rate) {
             indices_.insert(indices_.end(), indices.begin(), indices.end());
         }
     }
-}
-
-std::vector<std::byte> GridDraws::takeIndices() {
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(indices_));
-    std::vector<std::byte> taken(bytes.begin(), bytes.end());
-    indices_ = {};
-    return taken;
 }
 
 void GridDraws::append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,

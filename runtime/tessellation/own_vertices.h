@@ -4,18 +4,34 @@
 
 #include "runtime/tessellation/tessellation.h"
 
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
+
+/// What an index buffer is made of.
+struct IndexBytes {
+    IndexBytes() = default;
+    template <class Index>
+    explicit IndexBytes(std::vector<Index> indices) {
+        const auto kept = std::make_shared<const std::vector<Index>>(std::move(indices));
+        bytes = std::as_bytes(std::span(*kept));
+        keeper = kept;
+    }
+    std::span<const std::byte> bytes;
+    std::shared_ptr<const void> keeper; ///< of the bytes
+};
 
 class OwnVertices : public Tessellation {
 public:
     [[nodiscard]] BoundBytes boundBytes() const override;
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.use(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return indices_.buffers->use(); }
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
+    [[nodiscard]] const SharedIndices* indices() const override { return &indices_; }
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
@@ -31,8 +47,9 @@ protected:
     /// Takes the vertices that layOut() has counted, without padding.
     [[nodiscard]] Status setVertexCount(uint64_t vertices);
     /// Lays out one mesh per instance: its index buffer, and a draw range per material and part at the end of draws_.
-    [[nodiscard]] Result<std::vector<std::byte>> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
-    [[nodiscard]] Status createIndices(std::span<const std::byte> indices);
+    [[nodiscard]] Result<IndexBytes> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
+    /// Takes the bytes, unless the surface before has the same.
+    [[nodiscard]] Status createIndices(IndexBytes indices);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
     virtual void recordAttributeSteps(VkCommandBuffer commandBuffer) const;
@@ -40,9 +57,9 @@ protected:
 
     uint32_t vertexCount_ = 0; ///< of an instance
     VertexStreams streams_;
-    gpu::StaticBuffers indices_; ///< 0: grid indices
+    SharedIndices indices_;
     uint32_t indexBytes_ = 2;
-    RecordedOnce indicesRelease_, attributes_;
+    RecordedOnce attributes_;
     std::vector<SuppleDrawRange> draws_;
     std::vector<SuppleRate> rates_; ///< what is drawn at each rate
 };
@@ -53,7 +70,7 @@ public:
     /// Adds the grids of a rate, one for every domain in use.
     void addRate(const surface::Tables& tables, uint32_t rate);
     /// The index buffer of all rates that were added, 16 bits an index.
-    [[nodiscard]] std::vector<std::byte> takeIndices();
+    [[nodiscard]] IndexBytes takeIndices() { return IndexBytes(std::exchange(indices_, {})); }
     /// Appends the draw ranges of the index-th rate to `draws`. `firstVertex` goes on behind them.
     void append(const surface::Tables& tables, size_t index, uint32_t& firstVertex,
                 std::vector<SuppleDrawRange>& draws) const;

@@ -59,9 +59,9 @@ private:
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
 
-    std::vector<Rate> own_;            ///< rising; the last one's tables are scheme_
-    std::vector<uint32_t> places_;     ///< by rate of the group's ladder, in own_
-    std::vector<std::byte> indexData_; ///< of the index buffer, until that is made
+    std::vector<Rate> own_;        ///< rising; the last one's tables are scheme_
+    std::vector<uint32_t> places_; ///< by rate of the group's ladder, in own_
+    IndexBytes indexData_;         ///< until the index buffer is made
     bool joined_ = false;
 };
 
@@ -98,7 +98,7 @@ Status Rates::begin() {
 Status Rates::layOutDraws() {
     if (isMesh()) {
         Rate& only = own_.front();
-        Result<std::vector<std::byte>> indices = layOutMesh(only.evaluation, only.vertices);
+        Result<IndexBytes> indices = layOutMesh(only.evaluation, only.vertices);
         if (!indices) {
             return indices.error();
         }
@@ -175,8 +175,7 @@ Status Rates::join(const InstanceWindows&) {
 Culling::Needs Rates::cullingNeeds() const {
     Culling::Needs needs;
     needs.sizes = program_.constructionSizes();
-    // Rates count along edges of the cage.
-    needs.measure = surface::lod::measureInstance(cage(), 0, 1.0f, &desc_.asset->character.cage);
+    needs.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
     needs.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];
@@ -187,8 +186,7 @@ Culling::Needs Rates::cullingNeeds() const {
 
 Status Rates::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                          const Visibility& visibility) {
-    Status status = createIndices(indexData_);
-    indexData_ = {};
+    Status status = createIndices(std::exchange(indexData_, {}));
     status = status ? OwnVertices::createSets(cages, listing, visibility) : status;
     for (Rate& rate : own_) {
         addMember(rate.scheme->buffers);

@@ -78,48 +78,38 @@ Status Tessellation::buildTables() {
     desc_.group.blend = nullptr;
     const surface::Tables& own = tables();
     const surface::Scheme& scheme = surface::schemeOf(scheme_->recipe().scheme);
-    const bool hasCoefficients =
-        !own.ranges.empty() && std::all_of(own.ranges.begin(), own.ranges.end(), [](const surface::PatchRange& range) {
-            return surface::rowOf(range.patchClass).coefficients > 0;
-        });
-    if (desc_.schemeChosen && !hasCoefficients) {
+    Result<SurfaceOutputs> outputs = surfaceOutputs(outputWish(), own, scheme.name);
+    if (!outputs) {
+        return outputs.error();
+    }
+    wanted_ = outputs->streams;
+    if (!outputs->patches) {
         desc_.group.flags &= ~uint32_t{SUPPLE_GROUP_PATCHES};
     }
-    if ((desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0 && !hasCoefficients) {
-        return Error{ErrorCode::argument,
-                     desc_.asset->character.name + ": " + scheme.name + " has no patch coefficients"};
-    }
-    beginRate_ = own.rate == 0 ? askedRate_ : own.rate;
-    if (own.rate != 0 && scheme.rates == surface::RateRule::upTo) { // they may be those of a higher rate
-        beginRate_ = (askedRate_ + (1u << own.isolationSteps) - 1) >> own.isolationSteps;
-    }
+    beginRate_ = beginRate(askedRate_, own, scheme.rates);
     const uint32_t taken = beginRate_ << own.isolationSteps;
     if (own.rate != 0 && taken != askedRate_ && !scheme.isMesh()) {
         rateNote_ = "rate " + std::to_string(askedRate_) + ": " + scheme.name + " has " + scheme.ratesInWords +
                     " segments an edge of the cage, here " + std::to_string(taken);
     }
-    if (!own.hasTangents()) { // there is nothing to draw
-        wanted_.remove(Stream::tangents);
-    }
-    wanted_.keepAttributes(own.attributeOutputs());
-    if (own.patches.empty()) {
-        wanted_.remove(Stream::previousPositions);
-    }
     evaluation_.rate = beginRate_;
     return success();
 }
 
+OutputWish Tessellation::outputWish() const {
+    OutputWish wish{desc_.asset->character.name};
+    wish.groupFlags = desc_.group.flags;
+    wish.format = desc_.group.vertexFormat;
+    wish.schemeChosen = desc_.schemeChosen;
+    if (view() != nullptr) {
+        wish.viewFlags = view()->desc().flags;
+        wish.format = view()->desc().vertexFormat;
+    }
+    return wish;
+}
+
 surface::Needs Tessellation::needs() const {
-    surface::Needs needs;
-    needs.vertexFormat =
-        static_cast<uint32_t>(view() != nullptr ? view()->desc().vertexFormat : desc_.group.vertexFormat);
-    needs.motion = wanted_.has(Stream::previousPositions);
-    needs.patches = (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0;
-    needs.tangents = wanted_.has(Stream::tangents);
-    needs.attributes = wanted_.has(Stream::attributes);
-    needs.attributeOutputs = wanted_.attributeOutputs();
-    needs.rate = beginRate_; // though another may be set later
-    return needs;
+    return needsOf(outputWish(), {wanted_, (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0}, beginRate_);
 }
 
 Status Tessellation::prepare() {

@@ -13,6 +13,7 @@
 #include "runtime/instance_set.h"
 #include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
+#include "runtime/surface_outputs.h"
 #include "runtime/surface_recipe.h"
 #include "runtime/surface_sets.h"
 #include "runtime/vertex_streams.h"
@@ -30,6 +31,14 @@ namespace supple::runtime {
 /// (VkPhysicalDeviceLimits) in every stream: 12, 16 or 24 bytes each.
 inline constexpr uint32_t kVertexPadding = 64;
 
+class Tessellation;
+
+/// The index buffer of a surface. The surface of a group that is made anew takes it over if it has the same indices.
+struct SharedIndices {
+    std::shared_ptr<gpu::StaticBuffers> buffers; ///< 0: the indices
+    RecordedOnce release;                        ///< to the queue family that draws
+};
+
 /// What a tessellation is made of. All pointers must outlive it.
 struct TessellationDesc {
     const gpu::Device* device = nullptr;
@@ -38,13 +47,14 @@ struct TessellationDesc {
     const gpu::StaticBuffers* pairs = nullptr;
     std::shared_ptr<View> view; ///< null, or the group's
     Asset* asset = nullptr;
-    SuppleGroupDesc group{};           ///< `scheme` is the surface's
-    std::vector<uint32_t> parts;       ///< rising
-    std::shared_ptr<AssetPiece> piece; ///< those parts; null: all of the asset's
-    surface::Drawer drawer;            ///< create() finds it
-    bool schemeChosen = false;         ///< the host left it to Supple: outputs that the scheme lacks are left out
-    uint32_t surface = 0;              ///< its number in the group
-    bool countsHidden = true;          ///< it has the first patches at levels of the group
+    SuppleGroupDesc group{};              ///< `scheme` is the surface's
+    std::vector<uint32_t> parts;          ///< rising
+    std::shared_ptr<AssetPiece> piece;    ///< those parts; null: all of the asset's
+    surface::Drawer drawer;               ///< create() finds it
+    bool schemeChosen = false;            ///< the host left it to Supple: outputs that the scheme lacks are left out
+    uint32_t surface = 0;                 ///< its number in the group
+    const Tessellation* before = nullptr; ///< during creation: the surface whose place it takes; null: none
+    bool countsHidden = true;             ///< it has the first patches at levels of the group
     uint32_t framesInFlight = 2;
     bool handsOver = false; ///< to another queue family: all output is written anew in every frame
 };
@@ -114,11 +124,16 @@ public:
     virtual void fillGrid(SuppleGridOutput& /*output*/) const {}
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return patches_; }
+    /// Null if the index buffer is not its own.
+    [[nodiscard]] virtual const SharedIndices* indices() const { return nullptr; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
     /// Makes ready for another rate, or says why it cannot. Until takeRate() nothing else changes.
     [[nodiscard]] virtual Status prepareRate(uint32_t rate) = 0;
     /// What prepareRate() made ready. The next fillGrid() tells of it.
     virtual void takeRate() {}
+
+    /// In a frame that leaves the group out: its indirect draws draw nothing until a frame records it.
+    virtual void recordNoDraws(VkCommandBuffer /*commandBuffer*/) {}
 
     // The passes of a frame. What their dispatches need between them they record themselves.
     /// How far the origin of the coordinates has moved since the group's last recording.
@@ -160,6 +175,7 @@ protected:
     /// Builds the tables of the description; `rate` in segments along an edge of the cage.
     [[nodiscard]] Status buildTables();
     /// What the passes write for this group.
+    [[nodiscard]] OutputWish outputWish() const;
     [[nodiscard]] surface::Needs needs() const;
     [[nodiscard]] Status prepare();
     /// The passes of tables at a rate or at levels.

@@ -120,6 +120,7 @@ private:
         desc.groupCount = 1;
         SupplePrepared prepared = nullptr;
         call("supplePrepare", [&] { return supplePrepare(&desc, &prepared); });
+        call("suppleMakePipelines", [&] { return suppleMakePipelines(handle(), prepared, &planned, 1); });
         std::vector<std::byte> cooked(1 << 20);
         size_t size = cooked.size();
         call("suppleSavePrepared", [&] { return suppleSavePrepared(prepared, nullptr, cooked.data(), &size); });
@@ -332,6 +333,8 @@ private:
                              [&](auto* out) { return suppleGetGroupInfo(handle(), groups_[0], out); });
         get<SuppleGridOutput>("suppleGetGridOutput",
                               [&](auto* out) { return suppleGetGridOutput(handle(), groups_[0], 0, out); });
+        get<SuppleUploadState>("suppleGetGroupUploadState",
+                               [&](auto* out) { return suppleGetGroupUploadState(handle(), groups_[0], out); });
         get<SuppleMemoryUse>("suppleGetGroupMemory",
                              [&](auto* out) { return suppleGetGroupMemory(handle(), groups_[0], out); });
         SuppleBounds bounds{};
@@ -350,6 +353,8 @@ private:
         call(
             "suppleSetBudget, of no pass", [&] { return suppleSetBudget(handle(), SUPPLE_PASS_MAX_ENUM, 1e6); },
             SUPPLE_ERROR_ARGUMENT);
+        call("suppleSetUploadBudget", [&] { return suppleSetUploadBudget(handle(), 1u << 20); });
+        call("suppleSetUploadBudget, taken away", [&] { return suppleSetUploadBudget(handle(), 0); });
         call("suppleSetMemoryBudget", [&] { return suppleSetMemoryBudget(handle(), 0, nullptr, nullptr); });
         // Mistakes need memory for what is said about them.
         call(
@@ -391,6 +396,9 @@ private:
                              [&](auto* out) { return suppleGetViewMemory(handle(), view_, out); });
         get<SuppleMemoryUse>("suppleGetContextMemory",
                              [&](auto* out) { return suppleGetContextMemory(handle(), out); });
+        get<SuppleUploadState>("suppleGetAssetUploadState",
+                               [&](auto* out) { return suppleGetAssetUploadState(handle(), tube_, out); });
+        get<SuppleUploadState>("suppleGetUploadState", [&](auto* out) { return suppleGetUploadState(handle(), out); });
         get<SuppleBudget>("suppleGetBudget",
                           [&](auto* out) { return suppleGetBudget(handle(), SUPPLE_PASS_EVALUATE, out); });
         SuppleViewStatistics statistics{};

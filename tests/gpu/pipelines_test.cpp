@@ -2,7 +2,10 @@
 #include "shaders/shared/specialization.h"
 #include "tests/gpu/fake_vulkan.h"
 
+#include <atomic>
 #include <gtest/gtest.h>
+#include <mutex>
+#include <thread>
 
 namespace supple::gpu {
 namespace {
@@ -104,6 +107,92 @@ TEST_F(PipelineCache, NamesAJobThatTheHostHasNotRun) {
     ASSERT_FALSE(made.ok());
     EXPECT_EQ(made.error().message, "pipeline rate 3: runJobs has not run its job");
     EXPECT_EQ(made.error().code, ErrorCode::argument);
+}
+
+/// Jobs that wait until they are told to go on.
+struct Held {
+    void operator()(uint32_t count, const std::function<void(uint32_t)>& job) {
+        begun = true;
+        begun.notify_all();
+        mayEnd.wait(false);
+        for (uint32_t i = 0; i < count; ++i) {
+            job(i);
+        }
+    }
+    std::atomic<bool> begun{false}, mayEnd{false};
+};
+
+TEST_F(PipelineCache, ThreadsWaitForEachOthersPipelinesAndNoneIsMadeTwice) {
+    Held held;
+    Pipelines pipelines(vulkan.device, std::ref(held));
+    std::thread first([&] {
+        Pipelines::Batch batch(pipelines);
+        (void)ask(batch, 1);
+        EXPECT_TRUE(batch.make().ok());
+    });
+    held.begun.wait(false);
+    Pipelines::Batch batch(pipelines);
+    const Kernel kernel = ask(batch, 1); // does not wait
+    EXPECT_EQ(ask(batch, 1).pipeline, kernel.pipeline);
+    held.mayEnd = true;
+    held.mayEnd.notify_all();
+    ASSERT_TRUE(batch.make().ok());
+    EXPECT_NE(kernel.pipeline->get(), VkPipeline{VK_NULL_HANDLE});
+    first.join();
+    EXPECT_EQ(vulkan.pipelines.size(), 1u);
+}
+
+TEST_F(PipelineCache, WhatAnotherThreadCouldNotMakeIsMade) {
+    Held held;
+    vulkan.failPipeline = 0;
+    Pipelines pipelines(vulkan.device, std::ref(held));
+    std::thread first([&] {
+        Pipelines::Batch batch(pipelines);
+        (void)ask(batch, 1);
+        EXPECT_FALSE(batch.make().ok());
+    });
+    held.begun.wait(false);
+    Pipelines::Batch batch(pipelines);
+    const Kernel kernel = ask(batch, 1);
+    held.mayEnd = true;
+    held.mayEnd.notify_all();
+    ASSERT_TRUE(batch.make().ok());
+    EXPECT_NE(kernel.pipeline->get(), VkPipeline{VK_NULL_HANDLE});
+    first.join();
+    EXPECT_EQ(vulkan.pipelines.size(), 1u);
+}
+
+TEST_F(PipelineCache, ThreadsThatWantTheSameInOtherOrdersGetIt) {
+    std::mutex mutex; // the fake takes no notes of two threads at a time
+    Pipelines pipelines(vulkan.device, [&](uint32_t count, const std::function<void(uint32_t)>& job) {
+        const std::scoped_lock lock(mutex);
+        for (uint32_t i = 0; i < count; ++i) {
+            job(i);
+        }
+    });
+    std::vector<std::thread> threads;
+    for (uint32_t t = 0; t < 4; ++t) {
+        threads.emplace_back([&, t] {
+            for (uint32_t round = 0; round < 8; ++round) {
+                Pipelines::Batch batch(pipelines);
+                std::vector<Kernel> kernels;
+                for (uint32_t i = 0; i < 6; ++i) {
+                    kernels.push_back(ask(batch, 6 * round + (t % 2 == 0 ? i : 5 - i)));
+                }
+                if ((round + t) % 3 == 0) {
+                    continue; // gives up
+                }
+                ASSERT_TRUE(batch.make().ok());
+                for (const Kernel& kernel : kernels) {
+                    EXPECT_NE(kernel.pipeline->get(), VkPipeline{VK_NULL_HANDLE});
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    EXPECT_EQ(vulkan.pipelines.size(), 48u);
 }
 
 } // namespace

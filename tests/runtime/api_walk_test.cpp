@@ -2005,10 +2005,69 @@ void memoryUses(Rows& r) {
     });
 }
 
+void uploads(Rows& r) {
+    constexpr const char *kContext = "suppleGetUploadState", *kAsset = "suppleGetAssetUploadState",
+                         *kGroup = "suppleGetGroupUploadState", *kBudget = "suppleSetUploadBudget";
+    const auto out = [](World& w) { return w.watched<SuppleUploadState>(sizeof(SuppleUploadState)); };
+    r.nullContext(kContext, [=](World& w, SuppleContext c) { return suppleGetUploadState(c, out(w)); });
+    r.output<SuppleUploadState>(
+        kContext, [](World& w, SuppleUploadState* state) { return suppleGetUploadState(w.handle(), state); });
+    r.assets(kAsset, [=](World& w, SuppleContext c, SuppleAsset a) { return suppleGetAssetUploadState(c, a, out(w)); });
+    r.output<SuppleUploadState>(kAsset, [](World& w, SuppleUploadState* state) {
+        return suppleGetAssetUploadState(w.handle(), w.mine.asset, state);
+    });
+    r.groups(kGroup, [=](World& w, SuppleContext c, SuppleGroup g) { return suppleGetGroupUploadState(c, g, out(w)); });
+    r.output<SuppleUploadState>(kGroup, [](World& w, SuppleUploadState* state) {
+        return suppleGetGroupUploadState(w.handle(), w.mine.main.group, state);
+    });
+    r.nullContext(kBudget, [](World&, SuppleContext c) { return suppleSetUploadBudget(c, 1); });
+    r.add(kBudget, "more than any memory has", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+          [](World& w) { return suppleSetUploadBudget(w.handle(), UINT64_MAX); });
+    r.accept(kBudget, "valid, and taken away", [](World& w) {
+        EXPECT_EQ(suppleSetUploadBudget(w.handle(), 4096), SUPPLE_OK);
+        return suppleSetUploadBudget(w.handle(), 0);
+    });
+}
+
+void pipelines(Rows& r) {
+    constexpr const char* kMake = "suppleMakePipelines";
+    const auto make = [](SuppleContext c, bool prepared, const SupplePlannedGroup* groups, uint32_t count) {
+        const SuppleAssetDesc asset = World::assetDesc();
+        SupplePrepareDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.asset = &asset;
+        SupplePrepared made = nullptr;
+        EXPECT_EQ(supplePrepare(&desc, &made), SUPPLE_OK);
+        const SuppleResult result = suppleMakePipelines(c, prepared ? made : nullptr, groups, count);
+        suppleDestroyPrepared(made);
+        return result;
+    };
+    const auto planned = [](World& w, uint32_t structSize, uint32_t viewFlags) {
+        SuppleGroupDesc group{};
+        group.structSize = structSize;
+        group.scheme = SUPPLE_SCHEME_PM;
+        return w.kept(SupplePlannedGroup{w.kept(group), 0, viewFlags});
+    };
+    constexpr uint32_t kSize = sizeof(SuppleGroupDesc);
+    r.nullContext(kMake, [=](World& w, SuppleContext c) { return make(c, true, planned(w, kSize, 0), 1); });
+    r.refuse(kMake, "prepared null", SUPPLE_MESSAGE_NULL_POINTER,
+             [=](World& w) { return make(w.handle(), false, planned(w, kSize, 0), 1); });
+    r.refuse(kMake, "groups null", SUPPLE_MESSAGE_NULL_POINTER,
+             [=](World& w) { return make(w.handle(), true, nullptr, 1); });
+    r.refuse(kMake, "groups[0].desc->structSize 0", SUPPLE_MESSAGE_STRUCT_SIZE,
+             [=](World& w) { return make(w.handle(), true, planned(w, 0, 0), 1); });
+    r.refuse(kMake, "viewFlags without a view", SUPPLE_MESSAGE_CONFLICT,
+             [=](World& w) { return make(w.handle(), true, planned(w, kSize, 1), 1); });
+    r.accept(kMake, "no groups", [=](World& w) { return make(w.handle(), true, nullptr, 0); });
+    r.accept(kMake, "valid", [=](World& w) { return make(w.handle(), true, planned(w, kSize, 0), 1); });
+}
+
 std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
     preparing(r);
+    uploads(r);
+    pipelines(r);
     contexts(r);
     createAsset(r);
     assetGetters(r);

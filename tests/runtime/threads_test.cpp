@@ -174,12 +174,13 @@ private:
     std::vector<SupplePrepared> ready_;
 };
 
-/// The tube, for a group as the test below makes it.
-SupplePrepared prepareTube(SuppleScheme scheme) {
+/// The tube, for a group as the tests below make it. With a context: and the group's pipelines in it.
+SupplePrepared prepareTube(SuppleScheme scheme, SuppleContext context = nullptr) {
     SuppleGroupDesc group{};
     group.structSize = sizeof(group);
     group.scheme = scheme;
     group.rate = 2;
+    group.capacity = 1;
     const SupplePlannedGroup planned{&group, 0, 0};
     const SuppleAssetDesc asset = tubeDesc();
     SupplePrepareDesc desc{};
@@ -190,6 +191,9 @@ SupplePrepared prepareTube(SuppleScheme scheme) {
     desc.groupCount = 1;
     SupplePrepared prepared = nullptr;
     EXPECT_EQ(supplePrepare(&desc, &prepared), SUPPLE_OK);
+    if (context != nullptr) {
+        EXPECT_EQ(suppleMakePipelines(context, prepared, &planned, 1), SUPPLE_OK);
+    }
     return prepared;
 }
 
@@ -240,6 +244,114 @@ TEST(Threads, PrepareCharactersWhileFramesAreRecorded) {
     }
     EXPECT_EQ(taken, 2 * kEach);
     EXPECT_TRUE(surfaceBits(context, group.group) == expected);
+}
+
+/// Characters as a game has them: made elsewhere, waiting for their data, drawn, gone.
+class Guests {
+public:
+    Guests(LoggedContext& context, SuppleScheme scheme) : context_(context), scheme_(scheme) {}
+
+    void add(SupplePrepared prepared) {
+        SuppleAssetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.prepared = prepared;
+        Guest guest;
+        EXPECT_EQ(suppleCreateAsset(context_.handle(), &desc, &guest.asset), SUPPLE_OK);
+        suppleDestroyPrepared(prepared);
+        guest.group = createGroup(context_.handle(), guest.asset, {.scheme = scheme_});
+        EXPECT_EQ(guest.group.result, SUPPLE_OK);
+        guests_.push_back(guest);
+    }
+    [[nodiscard]] size_t count() const { return guests_.size(); }
+    void appendTo(std::vector<SuppleGroup>& groups) const {
+        for (const Guest& guest : guests_) {
+            groups.push_back(guest.group.group);
+        }
+    }
+    /// Behind a frame of all: those that are there have the right bits, and go. Every third goes while it waits.
+    void leave(const std::vector<std::byte>& expected) {
+        std::erase_if(guests_, [&](const Guest& guest) {
+            SuppleUploadState state{};
+            state.structSize = sizeof(state);
+            EXPECT_EQ(suppleGetGroupUploadState(context_.handle(), guest.group.group, &state), SUPPLE_OK);
+            const bool there = state.complete != 0;
+            if (!there && ++looked_ % 3 != 0) {
+                return false;
+            }
+            EXPECT_TRUE(!there || surfaceBits(context_, guest.group.group) == expected);
+            drawn += there ? 1 : 0;
+            EXPECT_EQ(suppleDestroyGroup(context_.handle(), guest.group.group), SUPPLE_OK);
+            EXPECT_EQ(suppleDestroyAsset(context_.handle(), guest.asset), SUPPLE_OK);
+            return true;
+        });
+    }
+    uint32_t drawn = 0;
+
+private:
+    struct Guest {
+        SuppleAsset asset{};
+        SmallGroup group;
+    };
+    LoggedContext& context_;
+    SuppleScheme scheme_;
+    std::vector<Guest> guests_;
+    uint32_t looked_ = 0;
+};
+
+/// Of a context of its own, which makes everything itself.
+std::vector<std::byte> tubeBits(SuppleScheme scheme) {
+    LoggedContext context(*testDevice(), [](SuppleContextDesc& desc) { desc.mapping = SUPPLE_MAPPING_NARROW; });
+    SuppleAsset asset{};
+    EXPECT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    const SmallGroup group = createGroup(context.handle(), asset, {.scheme = scheme});
+    EXPECT_EQ(group.result, SUPPLE_OK);
+    context.evaluate({&group.group, 1});
+    return surfaceBits(context, group.group);
+}
+
+TEST(Threads, MakeCharactersAndPipelinesWhileFramesUploadByABudget) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    LoggedContext context(*device, [](SuppleContextDesc& desc) { desc.mapping = SUPPLE_MAPPING_NARROW; });
+    SuppleAsset asset{};
+    ASSERT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    // One that is drawn from the first frame to the last, by a scheme that no other thread makes pipelines of.
+    const SmallGroup stays = createGroup(context.handle(), asset, {.scheme = SUPPLE_SCHEME_PREP});
+    ASSERT_EQ(stays.result, SUPPLE_OK);
+    context.evaluate({&stays.group, 1});
+    const std::vector<std::byte> expected = surfaceBits(context, stays.group);
+    const std::vector<std::byte> guestBits = tubeBits(SUPPLE_SCHEME_PM);
+    ASSERT_EQ(suppleSetUploadBudget(context.handle(), 6000), SUPPLE_OK);
+
+    constexpr uint32_t kEach = 10;
+    Handover handover;
+    std::vector<std::jthread> threads;
+    for (const SuppleScheme unwanted : {SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_CATMULL_CLARK}) {
+        threads.emplace_back([&, unwanted] {
+            for (uint32_t i = 0; i < kEach; ++i) {
+                handover.give(prepareTube(SUPPLE_SCHEME_PM, context.handle()));
+                suppleDestroyPrepared(prepareTube(unwanted, context.handle()));
+            }
+        });
+    }
+    Guests guests(context, SUPPLE_SCHEME_PM);
+    uint32_t taken = 0;
+    while ((taken < 2 * kEach || guests.count() > 0) && !testing::Test::HasFailure()) {
+        if (const SupplePrepared prepared = guests.count() < 3 ? handover.take() : nullptr) {
+            ++taken;
+            guests.add(prepared);
+        }
+        std::vector<SuppleGroup> groups{stays.group};
+        guests.appendTo(groups);
+        context.evaluate(groups);
+        guests.leave(guestBits);
+    }
+    threads.clear();
+    EXPECT_EQ(taken, 2 * kEach);
+    EXPECT_GT(guests.drawn, 0u);
+    EXPECT_TRUE(surfaceBits(context, stays.group) == expected);
+    EXPECT_EQ(context.takeLines().size(), 0u);
 }
 
 } // namespace

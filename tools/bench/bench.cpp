@@ -377,6 +377,7 @@ Status Run::load() {
                  {"secondSubmitMs", times.secondSubmit},
                  {"prepareMs", times.prepare},
                  {"hitchMs", times.hitch},
+                 {"arriveMs", times.arrive},
                  {"parseMs", times.parse},
                  {"cookedMs", times.cooked},
                  {"untilRecordedUsPerFace", aFace(1e3 * times.untilRecorded())},

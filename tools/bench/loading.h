@@ -18,7 +18,8 @@ struct LoadTimes {
     double submit = 0.0;       ///< until the device is done with it
     double secondSubmit = 0.0; ///< the same of the next frame, which uploads a pose and no tables
     double prepare = 0.0;      ///< what any thread can do before (supplePrepare), without reading the file
-    double hitch = 0.0;        ///< creating the asset and the group of what was prepared
+    double hitch = 0.0;        ///< creating the asset and the group of what was prepared, with a budget of uploads
+    double arrive = 0.0;       ///< the longest that recording takes of the frames that then upload, to the first drawn
     double parse = 0.0;        ///< reading the character from a GLB, which comes before prepare
     double cooked = 0.0;       ///< reading what was prepared from a cooked file, in the place of both
     [[nodiscard]] double untilRecorded() const { return createAsset + createGroup + record; }

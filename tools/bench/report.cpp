@@ -121,15 +121,15 @@ std::string cageTables(const Json& result, const std::string& cage) {
 }
 
 std::string loadingTable(const Json& result) {
-    Table table({"loading, ms", "asset", "group", "parsed", "prepared elsewhere", "cooked", "hitch", "record",
-                 "first submit", "second", "us a face", "done, us a face", "bytes a face", "skin", "tables",
+    Table table({"loading, ms", "asset", "group", "parsed", "prepared elsewhere", "cooked", "hitch", "arriving",
+                 "record", "first submit", "second", "us a face", "done, us a face", "bytes a face", "skin", "tables",
                  "index bytes"});
     for (const Json& one : result["loading"]) {
         table.add({one["cage"].get<std::string>() + ", " + one["scheme"].get<std::string>(),
                    number(one["createAssetMs"]), number(one["createGroupMs"]), number(one.value("parseMs", Json())),
                    number(one.value("prepareMs", Json())), number(one.value("cookedMs", Json())),
-                   number(one.value("hitchMs", Json())), number(one["recordMs"]), number(one["firstSubmitMs"]),
-                   number(one["secondSubmitMs"]), number(one["untilRecordedUsPerFace"]),
+                   number(one.value("hitchMs", Json())), number(one.value("arriveMs", Json())), number(one["recordMs"]),
+                   number(one["firstSubmitMs"]), number(one["secondSubmitMs"]), number(one["untilRecordedUsPerFace"]),
                    number(one.value("untilDoneUsPerFace", Json())), number(one["staticBytesPerFace"]),
                    number(one["deformBytesPerFace"]), number(one["tableBytesPerFace"]),
                    number(one.value("indexBytes", Json()))});

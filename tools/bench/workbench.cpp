@@ -129,6 +129,14 @@ void Workbench::destroy(SuppleView view) {
     inside_->context->destroyView(view.id);
 }
 
+Status Workbench::setUploadBudget(uint64_t bytes) {
+    return inside_->context->setUploadBudget(bytes);
+}
+
+bool Workbench::isThere(SuppleGroup group) const {
+    return inside_->context->uploadState(inside_->group(group)).complete != 0;
+}
+
 Status Workbench::recordFrame(SuppleGroup group, VkCommandBuffer commands, uint32_t flags) {
     const uint64_t frame = ++inside_->frame;
     Status status = inside_->context->beginFrame(frame, frame - 1);

@@ -44,6 +44,10 @@ public:
     [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc);
     /// Irrational steps: no two instances have a pose in common, and an instance's does not hang on how many there are.
     [[nodiscard]] static double phaseOf(uint32_t instance);
+    /// Bytes of static data a frame uploads at most; 0: no bound.
+    [[nodiscard]] Status setUploadBudget(uint64_t bytes);
+    /// Whether the group's static data is on the device.
+    [[nodiscard]] bool isThere(SuppleGroup group) const;
     /// With a camera that sees what lies about the origin.
     [[nodiscard]] Result<SuppleView> createView(SuppleViewDesc desc);
     /// Their memory is freed in a later frame.

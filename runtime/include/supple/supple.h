@@ -50,6 +50,8 @@
  *     its groups (suppleRecord), into a command buffer of its own. The log callback must then expect calls from these
  *     threads at the same time. In this, groups of one view are one group, and so are a group and those that follow it
  *     (SuppleGroupDesc.instancesOf). Everything else, such as creating assets, groups and views, is for one thread.
+ *   - supplePrepare and suppleMakePipelines are for any thread at any time: they read characters, build tables and make
+ *     pipelines while the thread of frames records.
  *   - Different contexts are independent.
  *   - Supple has no threads. It uses the host's only through SuppleContextDesc.runJobs.
  *
@@ -1002,6 +1004,40 @@ typedef struct SuppleSyncScope {
  * suppleRecord does this too. Only hosts that call suppleRecord on several threads need this call. They record it into
  * a command buffer that is submitted before the others. */
 SUPPLE_API SuppleResult suppleRecordUploads(SuppleContext context, VkCommandBuffer commandBuffer);
+
+/** Bounds the bytes of static data (tables of skins, clips and schemes, indices) that a frame uploads; 0, as at first:
+ * no bound. Call it whenever no other call of the context runs. It applies at once, also to what waits already, and
+ * takes `bytesPerFrame` of mapped memory for each frame in flight: all static data of what is created from then on goes
+ * through it. Memory that an earlier bound took is freed once the frames with it are complete.
+ *
+ * What does not fit goes up with the next frames. The groups of suppleRecord are served in their order, so put first
+ * what must be seen first; suppleRecordUploads and suppleRecordWarmUp serve all groups. A group whose data, or whose
+ * leader's (SuppleGroupDesc.instancesOf), is not all there is left out: suppleRecord succeeds, none of the group's
+ * passes runs, and its indirect draws draw nothing. Its other buffers hold nothing yet. Instances may be created, posed
+ * and played meanwhile. suppleGetGroupUploadState tells when it is there: the first suppleRecord after bytesLeft has
+ * become 0, or the one that uploads the last of them, works on it. If suppleSetCapacity makes a group anew that was
+ * there, it is there at once. suppleReloadAsset brings new data, for which its groups wait.
+ *
+ * With 0, the call takes memory for all that waits, and the next suppleRecord uploads it.
+ * Errors: device memory, or more than the device has for a buffer; then nothing has changed. */
+SUPPLE_API SuppleResult suppleSetUploadBudget(SuppleContext context, VkDeviceSize bytesPerFrame);
+
+/** Static data on its way to the device. */
+typedef struct SuppleUploadState {
+    uint32_t structSize;
+    uint32_t complete;       /**< 1: bytesLeft is 0. A group that waits for nothing is not left out */
+    VkDeviceSize bytes;      /**< in all */
+    VkDeviceSize bytesLeft;  /**< that no frame has recorded yet */
+    VkDeviceSize frameBytes; /**< that the open frame has recorded */
+    VkDeviceSize totalBytes; /**< of a context: what all its frames have recorded, also of what is destroyed; else 0 */
+} SuppleUploadState;
+
+/** Fills out: what the context's assets, groups and views have. */
+SUPPLE_API SuppleResult suppleGetUploadState(SuppleContext context, SuppleUploadState* out);
+/** Fills out: what the asset's groups share. It goes up when a group is recorded that needs it. */
+SUPPLE_API SuppleResult suppleGetAssetUploadState(SuppleContext context, SuppleAsset asset, SuppleUploadState* out);
+/** Fills out: what the group needs, also of its asset, its view and the group that it follows. */
+SUPPLE_API SuppleResult suppleGetGroupUploadState(SuppleContext context, SuppleGroup group, SuppleUploadState* out);
 
 /** Lets drivers finish at load time what they would do in the first frames: lavapipe compiles a pipeline at its first
  * dispatch, which may take a second. Records the uploads of suppleRecordUploads, for all groups. Then it dispatches,

@@ -175,6 +175,15 @@ public:
         out = sized<SuppleMemoryUse>();
         return suppleGetContextMemory(handle_, &out);
     }
+    /// Bytes of static data a frame uploads at most; 0: no bound.
+    [[nodiscard]] SuppleResult setUploadBudget(VkDeviceSize bytesPerFrame) const {
+        return suppleSetUploadBudget(handle_, bytesPerFrame);
+    }
+    /// Static data on its way, of all there is.
+    [[nodiscard]] SuppleResult uploadState(SuppleUploadState& out) const {
+        out = sized<SuppleUploadState>();
+        return suppleGetUploadState(handle_, &out);
+    }
     /// The newest completed frame's passes, into `out` (resized; its capacity is reused). SUPPLE_NOT_READY empties it.
     [[nodiscard]] SuppleResult timings(std::vector<SuppleTiming>& out) const {
         return filled(out, [&](SuppleTiming* to, uint32_t* count) {
@@ -266,6 +275,11 @@ public:
         }
         return result;
     }
+    /// Makes the pipelines that such groups will need in a context: on any thread.
+    [[nodiscard]] SuppleResult makePipelines(const Context& context, const SupplePlannedGroup* groups,
+                                             uint32_t groupCount) const {
+        return suppleMakePipelines(context.handle(), handle_, groups, groupCount);
+    }
     /// The bytes of a cooked file; `out` becomes as long as they are. `madeBy` may be null.
     template <class Bytes>
     [[nodiscard]] SuppleResult save(const char* madeBy, Bytes& out) const {
@@ -306,6 +320,11 @@ public:
     [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
         out = sized<SuppleMemoryUse>();
         return suppleGetAssetMemory(context_, handle_, &out);
+    }
+    /// The same of what its groups share.
+    [[nodiscard]] SuppleResult uploadState(SuppleUploadState& out) const {
+        out = sized<SuppleUploadState>();
+        return suppleGetAssetUploadState(context_, handle_, &out);
     }
     /// What a part of the character is.
     [[nodiscard]] SuppleResult partInfo(uint32_t part, SupplePartInfo& out) const {
@@ -382,6 +401,11 @@ public:
     [[nodiscard]] SuppleResult memory(SuppleMemoryUse& out) const {
         out = sized<SuppleMemoryUse>();
         return suppleGetGroupMemory(context_, handle_, &out);
+    }
+    /// Whether its static data is on the device.
+    [[nodiscard]] SuppleResult uploadState(SuppleUploadState& out) const {
+        out = sized<SuppleUploadState>();
+        return suppleGetGroupUploadState(context_, handle_, &out);
     }
     [[nodiscard]] SuppleResult info(SuppleGroupInfo& out) const {
         out = sized<SuppleGroupInfo>();

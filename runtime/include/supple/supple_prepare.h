@@ -14,7 +14,8 @@ extern "C" {
 
 /** A group that will be made of a character. */
 typedef struct SupplePlannedGroup {
-    /** As it will be given to suppleCreateGroup. asset, capacity, view and instancesOf do not matter here. */
+    /** As it will be given to suppleCreateGroup. asset, capacity, view and instancesOf do not matter here. vertexFormat
+     * matters to suppleMakePipelines alone: there that of a group of a view must be the view's. */
     const SuppleGroupDesc* desc;
     uint32_t inView;    /**< 1: the group will belong to a view */
     uint32_t viewFlags; /**< SuppleViewFlags of that view; 0 without one */
@@ -42,11 +43,27 @@ typedef struct SupplePrepareDesc {
  * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
  * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate, but tables of the former two serve lower rates of the same octave;
  * of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
- * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines are not prepared here.
+ * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines need the context: suppleMakePipelines.
  *
  * Errors: what suppleCreateAsset refuses of a file, and suppleCreateGroup of a description or a character. `*out` is
  * null then. */
 SUPPLE_API SuppleResult supplePrepare(const SupplePrepareDesc* desc, SupplePrepared* out);
+/** Makes the pipelines that groups of the character will need in this context, and those of their views, so that
+ * suppleCreateGroup and suppleCreateView only find them. Any thread may call it at any time between suppleCreateContext
+ * and suppleDestroyContext, beside all other calls of the context and beside itself. Frames are recorded meanwhile as
+ * ever. If another thread needs a pipeline that is being made, it waits for that one. Pipelines stay until the context
+ * is destroyed.
+ *
+ * groups: groupCount of them, as they were or might have been prepared; tables that were not are built and thrown away.
+ * The rate of a group counts; suppleSetRate needs no other pipelines. SuppleContextDesc.runJobs, the allocator and the
+ * log function are called on this thread, perhaps while they are called on others too, and pipelineCache must not be
+ * VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED.
+ *
+ * Drivers may still do something at a pipeline's first dispatch: suppleRecordWarmUp.
+ * Errors: null; what suppleCreateGroup refuses of a description or a character; memory, or the device is lost. What
+ * could be made stays. */
+SUPPLE_API SuppleResult suppleMakePipelines(SuppleContext context, SupplePrepared prepared,
+                                            const SupplePlannedGroup* groups, uint32_t groupCount);
 /** Turns what was prepared into the bytes of a cooked file: `supple cook` writes them to a disk. They go wherever bytes
  * of a glTF file go (SuppleAssetDesc.bytes), and nothing is parsed or built then: bytes are checked and copied. Every
  * little-endian machine can read them, and they can be kept in an archive of the host's. Only this version of the
