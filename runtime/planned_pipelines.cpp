@@ -9,7 +9,7 @@ namespace {
 
 Result<std::shared_ptr<const PreparedTables>> tablesOf(const Prepared& prepared, const surface::Recipe& recipe,
                                                        const std::shared_ptr<const PreparedPiece>& piece) {
-    if (std::shared_ptr<const PreparedTables> known = prepared.find(recipe, piece.get())) {
+    if (std::shared_ptr<const PreparedTables> known = prepared.findServing(recipe, piece.get())) {
         return known;
     }
     Result<std::shared_ptr<PreparedTables>> built = prepared.build(recipe, piece);
