@@ -82,9 +82,9 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     const gpu::Device& d = *context->device_;
     context->device_->uploads = &context->uploads_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
-    context->passes_ = std::make_unique<SharedPasses>(d, *context->pipelines_);
+    context->passes_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
 
-    Result<surface::Passes> passes = surface::Passes::create(d, *context->pipelines_, shaders);
+    Result<surface::Programs> passes = surface::Programs::create(d, *context->pipelines_, shaders);
     if (!passes) {
         return passes.error();
     }
@@ -262,7 +262,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
     if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-        if (const Result<skinning::PosePass*> pose = passes_->pose(); !pose) {
+        if (const Result<skinning::PoseKernels*> pose = passes_->pose(); !pose) {
             return pose.error();
         }
     }
@@ -479,7 +479,7 @@ void Context::setOrigin(const glm::dvec3& origin) {
 }
 
 Status Context::prepareBounds() {
-    const Result<BoundsPass*> bounds = passes_->bounds();
+    const Result<BoundsKernels*> bounds = passes_->bounds();
     return bounds ? (*bounds)->prepare() : bounds.error();
 }
 
@@ -488,7 +488,7 @@ Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
         return prepared.error();
     }
     if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0) {
-        const Result<OcclusionPass*> occlusion = passes_->occlusion();
+        const Result<OcclusionKernels*> occlusion = passes_->occlusion();
         if (const Status prepared = occlusion ? (*occlusion)->prepare() : occlusion.error(); !prepared) {
             return prepared.error();
         }

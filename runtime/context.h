@@ -8,12 +8,12 @@
 #include "runtime/asset.h"
 #include "runtime/group.h"
 #include "runtime/planned_pipelines.h"
-#include "runtime/shared_passes.h"
+#include "runtime/shared_kernels.h"
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
 #include "runtime/view.h"
 #include "supple/supple.h"
-#include "surface/passes.h"
+#include "surface/programs.h"
 
 #include <atomic>
 #include <functional>
@@ -164,8 +164,8 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     CageStageTable stages_;
-    std::unique_ptr<SharedPasses> passes_;
-    surface::Passes surface_;
+    std::unique_ptr<SharedKernels> passes_;
+    surface::Programs surface_;
     gpu::StaticBuffers pairs_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
     gpu::Uploads uploads_;

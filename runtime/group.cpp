@@ -222,14 +222,14 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     desc.cageStride = instances_->cageStride();
     desc.parts = &drawnParts_;
     desc.firstRate = surfaces_.ladder().first;
-    std::vector<Culling::Needs> needs;
+    std::vector<Culling::Surface> culled;
     for (const auto& surface : surfaces_) {
-        needs.push_back(surface->cullingNeeds());
-        if (surfaces_.ladder().count > 0 && needs.back().rates.empty() && !oneLevel) {
-            needs.back().measure = {}; // only rates ask for the level of an instance
+        culled.push_back(surface->culledSurface());
+        if (surfaces_.ladder().count > 0 && culled.back().rates.empty() && !oneLevel) {
+            culled.back().measure = {}; // only rates ask for the level of an instance
         }
     }
-    std::unique_ptr<Culling> culling = Culling::create(desc, needs);
+    std::unique_ptr<Culling> culling = Culling::create(desc, culled);
     culling->plan(device, staging);
     culling_ = culling.get();
     visibility_ = std::move(culling);

@@ -29,13 +29,13 @@ struct GroupShared {
     const gpu::Device* device = nullptr;
     gpu::Pipelines* pipelines = nullptr;
     CageStageTable* stages = nullptr;
-    skinning::PosePass* pose = nullptr; ///< for groups that play on the device
-    surface::Passes* surface = nullptr;
-    gpu::StaticBuffers* pairs = nullptr;      ///< of parameters
-    BoundsPass* bounds = nullptr;             ///< for groups with bounds
-    const OcclusionPass* occlusion = nullptr; ///< for groups of views with occlusion
-    std::shared_ptr<View> view;               ///< of the description
-    std::shared_ptr<InstanceSet> instances;   ///< of the group that this one follows; null: it has its own
+    skinning::PoseKernels* pose = nullptr; ///< for groups that play on the device
+    surface::Programs* surface = nullptr;
+    gpu::StaticBuffers* pairs = nullptr;         ///< of parameters
+    BoundsKernels* bounds = nullptr;             ///< for groups with bounds
+    const OcclusionKernels* occlusion = nullptr; ///< for groups of views with occlusion
+    std::shared_ptr<View> view;                  ///< of the description
+    std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1;  ///< of the instances
     bool handsOver = false;        ///< to another queue family: every output is written anew in every frame

@@ -3,7 +3,7 @@
 
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
 #include "supple/supple.h"
 

@@ -8,7 +8,7 @@
 #include "runtime/pose_source.h"
 #include "runtime/transfers.h"
 #include "runtime/user_data.h"
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ class InstanceSet final : public gpu::FrameMembers {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        skinning::PosePass* pose = nullptr; ///< null unless instances play on the device
+        skinning::PoseKernels* pose = nullptr; ///< null unless instances play on the device
         std::shared_ptr<Asset> asset;
         SupplePoseSource source = SUPPLE_POSES_SET;
         skinning::SkinningMode mode = skinning::SkinningMode::linear;

@@ -16,14 +16,14 @@ Result<std::shared_ptr<const PreparedTables>> tablesOf(const Prepared& prepared,
     return built ? Result<std::shared_ptr<const PreparedTables>>(std::move(*built)) : built.error();
 }
 
-Status makeProgram(const PipelineMakers& makers, const surface::Tables& tables, const surface::Needs& needs,
+Status makeProgram(const PipelineMakers& makers, const surface::Tables& tables, const surface::ProgramOptions& options,
                    uint32_t rate) {
     surface::Evaluation evaluation;
     evaluation.rate = rate;
-    if (!needs.lod) {
+    if (!options.lod) {
         evaluation.layOut(tables);
     }
-    const Result<surface::Program> program = makers.surface->prepare(tables, needs, evaluation);
+    const Result<surface::Program> program = makers.surface->prepare(tables, options, evaluation);
     return program ? success() : program.error();
 }
 
@@ -48,35 +48,35 @@ Status makeSurface(const PipelineMakers& makers, const Prepared& prepared, const
         return outputs.error();
     }
     const uint32_t rate = beginRate(askedRate(group.desc), tables, scheme.rates);
-    surface::Needs needs = needsOf(wish, *outputs, rate);
-    needs.view = group.viewFlags.has_value();
-    needs.lod = surface->recipe.lod;
-    needs.backFaces = needs.lod && (*group.viewFlags & SUPPLE_VIEW_BACK_FACES) != 0;
-    needs.levelOffset =
+    surface::ProgramOptions options = programOptionsOf(wish, *outputs, rate);
+    options.view = group.viewFlags.has_value();
+    options.lod = surface->recipe.lod;
+    options.backFaces = options.lod && (*group.viewFlags & SUPPLE_VIEW_BACK_FACES) != 0;
+    options.levelOffset =
         (group.desc.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? 1 : 0; // where it lies matters to no pipeline
     if (!surface->hasRates) {
-        return makeProgram(makers, tables, needs, rate);
+        return makeProgram(makers, tables, options, rate);
     }
     for (const surface::Recipe& recipe : ratesBelow(surface->recipe, tables)) {
         const auto own = tablesOf(prepared, recipe, surface->piece);
         const Status made =
-            own ? makeProgram(makers, (*own)->tables, needs, recipe.rate >> tables.isolationSteps) : own.error();
+            own ? makeProgram(makers, (*own)->tables, options, recipe.rate >> tables.isolationSteps) : own.error();
         if (!made) {
             return made;
         }
     }
-    const Result<BoundsPass*> bounds = makers.passes->bounds();
+    const Result<BoundsKernels*> bounds = makers.passes->bounds();
     return bounds ? (*bounds)->make(true) : bounds.error();
 }
 
 Status makeCulling(const PipelineMakers& makers, const PlannedGroup& group) {
     Status status = success();
     if (group.viewFlags || (group.desc.flags & SUPPLE_GROUP_BOUNDS) != 0) {
-        const Result<BoundsPass*> bounds = makers.passes->bounds();
+        const Result<BoundsKernels*> bounds = makers.passes->bounds();
         status = bounds ? (*bounds)->make(false) : bounds.error();
     }
     if (status && group.viewFlags && (*group.viewFlags & SUPPLE_VIEW_OCCLUSION) != 0) {
-        const Result<OcclusionPass*> occlusion = makers.passes->occlusion();
+        const Result<OcclusionKernels*> occlusion = makers.passes->occlusion();
         const Result<gpu::Kernel> made = occlusion ? (*occlusion)->make() : occlusion.error();
         status = made ? success() : made.error();
     }
@@ -95,7 +95,7 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.deforms = group.desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
     planned.pieces = pieces;
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-        const Result<skinning::PosePass*> pose = makers.passes->pose();
+        const Result<skinning::PoseKernels*> pose = makers.passes->pose();
         if (const Status made = pose ? (*pose)->make(planned.skinning) : pose.error(); !made) {
             return made;
         }

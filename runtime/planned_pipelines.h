@@ -2,9 +2,9 @@
 #pragma once
 
 #include "runtime/prepare.h"
-#include "runtime/shared_passes.h"
+#include "runtime/shared_kernels.h"
 #include "runtime/stages/cage_stages.h"
-#include "surface/passes.h"
+#include "surface/programs.h"
 
 namespace supple::runtime {
 
@@ -12,8 +12,8 @@ namespace supple::runtime {
 struct PipelineMakers {
     const gpu::Device* device = nullptr;
     gpu::Pipelines* pipelines = nullptr;
-    SharedPasses* passes = nullptr;
-    surface::Passes* surface = nullptr;
+    SharedKernels* passes = nullptr;
+    surface::Programs* surface = nullptr;
     CageStageTable* stages = nullptr;
 };
 

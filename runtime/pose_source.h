@@ -8,7 +8,7 @@
 #include "runtime/instance_windows.h"
 #include "runtime/pass_cost.h"
 #include "runtime/playback.h"
-#include "skinning/pose_pass.h"
+#include "skinning/pose_kernels.h"
 
 #include <memory>
 
@@ -64,7 +64,7 @@ public:
 
 struct PoseSourceDesc {
     const gpu::Device* device = nullptr;
-    const skinning::PosePass* posePass = nullptr; ///< null unless instances play on the device
+    const skinning::PoseKernels* posePass = nullptr; ///< null unless instances play on the device
     Asset* asset = nullptr;
     skinning::PoseLayout layout;
     uint32_t capacity = 0, framesInFlight = 2;

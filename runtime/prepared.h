@@ -5,7 +5,7 @@
 #include "cage/character.h"
 #include "cage/piece.h"
 #include "skinning/clip_table.h"
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "surface/choice.h"

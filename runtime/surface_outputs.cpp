@@ -37,16 +37,16 @@ uint32_t beginRate(uint32_t asked, const surface::Tables& tables, surface::RateR
     return tables.rate == 0 ? asked : tables.rate;
 }
 
-surface::Needs needsOf(const OutputWish& wish, const SurfaceOutputs& outputs, uint32_t rate) {
-    surface::Needs needs;
-    needs.vertexFormat = static_cast<uint32_t>(wish.format);
-    needs.motion = outputs.streams.has(Stream::previousPositions);
-    needs.patches = outputs.patches;
-    needs.tangents = outputs.streams.has(Stream::tangents);
-    needs.attributes = outputs.streams.has(Stream::attributes);
-    needs.attributeOutputs = outputs.streams.attributeOutputs();
-    needs.rate = rate; // though another may be set later
-    return needs;
+surface::ProgramOptions programOptionsOf(const OutputWish& wish, const SurfaceOutputs& outputs, uint32_t rate) {
+    surface::ProgramOptions options;
+    options.vertexFormat = static_cast<uint32_t>(wish.format);
+    options.motion = outputs.streams.has(Stream::previousPositions);
+    options.patches = outputs.patches;
+    options.tangents = outputs.streams.has(Stream::tangents);
+    options.attributes = outputs.streams.has(Stream::attributes);
+    options.attributeOutputs = outputs.streams.attributeOutputs();
+    options.rate = rate; // though another may be set later
+    return options;
 }
 
 } // namespace supple::runtime

@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 #include "runtime/vertex_streams.h"
-#include "surface/needs.h"
+#include "surface/program_options.h"
 #include "surface/schemes.h"
 
 #include <cstdint>
@@ -30,8 +30,9 @@ struct SurfaceOutputs {
                                                     const char* scheme);
 /// Segments along a patch edge that a group begins with, which asks for so many along an edge of the cage.
 [[nodiscard]] uint32_t beginRate(uint32_t asked, const surface::Tables& tables, surface::RateRule rates);
-/// For Passes::prepare(), of a group without a view that begins with a rate. What a view adds, its tessellations fill
+/// For Programs::prepare(), of a group without a view that begins with a rate. What a view adds, its tessellations fill
 /// in.
-[[nodiscard]] surface::Needs needsOf(const OutputWish& wish, const SurfaceOutputs& outputs, uint32_t rate);
+[[nodiscard]] surface::ProgramOptions programOptionsOf(const OutputWish& wish, const SurfaceOutputs& outputs,
+                                                       uint32_t rate);
 
 } // namespace supple::runtime

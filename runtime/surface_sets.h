@@ -3,8 +3,8 @@
 
 #include "gpu/memory.h"
 #include "gpu/pipeline.h"
-#include "surface/passes.h"
 #include "surface/program.h"
+#include "surface/programs.h"
 
 #include <cstdint>
 #include <functional>
@@ -44,7 +44,7 @@ public:
     };
     struct Desc {
         const gpu::Device* device = nullptr;
-        const surface::Passes* passes = nullptr;
+        const surface::Programs* passes = nullptr;
         std::span<const surface::SetKind> kinds; ///< those that the group's program binds
         uint32_t windows = 1;
         bool motion = false;

@@ -1,6 +1,6 @@
 #include "runtime/view.h"
 
-#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/bounds_kernels.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
@@ -34,8 +34,8 @@ constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 
 } // namespace
 
-Result<std::shared_ptr<View>> View::create(const gpu::Device& device, surface::Passes& passes, uint32_t framesInFlight,
-                                           const SuppleViewDesc& desc) {
+Result<std::shared_ptr<View>> View::create(const gpu::Device& device, surface::Programs& passes,
+                                           uint32_t framesInFlight, const SuppleViewDesc& desc) {
     if (desc.maxVertices > kMostVertices) {
         return Error{ErrorCode::limit, "maxVertices is " + std::to_string(desc.maxVertices) + ": a view has at most " +
                                            std::to_string(kMostVertices)};
@@ -137,7 +137,7 @@ std::vector<uint16_t> View::layOutGrids() {
     return indices;
 }
 
-Status View::createSolver(surface::Passes& passes) {
+Status View::createSolver(surface::Programs& passes) {
     const Result<gpu::Kernel> kernel = passes.prepareSolve();
     if (!kernel) {
         return kernel.error();

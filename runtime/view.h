@@ -8,7 +8,7 @@
 #include "shaders/shared/bounds.h"
 #include "shaders/shared/lod.h"
 #include "supple/supple.h"
-#include "surface/passes.h"
+#include "surface/programs.h"
 
 #include <array>
 #include <memory>
@@ -21,7 +21,7 @@ namespace supple::runtime {
 class View final : public gpu::FrameMembers {
 public:
     /// `passes` must outlive the view.
-    [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, surface::Passes& passes,
+    [[nodiscard]] static Result<std::shared_ptr<View>> create(const gpu::Device& device, surface::Programs& passes,
                                                               uint32_t framesInFlight, const SuppleViewDesc& desc);
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
@@ -93,7 +93,7 @@ public:
 private:
     [[nodiscard]] Status createBuffers();
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
-    [[nodiscard]] Status createSolver(surface::Passes& passes);
+    [[nodiscard]] Status createSolver(surface::Programs& passes);
     [[nodiscard]] uint32_t budget() const;
     [[nodiscard]] VkDeviceSize uploadBytes() const;
 

@@ -1,4 +1,4 @@
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/table_check_common.h"
 #include "surface/table_header.h"
 

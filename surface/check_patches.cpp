@@ -1,5 +1,5 @@
 #include "shaders/shared/prep.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/smooth_uvs.h"
 #include "surface/table_check_common.h"
 

@@ -1,6 +1,6 @@
 #include "surface/mesh_tables.h"
 
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/uv_curves.h"
 
 #include <algorithm>

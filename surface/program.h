@@ -16,7 +16,7 @@
 
 namespace supple::surface {
 
-/// The kinds of descriptor sets that surface passes bind. Each kind has its own layout (Passes::layout), so that no
+/// The kinds of descriptor sets that surface passes bind. Each kind has its own layout (Programs::layout), so that no
 /// layout has more bindings than its passes use.
 enum class SetKind : uint32_t {
     construct,      ///< vertex, assemble, patch
@@ -97,7 +97,7 @@ struct Program {
     // Groups with levels. The push constants are shared::LodPush; setCamera() fills in what changes in every frame. All
     // windows write into the words of the view, so patchLevels begins with a disjoint step and places with one that
     // waits.
-    Steps edgeLevels; ///< empty if an instance has one level (Needs::levelOffset)
+    Steps edgeLevels; ///< empty if an instance has one level (ProgramOptions::levelOffset)
     Steps patchLevels, places;
     Steps deepen; ///< coefficients that the levels ask for. Sizes are in the scratch of a window's first instance, from
                   ///< word firstDepthDispatch on, by Step::argument

@@ -19,7 +19,7 @@ using namespace shared;
 constexpr uint32_t kUnrolledRates = 8;
 
 bool ownRatePays(const ProgramBuilder& builder) {
-    return builder.device.mapping.wide || builder.needs.rate <= kUnrolledRates;
+    return builder.device.mapping.wide || builder.options.rate <= kUnrolledRates;
 }
 
 bool ownRatePays(const ProgramBuilder& builder, PatchClass patchClass) {
@@ -89,12 +89,12 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                                {kRateConstant, rate}},
                               atRate(name + className(patchClass), rate));
     };
-    const uint32_t ownRate = ownRatePays(builder, patchClass) ? builder.needs.rate : 0;
+    const uint32_t ownRate = ownRatePays(builder, patchClass) ? builder.options.rate : 0;
     if (indexed) {
         return make(ownRate);
     }
     const gpu::Kernel any = make(0), own = ownRate > 0 && format != kVertexPosition ? make(ownRate) : any;
-    return builder.evaluation.rate == builder.needs.rate ? own : any;
+    return builder.evaluation.rate == builder.options.rate ? own : any;
 }
 
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
@@ -183,7 +183,7 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
                                                          {Kernel::loopEdge, "supple evaluate edges, Loop"},
                                                          {Kernel::loopEdge, "supple evaluate edges, irregular Loop"}};
     static_assert(std::size(kKinds) == kEdgeKinds);
-    const uint32_t rate = ownRatePays(builder) ? builder.needs.rate : 0;
+    const uint32_t rate = ownRatePays(builder) ? builder.options.rate : 0;
     for (const MeshTables::Edges& edges : builder.tables.mesh.edges) {
         const auto [which, name] = kKinds[edges.kind];
         const gpu::Kernel kernel = builder.kernel(SetKind::evaluate, which,
@@ -222,11 +222,11 @@ void addEdgeAttributes(ProgramBuilder& builder) {
 } // namespace
 
 uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format) {
-    return builder.needs.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
+    return builder.options.tangents && format != kVertexPosition ? VK_TRUE : VK_FALSE;
 }
 
 uint32_t outputsOf(const ProgramBuilder& builder) {
-    return (builder.tables.attributeOutputs() & builder.needs.attributeOutputs) |
+    return (builder.tables.attributeOutputs() & builder.options.attributeOutputs) |
            (builder.tables.mapFrames ? kOutputMapFrames : 0);
 }
 
@@ -237,8 +237,8 @@ gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_
 }
 
 std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {
-    std::vector<VertexPass> passes{{needs.vertexFormat, &program.evaluate}};
-    if (needs.motion) {
+    std::vector<VertexPass> passes{{options.vertexFormat, &program.evaluate}};
+    if (options.motion) {
         passes.push_back({kVertexPosition, &program.motion});
     }
     return passes;
@@ -266,13 +266,13 @@ void addConstructions(ProgramBuilder& builder) {
 void addRanges(ProgramBuilder& builder) {
     const Tables& tables = builder.tables;
     for (size_t r = 0; r < tables.ranges.size(); ++r) {
-        if (builder.needs.patches) {
+        if (builder.options.patches) {
             addPatch(builder, tables.ranges[r]);
         }
         if (samplesOf(builder, tables.ranges[r].patchClass) == 0) {
             continue; // at low rates patches of an indexed mesh may have no sample inside
         }
-        if (builder.needs.attributes) {
+        if (builder.options.attributes) {
             addAttributes(builder, r);
         }
         for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
@@ -287,7 +287,7 @@ void addRanges(ProgramBuilder& builder) {
     for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
         addEdges(builder, pass);
     }
-    if (builder.needs.attributes) {
+    if (builder.options.attributes) {
         addEdgeAttributes(builder);
     }
 }
@@ -310,7 +310,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
                                                       std::string("supple evaluate at levels, ") + row.name);
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
         }
-        if (builder.needs.attributes) {
+        if (builder.options.attributes) {
             const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
             const gpu::Kernel kernel = builder.kernel(
                 SetKind::attributes, own.kernel, {{kKindConstant, own.kind}, {kOutputsConstant, outputsOf(builder)}},

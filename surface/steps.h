@@ -3,8 +3,8 @@
 
 #include "gpu/pipelines.h"
 #include "surface/evaluation.h"
-#include "surface/needs.h"
 #include "surface/program.h"
+#include "surface/program_options.h"
 #include "surface/scheme.h"
 #include "surface/shaders.h"
 
@@ -18,13 +18,13 @@ class ProgramBuilder {
 public:
     using Layouts = std::array<gpu::ComputeLayout, kSetKinds>;
     ProgramBuilder(const gpu::Device& own, const Layouts& layouts, gpu::Pipelines& pipelines, const Shaders& shaders,
-                   const Tables& ofTables, const Needs& ofNeeds, const Evaluation& ofEvaluation)
-        : device(own), tables(ofTables), needs(ofNeeds), evaluation(ofEvaluation), layouts_(layouts),
+                   const Tables& ofTables, const ProgramOptions& ofOptions, const Evaluation& ofEvaluation)
+        : device(own), tables(ofTables), options(ofOptions), evaluation(ofEvaluation), layouts_(layouts),
           pipelines_(pipelines), shaders_(shaders) {}
 
     const gpu::Device& device;
     const Tables& tables;
-    const Needs& needs;
+    const ProgramOptions& options;
     const Evaluation& evaluation;
     Program program;
 

@@ -1,6 +1,6 @@
 #include "runtime/culling/bounds_readback.h"
 
-#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/bounds_kernels.h"
 
 #include <algorithm>
 #include <cstring>

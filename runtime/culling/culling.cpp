@@ -45,17 +45,17 @@ uint32_t Culling::rateStride() const {
     return ((2 + partCount()) * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
-void Culling::add(const Needs& needs) {
+void Culling::add(const Surface& surface) {
     const auto add = [&](const surface::DispatchSize& size, uint32_t count) {
         const auto target = headerWords() + 3 * static_cast<uint32_t>(arguments_.size());
         arguments_.push_back({size.elements, size.perGroup, count, target});
     };
     Place place{static_cast<uint32_t>(arguments_.size()), {}, static_cast<uint32_t>(draws_.size())};
-    for (const surface::DispatchSize& size : needs.sizes) {
+    for (const surface::DispatchSize& size : surface.sizes) {
         add(size, kCountWindow);
     }
-    for (uint32_t r = 0; r < needs.rates.size(); ++r) {
-        const Rate& rate = needs.rates[r];
+    for (uint32_t r = 0; r < surface.rates.size(); ++r) {
+        const Rate& rate = surface.rates[r];
         rateVertices_[r] += rate.vertices;
         place.firstRateArguments.push_back(static_cast<uint32_t>(arguments_.size()));
         for (const surface::DispatchSize& size : rate.sizes) {
@@ -67,13 +67,13 @@ void Culling::add(const Needs& needs) {
         }
     }
     places_.push_back(std::move(place));
-    push_.margin = std::max(push_.margin, needs.margin);
-    push_.longest = std::max(push_.longest, needs.measure.longest);
-    push_.bend = std::max(push_.bend, needs.measure.bend);
-    rateCount_ = std::max(rateCount_, static_cast<uint32_t>(needs.rates.size()));
+    push_.margin = std::max(push_.margin, surface.margin);
+    push_.longest = std::max(push_.longest, surface.measure.longest);
+    push_.bend = std::max(push_.bend, surface.measure.bend);
+    rateCount_ = std::max(rateCount_, static_cast<uint32_t>(surface.rates.size()));
 }
 
-std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Needs> needs) {
+std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Surface> surfaces) {
     auto culling = std::make_unique<Culling>();
     culling->device_ = desc.device;
     culling->pass_ = desc.pass;
@@ -86,7 +86,7 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Needs
     culling->push_.cageStride = desc.cageStride;
     culling->drawnParts_ = desc.parts;
     culling->parts_.resize(desc.parts->count());
-    for (const Needs& own : needs) {
+    for (const Surface& own : surfaces) {
         culling->add(own);
     }
     return culling;

@@ -5,8 +5,8 @@
 #include "base/result.h"
 #include "gpu/buffer_plan.h"
 #include "runtime/change_staging.h"
-#include "runtime/culling/bounds_pass.h"
-#include "runtime/culling/occlusion_pass.h"
+#include "runtime/culling/bounds_kernels.h"
+#include "runtime/culling/occlusion_kernels.h"
 #include "runtime/culling/visibility.h"
 #include "runtime/recorded_once.h"
 #include "surface/lod/instance.h"
@@ -29,7 +29,7 @@ public:
         std::span<const SuppleDrawRange> draws; ///< of all windows
     };
     /// What a surface of the group asks for.
-    struct Needs {
+    struct Surface {
         std::vector<surface::DispatchSize> sizes; ///< dispatched for what is seen, by argument number
         surface::lod::InstanceMeasure measure;
         float margin = 0.0f; ///< how far the surface may lie outside the box of its cage, as a part of its size
@@ -38,8 +38,8 @@ public:
     };
     struct Desc {
         const gpu::Device* device = nullptr;
-        const BoundsPass* pass = nullptr;
-        const OcclusionPass* occlusion = nullptr; ///< null: nothing hides
+        const BoundsKernels* pass = nullptr;
+        const OcclusionKernels* occlusion = nullptr; ///< null: nothing hides
         uint32_t framesInFlight = 2;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
         uint32_t cageVertices = 0, cageStride = 0;
@@ -47,7 +47,7 @@ public:
         uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
     };
     /// `needs`: of every surface of the group.
-    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, std::span<const Needs> needs);
+    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, std::span<const Surface> surfaces);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// What the passes read and write beside the group's own, once the plans are carried out.
     struct Buffers {
@@ -111,7 +111,7 @@ private:
         std::vector<uint32_t> firstRateArguments; ///< by rate
         uint32_t firstDraw = 0;                   ///< in draws_
     };
-    void add(const Needs& needs);
+    void add(const Surface& surface);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
     [[nodiscard]] uint32_t partCount() const { return drawnParts_->count(); }
     void listParts(const InstanceSlots& slots);
@@ -126,8 +126,8 @@ private:
     [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount_ * windows_->count(); }
 
     const gpu::Device* device_ = nullptr;
-    const BoundsPass* pass_ = nullptr;
-    const OcclusionPass* occlusion_ = nullptr;
+    const BoundsKernels* pass_ = nullptr;
+    const OcclusionKernels* occlusion_ = nullptr;
     const InstanceWindows* windows_ = nullptr;
     const DrawnParts* drawnParts_ = nullptr;
     uint32_t framesInFlight_ = 2;

@@ -1,10 +1,10 @@
-// Bounds of the instances of a group that belongs to no view: the bounds pass of views (runtime/culling/bounds_pass.h)
-// without a camera.
+// Bounds of the instances of a group that belongs to no view: the bounds pass of views
+// (runtime/culling/bounds_kernels.h) without a camera.
 #pragma once
 
 #include "base/result.h"
 #include "gpu/buffer_plan.h"
-#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/bounds_kernels.h"
 #include "runtime/instance_windows.h"
 #include "runtime/pass_cost.h"
 #include "runtime/recorded_once.h"
@@ -19,7 +19,7 @@ class ListedBounds final : public gpu::FrameMembers {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        const BoundsPass* pass = nullptr;
+        const BoundsKernels* pass = nullptr;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
         uint32_t cageVertices = 0, cageStride = 0;
         float margin = 0.0f; ///< how far surfaces may lie outside the box of their cage, as a part of its size

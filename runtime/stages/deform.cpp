@@ -8,7 +8,7 @@ namespace {
 
 class Deform final : public CageStage {
 public:
-    Deform(const CageStageDesc& desc, const skinning::DeformPass& pass)
+    Deform(const CageStageDesc& desc, const skinning::DeformKernels& pass)
         : device_(desc.device), asset_(desc.asset), instances_(desc.instances), pass_(&pass) {}
 
     [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
@@ -48,7 +48,7 @@ private:
     const gpu::Device* device_;
     const Asset* asset_;
     const InstanceSet* instances_;
-    const skinning::DeformPass* pass_;
+    const skinning::DeformKernels* pass_;
     uint32_t stride_ = 0;
     DeformSets sets_;
 };
@@ -56,7 +56,7 @@ private:
 } // namespace
 
 Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
-    Result<skinning::DeformPass> pass = skinning::DeformPass::create(device, pipelines);
+    Result<skinning::DeformKernels> pass = skinning::DeformKernels::create(device, pipelines);
     if (!pass) {
         return pass.error();
     }
@@ -70,7 +70,7 @@ bool wantsDeform(const CageStageDesc& desc) {
 }
 
 Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels) {
-    skinning::DeformPass& pass = static_cast<DeformKernels&>(kernels).pass;
+    skinning::DeformKernels& pass = static_cast<DeformKernels&>(kernels).pass;
     const Status prepared = pass.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
     if (!prepared) {
         return prepared.error();

@@ -1,13 +1,13 @@
-// The first stage: joint palettes and morph weights deform the rest cage (skinning/deform_pass.h).
+// The first stage: joint palettes and morph weights deform the rest cage (skinning/deform_kernels.h).
 #pragma once
 
 #include "runtime/stages/cage_stage.h"
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 
 namespace supple::runtime {
 
 struct DeformKernels final : CageKernels {
-    skinning::DeformPass pass;
+    skinning::DeformKernels pass;
 };
 [[nodiscard]] Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device,
                                                                      gpu::Pipelines& pipelines);

@@ -18,7 +18,7 @@ public:
     };
     struct Desc {
         const gpu::Device* device = nullptr;
-        const gpu::ComputeLayout* layout = nullptr; ///< of skinning::DeformPass
+        const gpu::ComputeLayout* layout = nullptr; ///< of skinning::DeformKernels
         const InstanceWindows* windows = nullptr;
         VkBuffer table = VK_NULL_HANDLE;
         VkDeviceSize tableBytes = 0;

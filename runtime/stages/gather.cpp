@@ -8,7 +8,7 @@ namespace {
 
 class Gather final : public CageStage {
 public:
-    Gather(const CageStageDesc& desc, const skinning::DeformPass& pass)
+    Gather(const CageStageDesc& desc, const skinning::DeformKernels& pass)
         : device_(desc.device), capacity_(desc.instances->capacity()), pass_(&pass), pieces_(desc.surfaces->size()) {
         for (size_t surface = 0; surface < pieces_.size(); ++surface) {
             pieces_[surface].of = (*desc.surfaces)[surface].piece();
@@ -91,7 +91,7 @@ private:
 
     const gpu::Device* device_;
     uint32_t capacity_;
-    const skinning::DeformPass* pass_;
+    const skinning::DeformKernels* pass_;
     uint32_t wholeStride_ = 0;
     std::vector<Piece> pieces_; ///< by surface
 };
@@ -103,7 +103,7 @@ bool wantsGather(const CageStageDesc& desc) {
 }
 
 Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels) {
-    skinning::DeformPass& pass = static_cast<DeformKernels&>(kernels).pass;
+    skinning::DeformKernels& pass = static_cast<DeformKernels&>(kernels).pass;
     const Status prepared = pass.prepareGather();
     if (!prepared) {
         return prepared.error();

@@ -80,7 +80,7 @@ Status FixedRate::prepareRate(uint32_t rate) {
     next.evaluation = evaluation_;
     next.evaluation.rate = patchRate(rate);
     next.vertexCount = static_cast<uint32_t>(next.evaluation.layOut(tables()));
-    Result<surface::Program> program = programFor(tables(), needs(), next.evaluation);
+    Result<surface::Program> program = programFor(tables(), programOptions(), next.evaluation);
     if (!program) {
         return program.error();
     }

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] Status begin();
 
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
-    [[nodiscard]] Culling::Needs cullingNeeds() const override;
+    [[nodiscard]] Culling::Surface culledSurface() const override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_LEVELS; }
     [[nodiscard]] const VertexStreams* streams() const override { return &view()->streams(); }
     void fillLevels(SuppleLevelOutput& output) const override;
@@ -46,7 +46,7 @@ private:
     [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(desc_.asset->character.parts.size()); }
     [[nodiscard]] uint32_t runs() const { return static_cast<uint32_t>(tables().lod.runs.size()); }
     void layOutDraws(uint32_t windowCount);
-    [[nodiscard]] surface::Needs levelNeeds() const;
+    [[nodiscard]] surface::ProgramOptions levelOptions() const;
     /// The instances of a window with what the level passes are told of the view.
     [[nodiscard]] surface::Window levelWindow(uint32_t window) const;
     /// The patches that the view has placed for a window.
@@ -70,7 +70,7 @@ Status Levels::begin() {
         return built;
     }
     evaluation_.verticesPerInstance = view()->desc().maxVertices;
-    Result<surface::Program> program = programFor(tables(), levelNeeds(), evaluation_);
+    Result<surface::Program> program = programFor(tables(), levelOptions(), evaluation_);
     if (!program) {
         return program.error();
     }
@@ -81,17 +81,17 @@ Status Levels::begin() {
     return success();
 }
 
-surface::Needs Levels::levelNeeds() const {
-    surface::Needs needs = this->needs();
-    needs.view = true;
-    needs.lod = true;
-    needs.backFaces = view()->leavesBackFaces();
+surface::ProgramOptions Levels::levelOptions() const {
+    surface::ProgramOptions options = programOptions();
+    options.view = true;
+    options.lod = true;
+    options.backFaces = view()->leavesBackFaces();
     // With one level an instance, that lies behind the list's entries (Culling::recordList).
-    needs.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
-    needs.firstMask = Culling::firstMask(desc_.group.capacity);
-    needs.maskWords = DrawnParts::wordsOf(partCount());
-    needs.countsHidden = desc_.countsHidden;
-    return needs;
+    options.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
+    options.firstMask = Culling::firstMask(desc_.group.capacity);
+    options.maskWords = DrawnParts::wordsOf(partCount());
+    options.countsHidden = desc_.countsHidden;
+    return options;
 }
 
 Status Levels::join(const InstanceWindows& windows) {
@@ -123,12 +123,12 @@ void Levels::layOutDraws(uint32_t windowCount) {
     }
 }
 
-Culling::Needs Levels::cullingNeeds() const {
-    Culling::Needs needs;
-    needs.sizes = program_.constructionSizes();
-    needs.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
-    needs.margin = boundsMargin();
-    return needs;
+Culling::Surface Levels::culledSurface() const {
+    Culling::Surface surface;
+    surface.sizes = program_.constructionSizes();
+    surface.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
+    surface.margin = boundsMargin();
+    return surface;
 }
 
 void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) const {

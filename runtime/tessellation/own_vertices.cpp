@@ -27,21 +27,21 @@ Status OwnVertices::setVertexCount(uint64_t vertices) {
 
 BoundBytes OwnVertices::boundBytes() const {
     BoundBytes bytes = Tessellation::boundBytes();
-    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(needs().vertexFormat);
+    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(programOptions().vertexFormat);
     bytes.storage = std::max(bytes.storage, VkDeviceSize{evaluation_.verticesPerInstance} * vertexBytes(format));
     return bytes;
 }
 
 Status OwnVertices::cutDraws(InstanceWindows& windows, bool byWindows) {
     const Status status = Tessellation::cutDraws(windows, byWindows);
-    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(needs().vertexFormat);
+    const SuppleVertexFormat format = static_cast<SuppleVertexFormat>(programOptions().vertexFormat);
     const VkDeviceSize bytes = VkDeviceSize{evaluation_.verticesPerInstance} * vertexBytes(format);
     return status ? checkBinding(windows, bytes, "surface vertices") : status;
 }
 
 void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     Tessellation::plan(device, staging);
-    streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(needs().vertexFormat), vertexCount_,
+    streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(programOptions().vertexFormat), vertexCount_,
                   evaluation_.verticesPerInstance, desc_.group.capacity);
     attributes_.renew(wanted_.has(Stream::attributes));
 }

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] Ladder ladder() const override;
     void setLadder(Ladder ladder) override;
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
-    [[nodiscard]] Culling::Needs cullingNeeds() const override;
+    [[nodiscard]] Culling::Surface culledSurface() const override;
     [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
@@ -77,12 +77,12 @@ Status Rates::begin() {
     if (!status) {
         return status;
     }
-    surface::Needs needs = this->needs();
-    needs.view = true;
+    surface::ProgramOptions options = programOptions();
+    options.view = true;
     for (size_t r = 0; r < own_.size(); ++r) {
         Rate& rate = own_[r];
         rate.evaluation.verticesPerInstance = evaluation_.verticesPerInstance;
-        Result<surface::Program> program = programFor(rate.scheme->tables(), needs, rate.evaluation);
+        Result<surface::Program> program = programFor(rate.scheme->tables(), options, rate.evaluation);
         if (!program) {
             return program.error();
         }
@@ -172,16 +172,16 @@ Status Rates::join(const InstanceWindows&) {
     return success();
 }
 
-Culling::Needs Rates::cullingNeeds() const {
-    Culling::Needs needs;
-    needs.sizes = program_.constructionSizes();
-    needs.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
-    needs.margin = boundsMargin();
+Culling::Surface Rates::culledSurface() const {
+    Culling::Surface surface;
+    surface.sizes = program_.constructionSizes();
+    surface.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
+    surface.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];
-        needs.rates.push_back({own.vertices, own.program.evaluationSizes(), own.draws});
+        surface.rates.push_back({own.vertices, own.program.evaluationSizes(), own.draws});
     }
-    return needs;
+    return surface;
 }
 
 Status Rates::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,

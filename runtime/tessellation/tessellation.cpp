@@ -108,12 +108,12 @@ OutputWish Tessellation::outputWish() const {
     return wish;
 }
 
-surface::Needs Tessellation::needs() const {
-    return needsOf(outputWish(), {wanted_, (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0}, beginRate_);
+surface::ProgramOptions Tessellation::programOptions() const {
+    return programOptionsOf(outputWish(), {wanted_, (desc_.group.flags & SUPPLE_GROUP_PATCHES) != 0}, beginRate_);
 }
 
 Status Tessellation::prepare() {
-    Result<surface::Program> program = programFor(tables(), needs(), evaluation_);
+    Result<surface::Program> program = programFor(tables(), programOptions(), evaluation_);
     if (!program) {
         return program.error();
     }
@@ -121,9 +121,9 @@ Status Tessellation::prepare() {
     return success();
 }
 
-Result<surface::Program> Tessellation::programFor(const surface::Tables& tables, const surface::Needs& needs,
+Result<surface::Program> Tessellation::programFor(const surface::Tables& tables, const surface::ProgramOptions& options,
                                                   const surface::Evaluation& evaluation) const {
-    Result<surface::Program> program = desc_.passes->prepare(tables, needs, evaluation);
+    Result<surface::Program> program = desc_.passes->prepare(tables, options, evaluation);
     if (!program) {
         return Error{program.error().code, desc_.asset->character.name + ": " + program.error().message};
     }

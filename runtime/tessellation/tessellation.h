@@ -18,7 +18,7 @@
 #include "runtime/surface_sets.h"
 #include "runtime/vertex_streams.h"
 #include "runtime/view.h"
-#include "surface/passes.h"
+#include "surface/programs.h"
 
 #include <memory>
 #include <optional>
@@ -42,8 +42,8 @@ struct SharedIndices {
 /// What a tessellation is made of. All pointers must outlive it.
 struct TessellationDesc {
     const gpu::Device* device = nullptr;
-    surface::Passes* passes = nullptr;
-    BoundsPass* bounds = nullptr; ///< groups of a view
+    surface::Programs* passes = nullptr;
+    BoundsKernels* bounds = nullptr; ///< groups of a view
     const gpu::StaticBuffers* pairs = nullptr;
     std::shared_ptr<View> view; ///< null, or the group's
     Asset* asset = nullptr;
@@ -108,7 +108,7 @@ public:
     /// Joins the view; asks it for room.
     [[nodiscard]] virtual Status join(const InstanceWindows& /*windows*/) { return success(); }
     /// Groups of a view.
-    [[nodiscard]] virtual Culling::Needs cullingNeeds() const { return {}; }
+    [[nodiscard]] virtual Culling::Surface culledSurface() const { return {}; }
     virtual void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// When the plans are carried out. `cages`: the deformed cages of all parts, or of the piece. `visibility` is the
     /// group's Culling if it belongs to a view.
@@ -176,10 +176,11 @@ protected:
     [[nodiscard]] Status buildTables();
     /// What the passes write for this group.
     [[nodiscard]] OutputWish outputWish() const;
-    [[nodiscard]] surface::Needs needs() const;
+    [[nodiscard]] surface::ProgramOptions programOptions() const;
     [[nodiscard]] Status prepare();
     /// The passes of tables at a rate or at levels.
-    [[nodiscard]] Result<surface::Program> programFor(const surface::Tables& tables, const surface::Needs& needs,
+    [[nodiscard]] Result<surface::Program> programFor(const surface::Tables& tables,
+                                                      const surface::ProgramOptions& options,
                                                       const surface::Evaluation& evaluation) const;
     [[nodiscard]] Status checkVertices(uint64_t vertices) const;
     /// Whether the device can bind what a window that draws have holds: `bytes` per instance.

@@ -16,11 +16,11 @@
 struct Net {
     vec3 p[kNetPoints];
 };
-// `window`: which points from `first` on.
-Net netOf(const PatchPlace at, uint window, uint first) {
+// `net list`: which points from `first` on.
+Net netOf(const PatchPlace at, uint netList, uint first) {
     Net net;
-    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) {
-        uvec4 words = tableElement(window + e);
+    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) {
+        uvec4 words = tableElement(netList + e);
         [[unroll]] for (uint c = 0u; c < 8u; ++c) {
             uint k = 8u * e + c;
             if (k < kNetPoints) net.p[k] = poolPoint(at, first + halfOf(words[c / 2u], c));
@@ -29,7 +29,7 @@ Net netOf(const PatchPlace at, uint window, uint first) {
     return net;
 }
 Net quadNet(const PatchPlace at, IrregularQuad quad) { return netOf(at, at.record + kQuadNetElement, quad.first); }
-Net chainNet(const PatchPlace at, Chain chain, uint level) { return netOf(at, chain.windows, levelPoints(chain, level)); }
+Net chainNet(const PatchPlace at, Chain chain, uint level) { return netOf(at, chain.netLists, levelPoints(chain, level)); }
 // Seen from the next corner, and from any.
 Net turnedOnce(Net net) {
     Net turned;
@@ -48,7 +48,7 @@ uvec4 turned(uvec4 v, uint corner) {
 }
 IrregularQuad turnedQuad(IrregularQuad quad, uint corner) {
     uint flags = quad.flags >> kCubicSide & 15u;
-    return IrregularQuad(turned(quad.points, corner), turned(quad.spokes, corner), turned(quad.windows, corner),
+    return IrregularQuad(turned(quad.points, corner), turned(quad.spokes, corner), turned(quad.netLists, corner),
                          uintBitsToFloat(turned(floatBitsToUint(quad.sharpness), corner)),
                          (flags >> corner | flags << (4u - corner)) << kCubicSide, quad.first, turned(quad.normals, corner));
 }

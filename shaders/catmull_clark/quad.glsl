@@ -5,28 +5,28 @@
 #include "shaders/chains/chain_place.glsl"
 
 struct IrregularQuad {
-    uvec4 points, spokes, windows;
+    uvec4 points, spokes, netLists;
     vec4 sharpness;
     uint flags, first; // what its net counts from
     uvec4 normals;
 };
 IrregularQuad quadOf(uint record) {
-    uvec4 spokes = tableElement(record + 1u), end = tableElement(record + kQuadNetElement + kWindowElements - 1u);
-    return IrregularQuad(tableElement(record), spokes, tableElement(record + kQuadWindowElement),
+    uvec4 spokes = tableElement(record + 1u), end = tableElement(record + kQuadNetElement + kNetListElements - 1u);
+    return IrregularQuad(tableElement(record), spokes, tableElement(record + kQuadNetListElement),
                          uintBitsToFloat(tableElement(record + kQuadSharpnessElement)), end.w, end.w >> kNetFirstShift,
                          normalsBefore(spokes, end.yz));
 }
 // Point k of the quad's own net.
-vec3 ownPoint(const PatchPlace at, uint first, uint k) { return poolPoint(at, first + windowPoint(at.record + kQuadNetElement, k)); }
+vec3 ownPoint(const PatchPlace at, uint first, uint k) { return poolPoint(at, first + netListPoint(at.record + kQuadNetElement, k)); }
 float sharpnessOf(IrregularQuad quad, uint side, uint level) {
     vec2 pair = SELECT2(side < 2u, quad.sharpness.xy, quad.sharpness.zw);
     return kSharp ? softened(SELECT((side & 1u) == 0u, pair.x, pair.y), level - 1u) : 0.0;
 }
 bool isCubic(IrregularQuad quad, uint side) { return (quad.flags >> (kCubicSide + side) & 1u) != 0u; }
-bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.windows, corner) != 0u; }
+bool hasChain(IrregularQuad quad, uint corner) { return componentOf(quad.netLists, corner) != 0u; }
 
 Chain chainOf(const PatchPlace at, IrregularQuad quad, uint corner) {
-    return chainOf(at, componentOf(quad.windows, corner), componentOf(quad.spokes, corner), kWindowLastWord);
+    return chainOf(at, componentOf(quad.netLists, corner), componentOf(quad.spokes, corner), kNetListLastWord);
 }
 
 // Where a corner of the quad lies, without a branch.

@@ -5,19 +5,19 @@
 // Where a net's points come from, as they are seen from a corner.
 struct NetSource {
     bool own; // the quad's, else of a chain
-    uint window, first;
-    uint corner; // 0 for a chain: its windows are the corner's
+    uint netList, first;
+    uint corner; // 0 for a chain: its net lists are the corner's
 };
 NetSource ownNet(const PatchPlace at, IrregularQuad quad, uint corner) {
     return NetSource(true, at.record + kQuadNetElement, quad.first, corner);
 }
-NetSource chainNet(Chain chain, uint level) { return NetSource(false, chain.windows, levelPoints(chain, level), 0u); }
+NetSource chainNet(Chain chain, uint level) { return NetSource(false, chain.netLists, levelPoints(chain, level), 0u); }
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
     uint place = SUPPLE_QUAD_NET_PLACE(net.corner, k % kNetSide, k / kNetSide);
 #ifdef LOCAL_NET
     if (net.own) return netPoint(at, place);
 #endif
-    return poolPoint(at, net.first + windowPoint(net.window, place));
+    return poolPoint(at, net.first + netListPoint(net.netList, place));
 }
 
 // A point of a side that has two halves, at a pair of the quad's own parameter.
@@ -25,7 +25,7 @@ vec3 pointOnHalves(const PatchPlace at, IrregularQuad quad, uint side, vec2 pair
     bool far = pair.x > pair.y, alongU = (side & 1u) == 0u, rising = side < 2u;
     uint corner = far == rising ? (side + 1u) & 3u : side;
     Chain chain = chainOf(at, quad, corner);
-    bool middle = pair.x == pair.y, own = middle || chain.windows == 0u;
+    bool middle = pair.x == pair.y, own = middle || chain.netLists == 0u;
     bool onFirst = corner == side; // of the corner's two edges
     uint beside = onFirst ? (corner + 3u) & 3u : corner, step = onFirst ? 1u : kNetSide, across = onFirst ? kNetSide : 1u;
     float distance = far ? pair.y : pair.x;
@@ -103,7 +103,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
     LeafWeights x, y;
     vec3 origin = vec3(0.0);
     float way = 1.0;
-    if (chain.windows == 0u) {
+    if (chain.netLists == 0u) {
         x = quarterWeights(a, sharpnessOf(quad, (corner + 3u) & 3u, 1u));
         y = quarterWeights(b, sharpnessOf(quad, corner, 1u));
     } else {
@@ -127,7 +127,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     Leaf leaf = leafAt(at, net, secondX, secondY, x, y);
     position = placed(origin, leaf.first, leaf.offset);
-    if (kTangents && chain.windows != 0u && onU && onV) { // those along the second edge
+    if (kTangents && chain.netLists != 0u && onU && onV) { // those along the second edge
         LeafWeights begin = leafWeights(0.0, 0.0), across = leafWeights(0.0, sharpnessOf(quad, (corner + 3u) & 3u, chain.lastLevel));
         leaf.alongY = leafAt(at, net, false, true, across, begin).alongY;
     }

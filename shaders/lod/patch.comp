@@ -146,11 +146,11 @@ vec2 irregularLevels(uint record, uint base) {
     uvec4 corners = tableElement(record);
     vec4 sharpness = uintBitsToFloat(tableElement(record + kQuadSharpnessElement));
     vec3 net[kNetPoints], x[9]; // x: row by row in v
-    uvec4 window[kWindowElements];
-    [[unroll]] for (uint e = 0u; e < kWindowElements; ++e) window[e] = tableElement(record + kQuadNetElement + e);
-    uint first = base + (window[kWindowElements - 1u].w >> kNetFirstShift);
+    uvec4 netList[kNetListElements];
+    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) netList[e] = tableElement(record + kQuadNetElement + e);
+    uint first = base + (netList[kNetListElements - 1u].w >> kNetFirstShift);
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
-        net[k] = poolVector(first + halfOf(window[k / 8u][k / 2u % 4u], k));
+        net[k] = poolVector(first + halfOf(netList[k / 8u][k / 2u % 4u], k));
     }
     const uint kPlaces[4] = uint[4](0u, 2u, 8u, 6u), kMiddles[4] = uint[4](1u, 5u, 7u, 3u);
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {

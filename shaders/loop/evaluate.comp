@@ -39,7 +39,7 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 
 #ifdef WIDE
 void loadPart(uint to, const PatchPlace at, uint k) {
-    uint index = kIrregular ? triangleOf(at.record, true).first + windowPoint(at.record + kTriangleNetElement, k)
+    uint index = kIrregular ? triangleOf(at.record, true).first + netListPoint(at.record + kTriangleNetElement, k)
                             : tableWord(4u * (at.record + kTriangleCageElement) + k);
     localPoints[to] = vec4(poolPoint(at, index), 0.0);
 }

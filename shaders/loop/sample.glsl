@@ -73,7 +73,7 @@ LeafPlace leafPlace(const PatchPlace at, Triangle t, TrianglePoint s, bool isCor
     if (onBorder && !isCorner && !isMiddle(s)) place.corner = s.along.x > s.along.y ? nextOf(s.side) : s.side;
     place.net = ownNet(at, t);
     Chain chain = chainOf(at, t, place.corner == 3u ? 0u : place.corner);
-    place.own = place.corner == 3u || chain.windows == 0u;
+    place.own = place.corner == 3u || chain.netLists == 0u;
     place.cell = place.corner;
     place.scale = 2.0, place.way = 1.0;
     float a = s.w.y, b = s.w.z;

@@ -7,19 +7,19 @@
 struct Triangle {
     uvec4 corners; // limit points; then flags
     bool irregular;
-    uvec4 chains, windows, normals; // of an irregular one
+    uvec4 chains, netLists, normals; // of an irregular one
     uint first; // what its net counts from
 };
 Triangle triangleOf(uint record, bool irregular) {
     Triangle t;
     t.corners = tableElement(record + kTriangleCornerElement);
     t.irregular = irregular;
-    t.chains = t.windows = t.normals = uvec4(0u);
+    t.chains = t.netLists = t.normals = uvec4(0u);
     t.first = 0u;
     if (irregular) {
         t.chains = tableElement(record + kTriangleChainElement);
-        t.windows = tableElement(record + kTriangleChainElement + 1u);
-        uvec4 end = tableElement(record + kTriangleNetElement + kTriangleWindowElements - 1u);
+        t.netLists = tableElement(record + kTriangleChainElement + 1u);
+        uvec4 end = tableElement(record + kTriangleNetElement + kTriangleNetListElements - 1u);
         t.normals = normalsBefore(t.chains, end.yz);
         t.first = end.w;
     }
@@ -42,7 +42,7 @@ LeafPoints cageLeaf(const PatchPlace at, Triangle t) {
 }
 
 Chain chainOf(const PatchPlace at, Triangle t, uint corner) {
-    return chainOf(at, componentOf(t.windows, corner), componentOf(t.chains, corner), kTriangleWindowLastWord);
+    return chainOf(at, componentOf(t.netLists, corner), componentOf(t.chains, corner), kTriangleNetListLastWord);
 }
 vec3 cornerLimit(const PatchPlace at, Triangle t, uint corner) { return poolPoint(at, componentOf(t.corners, corner)); }
 Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame) {
@@ -51,10 +51,10 @@ Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame
     return withNormal(frame, poolPoint(at, normal));
 }
 
-// A net: the triangle's own, of points of level 1, or that of a level of a chain. `window`: which points from `first` on.
+// A net: the triangle's own, of points of level 1, or that of a level of a chain. `net list`: which points from `first` on.
 // A bit a side that is a crease, and a corner that one passes.
 struct NetSource {
-    uint window, first;
+    uint netList, first;
     uint sides, corners;
     vec3 origin;
 };
@@ -64,7 +64,7 @@ NetSource ownNet(const PatchPlace at, Triangle t) {
 }
 NetSource chainNet(const PatchPlace at, Triangle t, Chain chain, uint corner, uint level) {
     uint sides = (hasFlag(t, kSharpTriangleSide, corner) ? 1u : 0u) | (hasFlag(t, kSharpTriangleSide, lastOf(corner)) ? 4u : 0u);
-    return NetSource(chain.windows, levelPoints(chain, level), sides, 0u, chainOrigin(at, chain));
+    return NetSource(chain.netLists, levelPoints(chain, level), sides, 0u, chainOrigin(at, chain));
 }
 // The points of the leaf in a cell, by their numbers in the net.
 const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),
@@ -78,8 +78,8 @@ const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u
 // Where the points of a net lie in the pool.
 uint[kTriangleNetPoints] netIndices(NetSource net) {
     uint indices[kTriangleNetPoints];
-    [[unroll]] for (uint e = 0u; e < kTriangleWindowElements; ++e) {
-        uvec4 words = tableElement(net.window + e);
+    [[unroll]] for (uint e = 0u; e < kTriangleNetListElements; ++e) {
+        uvec4 words = tableElement(net.netList + e);
         [[unroll]] for (uint c = 0u; c < 8u; ++c) {
             uint k = 8u * e + c, word = words[c / 2u];
             if (k < kTriangleNetPoints) indices[k] = net.first + halfOf(word, c);

@@ -19,7 +19,7 @@
 //                     first item). The vertex rises first, then the spoke; the centre comes last
 //   net               points up to radius 2, in spiral order, 16 bits each
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
-//                     of a face point in the centre's step; 0, 0); windows: kWindowElements a sector, the net of 5 x 5 points of a
+//                     of a face point in the centre's step; 0, 0); net lists: kNetListElements a sector, the net of 5 x 5 points of a
 //                     chain's level, 16 bits each, row by row; the last word has the points of a level and,
 //                     from kChainLevelShift on, the last level
 //   arrangements      by fan and sharpness: (runs; first word of the sharpness of spokes on level 1, or kNoSharpness; centre steps;
@@ -28,9 +28,9 @@
 //                     products of neighbours is the normal. Centre steps: an element a level of the chain (smooth, crease,
 //                     first spoke, second spoke)
 //   irregular quads   kQuadRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or the pool
-//                     index of their chain (without one, of what lies behind their normals); windows of their sector, 0 where
-//                     there is no chain; sharpness of the sides on level 1; their net, as windows: 5 x 5 points of level 1; from
-//                     kWindowNormals on, how far before their chains the normals of the corners lie, 0 where they have none; in
+//                     index of their chain (without one, of what lies behind their normals); net lists of their sector, 0 where
+//                     there is no chain; sharpness of the sides on level 1; their net, as in a net list: 5 x 5 points of level 1; from
+//                     kNetListNormals on, how far before their chains the normals of the corners lie, 0 where they have none; in
 //                     the last word flags and, from kNetFirstShift on, the pool index that the points count from
 #ifndef SUPPLE_SHARED_CHAINS_H
 #define SUPPLE_SHARED_CHAINS_H
@@ -41,7 +41,7 @@
 SUPPLE_SHARED_BEGIN
 
 SUPPLE_SHARED_CONST kQuadRecordElements = 8u;
-SUPPLE_SHARED_CONST kQuadWindowElement = 2u;
+SUPPLE_SHARED_CONST kQuadNetListElement = 2u;
 SUPPLE_SHARED_CONST kQuadSharpnessElement = 3u;
 SUPPLE_SHARED_CONST kQuadNetElement = 4u;
 SUPPLE_SHARED_CONST kNetSide = 5u;
@@ -57,9 +57,9 @@ SUPPLE_SHARED_CONST kMakesLevel = 2u;      // of the level before
 SUPPLE_SHARED_CONST kMakesChains = 3u;     // all levels, in workgroup memory: wide mapping
 SUPPLE_SHARED_CONST kBlockPoints = 256u;   // of a level, for all chains of a block
 
-SUPPLE_SHARED_CONST kWindowElements = 4u;
-SUPPLE_SHARED_CONST kWindowNormals = 26u; // numbers
-SUPPLE_SHARED_CONST kWindowLastWord = 15u;
+SUPPLE_SHARED_CONST kNetListElements = 4u;
+SUPPLE_SHARED_CONST kNetListNormals = 26u; // numbers
+SUPPLE_SHARED_CONST kNetListLastWord = 15u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;
 
 // The last word of a record's net: flags, a bit a side, and what the net counts from. 28 bits number the 16-byte vectors of
@@ -68,13 +68,13 @@ SUPPLE_SHARED_CONST kCubicSide = 0u; // the border is one cubic, for both ends a
 SUPPLE_SHARED_CONST kNetFirstShift = 4u;
 
 // Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular ones
-// then have, an element each: pool index of the chains of the corners or 0; windows of their sector; then their net, as quads:
-// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Windows are as those of quads.
+// then have, an element each: pool index of the chains of the corners or 0; net lists of their sector; then their net, as quads:
+// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Net lists are as those of quads.
 SUPPLE_SHARED_CONST kLeafPoints = 12u;
 SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
-SUPPLE_SHARED_CONST kTriangleWindowElements = 3u;
-SUPPLE_SHARED_CONST kTriangleWindowNormals = 18u;
-SUPPLE_SHARED_CONST kTriangleWindowLastWord = 11u;
+SUPPLE_SHARED_CONST kTriangleNetListElements = 3u;
+SUPPLE_SHARED_CONST kTriangleNetListNormals = 18u;
+SUPPLE_SHARED_CONST kTriangleNetListLastWord = 11u;
 SUPPLE_SHARED_CONST kTriangleElements = 4u;
 SUPPLE_SHARED_CONST kIrregularTriangleElements = 9u;
 SUPPLE_SHARED_CONST kTriangleCageElement = 0u;

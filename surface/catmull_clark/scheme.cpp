@@ -1,15 +1,15 @@
 // Exact Catmull-Clark patches as a scheme: the tables of shaders/shared/{surface,chains}.h.
 #include "shaders/shared/chains.h"
 #include "shaders/shared/subdivision.h"
-#include "surface/borders.h"
 #include "surface/build.h"
 #include "surface/chains/chain_tables.h"
 #include "surface/chains/corners.h"
 #include "surface/chains/kernels.h"
 #include "surface/chains/needed_rows.h"
+#include "surface/chains/net_lists.h"
 #include "surface/chains/smooth_uvs.h"
-#include "surface/chains/window.h"
 #include "surface/fans.h"
+#include "surface/patch_records.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
@@ -45,7 +45,7 @@ public:
           cage_(parent_.cage), topology_(parent_.topology), corners_(isolation.parent), points_(isolation.parent),
           rate_(patchRate(recipe.rate)), lastLevel_(lastChainLevel(rate_)), writer_(tables_.words),
           fans_(lastLevel_, writer_),
-          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexContents(), fans_, writer_),
           levelOne_(mesh_.stencils.back().rows()) {}
 
     Result<Tables> build() {
@@ -89,15 +89,15 @@ private:
     /// Quads that a step has made have half of the segments.
     [[nodiscard]] uint32_t patchRate(uint32_t rate) const { return steps() ? (rate + 1) / 2 : rate; }
     [[nodiscard]] bool steps() const { return mesh_.isolationSteps > 1; }
-    [[nodiscard]] std::vector<VertexNeeds> vertexNeeds() const {
-        std::vector<VertexNeeds> needs;
+    [[nodiscard]] std::vector<VertexContent> vertexContents() const {
+        std::vector<VertexContent> contents;
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
             const VertexKind kind = corners_.kind(v);
-            needs.push_back(kind == VertexKind::plain    ? VertexNeeds::nothing
-                            : kind == VertexKind::tensor ? VertexNeeds::limit
-                                                         : VertexNeeds::chain);
+            contents.push_back(kind == VertexKind::plain    ? VertexContent::nothing
+                               : kind == VertexKind::tensor ? VertexContent::limit
+                                                            : VertexContent::chain);
         }
-        return needs;
+        return contents;
     }
 
     Status checkSizes() const {
@@ -287,21 +287,21 @@ private:
     }
 
     void writeIrregular(const DraftPatch& patch, const QuadNet& net) {
-        std::array<uint32_t, 4> windows{}, sharpness{}, normals{};
+        std::array<uint32_t, 4> netLists{}, sharpness{}, normals{};
         uint32_t flags = 0;
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t c = patch.cageCorners[i];
             const ChainTables::Corner corner = cornerOf(c);
             sharpness[i] = std::bit_cast<uint32_t>(sideSharpness(c));
             normals[i] = corner.normal;
-            windows[i] = corner.windows;
+            netLists[i] = corner.netLists;
             flags |= isCubic(patch, i) ? 1u << (shared::kCubicSide + i) : 0u;
         }
-        writer_.put(windows);
+        writer_.put(netLists);
         writer_.put(sharpness);
         const uint32_t first = firstOfNet(net);
         flags |= (firstLevelOne_ + first) << shared::kNetFirstShift;
-        writeWindow(net, first, shared::kWindowElements, {shared::kWindowNormals, normals, flags}, writer_);
+        writeNetList(net, first, shared::kNetListElements, {shared::kNetListNormals, normals, flags}, writer_);
     }
 
     const cage::Cage& host_;

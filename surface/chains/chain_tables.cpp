@@ -2,7 +2,7 @@
 
 #include "shaders/shared/subdivision.h"
 #include "surface/chains/kernels.h"
-#include "surface/chains/window.h"
+#include "surface/chains/net_lists.h"
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@ bool haveSameChains(uint32_t rate, uint32_t other) {
     return lastChainLevel(rate) == lastChainLevel(other);
 }
 
-ChainTables::ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer)
-    : mesh_(*desc.mesh), lastLevel_(desc.lastLevel), wide_(desc.wide), lod_(desc.lod), needs_(std::move(needs)),
+ChainTables::ChainTables(const Desc& desc, std::vector<VertexContent> contents, FanTables& fans, TableWriter& writer)
+    : mesh_(*desc.mesh), lastLevel_(desc.lastLevel), wide_(desc.wide), lod_(desc.lod), contents_(std::move(contents)),
       fans_(fans), writer_(writer) {}
 
 Fan ChainTables::fanOf(uint32_t v) const {
@@ -36,7 +36,7 @@ Fan ChainTables::fanOf(uint32_t v) const {
 }
 
 uint32_t ChainTables::chainLevels(uint32_t v) const {
-    return needs_[v] == VertexNeeds::chain ? lastLevel_ - kFirstChainLevel + 1 : 0;
+    return contents_[v] == VertexContent::chain ? lastLevel_ - kFirstChainLevel + 1 : 0;
 }
 
 KindOfKernel ChainTables::kernelOf(uint32_t makes, Stage stage) const {
@@ -44,8 +44,8 @@ KindOfKernel ChainTables::kernelOf(uint32_t makes, Stage stage) const {
 }
 
 Status ChainTables::checkSizes() const {
-    for (uint32_t v = 0; v < needs_.size(); ++v) {
-        if (needs_[v] == VertexNeeds::chain && chainPoints(v) > kMaxChainPoints) {
+    for (uint32_t v = 0; v < contents_.size(); ++v) {
+        if (contents_[v] == VertexContent::chain && chainPoints(v) > kMaxChainPoints) {
             return Error{ErrorCode::limit, "vertex " + std::to_string(v) + " has " +
                                                std::to_string(mesh_.fragments[v].sectors) +
                                                " faces: more than chains of leaves count"};
@@ -55,10 +55,10 @@ Status ChainTables::checkSizes() const {
 }
 
 uint32_t ChainTables::netSize(uint32_t vertex) const {
-    switch (needs_[vertex]) {
-    case VertexNeeds::chain:
+    switch (contents_[vertex]) {
+    case VertexContent::chain:
         return pointCount(fanOf(vertex), 2);
-    case VertexNeeds::limit:
+    case VertexContent::limit:
         return pointCount(fanOf(vertex), 1);
     default:
         return 0;
@@ -66,7 +66,7 @@ uint32_t ChainTables::netSize(uint32_t vertex) const {
 }
 
 void ChainTables::findNets(NeededRows& levelOne) {
-    for (uint32_t v = 0; v < needs_.size(); ++v) {
+    for (uint32_t v = 0; v < contents_.size(); ++v) {
         const auto net = mesh_.net.begin() + mesh_.fragments[v].firstNet;
         netStarts_.push_back(static_cast<uint32_t>(nets_.size()));
         nets_.insert(nets_.end(), net, net + netSize(v));
@@ -75,11 +75,11 @@ void ChainTables::findNets(NeededRows& levelOne) {
 }
 
 uint32_t ChainTables::layOut(uint32_t next) {
-    normals_.assign(needs_.size(), 0);
-    chains_.assign(needs_.size(), 0);
-    vertexArrangements_.assign(needs_.size(), nullptr);
-    for (uint32_t v = 0; v < needs_.size(); ++v) {
-        if (needs_[v] == VertexNeeds::nothing) {
+    normals_.assign(contents_.size(), 0);
+    chains_.assign(contents_.size(), 0);
+    vertexArrangements_.assign(contents_.size(), nullptr);
+    for (uint32_t v = 0; v < contents_.size(); ++v) {
+        if (contents_[v] == VertexContent::nothing) {
             continue;
         }
         vertexArrangements_[v] = &arrangementOf(v);
@@ -99,14 +99,14 @@ uint32_t ChainTables::layOut(uint32_t next) {
 
 ChainTables::Corner ChainTables::cornerOf(uint32_t vertex, uint32_t sector) {
     Corner corner;
-    if (needs_[vertex] == VertexNeeds::nothing) {
+    if (contents_[vertex] == VertexContent::nothing) {
         return corner;
     }
     const ArrangementTable& arrangement = *vertexArrangements_[vertex];
     corner.chain = normals_[vertex] + arrangement.runs;
     if (chainLevels(vertex) > 0) {
         corner.chain = chains_[vertex];
-        corner.windows = fans_.of(fanOf(vertex)).windows + fans_.windowElements(mesh_.subdivision) * sector;
+        corner.netLists = fans_.of(fanOf(vertex)).netLists + fans_.netListElements(mesh_.subdivision) * sector;
     }
     corner.normal = corner.chain - (normals_[vertex] + arrangement.runOfSector[sector]);
     return corner;
@@ -171,8 +171,8 @@ void ChainTables::writeRun(const subdivision::CentreMask& position, const LimitR
 /// Those that are not plain, by the size of their fans, so that neighbouring lanes loop equally long.
 void ChainTables::write(const Places& places, Tables& tables) {
     std::vector<uint32_t> vertices, nets, firstOfNets;
-    for (uint32_t v = 0; v < needs_.size(); ++v) {
-        if (needs_[v] != VertexNeeds::nothing) {
+    for (uint32_t v = 0; v < contents_.size(); ++v) {
+        if (contents_[v] != VertexContent::nothing) {
             vertices.push_back(v);
         }
     }

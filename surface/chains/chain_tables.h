@@ -21,7 +21,7 @@ inline constexpr uint32_t kLastChainLevel = 6; ///< of 64 segments along an edge
 /// A sample at 1 / rate or further from a corner lies in a leaf of this level at most. `rate` 0: any rate.
 [[nodiscard]] uint32_t lastChainLevel(uint32_t rate);
 
-enum class VertexNeeds : uint8_t { nothing, limit, chain };
+enum class VertexContent : uint8_t { nothing, limit, chain };
 
 class ChainTables {
 public:
@@ -31,7 +31,7 @@ public:
         bool wide = false, lod = false;
     };
     /// `fans` and `writer` must outlive this, as the mesh. `needs`: by vertex.
-    ChainTables(const Desc& desc, std::vector<VertexNeeds> needs, FanTables& fans, TableWriter& writer);
+    ChainTables(const Desc& desc, std::vector<VertexContent> contents, FanTables& fans, TableWriter& writer);
 
     /// Refuses a vertex with more faces than 16 bits number the points of its chain.
     [[nodiscard]] Status checkSizes() const;
@@ -50,10 +50,10 @@ public:
     void write(const Places& places, Tables& tables);
 
     /// What records of patches say of a sector of a vertex: the pool index of its chain, or what lies behind its
-    /// normals; windows, 0 where there is no chain; and so far before the first the sector's normal lies. Of a plain
+    /// normals; net lists, 0 where there is no chain; and so far before the first the sector's normal lies. Of a plain
     /// vertex all are 0.
     struct Corner {
-        uint32_t chain = 0, windows = 0, normal = 0;
+        uint32_t chain = 0, netLists = 0, normal = 0;
     };
     [[nodiscard]] Corner cornerOf(uint32_t vertex, uint32_t sector);
 
@@ -83,7 +83,7 @@ private:
     uint32_t lastLevel_;
     bool wide_, lod_;
     uint32_t depth_ = 0; ///< pool index; 0: chains are as long everywhere
-    std::vector<VertexNeeds> needs_;
+    std::vector<VertexContent> contents_;
     FanTables& fans_;
     TableWriter& writer_;
     std::map<Arrangement, ArrangementTable> arrangements_;

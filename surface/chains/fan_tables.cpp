@@ -1,8 +1,8 @@
 #include "surface/chains/fan_tables.h"
 
 #include "shaders/shared/chains.h"
+#include "surface/chains/net_lists.h"
 #include "surface/chains/triangles.h"
-#include "surface/chains/window.h"
 #include "surface/subdivision_rules.h"
 
 #include <vector>
@@ -19,28 +19,28 @@ uint32_t pointOrCentre(const Fan& fan, uint32_t sector, int32_t a, int32_t b) {
     return index == subdivision::kNoPoint ? 0 : index;
 }
 
-std::vector<uint32_t> quadWindow(const Fan& fan, uint32_t sector) {
+std::vector<uint32_t> quadNetList(const Fan& fan, uint32_t sector) {
     constexpr int32_t kSide = shared::kNetSide, kPoints = shared::kNetPoints;
-    std::vector<uint32_t> window{0}; // point 0 is read by the missing cell alone
+    std::vector<uint32_t> netList{0}; // point 0 is read by the missing cell alone
     for (int32_t k = 1; k < kPoints; ++k) {
-        window.push_back(pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1));
+        netList.push_back(pointOrCentre(fan, sector, k % kSide - 1, k / kSide - 1));
     }
-    return window;
+    return netList;
 }
 
-std::vector<uint32_t> triangleWindow(const Fan& fan, uint32_t sector) {
-    std::vector<uint32_t> window;
+std::vector<uint32_t> triangleNetList(const Fan& fan, uint32_t sector) {
+    std::vector<uint32_t> netList;
     for (const loop::TrianglePlace& place : loop::kTriangleNet) {
         const bool missing = place.a + place.b < 0; // beside the vertex, in the missing cell
-        window.push_back(missing ? 0 : pointOrCentre(fan, sector, place.a, place.b));
+        netList.push_back(missing ? 0 : pointOrCentre(fan, sector, place.a, place.b));
     }
-    return window;
+    return netList;
 }
 
 } // namespace
 
-uint32_t FanTables::windowElements(Subdivision subdivision) {
-    return subdivision == Subdivision::loop ? shared::kTriangleWindowElements : shared::kWindowElements;
+uint32_t FanTables::netListElements(Subdivision subdivision) {
+    return subdivision == Subdivision::loop ? shared::kTriangleNetListElements : shared::kNetListElements;
 }
 
 const FanTables::Table& FanTables::of(const Fan& fan) {
@@ -59,9 +59,9 @@ FanTables::Table FanTables::write(const Fan& fan) {
     const uint32_t size = pointCount(fan, 3) | lastLevel_ << shared::kChainLevelShift;
     for (uint32_t h = 0; h < fan.sectors; ++h) {
         const bool loop = fan.subdivision == Subdivision::loop;
-        const std::vector<uint32_t> window = loop ? triangleWindow(fan, h) : quadWindow(fan, h);
-        writeWindow(window, 0, windowElements(fan.subdivision), {static_cast<uint32_t>(window.size()), {}, size},
-                    writer_);
+        const std::vector<uint32_t> netList = loop ? triangleNetList(fan, h) : quadNetList(fan, h);
+        writeNetList(netList, 0, netListElements(fan.subdivision), {static_cast<uint32_t>(netList.size()), {}, size},
+                     writer_);
     }
     return table;
 }

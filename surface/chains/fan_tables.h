@@ -18,11 +18,11 @@ public:
 
     struct Table {
         uint32_t element = 0;
-        uint32_t windows = 0; ///< element of those of sector 0; windowElements() each
+        uint32_t netLists = 0; ///< element of those of sector 0; netListElements() each
     };
     /// Written when it is asked for first.
     [[nodiscard]] const Table& of(const subdivision::Fan& fan);
-    [[nodiscard]] static uint32_t windowElements(Subdivision subdivision);
+    [[nodiscard]] static uint32_t netListElements(Subdivision subdivision);
 
 private:
     [[nodiscard]] Table write(const subdivision::Fan& fan);

@@ -1,8 +1,8 @@
 #include "surface/chains/leaf_check.h"
 
 #include "shaders/shared/chains.h"
-#include "surface/borders.h"
 #include "surface/chains/fan_tables.h"
+#include "surface/patch_records.h"
 #include "surface/smooth_uvs.h"
 #include "surface/table_check_common.h"
 
@@ -45,18 +45,18 @@ bool LeafCheck::takeQuad(uint64_t element, PatchClass patchClass) {
     std::array<bool, 4> plain{};
     bool hasChains = false;
     for (uint32_t i = 0; i < 4; ++i) {
-        const Corner corner{record[4 + i], record[4 * shared::kQuadWindowElement + i],
-                            halfAt(net, shared::kWindowNormals + i)};
+        const Corner corner{record[4 + i], record[4 * shared::kQuadNetListElement + i],
+                            halfAt(net, shared::kNetListNormals + i)};
         plain[i] = corner.isPlain();
-        hasChains = hasChains || corner.windows != 0;
-        if (!(plain[i] ? check_.require(corner.windows == 0, "a plain corner with a chain") &&
+        hasChains = hasChains || corner.netLists != 0;
+        if (!(plain[i] ? check_.require(corner.netLists == 0, "a plain corner with a chain") &&
                              checkPatchCorner(check_, record[i], corner.chain)
                        : point(record[i], coefficients()) && checkCorner(corner, coefficients()))) {
             return false;
         }
     }
     for (uint32_t i = 0; i < 4; ++i) {
-        const bool cubic = (net[shared::kWindowLastWord] >> (shared::kCubicSide + i) & 1u) != 0;
+        const bool cubic = (net[shared::kNetListLastWord] >> (shared::kCubicSide + i) & 1u) != 0;
         if (!check_.require(!cubic || (plain[i] && plain[(i + 1) % 4]), "a cubic side of a corner that is not plain")) {
             return false;
         }
@@ -82,10 +82,10 @@ bool LeafCheck::takeTriangle(uint64_t element, PatchClass patchClass) {
     const uint32_t* chains = record + 4 * shared::kTriangleChainElement;
     bool hasChains = false;
     for (uint32_t i = 0; i < 3; ++i) {
-        const Corner corner{chains[i], chains[4 + i], halfAt(net, shared::kTriangleWindowNormals + i)};
+        const Corner corner{chains[i], chains[4 + i], halfAt(net, shared::kTriangleNetListNormals + i)};
         const bool plain = (corners[3] >> (shared::kPlainTriangleCorner + i) & 1u) != 0;
         hasChains = hasChains || !plain;
-        if (!check_.require(plain == corner.isPlain() && plain == (corner.windows == 0),
+        if (!check_.require(plain == corner.isPlain() && plain == (corner.netLists == 0),
                             "a plain corner with a chain, or another one without") ||
             !(plain || checkCorner(corner, coefficients()))) {
             return false;
@@ -95,31 +95,32 @@ bool LeafCheck::takeTriangle(uint64_t element, PatchClass patchClass) {
 }
 
 bool LeafCheck::checkQuadNet(const uint32_t* net, const Points& points) {
-    return point(uint64_t{net[shared::kWindowLastWord] >> shared::kNetFirstShift} +
+    return point(uint64_t{net[shared::kNetListLastWord] >> shared::kNetFirstShift} +
                      largestHalf(net, shared::kNetPoints),
                  points);
 }
 
 bool LeafCheck::checkTriangleNet(const uint32_t* net, const Points& points) {
-    return point(uint64_t{net[shared::kTriangleWindowLastWord]} + largestHalf(net, shared::kTriangleNetPoints), points);
+    return point(uint64_t{net[shared::kTriangleNetListLastWord]} + largestHalf(net, shared::kTriangleNetPoints),
+                 points);
 }
 
 /// One that is not plain.
 bool LeafCheck::checkCorner(const Corner& corner, const Points& points) {
     return check_.require(corner.chain >= corner.normal, "a normal before the pool") &&
            point(corner.chain - corner.normal, points) &&
-           (corner.windows == 0 || (check_.require(!check_.source().recipe.lod || check_.tables().lod.depth > 0,
-                                                   "a chain, and nothing tells its last level") &&
-                                    checkChain(corner, points)));
+           (corner.netLists == 0 || (check_.require(!check_.source().recipe.lod || check_.tables().lod.depth > 0,
+                                                    "a chain, and nothing tells its last level") &&
+                                     checkChain(corner, points)));
 }
 
 bool LeafCheck::checkChain(const Corner& corner, const Points& points) {
-    if (!checkWindow(corner.windows)) {
+    if (!checkNetList(corner.netLists)) {
         return false;
     }
-    const uint32_t words = 4 * FanTables::windowElements(subdivision_);
+    const uint32_t words = 4 * FanTables::netListElements(subdivision_);
     const uint64_t size =
-        check_.word(uint64_t{4} * corner.windows + words - 1) & ((1u << shared::kChainLevelShift) - 1);
+        check_.word(uint64_t{4} * corner.netLists + words - 1) & ((1u << shared::kChainLevelShift) - 1);
     const uint64_t levels = lastLevel_ - kFirstChainLevel + 1;
     // The point that they are relative to lies before the first.
     return check_.require(corner.chain > 0, "a chain without a place") &&
@@ -127,18 +128,18 @@ bool LeafCheck::checkChain(const Corner& corner, const Points& points) {
 }
 
 /// Its points are among those of a level.
-bool LeafCheck::checkWindow(uint64_t element) {
-    const uint32_t elements = FanTables::windowElements(subdivision_);
+bool LeafCheck::checkNetList(uint64_t element) {
+    const uint32_t elements = FanTables::netListElements(subdivision_);
     if (!check_.elements(element, elements)) {
         return false;
     }
-    if (!windows_.isFirst(element)) {
+    if (!netLists_.isFirst(element)) {
         return true;
     }
     const uint32_t* words = &check_.tables().words[4 * element];
     const uint32_t last = words[4 * elements - 1];
     return check_.require(last >> shared::kChainLevelShift == lastLevel_,
-                          "a window of chains with another last level") &&
+                          "a netList of chains with another last level") &&
            check_.within(largestHalf(words, isTriangles() ? shared::kTriangleNetPoints : shared::kNetPoints), 1,
                          last & ((1u << shared::kChainLevelShift) - 1), "points of a level");
 }
@@ -166,13 +167,13 @@ bool LeafCheck::takeUvQuad(uint64_t element) {
     const uint32_t* record = &check_.tables().words[4 * element];
     const uint32_t* net = record + 4 * shared::kQuadNetElement;
     if (!checkQuadNet(net, pairs()) ||
-        !check_.require((net[shared::kWindowLastWord] & kQuadFlags) == 0, "a cubic side") ||
+        !check_.require((net[shared::kNetListLastWord] & kQuadFlags) == 0, "a cubic side") ||
         !point(*std::max_element(record, record + 4), pairs())) {
         return false;
     }
     for (uint32_t i = 0; i < 4; ++i) {
         if (!checkUvCorner(
-                {record[4 + i], record[4 * shared::kQuadWindowElement + i], halfAt(net, shared::kWindowNormals + i)},
+                {record[4 + i], record[4 * shared::kQuadNetListElement + i], halfAt(net, shared::kNetListNormals + i)},
                 pairs())) {
             return false;
         }
@@ -191,7 +192,7 @@ bool LeafCheck::takeUvTriangle(uint64_t element) {
         return false;
     }
     for (uint32_t i = 0; i < 3; ++i) {
-        if (!checkUvCorner({chains[i], chains[4 + i], halfAt(net, shared::kTriangleWindowNormals + i)}, pairs())) {
+        if (!checkUvCorner({chains[i], chains[4 + i], halfAt(net, shared::kTriangleNetListNormals + i)}, pairs())) {
             return false;
         }
     }
@@ -199,7 +200,7 @@ bool LeafCheck::takeUvTriangle(uint64_t element) {
 }
 
 bool LeafCheck::checkUvCorner(const Corner& corner, const Points& points) {
-    return check_.require(corner.normal == 0, "a normal") && (corner.windows == 0 || checkChain(corner, points));
+    return check_.require(corner.normal == 0, "a normal") && (corner.netLists == 0 || checkChain(corner, points));
 }
 
 } // namespace supple::surface::chains

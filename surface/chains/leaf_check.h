@@ -13,7 +13,7 @@ class LeafCheck {
 public:
     /// `lastLevel`: of chains.
     LeafCheck(TableCheck& check, Subdivision subdivision, uint32_t lastLevel)
-        : check_(check), subdivision_(subdivision), lastLevel_(lastLevel), windows_(check.tables()) {}
+        : check_(check), subdivision_(subdivision), lastLevel_(lastLevel), netLists_(check.tables()) {}
 
     /// All patches but regular quads.
     [[nodiscard]] bool takePatches();
@@ -28,7 +28,7 @@ private:
     };
     /// What a record says of a corner.
     struct Corner {
-        uint32_t chain = 0, windows = 0, normal = 0;
+        uint32_t chain = 0, netLists = 0, normal = 0;
         [[nodiscard]] bool isPlain() const { return normal == 0; }
     };
     [[nodiscard]] bool isTriangles() const { return subdivision_ == Subdivision::loop; }
@@ -41,7 +41,7 @@ private:
     [[nodiscard]] bool checkCorner(const Corner& corner, const Points& points);
     [[nodiscard]] bool checkUvCorner(const Corner& corner, const Points& points);
     [[nodiscard]] bool checkChain(const Corner& corner, const Points& points);
-    [[nodiscard]] bool checkWindow(uint64_t element);
+    [[nodiscard]] bool checkNetList(uint64_t element);
     [[nodiscard]] bool point(uint64_t index, const Points& points) {
         return check_.within(index, 1, points.count, points.name);
     }
@@ -51,7 +51,7 @@ private:
     TableCheck& check_;
     Subdivision subdivision_;
     uint32_t lastLevel_;
-    SeenElements windows_;
+    SeenElements netLists_;
 };
 
 } // namespace supple::surface::chains

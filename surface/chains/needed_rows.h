@@ -12,8 +12,8 @@
 namespace supple::surface::chains {
 
 /// Numbers rows of weights, in the order in which they are needed. The numbers of a net's rows differ by no more than
-/// 16 bits hold (writeWindow()). A row that is needed in nets far from each other has several numbers, and its point is
-/// there as often.
+/// 16 bits hold (writeNetList()). A row that is needed in nets far from each other has several numbers, and its point
+/// is there as often.
 class NeededRows {
 public:
     /// `farthest`: how far apart the numbers of a net may be. A net has at most half as many rows.

@@ -2,9 +2,9 @@
 
 #include "shaders/shared/chains.h"
 #include "surface/chains/corners.h"
+#include "surface/chains/net_lists.h"
 #include "surface/chains/triangles.h"
 #include "surface/chains/uv_points.h"
-#include "surface/chains/window.h"
 #include "surface/smooth_uvs.h"
 
 #include <array>
@@ -71,21 +71,21 @@ public:
 
     void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) override {
         const RefinedMesh& mesh = points_.mesh();
-        std::array<uint32_t, 4> limits{}, chains{}, windows{}, sharpness{};
+        std::array<uint32_t, 4> limits{}, chains{}, netLists{}, sharpness{};
         for (uint32_t i = 0; i < 4; ++i) {
             const uint32_t c = patch.cageCorners[i];
             const UvPoints::Corner corner = points_.cornerOf(c, fans);
             limits[i] = points_.limit(mesh.cage.faceVertices[c]);
             sharpness[i] = std::bit_cast<uint32_t>(softened(mesh.edgeSharpness[mesh.topology.cornerEdges[c]], 1));
             chains[i] = corner.chain;
-            windows[i] = corner.windows;
+            netLists[i] = corner.netLists;
         }
-        for (const auto& words : {limits, chains, windows, sharpness}) {
+        for (const auto& words : {limits, chains, netLists, sharpness}) {
             writer.put(words);
         }
         const uint32_t first = firstOfNet(numbersOf(p));
         const uint32_t last = (points_.firstPoint() + first) << shared::kNetFirstShift; // every side is two halves
-        writeWindow(numbersOf(p), first, shared::kWindowElements, {shared::kWindowNormals, {}, last}, writer);
+        writeNetList(numbersOf(p), first, shared::kNetListElements, {shared::kNetListNormals, {}, last}, writer);
     }
 
 private:
@@ -106,21 +106,21 @@ public:
     }
 
     void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) override {
-        std::array<uint32_t, 4> limits{}, chains{}, windows{};
+        std::array<uint32_t, 4> limits{}, chains{}, netLists{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i];
             const UvPoints::Corner corner = points_.cornerOf(c, fans);
             limits[i] = points_.limit(points_.mesh().cage.faceVertices[c]);
             chains[i] = corner.chain;
-            windows[i] = corner.windows;
+            netLists[i] = corner.netLists;
         }
         limits[3] = triangles_.flagsOf(patch.cageCorners); // no side is whole: each is two halves
-        for (const auto& words : {limits, chains, windows}) {
+        for (const auto& words : {limits, chains, netLists}) {
             writer.put(words);
         }
         const uint32_t first = firstOfNet(numbersOf(p));
-        writeWindow(numbersOf(p), first, shared::kTriangleWindowElements,
-                    {shared::kTriangleWindowNormals, {}, points_.firstPoint() + first}, writer);
+        writeNetList(numbersOf(p), first, shared::kTriangleNetListElements,
+                     {shared::kTriangleNetListNormals, {}, points_.firstPoint() + first}, writer);
     }
 
 private:

@@ -68,7 +68,7 @@ private:
             return false;
         }
         // Kernels look for the length of a chain even where there is none.
-        return fits && check_.elements(0, shared::kWindowElements) && checkMesh();
+        return fits && check_.elements(0, shared::kNetListElements) && checkMesh();
     }
 
     /// Where the vertices are that plain vertices and points of level 1 are made of: the cage, or behind a step the

@@ -162,7 +162,7 @@ UvPoints::Corner UvPoints::cornerOf(uint32_t corner, FanTables& fans) const {
     }
     const Fan fan = fanOf(v);
     const uint32_t sector = topology.cornerSpokes[corner] - topology.spokeStarts[v];
-    return {chains_[v], fans.of(fan).windows + FanTables::windowElements(subdivision_) * sector};
+    return {chains_[v], fans.of(fan).netLists + FanTables::netListElements(subdivision_) * sector};
 }
 
 } // namespace supple::surface::chains

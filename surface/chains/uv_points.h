@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Status checkSize() const;
     /// What records say of a corner of the mesh, behind write() and addFans(). Without a chain: 0.
     struct Corner {
-        uint32_t chain = 0, windows = 0;
+        uint32_t chain = 0, netLists = 0;
     };
     [[nodiscard]] Corner cornerOf(uint32_t corner, FanTables& fans) const;
 

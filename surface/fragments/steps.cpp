@@ -48,7 +48,7 @@ public:
         push_.verticesPerInstance = evaluation.verticesPerInstance;
         push_.samples = sampleCount(fragments_.loop ? Domain::triangle : Domain::quad, evaluation.rate);
         push_.firstVertex = evaluation.firstVertices.empty() ? 0 : evaluation.firstVertices.front();
-        push_.today = builder.needs.view && format_ == kVertexPosition ? 1 : 0;
+        push_.today = builder.options.view && format_ == kVertexPosition ? 1 : 0;
     }
 
     void addAll() {

@@ -56,10 +56,10 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t 
     shared::LodPush push{};
     push.count = count;
     push.first = first;
-    push.levels = builder.needs.levelOffset;
-    push.masks = builder.needs.firstMask;
-    push.maskWords = builder.needs.maskWords;
-    push.countsHidden = builder.needs.countsHidden ? 1 : 0;
+    push.levels = builder.options.levelOffset;
+    push.masks = builder.options.firstMask;
+    push.maskWords = builder.options.maskWords;
+    push.countsHidden = builder.options.countsHidden ? 1 : 0;
     return push;
 }
 
@@ -86,7 +86,7 @@ void addPatches(ProgramBuilder& builder, uint32_t& argument) {
         for (; r < ranges.size() && patchKernel(ranges[r].patchClass) == own; ++r) {
             count += ranges[r].section.count;
         }
-        const gpu::Kernel kernel = builder.kernel(SetKind::levels, builder.needs.backFaces ? own.facing : own.kernel,
+        const gpu::Kernel kernel = builder.kernel(SetKind::levels, builder.options.backFaces ? own.facing : own.kernel,
                                                   {{shared::kKindConstant, own.kind}}, "supple levels of patches");
         builder.add(builder.program.patchLevels, SetKind::levels, kernel, builder.lanes(count),
                     pushFor(builder, first, count), argument++, Order::disjoint);
@@ -127,7 +127,7 @@ void addSteps(ProgramBuilder& builder) {
     program.scratchStride = scratchStride(builder.tables);
 
     auto argument = static_cast<uint32_t>(builder.tables.constructions.size());
-    if (builder.needs.levelOffset == 0) {
+    if (builder.options.levelOffset == 0) {
         addEdges(builder, argument);
     }
     addPatches(builder, argument);

@@ -2,7 +2,7 @@
 
 #include "shaders/shared/blend.h"
 #include "shaders/shared/lod.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/table_check_common.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "surface/lod/tables.h"
 
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/table_writer.h"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "surface/build.h"
 #include "surface/chains/chain_tables.h"
 #include "surface/chains/needed_rows.h"
+#include "surface/chains/net_lists.h"
 #include "surface/chains/smooth_uvs.h"
 #include "surface/chains/triangles.h"
-#include "surface/chains/window.h"
 #include "surface/stencil_table.h"
 #include "surface/subdivision/mesh.h"
 
@@ -17,7 +17,7 @@ namespace supple::surface::loop {
 namespace {
 
 using chains::ChainTables;
-using chains::VertexNeeds;
+using chains::VertexContent;
 using subdivision::Isolation;
 
 class Builder {
@@ -26,7 +26,7 @@ public:
         : host_(host), recipe_(recipe), edges_(edges), mesh_(isolation.mesh), parent_(isolation.parent),
           cage_(parent_.cage), topology_(parent_.topology), triangles_(parent_),
           lastLevel_(chains::lastChainLevel(recipe.rate)), writer_(tables_.words), fans_(lastLevel_, writer_),
-          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexNeeds(), fans_, writer_),
+          chains_({&mesh_, lastLevel_, recipe.wide, recipe.lod}, vertexContents(), fans_, writer_),
           vertices_(cage_.vertexCount()), levelOne_(mesh_.stencils.back().rows()) {
         tables_.rate = recipe.rate;
         tables_.notes = mesh_.notes;
@@ -68,12 +68,12 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<VertexNeeds> vertexNeeds() const {
-        std::vector<VertexNeeds> needs;
+    [[nodiscard]] std::vector<VertexContent> vertexContents() const {
+        std::vector<VertexContent> contents;
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            needs.push_back(triangles_.isPlain(v) ? VertexNeeds::nothing : VertexNeeds::chain);
+            contents.push_back(triangles_.isPlain(v) ? VertexContent::nothing : VertexContent::chain);
         }
-        return needs;
+        return contents;
     }
     [[nodiscard]] uint32_t firstOf(const DraftPatch& patch) const { return firstCorners_[patch.facet]; }
 
@@ -181,20 +181,20 @@ private:
     }
     /// What follows of an irregular one.
     void writeIrregular(const DraftPatch& patch, const TriangleNet& net) {
-        std::array<uint32_t, 4> chains{}, windows{}, normals{};
+        std::array<uint32_t, 4> chains{}, netLists{}, normals{};
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t c = patch.cageCorners[i], v = cage_.faceVertices[c];
             const ChainTables::Corner corner =
                 chains_.cornerOf(v, topology_.cornerSpokes[c] - topology_.spokeStarts[v]);
             chains[i] = corner.chain;
-            windows[i] = corner.windows;
+            netLists[i] = corner.netLists;
             normals[i] = corner.normal;
         }
         writer_.put(chains);
-        writer_.put(windows);
+        writer_.put(netLists);
         const uint32_t first = chains::firstOfNet(net);
-        chains::writeWindow(net, first, shared::kTriangleWindowElements,
-                            {shared::kTriangleWindowNormals, normals, firstLevelOne_ + first}, writer_);
+        chains::writeNetList(net, first, shared::kTriangleNetListElements,
+                             {shared::kTriangleNetListNormals, normals, firstLevelOne_ + first}, writer_);
     }
 
     const cage::Cage& host_;

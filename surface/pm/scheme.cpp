@@ -1,7 +1,7 @@
 // P_m as a scheme: the tables of shaders/shared/{surface,pm}.h.
 #include "shaders/shared/pm.h"
-#include "surface/borders.h"
 #include "surface/build.h"
+#include "surface/patch_records.h"
 #include "surface/pm/kernels.h"
 #include "surface/pm/smooth_uvs.h"
 #include "surface/pm/weights.h"

@@ -27,14 +27,14 @@ void addSteps(ProgramBuilder& builder) {
     }
     const Evaluation& evaluation = builder.evaluation;
     const uint32_t firstVertex = evaluation.firstVertices.front();
-    if (builder.needs.attributes) {
+    if (builder.options.attributes) {
         addAttributes(builder, firstVertex);
     }
     for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
         auto push = pushFor<FragmentPush>(vertices);
         push.verticesPerInstance = evaluation.verticesPerInstance;
         push.firstVertex = firstVertex;
-        push.today = builder.needs.view && pass.format == kVertexPosition ? 1 : 0;
+        push.today = builder.options.view && pass.format == kVertexPosition ? 1 : 0;
         const gpu::Kernel kernel = builder.kernel(
             SetKind::subdivide, Kernel::polygonsVertex,
             {{kVertexFormatConstant, pass.format}, {kTangentsConstant, tangentsConstant(builder, pass.format)}},

@@ -1,9 +1,9 @@
 // p-rep as a scheme: the tables of shaders/shared/{surface,prep}.h.
 #include "cage/message.h"
 #include "shaders/shared/prep.h"
-#include "surface/borders.h"
 #include "surface/build.h"
 #include "surface/fans.h"
+#include "surface/patch_records.h"
 #include "surface/prep/kernels.h"
 #include "surface/prep/smooth_uvs.h"
 #include "surface/prep/weights.h"

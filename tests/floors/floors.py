@@ -29,7 +29,7 @@ FLOORS = [line.split() for line in """
     surface/lod/ surface/prep/ surface/pm/ surface/subdivision/ surface/blend/ surface/polygons/
     surface/chains/ surface/fragments/
     surface/catmull_clark/ surface/loop/
-    surface/passes.
+    surface/programs.
     surface/schemes.
     runtime/include/
     runtime/

@@ -1,6 +1,6 @@
 // Bounds, culling and the list of what is seen, on hand-made cages: what the device wrote against the same on the CPU.
-#include "runtime/culling/bounds_pass.h"
-#include "runtime/culling/occlusion_pass.h"
+#include "runtime/culling/bounds_kernels.h"
+#include "runtime/culling/occlusion_kernels.h"
 
 #include "gpu/memory.h"
 #include "tests/support/gpu_comparison.h"
@@ -139,13 +139,13 @@ public:
             return nullptr;
         }
         auto rig = std::unique_ptr<Rig>(new Rig(host, std::move(*device)));
-        Result<BoundsPass> pass = BoundsPass::create(rig->device_, rig->pipelines_);
+        Result<BoundsKernels> pass = BoundsKernels::create(rig->device_, rig->pipelines_);
         if (!pass) {
             ADD_FAILURE() << pass.error().message;
             return nullptr;
         }
         rig->pass_ = std::move(*pass);
-        Result<OcclusionPass> occlusion = OcclusionPass::create(rig->device_, rig->pipelines_);
+        Result<OcclusionKernels> occlusion = OcclusionKernels::create(rig->device_, rig->pipelines_);
         if (!occlusion) {
             ADD_FAILURE() << occlusion.error().message;
             return nullptr;
@@ -343,8 +343,8 @@ private:
     host::Device& host_;
     gpu::Device device_;
     gpu::Pipelines pipelines_;
-    BoundsPass pass_;
-    OcclusionPass occlusion_;
+    BoundsKernels pass_;
+    OcclusionKernels occlusion_;
     host::Buffer states_;
 };
 

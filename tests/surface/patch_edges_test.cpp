@@ -2,7 +2,7 @@
 #include "surface/patch_edges.h"
 
 #include "shaders/shared/pm.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/schemes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"

@@ -2,7 +2,7 @@
 // vertices.
 #include "cage/topology.h"
 #include "shaders/shared/surface.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/schemes.h"
 #include "tests/support/meshes.h"
 

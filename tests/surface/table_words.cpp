@@ -4,8 +4,8 @@
 #include "shaders/shared/pm.h"
 #include "shaders/shared/polygons.h"
 #include "shaders/shared/prep.h"
-#include "surface/borders.h"
 #include "surface/patch_class.h"
+#include "surface/patch_records.h"
 #include "tests/surface/table_words_parts.h"
 
 #include <algorithm>

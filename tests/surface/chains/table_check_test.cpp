@@ -193,9 +193,9 @@ TEST(ExactTableCheck, SaysWhatIsWrong) {
     const std::string elements = " of " + std::to_string(tables.words.size() / 4) + " elements";
     const surface::PatchRange& range = tables.ranges.back();
     const uint64_t first = uint64_t{4} * range.section.table;
-    const auto window = std::find_if(tables.words.begin() + static_cast<ptrdiff_t>(first) + 8, tables.words.end(),
-                                     [](uint32_t word) { return word != 0; });
-    *window = 0xFFFFFFFFu;
+    const auto netList = std::find_if(tables.words.begin() + static_cast<ptrdiff_t>(first) + 8, tables.words.end(),
+                                      [](uint32_t word) { return word != 0; });
+    *netList = 0xFFFFFFFFu;
     expectRefused(made, tables, "irregular quads: 4294967295 and 3 more," + elements);
     tables = made.tables;
     tables.words[4 * range.smoothUvs] = 0xFFFFFFFFu;

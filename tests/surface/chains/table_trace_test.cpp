@@ -2,7 +2,7 @@
 // memory. This goes through the indices as the kernels themselves compute them, in 32 bits.
 #include "shaders/shared/chains.h"
 #include "shaders/shared/subdivision.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/smooth_uvs.h"
 #include "tests/support/exact_tables.h"
 
@@ -262,14 +262,14 @@ public:
     LeafTrace(const Tables& tables, bool loop, TracedMemory& memory) : tables_(tables), loop_(loop), at_(memory) {}
 
     void quad(uint32_t record, bool uvs) {
-        const uint32_t net = 4 * (record + kQuadNetElement), last = at_.word(net + kWindowLastWord);
+        const uint32_t net = 4 * (record + kQuadNetElement), last = at_.word(net + kNetListLastWord);
         std::array<bool, 4> chains{};
         for (uint32_t i = 0; i < 4; ++i) {
             point(at_.element(record, i), uvs);
-            const uint32_t spoke = at_.element(record + 1, i), normal = at_.half(net, kWindowNormals + i);
-            const uint32_t window = at_.element(record + kQuadWindowElement, i);
-            chains[i] = window != 0;
-            corner(spoke, window, normal, uvs);
+            const uint32_t spoke = at_.element(record + 1, i), normal = at_.half(net, kNetListNormals + i);
+            const uint32_t netList = at_.element(record + kQuadNetListElement, i);
+            chains[i] = netList != 0;
+            corner(spoke, netList, normal, uvs);
             if ((last >> (kCubicSide + i) & 1u) != 0) {
                 at_.expect(!uvs, "cubic side", i);
                 at_.pool(tables_.tangents + SUPPLE_SPOKE(spoke));
@@ -296,13 +296,13 @@ public:
         }
         const uint32_t net = 4 * (record + kTriangleNetElement);
         for (uint32_t i = 0; i < 3; ++i) {
-            const uint32_t window = at_.element(record + kTriangleChainElement + 1, i);
-            at_.expect(uvs || (window == 0) == ((flags >> (kPlainTriangleCorner + i) & 1u) != 0), "plain corner", i);
-            corner(at_.element(record + kTriangleChainElement, i), window, at_.half(net, kTriangleWindowNormals + i),
+            const uint32_t netList = at_.element(record + kTriangleChainElement + 1, i);
+            at_.expect(uvs || (netList == 0) == ((flags >> (kPlainTriangleCorner + i) & 1u) != 0), "plain corner", i);
+            corner(at_.element(record + kTriangleChainElement, i), netList, at_.half(net, kTriangleNetListNormals + i),
                    uvs);
         }
         for (uint32_t k = 0; k < kTriangleNetPoints; ++k) {
-            point(at_.word(net + kTriangleWindowLastWord) + at_.half(net, k), uvs);
+            point(at_.word(net + kTriangleNetListLastWord) + at_.half(net, k), uvs);
         }
     }
 
@@ -314,21 +314,21 @@ private:
             at_.pool(i);
         }
     }
-    void corner(uint32_t chain, uint32_t window, uint32_t normal, bool uvs) {
+    void corner(uint32_t chain, uint32_t netList, uint32_t normal, bool uvs) {
         if (normal != 0) {
             point(chain - normal, uvs);
         }
-        if (window == 0) {
+        if (netList == 0) {
             return;
         }
         at_.expect(normal != 0 || uvs, "normal", chain);
-        const uint32_t lastWord = at_.word(4 * window + (loop_ ? kTriangleWindowLastWord : kWindowLastWord));
+        const uint32_t lastWord = at_.word(4 * netList + (loop_ ? kTriangleNetListLastWord : kNetListLastWord));
         const uint32_t size = lastWord & ((1u << kChainLevelShift) - 1), last = lastWord >> kChainLevelShift;
         at_.expect(last >= 2, "last level", last);
         point(chain - 1, uvs);
         for (uint32_t level = 2; level <= last && at_.goesOn(); ++level) {
             for (uint32_t k = 0; k < (loop_ ? kTriangleNetPoints : kNetPoints); ++k) {
-                point(chain + (level - 2) * size + at_.half(4 * window, k), uvs);
+                point(chain + (level - 2) * size + at_.half(4 * netList, k), uvs);
             }
         }
     }

@@ -2,7 +2,7 @@
 // This lists them by what shaders/shared/{exact,surface,subdivision}.h say of the records, and changes one at a time.
 #include "shaders/shared/chains.h"
 #include "shaders/shared/subdivision.h"
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 #include "surface/smooth_uvs.h"
 #include "tests/support/exact_tables.h"
 
@@ -222,11 +222,11 @@ private:
             }
             return;
         }
-        addLeaves(record + 4, record + 4 * kQuadWindowElement, record + 4 * kQuadNetElement, true);
-        const uint64_t last = record + 4 * kQuadNetElement + kWindowLastWord;
+        addLeaves(record + 4, record + 4 * kQuadNetListElement, record + 4 * kQuadNetElement, true);
+        const uint64_t last = record + 4 * kQuadNetElement + kNetListLastWord;
         for (uint32_t i = 0; i < 4; ++i) {
             const uint64_t net = record + 4 * kQuadNetElement;
-            if (half(net, kWindowNormals + i) != 0 || half(net, kWindowNormals + (i + 1) % 4) != 0) {
+            if (half(net, kNetListNormals + i) != 0 || half(net, kNetListNormals + (i + 1) % 4) != 0) {
                 numbers_.push_back({"cubic side of a quad", last, 1, kCubicSide + i, 1, true});
             }
         }
@@ -246,16 +246,16 @@ private:
                     {"whole side of texture coordinates", record + 3, 1, kWholeTriangleSide + i, 1, true});
             } else {
                 numbers_.push_back(
-                    {"cubic side of texture coordinates", net + kWindowLastWord, 1, kCubicSide + i, 1, true});
+                    {"cubic side of texture coordinates", net + kNetListLastWord, 1, kCubicSide + i, 1, true});
             }
         }
     }
 
     /// What corners have, and the net: of positions, or texture coordinates.
-    void addLeaves(uint64_t chains, uint64_t windows, uint64_t net, bool positions) {
+    void addLeaves(uint64_t chains, uint64_t netLists, uint64_t net, bool positions) {
         const uint32_t points = isLoop() ? kTriangleNetPoints : kNetPoints;
-        const uint32_t normals = isLoop() ? kTriangleWindowNormals : kWindowNormals;
-        const uint64_t lastWord = isLoop() ? kTriangleWindowLastWord : kWindowLastWord;
+        const uint32_t normals = isLoop() ? kTriangleNetListNormals : kNetListNormals;
+        const uint64_t lastWord = isLoop() ? kTriangleNetListLastWord : kNetListLastWord;
         const uint64_t last = net + lastWord, limit = positions ? pool() : words() / 2;
         const uint32_t shift = isLoop() ? 0 : kNetFirstShift;
         const uint64_t first = at(last) >> shift;
@@ -264,17 +264,17 @@ private:
             addHalf("point of a net", net, k, limit - first, limit - first <= 0xFFFFu);
         }
         for (uint32_t i = 0; i < (isLoop() ? 3u : 4u); ++i) {
-            const uint64_t window = at(windows + i), chain = at(chains + i);
+            const uint64_t netList = at(netLists + i), chain = at(chains + i);
             if (half(net, normals + i) != 0) {
                 addHalf("normal of a corner", net, normals + i, chain + 1, chain < 0xFFFFu);
             } else {
                 addHalf("normal that a corner has not", net, normals + i, 1, false);
             }
-            if (window != 0) {
-                add("window of a corner", windows + i, elements());
-                const uint64_t size = at(4 * window + lastWord) & ((1u << kChainLevelShift) - 1);
+            if (netList != 0) {
+                add("netList of a corner", netLists + i, elements());
+                const uint64_t size = at(4 * netList + lastWord) & ((1u << kChainLevelShift) - 1);
                 add("chain of a corner", chains + i, limit - size * (lastLevel() - 1) + 1);
-                addWindow(4 * window, points, size, lastWord);
+                addNetList(4 * netList, points, size, lastWord);
             } else if (half(net, normals + i) != 0) {
                 add("place of a corner's normal", chains + i, limit + half(net, normals + i));
             } else if (positions && !isLoop()) {
@@ -282,22 +282,22 @@ private:
             }
         }
     }
-    void addWindow(uint64_t window, uint32_t points, uint64_t size, uint64_t lastWord) {
-        if (!seen_.insert(window).second) {
+    void addNetList(uint64_t netList, uint32_t points, uint64_t size, uint64_t lastWord) {
+        if (!seen_.insert(netList).second) {
             return;
         }
         for (uint32_t k = 0; k < points; ++k) {
-            addHalf("point of a window", window, k, size);
+            addHalf("point of a netList", netList, k, size);
         }
-        numbers_.push_back({"points of a level", window + lastWord, 0, 0, kChainLevelShift, true}); // none
-        numbers_.push_back({"last level", window + lastWord, lastLevel() + 1, kChainLevelShift, 8, true});
+        numbers_.push_back({"points of a level", netList + lastWord, 0, 0, kChainLevelShift, true}); // none
+        numbers_.push_back({"last level", netList + lastWord, lastLevel() + 1, kChainLevelShift, 8, true});
     }
 
     const ExactTables& made_;
     const Tables& tables_;
     std::vector<Number> numbers_;
     uint32_t vertices_ = 0;   ///< with records
-    std::set<uint64_t> seen_; ///< first words of fans, arrangements and windows
+    std::set<uint64_t> seen_; ///< first words of fans, arrangements and net lists
 };
 
 /// Changes the numbers one by one. Which kinds of them there were.

@@ -9,10 +9,10 @@
 
 namespace supple::runtime {
 
-class OcclusionPass {
+class OcclusionKernels {
 public:
     /// `pipelines` must outlive the pass.
-    [[nodiscard]] static Result<OcclusionPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    [[nodiscard]] static Result<OcclusionKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the pipeline if it is not there: on any thread, also beside recording.
     [[nodiscard]] Result<gpu::Kernel> make() const;
     /// The same for what is to be recorded.

@@ -1,4 +1,4 @@
-#include "surface/passes.h"
+#include "surface/programs.h"
 
 #include "shaders/shared/subdivision.h"
 #include "surface/fragments/steps.h"
@@ -123,8 +123,8 @@ uint64_t Evaluation::layOut(const Tables& tables, uint64_t first) {
     return vertices;
 }
 
-Result<Passes> Passes::create(const gpu::Device& device, gpu::Pipelines& pipelines, const Shaders& shaders) {
-    Passes passes;
+Result<Programs> Programs::create(const gpu::Device& device, gpu::Pipelines& pipelines, const Shaders& shaders) {
+    Programs passes;
     passes.device_ = &device;
     passes.pipelines_ = &pipelines;
     passes.shaders_ = shaders;
@@ -145,10 +145,10 @@ Result<Passes> Passes::create(const gpu::Device& device, gpu::Pipelines& pipelin
     return passes;
 }
 
-Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const Evaluation& evaluation) {
-    ProgramBuilder builder(*device_, layouts_, *pipelines_, shaders_, tables, needs, evaluation);
+Result<Program> Programs::prepare(const Tables& tables, const ProgramOptions& options, const Evaluation& evaluation) {
+    ProgramBuilder builder(*device_, layouts_, *pipelines_, shaders_, tables, options, evaluation);
     addConstructions(builder);
-    if (needs.lod) {
+    if (options.lod) {
         lod::addSteps(builder);
         addRangesAtLevels(builder);
     } else {
@@ -162,7 +162,7 @@ Result<Program> Passes::prepare(const Tables& tables, const Needs& needs, const 
     return std::move(builder.program);
 }
 
-Result<gpu::Kernel> Passes::prepareSolve() {
+Result<gpu::Kernel> Programs::prepareSolve() {
     return pipelines_->get(layout(SetKind::levels), shaders_[Kernel::lodSolve], {}, "supple level budget");
 }
 

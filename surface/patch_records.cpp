@@ -1,4 +1,4 @@
-#include "surface/borders.h"
+#include "surface/patch_records.h"
 
 #include "shaders/shared/surface.h"
 

@@ -1,9 +1,9 @@
-// Passes that a context has once, each made when something first needs it.
+// Kernels that a context has once, each made when something first needs it.
 #pragma once
 
-#include "runtime/culling/bounds_pass.h"
-#include "runtime/culling/occlusion_pass.h"
-#include "skinning/pose_pass.h"
+#include "runtime/culling/bounds_kernels.h"
+#include "runtime/culling/occlusion_kernels.h"
+#include "skinning/pose_kernels.h"
 
 #include <memory>
 #include <mutex>
@@ -12,22 +12,22 @@ namespace supple::runtime {
 
 /// Any threads may use it at the same time. A pass stays where it is once it is there. It comes with its layouts alone:
 /// making one keeps no other thread waiting for pipelines.
-class SharedPasses {
+class SharedKernels {
 public:
     /// Both must outlive the passes.
-    SharedPasses(const gpu::Device& device, gpu::Pipelines& pipelines) : device_(&device), pipelines_(&pipelines) {}
+    SharedKernels(const gpu::Device& device, gpu::Pipelines& pipelines) : device_(&device), pipelines_(&pipelines) {}
 
     /// Of instances that play on the device.
-    [[nodiscard]] Result<skinning::PosePass*> pose() { return made(pose_); }
+    [[nodiscard]] Result<skinning::PoseKernels*> pose() { return made(pose_); }
     /// Of views, and of groups with bounds.
-    [[nodiscard]] Result<BoundsPass*> bounds() { return made(bounds_); }
+    [[nodiscard]] Result<BoundsKernels*> bounds() { return made(bounds_); }
     /// Of views with occlusion.
-    [[nodiscard]] Result<OcclusionPass*> occlusion() { return made(occlusion_); }
+    [[nodiscard]] Result<OcclusionKernels*> occlusion() { return made(occlusion_); }
 
     // The same; null: nothing has needed it.
-    [[nodiscard]] skinning::PosePass* knownPose() const { return known(pose_); }
-    [[nodiscard]] BoundsPass* knownBounds() const { return known(bounds_); }
-    [[nodiscard]] OcclusionPass* knownOcclusion() const { return known(occlusion_); }
+    [[nodiscard]] skinning::PoseKernels* knownPose() const { return known(pose_); }
+    [[nodiscard]] BoundsKernels* knownBounds() const { return known(bounds_); }
+    [[nodiscard]] OcclusionKernels* knownOcclusion() const { return known(occlusion_); }
 
 private:
     template <class Pass>
@@ -51,9 +51,9 @@ private:
     const gpu::Device* device_;
     gpu::Pipelines* pipelines_;
     mutable std::mutex mutex_;
-    std::unique_ptr<skinning::PosePass> pose_;
-    std::unique_ptr<BoundsPass> bounds_;
-    std::unique_ptr<OcclusionPass> occlusion_;
+    std::unique_ptr<skinning::PoseKernels> pose_;
+    std::unique_ptr<BoundsKernels> bounds_;
+    std::unique_ptr<OcclusionKernels> occlusion_;
 };
 
 } // namespace supple::runtime

@@ -4,14 +4,14 @@
 
 #include "gpu/pipelines.h"
 #include "shaders/shared/pose.h"
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 
 namespace supple::skinning {
 
-class PosePass {
+class PoseKernels {
 public:
     /// Both must outlive the pass.
-    [[nodiscard]] static Result<PosePass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    [[nodiscard]] static Result<PoseKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording.
     [[nodiscard]] Status make(SkinningMode mode) const;
     /// The same for what is to be recorded.

@@ -1,4 +1,4 @@
-#include "skinning/deform_pass.h"
+#include "skinning/deform_kernels.h"
 
 #include "shaders/deform_deform_comp.h"
 #include "shaders/deform_gather_comp.h"
@@ -136,14 +136,14 @@ void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* ta
     std::memset(target, 0, (layout.stride - layout.morphWeights) * kElementBytes - layout.morphCount * sizeof(float));
 }
 
-Result<DeformPass> DeformPass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+Result<DeformKernels> DeformKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
         gpu::wideStorage(kDeformTableBinding),    gpu::narrowTexels(kDeformTableTexelBinding),
         gpu::wideStorage(kPoseBinding),           gpu::narrowTexels(kPoseTexelBinding),
         gpu::storage(kDeformedCageBinding),       gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
     };
-    DeformPass pass;
+    DeformKernels pass;
     pass.device_ = &device;
     pass.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout =
@@ -155,7 +155,7 @@ Result<DeformPass> DeformPass::create(const gpu::Device& device, gpu::Pipelines&
     return pass;
 }
 
-Result<gpu::Kernel> DeformPass::make(SkinningMode mode, bool morphs) const {
+Result<gpu::Kernel> DeformKernels::make(SkinningMode mode, bool morphs) const {
     constexpr const char* kNames[2][2] = {
         {"supple deform", "supple deform, morphs"},
         {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
@@ -164,11 +164,11 @@ Result<gpu::Kernel> DeformPass::make(SkinningMode mode, bool morphs) const {
     return pipelines_->get(layout_, deform_deform_comp, constants, kNames[m][t]);
 }
 
-Result<gpu::Kernel> DeformPass::makeGather() const {
+Result<gpu::Kernel> DeformKernels::makeGather() const {
     return pipelines_->get(layout_, deform_gather_comp, {}, "supple gather");
 }
 
-Status DeformPass::prepare(SkinningMode mode, bool morphs) {
+Status DeformKernels::prepare(SkinningMode mode, bool morphs) {
     const Result<gpu::Kernel> kernel = make(mode, morphs);
     if (!kernel) {
         return kernel.error();
@@ -177,7 +177,7 @@ Status DeformPass::prepare(SkinningMode mode, bool morphs) {
     return success();
 }
 
-Status DeformPass::prepareGather() {
+Status DeformKernels::prepareGather() {
     const Result<gpu::Kernel> kernel = makeGather();
     if (!kernel) {
         return kernel.error();
@@ -186,18 +186,18 @@ Status DeformPass::prepareGather() {
     return success();
 }
 
-void DeformPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
-                        const shared::DeformPush& push) const {
+void DeformKernels::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+                           const shared::DeformPush& push) const {
     record(commandBuffer, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set, push);
 }
 
-void DeformPass::recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set,
-                              const shared::DeformPush& push) const {
+void DeformKernels::recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set,
+                                 const shared::DeformPush& push) const {
     record(commandBuffer, gather_, set, push);
 }
 
-void DeformPass::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
-                        const shared::DeformPush& push) const {
+void DeformKernels::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+                           const shared::DeformPush& push) const {
     gpu::bind(*device_, commandBuffer, kernel, set, push);
     const uint64_t lanes = uint64_t{push.vertexCount} * push.instanceCount;
     const uint64_t local = device_->mapping.localSize;

@@ -8,7 +8,7 @@
 namespace supple::surface {
 
 /// What a group needs from the passes. It does not change after the group is created.
-struct Needs {
+struct ProgramOptions {
     uint32_t vertexFormat = shared::kVertex16;
     bool motion = false; ///< also writes the positions of the frame before
     bool patches = false;

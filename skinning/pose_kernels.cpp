@@ -1,4 +1,4 @@
-#include "skinning/pose_pass.h"
+#include "skinning/pose_kernels.h"
 
 #include "gpu/device.h"
 #include "shaders/pose_locals_comp.h"
@@ -18,7 +18,7 @@ static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
 } // namespace
 
-Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
         gpu::wideStorage(kClipTableBinding),
         gpu::narrowTexels(kClipTableTexelBinding),
@@ -32,7 +32,7 @@ Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pip
         gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
     };
-    PosePass pass;
+    PoseKernels pass;
     pass.device_ = &device;
     pass.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, sizeof(PosePush), "supple pose");
@@ -43,7 +43,7 @@ Result<PosePass> PosePass::create(const gpu::Device& device, gpu::Pipelines& pip
     return pass;
 }
 
-Result<PosePass::Kernels> PosePass::kernels(SkinningMode mode) const {
+Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     const bool dual = mode == SkinningMode::dualQuaternion;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
@@ -59,12 +59,12 @@ Result<PosePass::Kernels> PosePass::kernels(SkinningMode mode) const {
     return made ? Result<Kernels>(found) : made.error();
 }
 
-Status PosePass::make(SkinningMode mode) const {
+Status PoseKernels::make(SkinningMode mode) const {
     const Result<Kernels> made = kernels(mode);
     return made ? success() : made.error();
 }
 
-Status PosePass::prepare(SkinningMode mode) {
+Status PoseKernels::prepare(SkinningMode mode) {
     const Result<Kernels> made = kernels(mode);
     if (!made) {
         return made.error();
@@ -75,25 +75,26 @@ Status PosePass::prepare(SkinningMode mode) {
     return success();
 }
 
-void PosePass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push,
-                      const gpu::Kernel& kernel, uint64_t groups) const {
+void PoseKernels::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push,
+                         const gpu::Kernel& kernel, uint64_t groups) const {
     gpu::bind(*device_, commandBuffer, kernel, set, push);
     gpu::dispatchLinear(*device_, commandBuffer, groups);
 }
 
-void PosePass::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds, const PosePush& push) const {
+void PoseKernels::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds,
+                               const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
     record(commandBuffer, set, push, locals_[adds ? 1 : 0], (items * push.instanceCount + local - 1) / local);
 }
 
-void PosePass::recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+void PoseKernels::recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
     record(commandBuffer, set, push, roots_, (push.instanceCount + local - 1) / local);
 }
 
-void PosePass::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
-                             const PosePush& push) const {
+void PoseKernels::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+                                const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
     record(commandBuffer, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
 }

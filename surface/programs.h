@@ -4,8 +4,8 @@
 
 #include "gpu/pipelines.h"
 #include "surface/evaluation.h"
-#include "surface/needs.h"
 #include "surface/program.h"
+#include "surface/program_options.h"
 #include "surface/scheme.h"
 #include "surface/shaders.h"
 
@@ -15,15 +15,16 @@
 namespace supple::surface {
 
 /// The layouts of the passes, and all that programs are made of.
-class Passes {
+class Programs {
 public:
     /// `device`, `pipelines` and the SPIR-V must outlive the passes.
-    [[nodiscard]] static Result<Passes> create(const gpu::Device& device, gpu::Pipelines& pipelines,
-                                               const Shaders& shaders = Shaders::embedded());
+    [[nodiscard]] static Result<Programs> create(const gpu::Device& device, gpu::Pipelines& pipelines,
+                                                 const Shaders& shaders = Shaders::embedded());
 
-    /// Makes the program of these tables, and every pipeline that it needs. Without lod, `evaluation` must be laid out
-    /// for the tables. If a group calls again with another evaluation.rate, no pipeline is created.
-    [[nodiscard]] Result<Program> prepare(const Tables& tables, const Needs& needs, const Evaluation& evaluation);
+    /// Makes the program of these tables, and every pipeline that it options. Without lod, `evaluation` must be laid
+    /// out for the tables. If a group calls again with another evaluation.rate, no pipeline is created.
+    [[nodiscard]] Result<Program> prepare(const Tables& tables, const ProgramOptions& options,
+                                          const Evaluation& evaluation);
 
     /// The kernel that solves a view's budget. It is dispatched as one workgroup, with shared::LodSolvePush and a set
     /// of kind `levels`.

@@ -1,4 +1,4 @@
-#include "runtime/culling/occlusion_pass.h"
+#include "runtime/culling/occlusion_kernels.h"
 
 #include "shaders/bounds_occlude_comp.h"
 
@@ -8,7 +8,7 @@ using namespace supple::shared;
 
 static_assert(sizeof(OcclusionPush) <= gpu::kPushConstantBytes);
 
-Result<OcclusionPass> OcclusionPass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+Result<OcclusionKernels> OcclusionKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
         {kBoundsBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
         {kBoundsStateBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
@@ -16,7 +16,7 @@ Result<OcclusionPass> OcclusionPass::create(const gpu::Device& device, gpu::Pipe
         {kHostListTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
         {kPyramidBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     };
-    OcclusionPass pass;
+    OcclusionKernels pass;
     pass.device_ = &device;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(OcclusionPush), "supple occlusion");
@@ -28,17 +28,17 @@ Result<OcclusionPass> OcclusionPass::create(const gpu::Device& device, gpu::Pipe
     return pass;
 }
 
-Result<gpu::Kernel> OcclusionPass::make() const {
+Result<gpu::Kernel> OcclusionKernels::make() const {
     return pipelines_->get(layout_, bounds_occlude_comp, {}, "supple occlusion");
 }
 
-Status OcclusionPass::prepare() {
+Status OcclusionKernels::prepare() {
     const Result<gpu::Kernel> made = make();
     kernel_ = made ? *made : kernel_;
     return made ? success() : made.error();
 }
 
-void OcclusionPass::writePyramid(VkDescriptorSet set, VkImageView pyramid, VkImageLayout imageLayout) const {
+void OcclusionKernels::writePyramid(VkDescriptorSet set, VkImageView pyramid, VkImageLayout imageLayout) const {
     const VkDescriptorImageInfo image{VK_NULL_HANDLE, pyramid, imageLayout};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set;
@@ -49,7 +49,7 @@ void OcclusionPass::writePyramid(VkDescriptorSet set, VkImageView pyramid, VkIma
     device_->vk.UpdateDescriptorSets(device_->handle, 1, &write, 0, nullptr);
 }
 
-void OcclusionPass::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const OcclusionPush& push) const {
+void OcclusionKernels::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const OcclusionPush& push) const {
     if (push.instanceCount == 0) {
         return;
     }

@@ -54,10 +54,10 @@ void writeListTable(std::span<const ListWindow> windows, std::span<const ListArg
 /// too.
 [[nodiscard]] std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns);
 
-class BoundsPass {
+class BoundsKernels {
 public:
     /// `pipelines` must outlive the pass.
-    [[nodiscard]] static Result<BoundsPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    [[nodiscard]] static Result<BoundsKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the pipelines if they are not there, with those of instances of several rates or without: on any thread,
     /// also beside recording.
     [[nodiscard]] Status make(bool rates) const;

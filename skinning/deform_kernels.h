@@ -47,10 +47,10 @@ void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* ta
 
 /// The pipelines of the pass, each made when it is first needed. Output: float4 (x, y, z, 1) a cage vertex,
 /// `cageStride` vertices an instance.
-class DeformPass {
+class DeformKernels {
 public:
     /// Both must outlive the pass.
-    [[nodiscard]] static Result<DeformPass> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    [[nodiscard]] static Result<DeformKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
 
     // Pipelines are made if they are not there: on any thread, also beside recording.
     /// That of a mode, with or without morph targets.

@@ -1,4 +1,4 @@
-#include "runtime/culling/bounds_pass.h"
+#include "runtime/culling/bounds_kernels.h"
 
 #include "shaders/bounds_bounds_comp.h"
 #include "shaders/bounds_demand_comp.h"
@@ -53,7 +53,7 @@ std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {
     return planes;
 }
 
-Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+Result<BoundsKernels> BoundsKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     using gpu::narrowTexels, gpu::storage, gpu::wideStorage;
     const gpu::Binding bounds[] = {
         wideStorage(kBoundsCageBinding), narrowTexels(kBoundsCageTexelBinding), storage(kBoundsBinding),
@@ -66,7 +66,7 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines&
         storage(kListArgumentBinding), storage(kListTableBinding),          storage(kSizeBinding),
         storage(kViewWordsBinding),
     };
-    BoundsPass pass;
+    BoundsKernels pass;
     pass.device_ = &device;
     pass.pipelines_ = &pipelines;
     Status status = success();
@@ -87,18 +87,18 @@ Result<BoundsPass> BoundsPass::create(const gpu::Device& device, gpu::Pipelines&
     return pass;
 }
 
-BoundsPass::Kernels BoundsPass::kernels(gpu::Pipelines::Batch& batch) const {
+BoundsKernels::Kernels BoundsKernels::kernels(gpu::Pipelines::Batch& batch) const {
     return {batch.get(boundsLayout_, bounds_bounds_comp, {}, "supple bounds"),
             batch.get(listLayout_, bounds_size_comp, {}, "supple sizes of instances"),
             batch.get(listLayout_, bounds_list_comp, {}, "supple list of instances")};
 }
 
-BoundsPass::RateKernels BoundsPass::rateKernels(gpu::Pipelines::Batch& batch) const {
+BoundsKernels::RateKernels BoundsKernels::rateKernels(gpu::Pipelines::Batch& batch) const {
     return {batch.get(listLayout_, bounds_demand_comp, {}, "supple demand of rates"),
             batch.get(listLayout_, bounds_rates_comp, {}, "supple lists of rates")};
 }
 
-Status BoundsPass::make(bool rates) const {
+Status BoundsKernels::make(bool rates) const {
     gpu::Pipelines::Batch batch(*pipelines_);
     (void)kernels(batch);
     if (rates) {
@@ -107,7 +107,7 @@ Status BoundsPass::make(bool rates) const {
     return batch.make();
 }
 
-Status BoundsPass::prepare() {
+Status BoundsKernels::prepare() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const Kernels found = kernels(batch);
     const Status made = batch.make();
@@ -115,7 +115,7 @@ Status BoundsPass::prepare() {
     return made;
 }
 
-Status BoundsPass::prepareRates() {
+Status BoundsKernels::prepareRates() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const RateKernels found = rateKernels(batch);
     const Status made = batch.make();
@@ -124,42 +124,43 @@ Status BoundsPass::prepareRates() {
 }
 
 template <class Push>
-void BoundsPass::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set, const Push& push,
-                        uint64_t groups) const {
+void BoundsKernels::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+                           const Push& push, uint64_t groups) const {
     if (groups > 0) {
         gpu::bind(*device_, commandBuffer, kernel, set, push);
         gpu::dispatchLinear(*device_, commandBuffer, groups);
     }
 }
 
-uint64_t BoundsPass::groupsFor(uint32_t lanes) const {
+uint64_t BoundsKernels::groupsFor(uint32_t lanes) const {
     return (uint64_t{lanes} + device_->mapping.localSize - 1) / device_->mapping.localSize;
 }
 
-void BoundsPass::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
+void BoundsKernels::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
     record(commandBuffer, kernels_.bounds, set, push,
            device_->mapping.wide ? push.instanceCount : groupsFor(push.instanceCount));
 }
 
-void BoundsPass::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
+void BoundsKernels::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
     record(commandBuffer, kernels_.sizes, set, push, groupsFor(push.instanceCount));
 }
 
-void BoundsPass::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
+void BoundsKernels::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
     record(commandBuffer, rateKernels_.demand, set, push, groupsFor(push.instanceCount));
 }
 
-void BoundsPass::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
+void BoundsKernels::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
     record(commandBuffer, kernels_.list, set, push, 1);
 }
 
-void BoundsPass::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
+void BoundsKernels::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
     record(commandBuffer, rateKernels_.rates, set, push, 1);
 }
 
-void BoundsPass::recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const {
+void BoundsKernels::recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow,
+                                 VkDescriptorSet ofGroup) const {
     const std::array<std::byte, kPushBytes> push{};
     for (const gpu::Kernel* kernel :
          {&kernels_.bounds, &kernels_.sizes, &kernels_.list, &rateKernels_.demand, &rateKernels_.rates}) {
