@@ -53,7 +53,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->desc_ = desc;
     TessellationDesc tessellation;
     tessellation.device = shared.device;
-    tessellation.passes = shared.surface;
+    tessellation.programs = shared.surface;
     tessellation.bounds = shared.bounds;
     tessellation.pairs = shared.pairs;
     tessellation.view = shared.view;

@@ -143,10 +143,7 @@ void checkRecipe(TableCheck& check) {
                mesh = scheme == SchemeId::polygons,
                fragments = scheme == SchemeId::fragments || scheme == SchemeId::loopFragments;
     check.require(tables.words.size() % 4 == 0, "no whole elements");
-    const auto header = headerOf(tables);
-    check.require(tables.words.size() >= header.size() &&
-                      std::equal(header.begin(), header.end(), tables.words.begin()),
-                  "a header of other tables");
+    check.require(tables.words.size() >= shared::kTableHeaderWords, "no room for their header");
     check.require(tables.uvSets == 1 || tables.uvSets == 2, "neither one UV set nor two");
     check.require(tables.uvMode == cage::UvMode::all || (recipe.attributes && tables.uvMode == recipe.uvMode),
                   "texture coordinates not as the recipe says");
@@ -164,6 +161,12 @@ void checkRecipe(TableCheck& check) {
 }
 
 } // namespace
+
+void checkHeader(TableCheck& check) {
+    check.begin("header");
+    const auto header = headerOf(check.tables());
+    check.require(std::equal(header.begin(), header.end(), check.tables().words.begin()), "it is of other tables");
+}
 
 void checkMembers(TableCheck& check) {
     for (void (*part)(TableCheck&) :

@@ -164,7 +164,7 @@ Status checkTables(const Tables& tables, const TableSource& source) {
                   "an indexed mesh, which the scheme does not have");
     // What comes first makes the rest easier to check.
     for (void (*part)(TableCheck&) : {&checkMembers, &checkBicubicPatches, &checkCornerAttributes, &checkIndexedMesh,
-                                      &lod::checkLevels, scheme.check}) {
+                                      &lod::checkLevels, scheme.check, &checkHeader}) {
         if (!check.failed()) {
             part(check);
         }

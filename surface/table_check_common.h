@@ -17,6 +17,8 @@ namespace supple::surface {
 /// What the library itself reads: enumerators, patches, ranges of patches and of draws, the layout of the pool, and
 /// what must be as the recipe says.
 void checkMembers(TableCheck& check);
+/// That the header says what the members say, which have been checked.
+void checkHeader(TableCheck& check);
 /// Records of regular, perturbed and polar patches: indices of the pool, and of polar ones the weights of their apex.
 void checkBicubicPatches(TableCheck& check);
 /// Numbers of corner attributes, and that these and the smooth texture coordinates are in the tables. Leaves of texture

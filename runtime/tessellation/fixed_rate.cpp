@@ -25,7 +25,7 @@ private:
     [[nodiscard]] std::vector<SuppleDrawRange> drawsAt(uint32_t rate) const;
     /// The tables serve all rates up to the one that the group begins with.
     [[nodiscard]] bool canChange() const {
-        return tables().rate == 0 || surface::schemeOf(scheme_->recipe().scheme).rates == surface::RateRule::upTo;
+        return tables().rate == 0 || surface::schemeOf(built_.scheme->recipe().scheme).rates == surface::RateRule::upTo;
     }
     /// Segments along a patch edge, from those along an edge of the cage.
     [[nodiscard]] uint32_t patchRate(uint32_t rate) const {
@@ -68,9 +68,10 @@ std::vector<SuppleDrawRange> FixedRate::drawsAt(uint32_t rate) const {
 Status FixedRate::prepareRate(uint32_t rate) {
     next_.reset();
     const std::string& name = desc_.asset->character.name;
-    if (!canChange() && rate != askedRate_) {
-        return Error{ErrorCode::argument, name + ": the tables of " + surface::schemeOf(scheme_->recipe().scheme).name +
-                                              " are made for rate " + std::to_string(askedRate_) + " alone"};
+    if (!canChange() && rate != built_.askedRate) {
+        return Error{ErrorCode::argument, name + ": the tables of " +
+                                              surface::schemeOf(built_.scheme->recipe().scheme).name +
+                                              " are made for rate " + std::to_string(built_.askedRate) + " alone"};
     }
     const Status takes = canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
     if (!takes || !canChange() || patchRate(rate) == evaluation_.rate) {
@@ -98,7 +99,7 @@ void FixedRate::takeRate() {
     vertexCount_ = next_->vertexCount;
     program_ = std::move(next_->program);
     setDraws(std::move(next_->draws));
-    attributes_.renew(wanted_.has(Stream::attributes));
+    attributes_.renew(built_.outputs.streams.has(Stream::attributes));
     next_.reset();
 }
 

@@ -34,12 +34,12 @@ Status IndexedMesh::begin() {
 }
 
 Status IndexedMesh::prepareRate(uint32_t rate) {
-    if (rate == askedRate_) {
+    if (rate == built_.askedRate) {
         return success();
     }
     return Error{ErrorCode::argument, desc_.asset->character.name +
                                           ": the indices of an indexed mesh are made for rate " +
-                                          std::to_string(askedRate_) + " alone"};
+                                          std::to_string(built_.askedRate) + " alone"};
 }
 
 } // namespace

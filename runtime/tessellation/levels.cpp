@@ -30,7 +30,7 @@ public:
     PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
     PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
     PassCost recordDeepen(VkCommandBuffer commandBuffer) const override;
-    [[nodiscard]] bool writesLevelAttributes() const override { return wanted_.has(Stream::attributes); }
+    [[nodiscard]] bool writesLevelAttributes() const override { return built_.outputs.streams.has(Stream::attributes); }
     PassCost recordLevelAttributes(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
@@ -126,7 +126,7 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Surface Levels::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
-    surface.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
+    surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();
     return surface;
 }
@@ -139,7 +139,7 @@ void Levels::bindOutput(const SurfaceSets::Which& which, SetContents& contents) 
     const Stream tangents = streams.has(Stream::tangents) && !which.previous ? Stream::tangents : target;
     contents.buffer(kTangentBinding, streams.buffer(tangents), 0, VK_WHOLE_SIZE);
     const VkBuffer directions = streams.buffer(Stream::directions);
-    contents.buffer(kDirectionBinding, directions != VK_NULL_HANDLE ? directions : pools_[which.pool].buffer(), 0,
+    contents.buffer(kDirectionBinding, directions != VK_NULL_HANDLE ? directions : memory_.pool(which.pool).buffer(), 0,
                     VK_WHOLE_SIZE);
     for (const StreamRow& row : kStreams) {
         if (row.written == Written::static_) {
@@ -208,7 +208,7 @@ PassCost Levels::recordDeepen(VkCommandBuffer commandBuffer) const {
     windows().forEach([&](uint32_t w) {
         surface::Window listed = levelWindow(w);
         const VkDeviceSize scratch = windows().firstSlot(w) * VkDeviceSize{scratchStride()} * gpu::kVec4Bytes;
-        listed.arguments = scratch_.buffer();
+        listed.arguments = memory_.scratch().buffer();
         listed.firstArgument = scratch + sizeof(uint32_t) * VkDeviceSize{program_.firstDepthDispatch};
         listed.argumentStride = sizeof(VkDispatchIndirectCommand);
         record(commandBuffer, program_.deepen, listed);

@@ -8,12 +8,12 @@ namespace {
 class NoTessellation final : public Tessellation {
 public:
     explicit NoTessellation(const TessellationDesc& desc) : Tessellation(desc) {
-        wanted_.remove(Stream::previousPositions);
-        evaluation_.rate = askedRate_;
+        built_.outputs.streams.remove(Stream::previousPositions);
+        evaluation_.rate = built_.askedRate;
     }
 
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
-    [[nodiscard]] Status prepareRate(uint32_t rate) override { return checkRate(rate, askedRate_); }
+    [[nodiscard]] Status prepareRate(uint32_t rate) override { return checkRate(rate, built_.askedRate); }
     PassCost recordEvaluate(VkCommandBuffer) const override { return {}; }
     PassCost recordMotion(VkCommandBuffer) const override { return {}; }
 

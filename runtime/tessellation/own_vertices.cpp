@@ -16,7 +16,8 @@ Status OwnVertices::setVertexCount(uint64_t vertices) {
         return fits;
     }
     constexpr uint32_t kAttributeBytes = kStreams[static_cast<size_t>(Stream::attributes)].bytes;
-    if (wanted_.has(Stream::attributes) && vertices * kAttributeBytes > desc_.device->limits.maxStorageBufferRange) {
+    if (built_.outputs.streams.has(Stream::attributes) &&
+        vertices * kAttributeBytes > desc_.device->limits.maxStorageBufferRange) {
         return Error{ErrorCode::limit,
                      desc_.asset->character.name + ": surface attributes exceed the device's storage-buffer range"};
     }
@@ -41,9 +42,9 @@ Status OwnVertices::cutDraws(InstanceWindows& windows, bool byWindows) {
 
 void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     Tessellation::plan(device, staging);
-    streams_.plan(device, wanted_, static_cast<SuppleVertexFormat>(programOptions().vertexFormat), vertexCount_,
-                  evaluation_.verticesPerInstance, desc_.group.capacity);
-    attributes_.renew(wanted_.has(Stream::attributes));
+    streams_.plan(device, built_.outputs.streams, static_cast<SuppleVertexFormat>(programOptions().vertexFormat),
+                  vertexCount_, evaluation_.verticesPerInstance, desc_.group.capacity);
+    attributes_.renew(built_.outputs.streams.has(Stream::attributes));
 }
 
 Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices) {
@@ -65,7 +66,8 @@ Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation
 Status OwnVertices::createIndices(IndexBytes indices) {
     const Tessellation* const before = std::exchange(desc_.before, nullptr);
     const SharedIndices* const known = before != nullptr ? before->indices() : nullptr;
-    if (known != nullptr && &before->scheme() == scheme_.get() && known->buffers->size(0) == indices.bytes.size()) {
+    if (known != nullptr && &before->scheme() == built_.scheme.get() &&
+        known->buffers->size(0) == indices.bytes.size()) {
         indices_ = *known;
         return success();
     }
@@ -92,13 +94,14 @@ void OwnVertices::bindOutput(const SurfaceSets::Which& which, SetContents& conte
     // Without a stream, or where only positions are written, the kernels still name it, but do not touch it.
     bindSlots(kTangentBinding, streams_.has(Stream::tangents) && !which.previous ? Stream::tangents : target);
     const bool directed = streams_.size(Stream::directions) > 0;
-    contents.buffer(kDirectionBinding, directed ? streams_.buffer(Stream::directions) : pools_[which.pool].buffer(), 0,
+    contents.buffer(kDirectionBinding,
+                    directed ? streams_.buffer(Stream::directions) : memory_.pool(which.pool).buffer(), 0,
                     VK_WHOLE_SIZE);
     for (const StreamRow& row : kStreams) {
         if (row.written == Written::static_) {
             const auto stream = static_cast<Stream>(&row - kStreams);
             const bool there = streams_.size(stream) > 0;
-            contents.buffer(row.binding, there ? streams_.buffer(stream) : pools_[which.pool].buffer(), 0,
+            contents.buffer(row.binding, there ? streams_.buffer(stream) : memory_.pool(which.pool).buffer(), 0,
                             there ? VK_WHOLE_SIZE : VkDeviceSize{16});
         }
     }

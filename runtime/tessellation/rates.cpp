@@ -59,7 +59,7 @@ private:
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
     void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
 
-    std::vector<Rate> own_;        ///< rising; the last one's tables are scheme_
+    std::vector<Rate> own_;        ///< rising; the last one's tables are built_.scheme
     std::vector<uint32_t> places_; ///< by rate of the group's ladder, in own_
     IndexBytes indexData_;         ///< until the index buffer is made
     bool joined_ = false;
@@ -140,7 +140,7 @@ void Rates::setLadder(Ladder ladder) {
 
 Status Rates::buildRates() {
     uint64_t vertices = 0;
-    for (const surface::Recipe& recipe : ratesBelow(scheme_->recipe(), tables())) {
+    for (const surface::Recipe& recipe : ratesBelow(built_.scheme->recipe(), tables())) {
         Result<std::shared_ptr<SchemeTables>> scheme = desc_.asset->tablesFor(*desc_.device, recipe, desc_.piece);
         if (!scheme) {
             return scheme.error();
@@ -151,15 +151,16 @@ Status Rates::buildRates() {
         // They may come from a file, where each stands for itself.
         const surface::Tables& own = rate.scheme->tables();
         if (own.rate != rate.evaluation.rate || !surface::areOfOneMesh(own, tables())) {
-            return Error{ErrorCode::asset,
-                         desc_.asset->character.name + ": the tables for rate " + std::to_string(recipe.rate) +
-                             " are of another mesh than those for rate " + std::to_string(scheme_->recipe().rate)};
+            return Error{ErrorCode::asset, desc_.asset->character.name + ": the tables for rate " +
+                                               std::to_string(recipe.rate) +
+                                               " are of another mesh than those for rate " +
+                                               std::to_string(built_.scheme->recipe().rate)};
         }
         rate.firstVertex = static_cast<uint32_t>(vertices);
         vertices = rate.evaluation.layOut(rate.scheme->tables(), vertices);
         rate.vertices = static_cast<uint32_t>(vertices) - rate.firstVertex;
     }
-    scheme_ = own_.back().scheme;
+    built_.scheme = own_.back().scheme;
     return setVertexCount(vertices);
 }
 
@@ -175,7 +176,7 @@ Status Rates::join(const InstanceWindows&) {
 Culling::Surface Rates::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
-    surface.measure = desc_.asset->prepared->measureOf(*scheme_->prepared);
+    surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();
     for (const uint32_t place : places_) {
         const Rate& own = own_[place];
@@ -205,12 +206,12 @@ void Rates::fillGrid(SuppleGridOutput& output) const {
 }
 
 Status Rates::prepareRate(uint32_t rate) {
-    if (rate == askedRate_) {
+    if (rate == built_.askedRate) {
         return success();
     }
     return Error{ErrorCode::argument, desc_.asset->character.name + ": the tables of " +
-                                          surface::schemeOf(scheme_->recipe().scheme).name + " are made for rate " +
-                                          std::to_string(askedRate_) + " alone"};
+                                          surface::schemeOf(built_.scheme->recipe().scheme).name +
+                                          " are made for rate " + std::to_string(built_.askedRate) + " alone"};
 }
 
 uint32_t Rates::scratchStride() const {

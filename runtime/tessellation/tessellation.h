@@ -8,17 +8,12 @@
 #pragma once
 
 #include "gpu/buffer_plan.h"
-#include "runtime/asset.h"
 #include "runtime/culling/culling.h"
 #include "runtime/instance_set.h"
-#include "runtime/part_schemes.h"
 #include "runtime/recorded_once.h"
-#include "runtime/surface_outputs.h"
-#include "runtime/surface_recipe.h"
-#include "runtime/surface_sets.h"
+#include "runtime/tessellation/built_surface.h"
+#include "runtime/tessellation/surface_memory.h"
 #include "runtime/vertex_streams.h"
-#include "runtime/view.h"
-#include "surface/programs.h"
 
 #include <memory>
 #include <optional>
@@ -31,35 +26,14 @@ namespace supple::runtime {
 /// (VkPhysicalDeviceLimits) in every stream: 12, 16 or 24 bytes each.
 inline constexpr uint32_t kVertexPadding = 64;
 
-class Tessellation;
-
 /// The index buffer of a surface. The surface of a group that is made anew takes it over if it has the same indices.
 struct SharedIndices {
     std::shared_ptr<gpu::StaticBuffers> buffers; ///< 0: the indices
     RecordedOnce release;                        ///< to the queue family that draws
 };
 
-/// What a tessellation is made of. All pointers must outlive it.
-struct TessellationDesc {
-    const gpu::Device* device = nullptr;
-    surface::Programs* passes = nullptr;
-    BoundsKernels* bounds = nullptr; ///< groups of a view
-    const gpu::StaticBuffers* pairs = nullptr;
-    std::shared_ptr<View> view; ///< null, or the group's
-    Asset* asset = nullptr;
-    SuppleGroupDesc group{};              ///< `scheme` is the surface's
-    std::vector<uint32_t> parts;          ///< rising
-    std::shared_ptr<AssetPiece> piece;    ///< those parts; null: all of the asset's
-    surface::Drawer drawer;               ///< create() finds it
-    bool schemeChosen = false;            ///< the host left it to Supple: outputs that the scheme lacks are left out
-    uint32_t surface = 0;                 ///< its number in the group
-    const Tessellation* before = nullptr; ///< during creation: the surface whose place it takes; null: none
-    bool countsHidden = true;             ///< it has the first patches at levels of the group
-    uint32_t framesInFlight = 2;
-    bool handsOver = false; ///< to another queue family: all output is written anew in every frame
-};
-
-/// The base class has what all have in common: tables, program, coefficients, descriptor sets, construction.
+/// The base class has what all have in common: what is built (BuiltSurface), what lies on the device (SurfaceMemory),
+/// and the recording of the program.
 class Tessellation : public gpu::FrameMembers {
 public:
     /// Builds the tables, prepares the pipelines and lays out an instance; refuses what the scheme cannot take.
@@ -68,27 +42,27 @@ public:
     Tessellation(const Tessellation&) = delete;
     Tessellation& operator=(const Tessellation&) = delete;
 
-    [[nodiscard]] const SchemeTables& scheme() const { return *scheme_; }
-    [[nodiscard]] const surface::Tables& tables() const { return scheme_->tables(); }
+    [[nodiscard]] const SchemeTables& scheme() const { return *built_.scheme; }
+    [[nodiscard]] const surface::Tables& tables() const { return built_.tables(); }
     [[nodiscard]] SuppleScheme schemeId() const { return desc_.group.scheme; }
     [[nodiscard]] const std::vector<uint32_t>& parts() const { return desc_.parts; }
     /// Those parts; null: all of the asset's.
     [[nodiscard]] AssetPiece* piece() const { return desc_.piece.get(); }
     /// The scheme polygons, which is not tessellated.
     [[nodiscard]] bool isMesh() const {
-        return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme_->recipe().scheme).isMesh();
+        return kind() != SUPPLE_TESSELLATION_NONE && surface::schemeOf(scheme().recipe().scheme).isMesh();
     }
     /// How far the surface may lie outside the box of its cage, as a part of the box's size.
     [[nodiscard]] float boundsMargin() const {
         return kind() == SUPPLE_TESSELLATION_NONE ? 0.0f
-                                                  : surface::schemeOf(scheme_->recipe().scheme).boundsMargin(cage());
+                                                  : surface::schemeOf(scheme().recipe().scheme).boundsMargin(cage());
     }
     /// Why the rate is not the one asked for, or empty.
-    [[nodiscard]] const std::string& rateNote() const { return rateNote_; }
+    [[nodiscard]] const std::string& rateNote() const { return built_.rateNote; }
     /// Why another scheme draws the surface than the one asked for, or empty.
     [[nodiscard]] const std::string& drawerReason() const { return desc_.drawer.reason; }
     /// Why texture coordinates are linear though the file says otherwise, or empty.
-    [[nodiscard]] const std::string& uvNote() const { return uvNote_; }
+    [[nodiscard]] const std::string& uvNote() const { return built_.uvNote; }
 
     // Creation, in this order, after create().
     /// Rates that instances of a group may have. `first`: segments along an edge of the cage; each further one has
@@ -123,7 +97,7 @@ public:
     [[nodiscard]] virtual const VertexStreams* streams() const { return nullptr; }
     virtual void fillGrid(SuppleGridOutput& /*output*/) const {}
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
-    [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return patches_; }
+    [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return memory_.patches(); }
     /// Null if the index buffer is not its own.
     [[nodiscard]] virtual const SharedIndices* indices() const { return nullptr; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;
@@ -144,7 +118,7 @@ public:
     virtual PassCost recordAttributes(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return {}; }
     [[nodiscard]] bool has(surface::Stage stage) const { return !stepsOf(stage).empty(); }
     PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
-    [[nodiscard]] bool writesPatches() const { return patches_.buffer() != VK_NULL_HANDLE; }
+    [[nodiscard]] bool writesPatches() const { return memory_.patches().buffer() != VK_NULL_HANDLE; }
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     // Groups of a view, in this order; the view solves its budget before places.
     virtual PassCost recordEdgeLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
@@ -155,11 +129,11 @@ public:
     [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
     virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordEvaluate(VkCommandBuffer commandBuffer) const = 0;
-    [[nodiscard]] bool writesTangents() const { return wanted_.has(Stream::tangents); }
+    [[nodiscard]] bool writesTangents() const { return built_.outputs.streams.has(Stream::tangents); }
     /// Previous positions.
-    [[nodiscard]] bool writesMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
+    [[nodiscard]] bool writesMotion() const { return memory_.hasMotion(); }
     /// Evaluation and motion write the same memory, so that a barrier stands between the two.
-    [[nodiscard]] virtual bool usesScratch() const { return scratch_.buffer() != VK_NULL_HANDLE; }
+    [[nodiscard]] virtual bool usesScratch() const { return memory_.scratch().buffer() != VK_NULL_HANDLE; }
     virtual PassCost recordMotion(VkCommandBuffer commandBuffer) const = 0;
 
     /// Whether the vertices count in the view's budget.
@@ -174,9 +148,7 @@ protected:
 
     /// Builds the tables of the description; `rate` in segments along an edge of the cage.
     [[nodiscard]] Status buildTables();
-    /// What the passes write for this group.
-    [[nodiscard]] OutputWish outputWish() const;
-    [[nodiscard]] surface::ProgramOptions programOptions() const;
+    [[nodiscard]] surface::ProgramOptions programOptions() const { return programOptionsOf(desc_, built_); }
     [[nodiscard]] Status prepare();
     /// The passes of tables at a rate or at levels.
     [[nodiscard]] Result<surface::Program> programFor(const surface::Tables& tables,
@@ -219,26 +191,18 @@ protected:
     [[nodiscard]] virtual uint32_t scratchStride() const { return program_.scratchStride; }
 
     TessellationDesc desc_;
-    uint32_t askedRate_ = 8; ///< segments along an edge of the cage
-    uint32_t beginRate_ = 8; ///< the same along a patch edge, as the scheme has them
-    std::string rateNote_, uvNote_;
-    std::shared_ptr<SchemeTables> scheme_;
+    BuiltSurface built_;
     surface::Evaluation evaluation_;
     surface::Program program_;
-    StreamSet wanted_;
-    gpu::PlannedBuffer cages_; ///< the group's
     const InstanceListing* listing_ = nullptr;
     const Visibility* visibility_ = nullptr;
-    std::array<gpu::PlannedBuffer, 2> pools_; ///< motion: the pools take turns
-    gpu::PlannedBuffer patches_, scratch_;
+    SurfaceMemory memory_;
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
     glm::vec3 pastStep_{0.0f};
-    ZeroedOnce clear_; ///< the zero coefficient, and the slots that no stage writes
 
 private:
     [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;
-    void bindInput(const SurfaceSets::Which& which, const SchemeTables& scheme, SetContents& contents) const;
 };
 
 /// A tessellation that begin() has laid out, or why it cannot be.

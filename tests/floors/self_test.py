@@ -98,7 +98,7 @@ class Floors(unittest.TestCase):
         tree = {**TREE, "surface/pm/scheme.cpp": '#include "surface/prep/scheme.h"\n'}
         exception = {("surface/pm/scheme.cpp", "surface/prep/scheme.h"): "a reason"}
         self.assertEqual(self.offences(tree, exception), [])
-        tree["surface/fragments/scheme.cpp"] = '#include "surface/prep/scheme.h"\n'
+        tree["surface/blend/scheme.cpp"] = '#include "surface/prep/scheme.h"\n'
         self.assertEqual(len(self.offences(tree, exception)), 1)
 
     def test_an_exception_that_is_not_needed_is_refused(self):

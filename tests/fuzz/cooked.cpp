@@ -112,10 +112,11 @@ std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
     }
     if (!copies.empty() && random() % 3 == 0) {
         surface::Tables& tables = copies[random() % copies.size()]->tables;
-        uint32_t* const members[] = {&tables.ring,       &tables.poolStride,     &tables.tangents,
-                                     &tables.faces,      &tables.inner,          &tables.edgeClasses,
-                                     &tables.attributes, &tables.uvSets,         &tables.isolationSteps,
-                                     &tables.lod.depth,  &tables.lod.depthLanes, &tables.mesh.edgeCount};
+        uint32_t* const members[] = {&tables.ring,         &tables.poolStride,     &tables.tangents,
+                                     &tables.faces,        &tables.inner,          &tables.edgeClasses,
+                                     &tables.meshVertices, &tables.frames,         &tables.coordinates,
+                                     &tables.attributes,   &tables.uvSets,         &tables.isolationSteps,
+                                     &tables.lod.depth,    &tables.lod.depthLanes, &tables.mesh.edgeCount};
         uint32_t& member = *members[random() % std::size(members)];
         member = wordLike(member, random);
         if (random() % 2 == 0) {

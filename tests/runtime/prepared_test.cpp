@@ -1,5 +1,6 @@
 // Characters that are prepared: what is drawn has the same bits, and what a group builds itself is said.
 #include "runtime/api/descriptions.h"
+#include "surface/table_header.h"
 #include "tests/support/crowd.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
@@ -276,6 +277,7 @@ TEST_F(PreparedCharacters, RatesOfDifferentMeshesAreRefused) {
         if (own->recipe.rate == 2) {
             auto other = std::make_shared<runtime::PreparedTables>(*own);
             other->tables.poolStride += 16;
+            surface::writeHeader(other->tables);
             own = other;
         }
     }

@@ -295,7 +295,7 @@ void traceBlend(const Tables& tables, Memory& at) {
         }
     };
     for (uint32_t i = 0; tables.rate > 0 && i < side; ++i) {
-        (void)at.element(tables.ring + i, 3);
+        (void)at.element(tables.coordinates + i, 3);
     }
     for (const PatchRange& range : tables.ranges) {
         const bool sharp = range.patchClass == PatchClass::blendSharp;
@@ -355,7 +355,7 @@ size_t spoil(Tables tables, const TableSource& source, const std::string& name, 
                        &blocks.count,
                        &tables.poolStride,
                        &tables.fragments.scratchStride,
-                       &tables.ring};
+                       &tables.coordinates};
         }
         uint32_t& member = *members[random() % members.size()];
         const uint32_t before = member;

@@ -366,7 +366,7 @@ TEST(TableCheck, SectionsOfBlend) {
          [](Tables& t) { t.constructions[0].section.table = ~0u; }},
         {"charts: 4294967295 and 49 more, of # elements", [](Tables& t) { t.constructions[1].section.table = ~0u; }},
         {"charts: 0, of # vertices", [](Tables& t) { t.constructions[0].section.count = 0; }},
-        {"coordinates: 4294967295 and 6 more, of # elements", [](Tables& t) { t.ring = ~0u; }},
+        {"coordinates: 4294967295 and 6 more, of # elements", [](Tables& t) { t.coordinates = ~0u; }},
         {"tables: made for another rate", [](Tables& t) { t.rate = 5; }},
         {"smooth texture coordinates: 100000 and 383 more, of # elements",
          [](Tables& t) {

@@ -27,6 +27,7 @@ public:
 
     std::vector<IndexWord> list() {
         const bool polygons = source_.recipe.scheme == SchemeId::polygons;
+        addHeader();
         addOwn(source_.recipe.scheme);
         if (source_.recipe.attributes && !polygons) {
             addCornerAttributes();
@@ -37,6 +38,12 @@ public:
     }
 
 private:
+    /// None may be another than it is.
+    void addHeader() {
+        for (uint32_t word = 0; word < kTableHeaderWords; ++word) {
+            words_.push_back({"header", word, {tables_.words[word] + 1, kAll}});
+        }
+    }
     /// What is the scheme's own.
     void addOwn(SchemeId scheme) {
         WordList list(tables_, words_);

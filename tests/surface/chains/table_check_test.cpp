@@ -265,7 +265,7 @@ TEST(ExactTableCheck, ArbitraryTablesAreHarmless) {
                 uint32_t* const members[] = {&tables.poolStride,
                                              &tables.tangents,
                                              &tables.faces,
-                                             &tables.inner,
+                                             &tables.meshVertices,
                                              &tables.ring,
                                              &construction.section.table,
                                              &construction.section.count,

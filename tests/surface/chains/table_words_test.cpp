@@ -43,7 +43,7 @@ public:
                 addStencils(c, made_.vertices);
                 break;
             case Kernel::subdivisionIsolateMeshInPool:
-                addStencils(c, tables_.inner + uint64_t{tables_.constructions[0].section.count});
+                addStencils(c, tables_.meshVertices + uint64_t{tables_.constructions[0].section.count});
                 break;
             case Kernel::chainsVertex:
             case Kernel::chainsVertexMeshInPool:
@@ -121,7 +121,7 @@ private:
     }
 
     void addRing() {
-        const uint64_t vertices = tables_.inner == 0 ? made_.vertices : tables_.constructions[0].section.count;
+        const uint64_t vertices = tables_.meshVertices == 0 ? made_.vertices : tables_.constructions[0].section.count;
         for (uint64_t word = tables_.ring; word < tables_.ring + uint64_t{tables_.faces} - tables_.tangents; ++word) {
             numbers_.push_back({"element in the ring", word, elements(), kRingPlaceBits, 32 - kRingPlaceBits, true});
             const uint64_t element = SUPPLE_RING_ELEMENT(at(word));

@@ -1,0 +1,107 @@
+#include "runtime/tessellation/surface_memory.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+using surface::SetKind;
+
+namespace {
+
+constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
+
+/// The kinds of sets that a program binds.
+std::vector<SetKind> setKindsOf(const surface::Program& program) {
+    std::vector<SetKind> kinds;
+    for (const surface::Steps* steps :
+         {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
+          &program.patchLevels, &program.places, &program.deepen, &program.evaluate, &program.motion}) {
+        for (const surface::Step& step : *steps) {
+            if (std::find(kinds.begin(), kinds.end(), step.sets) == kinds.end()) {
+                kinds.push_back(step.sets);
+            }
+        }
+    }
+    return kinds;
+}
+
+} // namespace
+
+void SurfaceMemory::plan(const Desc& desc, gpu::BufferPlan& device) {
+    desc_ = desc;
+    constexpr VkBufferUsageFlags kScratch =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr gpu::MemoryPurpose kCoefficients = gpu::MemoryPurpose::coefficients;
+    const VkDeviceSize n = desc.capacity;
+    const VkDeviceSize poolBytes = n * desc.poolStride * gpu::kVec4Bytes;
+    pools_[0] =
+        device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+    pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0,
+                            kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+    patches_ = device.add({"supple patch coefficients",
+                           desc.patches ? n * desc.patchCount * kPatchStride * gpu::kVec4Bytes : 0,
+                           kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kCoefficients});
+    const VkBufferUsageFlags sizes = desc.sizesInScratch ? VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT : 0;
+    scratch_ = device.add(
+        {"supple scratch", n * desc.scratchStride * gpu::kVec4Bytes, kScratch | sizes, gpu::MemoryPurpose::scratch});
+}
+
+void SurfaceMemory::attach(const gpu::PlannedBuffer& cages, const InstanceListing& listing, const InstanceList& list) {
+    cages_ = cages;
+    listing_ = &listing;
+    list_ = list;
+    for (const gpu::PlannedBuffer& pool : pools_) {
+        clear_.add(*desc_.device, pool);
+    }
+}
+
+Status SurfaceMemory::makeSets(SurfaceSets& target, const gpu::StaticBuffers& tables, const surface::Program& program,
+                               const BindOutput& bindOutput) const {
+    const std::vector<SetKind> kinds = setKindsOf(program);
+    return target.create({desc_.device, desc_.programs, kinds, listing_->windows().count(), hasMotion()},
+                         [&](const SurfaceSets::Which& which, SetContents& contents) {
+                             bindInput(which, tables, contents);
+                             bindOutput(which, contents);
+                         });
+}
+
+void SurfaceMemory::bindInput(const SurfaceSets::Which& which, const gpu::StaticBuffers& tables,
+                              SetContents& contents) const {
+    const InstanceWindows& windows = listing_->windows();
+    const VkDeviceSize first = windows.firstSlot(which.window), count = windows.slots(which.window);
+    const auto bind = [&](uint32_t binding, uint32_t texels, const gpu::PlannedBuffer& buffer, uint32_t stride,
+                          const char* name) {
+        const VkDeviceSize bytes = stride * gpu::kVec4Bytes;
+        contents.buffer(binding, buffer.buffer(), first * bytes, count * bytes);
+        contents.texels(texels, gpu::kFloat4, buffer.buffer(), first * bytes, count * bytes, name);
+    };
+    const VkBuffer table = tables.buffer(0);
+    const VkDeviceSize tableBytes = tables.size(0);
+    contents.buffer(kTableHeaderBinding, table, 0, sizeof(TableHeader));
+    contents.buffer(kTableBinding, table, 0, tableBytes);
+    contents.texels(kTable4TexelBinding, gpu::kUint4, table, 0, tableBytes, "supple surface tables");
+    contents.texels(kTable1TexelBinding, kUint1, table, 0, tableBytes, "supple surface table words");
+    const uint32_t poolStride = desc_.poolStride;
+    bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
+    // Without previous positions in a view kernels name it, but do not read it.
+    const bool today = which.previous && desc_.inView;
+    bind(kTodaysPoolBinding, kTodaysPoolTexelBinding, pools_[today ? 1 - which.pool : which.pool], poolStride,
+         "supple pool");
+    bind(kCageBinding, kCageTexelBinding, cages_, desc_.cageStride, "supple deformed cage");
+    if (scratch_.size() > 0) {
+        bind(kScratchBinding, kScratchTexelBinding, scratch_, desc_.scratchStride, "supple scratch");
+    } else { // some kernels name it but never read it
+        bind(kScratchBinding, kScratchTexelBinding, pools_[which.pool], poolStride, "supple pool");
+    }
+    if (patches_.size() > 0) {
+        const VkDeviceSize bytes = VkDeviceSize{desc_.patchCount} * kPatchStride * gpu::kVec4Bytes;
+        contents.buffer(kPatchCoefficientBinding, patches_.buffer(), first * bytes, count * bytes);
+    }
+    contents.buffer(kPairBinding, desc_.pairs->buffer(0), 0, desc_.pairs->size(0));
+    contents.buffer(kInstanceBinding, list_.buffer, 0, VK_WHOLE_SIZE);
+    contents.texels(kInstanceTexelBinding, kUint1, list_.buffer, 0, list_.bytes, "supple instances seen");
+}
+
+} // namespace supple::runtime
