@@ -20,21 +20,21 @@ namespace {
 
 // Margins are a little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
 constexpr Scheme kSchemes[] = {
-    {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, kAllUvModes, true,
+    {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, true, kAllUvModes,
      [](const cage::Cage&) { return 0.04f; }, // 0.0276, at valence 59
      &prep::check},
-    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, kAllUvModes, true, &pm::boundsMargin, &pm::check},
+    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, true, kAllUvModes, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
-    {SchemeId::fragments, "fragments", &fragments::build, RateRule::doubling, "2, 4, 8..", false, kAllUvModes, false,
+    {SchemeId::fragments, "fragments", &fragments::build, RateRule::doubling, "2, 4, 8..", false, false, kAllUvModes,
      [](const cage::Cage&) { return 0.001f; }, &fragments::check},
-    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, kAllUvModes, true,
+    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, true, kAllUvModes,
      [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
-    {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true,
-     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), false, &blend::boundsMargin, &blend::check},
-    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true,
-     kAllUvModes, true, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
+    {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false,
+     kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), &blend::boundsMargin, &blend::check},
+    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true, true,
+     kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
     // Its vertices are the cage's.
-    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, kLinearUvs, true,
+    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, true, kLinearUvs,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
@@ -45,8 +45,8 @@ constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    RateRule::doubling,
                                    "2, 4, 8..",
                                    false,
-                                   kAllUvModes,
                                    false,
+                                   kAllUvModes,
                                    [](const cage::Cage&) { return 0.001f; },
                                    &fragments::check};
 

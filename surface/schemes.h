@@ -39,8 +39,8 @@ struct Scheme {
     RateRule rates = RateRule::any;
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
     bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. If not, see hasRates()
-    uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
+    uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
