@@ -26,6 +26,7 @@ public:
     /// Uploads and clears that are recorded once, as far as the frame's budget goes; the bytes. The caller puts the
     /// barrier after it, and sees to it that no other thread does the same: members may be shared.
     virtual VkDeviceSize recordStatics(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return 0; }
+    /// Adds what it has to the count, unless it has counted already.
     virtual void countStatics(StaticCount& /*count*/) const {}
     /// There is no budget any more: takes the memory for what is due.
     [[nodiscard]] virtual Status stageStatics() { return success(); }

@@ -82,7 +82,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     const gpu::Device& d = *context->device_;
     context->device_->uploads = &context->uploads_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
-    context->passes_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
+    context->kernels_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
 
     Result<surface::Programs> passes = surface::Programs::create(d, *context->pipelines_, shaders);
     if (!passes) {
@@ -262,7 +262,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
     }
     if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-        if (const Result<skinning::PoseKernels*> pose = passes_->pose(); !pose) {
+        if (const Result<skinning::PoseKernels*> pose = kernels_->pose(); !pose) {
             return pose.error();
         }
     }
@@ -320,11 +320,11 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     shared.device = device_.get();
     shared.pipelines = pipelines_.get();
     shared.stages = &stages_;
-    shared.pose = passes_->knownPose();
+    shared.pose = kernels_->knownPose();
     shared.surface = &surface_;
     shared.pairs = &pairs_;
-    shared.bounds = passes_->knownBounds();
-    shared.occlusion = passes_->knownOcclusion();
+    shared.bounds = kernels_->knownBounds();
+    shared.occlusion = kernels_->knownOcclusion();
     shared.view = std::move(view);
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
@@ -479,7 +479,7 @@ void Context::setOrigin(const glm::dvec3& origin) {
 }
 
 Status Context::prepareBounds() {
-    const Result<BoundsKernels*> bounds = passes_->bounds();
+    const Result<BoundsKernels*> bounds = kernels_->bounds();
     return bounds ? (*bounds)->prepare() : bounds.error();
 }
 
@@ -488,7 +488,7 @@ Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
         return prepared.error();
     }
     if ((desc.flags & SUPPLE_VIEW_OCCLUSION) != 0) {
-        const Result<OcclusionKernels*> occlusion = passes_->occlusion();
+        const Result<OcclusionKernels*> occlusion = kernels_->occlusion();
         if (const Status prepared = occlusion ? (*occlusion)->prepare() : occlusion.error(); !prepared) {
             return prepared.error();
         }
@@ -502,7 +502,7 @@ Result<uint64_t> Context::createView(const SuppleViewDesc& desc) {
 }
 
 Status Context::makePipelines(const Prepared& prepared, const PlannedGroup& group) {
-    return runtime::makePipelines({device_.get(), pipelines_.get(), passes_.get(), &surface_, &stages_}, prepared,
+    return runtime::makePipelines({device_.get(), pipelines_.get(), kernels_.get(), &surface_, &stages_}, prepared,
                                   group);
 }
 

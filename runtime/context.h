@@ -61,10 +61,10 @@ public:
     [[nodiscard]] Status makePipelines(const Prepared& prepared, const PlannedGroup& group);
     /// Bytes of static data a frame uploads at most; 0: no bound.
     [[nodiscard]] Status setUploadBudget(VkDeviceSize bytes);
-    /// Of one group, with what it shares.
+    /// What one group needs, with what it shares.
     [[nodiscard]] SuppleUploadState uploadState(const Group& group) const;
     [[nodiscard]] SuppleUploadState uploadState(Asset& asset) const;
-    /// Of all there is.
+    /// What assets, groups and views have.
     [[nodiscard]] SuppleUploadState uploadState() const;
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
@@ -164,7 +164,7 @@ private:
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
     CageStageTable stages_;
-    std::unique_ptr<SharedKernels> passes_;
+    std::unique_ptr<SharedKernels> kernels_;
     surface::Programs surface_;
     gpu::StaticBuffers pairs_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time

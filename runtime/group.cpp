@@ -214,7 +214,7 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     const uint32_t vertices = asset_->character.cage.vertexCount();
     Culling::Desc desc;
     desc.device = shared.device;
-    desc.pass = shared.bounds;
+    desc.kernels = shared.bounds;
     desc.occlusion = (view_->desc().flags & SUPPLE_VIEW_OCCLUSION) != 0 ? shared.occlusion : nullptr;
     desc.framesInFlight = shared.framesInFlight;
     desc.windows = &windows();

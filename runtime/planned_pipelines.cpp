@@ -59,24 +59,24 @@ Status makeSurface(const PipelineMakers& makers, const Prepared& prepared, const
     }
     for (const surface::Recipe& recipe : ratesBelow(surface->recipe, tables)) {
         const auto own = tablesOf(prepared, recipe, surface->piece);
-        const Status made =
+        Status made =
             own ? makeProgram(makers, (*own)->tables, options, recipe.rate >> tables.isolationSteps) : own.error();
         if (!made) {
             return made;
         }
     }
-    const Result<BoundsKernels*> bounds = makers.passes->bounds();
+    const Result<BoundsKernels*> bounds = makers.kernels->bounds();
     return bounds ? (*bounds)->make(true) : bounds.error();
 }
 
 Status makeCulling(const PipelineMakers& makers, const PlannedGroup& group) {
     Status status = success();
     if (group.viewFlags || (group.desc.flags & SUPPLE_GROUP_BOUNDS) != 0) {
-        const Result<BoundsKernels*> bounds = makers.passes->bounds();
+        const Result<BoundsKernels*> bounds = makers.kernels->bounds();
         status = bounds ? (*bounds)->make(false) : bounds.error();
     }
     if (status && group.viewFlags && (*group.viewFlags & SUPPLE_VIEW_OCCLUSION) != 0) {
-        const Result<OcclusionKernels*> occlusion = makers.passes->occlusion();
+        const Result<OcclusionKernels*> occlusion = makers.kernels->occlusion();
         const Result<gpu::Kernel> made = occlusion ? (*occlusion)->make() : occlusion.error();
         status = made ? success() : made.error();
     }
@@ -95,8 +95,8 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.deforms = group.desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
     planned.pieces = pieces;
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-        const Result<skinning::PoseKernels*> pose = makers.passes->pose();
-        if (const Status made = pose ? (*pose)->make(planned.skinning) : pose.error(); !made) {
+        const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
+        if (Status made = pose ? (*pose)->make(planned.skinning) : pose.error(); !made) {
             return made;
         }
     }

@@ -12,7 +12,7 @@ namespace supple::runtime {
 struct PipelineMakers {
     const gpu::Device* device = nullptr;
     gpu::Pipelines* pipelines = nullptr;
-    SharedKernels* passes = nullptr;
+    SharedKernels* kernels = nullptr;
     surface::Programs* surface = nullptr;
     CageStageTable* stages = nullptr;
 };

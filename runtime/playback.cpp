@@ -38,7 +38,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     const skinning::ClipTable& table = *desc.asset->clipTable;
     Playback playback;
     playback.device_ = desc.device;
-    playback.pass_ = desc.pass;
+    playback.kernels_ = desc.kernels;
     playback.asset_ = desc.asset;
     playback.capacity_ = desc.capacity;
     playback.windowSize_ = desc.windowSize;
@@ -111,7 +111,8 @@ Status Playback::createBuffers(const Desc& desc) {
 Status Playback::createSets(const Desc& desc) {
     const gpu::Device& device = *desc.device;
     const uint32_t windows = (capacity_ + windowSize_ - 1) / windowSize_;
-    Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(device, pass_->layout(), windows, "supple pose");
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(device, kernels_->layout(), windows, "supple pose");
     if (!pool) {
         return pool.error();
     }
@@ -129,7 +130,7 @@ Status Playback::createSets(const Desc& desc) {
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
                        scratchBytes = push_.scratchStride * gpu::kVec4Bytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
-        const Result<VkDescriptorSet> set = gpu::allocateSet(device, pass_->layout(), pool_.get(), "supple pose");
+        const Result<VkDescriptorSet> set = gpu::allocateSet(device, kernels_->layout(), pool_.get(), "supple pose");
         if (!set) {
             return set.error();
         }
@@ -158,7 +159,7 @@ Status Playback::createSets(const Desc& desc) {
             {kInstanceTexelBinding, {}, instanceView},
         };
         if (status) {
-            gpu::writeSet(device, pass_->layout(), *set, resources);
+            gpu::writeSet(device, kernels_->layout(), *set, resources);
         }
     }
     return status;
@@ -411,13 +412,13 @@ void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window,
     push.instanceCount = count;
     switch (part) {
     case Part::locals:
-        pass_->recordLocals(commandBuffer, sets_[window], adds_, push);
+        kernels_->recordLocals(commandBuffer, sets_[window], adds_, push);
         break;
     case Part::roots:
-        pass_->recordRoots(commandBuffer, sets_[window], push);
+        kernels_->recordRoots(commandBuffer, sets_[window], push);
         break;
     case Part::palette:
-        pass_->recordPalette(commandBuffer, sets_[window], mode_, push);
+        kernels_->recordPalette(commandBuffer, sets_[window], mode_, push);
         break;
     }
 }
@@ -429,10 +430,11 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     };
     for (const bool adds : {false, true}) {
         dispatch(
-            [&](VkDescriptorSet set, const PosePush& push) { pass_->recordLocals(commandBuffer, set, adds, push); });
+            [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordLocals(commandBuffer, set, adds, push); });
     }
-    dispatch([&](VkDescriptorSet set, const PosePush& push) { pass_->recordRoots(commandBuffer, set, push); });
-    dispatch([&](VkDescriptorSet set, const PosePush& push) { pass_->recordPalette(commandBuffer, set, mode_, push); });
+    dispatch([&](VkDescriptorSet set, const PosePush& push) { kernels_->recordRoots(commandBuffer, set, push); });
+    dispatch(
+        [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordPalette(commandBuffer, set, mode_, push); });
 }
 
 gpu::MemoryUse Playback::memoryUse() const {

@@ -26,7 +26,7 @@ class Playback {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        const skinning::PoseKernels* pass = nullptr;
+        const skinning::PoseKernels* kernels = nullptr;
         Asset* asset = nullptr; ///< with its clip table; must outlive this
         skinning::PoseLayout layout;
         uint32_t capacity = 0;
@@ -98,7 +98,7 @@ private:
     void forget(uint32_t slot);   ///< what plays there has changed
 
     const gpu::Device* device_ = nullptr;
-    const skinning::PoseKernels* pass_ = nullptr;
+    const skinning::PoseKernels* kernels_ = nullptr;
     Asset* asset_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;

@@ -71,7 +71,7 @@ public:
     }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
-        Result<Playback> playback = Playback::create({desc_.device, desc_.posePass, desc_.asset, desc_.layout,
+        Result<Playback> playback = Playback::create({desc_.device, desc_.poseKernels, desc_.asset, desc_.layout,
                                                       desc_.capacity, buffers.windowSize, desc_.framesInFlight,
                                                       buffers.poses, buffers.instances, buffers.instanceBytes});
         if (!playback) {

@@ -64,7 +64,7 @@ public:
 
 struct PoseSourceDesc {
     const gpu::Device* device = nullptr;
-    const skinning::PoseKernels* posePass = nullptr; ///< null unless instances play on the device
+    const skinning::PoseKernels* poseKernels = nullptr; ///< null unless instances play on the device
     Asset* asset = nullptr;
     skinning::PoseLayout layout;
     uint32_t capacity = 0, framesInFlight = 2;

@@ -50,7 +50,7 @@ struct Prepared {
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
-    /// Of tables that a group of a view is to have: how the level of an instance is measured.
+    /// How the level of an instance is measured, if a group of a view is to have the tables.
     struct Measure {
         const PreparedTables* tables = nullptr;
         surface::lod::InstanceMeasure measure;

@@ -17,11 +17,11 @@ public:
     /// Both must outlive the passes.
     SharedKernels(const gpu::Device& device, gpu::Pipelines& pipelines) : device_(&device), pipelines_(&pipelines) {}
 
-    /// Of instances that play on the device.
+    /// For instances that play on the device.
     [[nodiscard]] Result<skinning::PoseKernels*> pose() { return made(pose_); }
-    /// Of views, and of groups with bounds.
+    /// For views, and for groups with bounds.
     [[nodiscard]] Result<BoundsKernels*> bounds() { return made(bounds_); }
-    /// Of views with occlusion.
+    /// For views with occlusion.
     [[nodiscard]] Result<OcclusionKernels*> occlusion() { return made(occlusion_); }
 
     // The same; null: nothing has needed it.

@@ -143,16 +143,16 @@ Result<DeformKernels> DeformKernels::create(const gpu::Device& device, gpu::Pipe
         gpu::storage(kDeformedCageBinding),       gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
     };
-    DeformKernels pass;
-    pass.device_ = &device;
-    pass.pipelines_ = &pipelines;
+    DeformKernels made;
+    made.device_ = &device;
+    made.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(DeformPush), "supple deform");
     if (!layout) {
         return layout.error();
     }
-    pass.layout_ = std::move(*layout);
-    return pass;
+    made.layout_ = std::move(*layout);
+    return made;
 }
 
 Result<gpu::Kernel> DeformKernels::make(SkinningMode mode, bool morphs) const {

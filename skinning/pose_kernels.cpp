@@ -32,15 +32,15 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
         gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
     };
-    PoseKernels pass;
-    pass.device_ = &device;
-    pass.pipelines_ = &pipelines;
+    PoseKernels made;
+    made.device_ = &device;
+    made.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, sizeof(PosePush), "supple pose");
     if (!layout) {
         return layout.error();
     }
-    pass.layout_ = std::move(*layout);
-    return pass;
+    made.layout_ = std::move(*layout);
+    return made;
 }
 
 Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {

@@ -20,30 +20,31 @@ namespace {
 
 // Margins are a little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
 constexpr Scheme kSchemes[] = {
-    {SchemeId::prep, "p-rep", &prep::build, RateRule::any, "", true, true, kAllUvModes,
+    {SchemeId::prep, RateRule::any, "p-rep", &prep::build, "", true, true, false, kAllUvModes,
      [](const cage::Cage&) { return 0.04f; }, // 0.0276, at valence 59
      &prep::check},
-    {SchemeId::pm, "P_m", &pm::build, RateRule::any, "", true, true, kAllUvModes, &pm::boundsMargin, &pm::check},
+    {SchemeId::pm, RateRule::any, "P_m", &pm::build, "", true, true, false, kAllUvModes, &pm::boundsMargin, &pm::check},
     // Points of the limit are means of the cage's.
-    {SchemeId::fragments, "fragments", &fragments::build, RateRule::doubling, "2, 4, 8..", false, false, kAllUvModes,
-     [](const cage::Cage&) { return 0.001f; }, &fragments::check},
-    {SchemeId::loop, "Loop", &loop::build, RateRule::upTo, "", true, true, kAllUvModes,
-     [](const cage::Cage&) { return 0.001f; }, &loop::check, true},
-    {SchemeId::blend, "blend", &blend::build, RateRule::one, "an even number of", true, false,
+    {SchemeId::fragments, RateRule::doubling, "fragments", &fragments::build, "2, 4, 8..", false, false, false,
+     kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &fragments::check},
+    {SchemeId::loop, RateRule::upTo, "Loop", &loop::build, "", true, true, true, kAllUvModes,
+     [](const cage::Cage&) { return 0.001f; }, &loop::check},
+    {SchemeId::blend, RateRule::one, "blend", &blend::build, "an even number of", true, false, false,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), &blend::boundsMargin, &blend::check},
-    {SchemeId::catmullClark, "Catmull-Clark", &catmull_clark::build, RateRule::upTo, "an even number of", true, true,
-     kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check, true},
+    {SchemeId::catmullClark, RateRule::upTo, "Catmull-Clark", &catmull_clark::build, "an even number of", true, true,
+     true, kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check},
     // Its vertices are the cage's.
-    {SchemeId::polygons, "polygons", &polygons::build, RateRule::none, "", false, true, kLinearUvs,
+    {SchemeId::polygons, RateRule::none, "polygons", &polygons::build, "", false, true, false, kLinearUvs,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
 /// No host names it: see drawerOf().
 constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
+                                   RateRule::doubling,
                                    "Loop in fragments",
                                    &fragments::build,
-                                   RateRule::doubling,
                                    "2, 4, 8..",
+                                   false,
                                    false,
                                    false,
                                    kAllUvModes,

@@ -31,22 +31,22 @@ inline constexpr uint32_t kAllUvModes = 2 * kLinearUvs - 1;
 
 struct Scheme {
     SchemeId id = SchemeId::pm;
+    RateRule rates = RateRule::any;
     const char* name = "";
     /// Builds the tables, or says why the scheme cannot take the cage. Recipe::attributes, lod and indexedMesh are not
     /// its business, except that tables for lod need no rate. If levels or an indexed mesh ask, `edges` is not null,
     /// and takes which sides of patches are one edge.
     Result<Tables> (*build)(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) = nullptr;
-    RateRule rates = RateRule::any;
     const char* ratesInWords = ""; ///< for messages: how many segments an edge of the cage can have
     bool hasLevels = false;        ///< a view can draw its patches at real-valued levels. If not, see hasRates()
     bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
+    bool ofMapping = false;        ///< its tables differ by mapping (Recipe::wide)
     uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.
     float (*boundsMargin)(const cage::Cage& cage) = nullptr;
     /// Checks what is the scheme's own in tables that come from a file (surface/table_check.h).
     void (*check)(TableCheck& check) = nullptr;
-    bool ofMapping = false; ///< its tables differ by mapping (Recipe::wide)
 
     /// Its tables list the triangles of a mesh (Tables::triangles): it is an indexed mesh in any case.
     [[nodiscard]] bool isMesh() const { return rates == RateRule::none; }

@@ -66,9 +66,9 @@ Result<BoundsKernels> BoundsKernels::create(const gpu::Device& device, gpu::Pipe
         storage(kListArgumentBinding), storage(kListTableBinding),          storage(kSizeBinding),
         storage(kViewWordsBinding),
     };
-    BoundsKernels pass;
-    pass.device_ = &device;
-    pass.pipelines_ = &pipelines;
+    BoundsKernels made;
+    made.device_ = &device;
+    made.pipelines_ = &pipelines;
     Status status = success();
     const auto makeLayout = [&](gpu::ComputeLayout& target, std::span<const gpu::Binding> bindings, const char* name) {
         Result<gpu::ComputeLayout> made = gpu::ComputeLayout::create(device, bindings, kPushBytes, name);
@@ -77,14 +77,14 @@ Result<BoundsKernels> BoundsKernels::create(const gpu::Device& device, gpu::Pipe
             target = std::move(*made);
         }
     };
-    makeLayout(pass.boundsLayout_, bounds, "supple bounds");
+    makeLayout(made.boundsLayout_, bounds, "supple bounds");
     if (status) {
-        makeLayout(pass.listLayout_, list, "supple list");
+        makeLayout(made.listLayout_, list, "supple list");
     }
     if (!status) {
         return status.error();
     }
-    return pass;
+    return made;
 }
 
 BoundsKernels::Kernels BoundsKernels::kernels(gpu::Pipelines::Batch& batch) const {

@@ -76,7 +76,7 @@ void Culling::add(const Surface& surface) {
 std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Surface> surfaces) {
     auto culling = std::make_unique<Culling>();
     culling->device_ = desc.device;
-    culling->pass_ = desc.pass;
+    culling->kernels_ = desc.kernels;
     culling->occlusion_ = desc.occlusion;
     culling->windows_ = desc.windows;
     culling->framesInFlight_ = desc.framesInFlight;
@@ -112,8 +112,8 @@ Status Culling::createSets(const Buffers& buffers) {
     clear_.add(*device_, states_);
     addMember(clear_);
     boundsSets_.resize(windows_->count());
-    Status status = allocateSets(*device_, pass_->boundsLayout(), "supple bounds", boundsPool_, boundsSets_);
-    status = status ? allocateSets(*device_, pass_->listLayout(), "supple list", listPool_, {&listSet_, 1}) : status;
+    Status status = allocateSets(*device_, kernels_->boundsLayout(), "supple bounds", boundsPool_, boundsSets_);
+    status = status ? allocateSets(*device_, kernels_->listLayout(), "supple list", listPool_, {&listSet_, 1}) : status;
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(*device_, buffer, format, offset, size, name, status);
     };
@@ -138,7 +138,7 @@ Status Culling::createSets(const Buffers& buffers) {
     if (!status) {
         return status;
     }
-    gpu::writeSet(*device_, pass_->listLayout(), listSet_, resources);
+    gpu::writeSet(*device_, kernels_->listLayout(), listSet_, resources);
     const size_t own = resources.size();
     for (uint32_t w = 0; w < windows_->count() && status; ++w) {
         const VkDeviceSize first = windows_->firstSlot(w) * cageBytes, bytes = windows_->slots(w) * cageBytes;
@@ -148,7 +148,7 @@ Status Culling::createSets(const Buffers& buffers) {
                              {},
                              view(buffers.cages, VK_FORMAT_R32G32B32A32_SFLOAT, first, bytes, "supple deformed cage")});
         if (status) {
-            gpu::writeSet(*device_, pass_->boundsLayout(), boundsSets_[w], resources);
+            gpu::writeSet(*device_, kernels_->boundsLayout(), boundsSets_[w], resources);
         }
     }
     if (status && occlusion_ != nullptr) {
@@ -219,7 +219,7 @@ PassCost Culling::recordBounds(VkCommandBuffer commandBuffer) const {
     for (uint32_t w = 0; w < windows_->count(); ++w) {
         push.instanceCount = windows_->listed[w].count;
         push.firstSlot = windows_->firstSlot(w);
-        pass_->recordBounds(commandBuffer, boundsSets_[w], push);
+        kernels_->recordBounds(commandBuffer, boundsSets_[w], push);
         push.firstEntry += push.instanceCount;
     }
     return {windows_->visible, windows_->visible * kBoundsBytes};
@@ -247,7 +247,7 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
 }
 
 void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t leastVertices) const {
-    pass_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices});
+    kernels_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices});
 }
 
 PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
@@ -257,7 +257,7 @@ PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
-    pass_->recordList(commandBuffer, listSet_, push);
+    kernels_->recordList(commandBuffer, listSet_, push);
     return {0, 0, true};
 }
 
@@ -267,7 +267,7 @@ PassCost Culling::recordDemand(VkCommandBuffer commandBuffer) const {
     push.rateCount = rateCount_;
     push.firstRate = firstRate_;
     std::ranges::copy(rateVertices_, push.vertices);
-    pass_->recordDemand(commandBuffer, listSet_, push);
+    kernels_->recordDemand(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};
 }
 
@@ -289,7 +289,7 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.masks = firstMask(windows_->capacity);
     push.maskWords = DrawnParts::wordsOf(parts_.size());
     std::ranges::copy(rateVertices_, push.vertices);
-    pass_->recordRates(commandBuffer, listSet_, push);
+    kernels_->recordRates(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};
 }
 

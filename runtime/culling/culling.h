@@ -38,7 +38,7 @@ public:
     };
     struct Desc {
         const gpu::Device* device = nullptr;
-        const BoundsKernels* pass = nullptr;
+        const BoundsKernels* kernels = nullptr;
         const OcclusionKernels* occlusion = nullptr; ///< null: nothing hides
         uint32_t framesInFlight = 2;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
@@ -68,7 +68,7 @@ public:
     void addTransfers(Transfers& transfers) const override;
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
-        pass_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
+        kernels_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
     }
     PassCost recordBounds(VkCommandBuffer commandBuffer) const;
     /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
@@ -126,7 +126,7 @@ private:
     [[nodiscard]] uint32_t firstDraw() const { return firstRateCount() + rateCount_ * windows_->count(); }
 
     const gpu::Device* device_ = nullptr;
-    const BoundsKernels* pass_ = nullptr;
+    const BoundsKernels* kernels_ = nullptr;
     const OcclusionKernels* occlusion_ = nullptr;
     const InstanceWindows* windows_ = nullptr;
     const DrawnParts* drawnParts_ = nullptr;

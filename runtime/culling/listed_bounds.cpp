@@ -24,7 +24,7 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
     const gpu::Device& device = *desc_.device;
     clear_.add(device, rest_);
     addMember(clear_);
-    const gpu::ComputeLayout& layout = desc_.pass->boundsLayout();
+    const gpu::ComputeLayout& layout = desc_.kernels->boundsLayout();
     const InstanceWindows& windows = *desc_.windows;
     Result<gpu::DescriptorPoolHandle> pool =
         gpu::createDescriptorPool(device, layout, windows.count(), "supple bounds");
@@ -80,7 +80,7 @@ PassCost ListedBounds::record(VkCommandBuffer commandBuffer) const {
         if (windows.drawCount() > 1) { // each window has a place of its own in the list
             push.firstEntry = windows.firstDrawnSlot(w);
         }
-        desc_.pass->recordBounds(commandBuffer, sets_[w], push);
+        desc_.kernels->recordBounds(commandBuffer, sets_[w], push);
         push.firstEntry += push.instanceCount;
     }
     return {windows.visible, windows.visible * kBoundsBytes};

@@ -19,7 +19,7 @@ class ListedBounds final : public gpu::FrameMembers {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        const BoundsKernels* pass = nullptr;
+        const BoundsKernels* kernels = nullptr;
         const InstanceWindows* windows = nullptr; ///< must outlive this, as all here
         uint32_t cageVertices = 0, cageStride = 0;
         float margin = 0.0f; ///< how far surfaces may lie outside the box of their cage, as a part of its size

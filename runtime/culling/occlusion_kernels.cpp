@@ -16,16 +16,16 @@ Result<OcclusionKernels> OcclusionKernels::create(const gpu::Device& device, gpu
         {kHostListTexelBinding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
         {kPyramidBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     };
-    OcclusionKernels pass;
-    pass.device_ = &device;
+    OcclusionKernels made;
+    made.device_ = &device;
     Result<gpu::ComputeLayout> layout =
         gpu::ComputeLayout::create(device, bindings, sizeof(OcclusionPush), "supple occlusion");
     if (!layout) {
         return layout.error();
     }
-    pass.layout_ = std::move(*layout);
-    pass.pipelines_ = &pipelines;
-    return pass;
+    made.layout_ = std::move(*layout);
+    made.pipelines_ = &pipelines;
+    return made;
 }
 
 Result<gpu::Kernel> OcclusionKernels::make() const {

@@ -8,14 +8,14 @@ namespace {
 
 class Deform final : public CageStage {
 public:
-    Deform(const CageStageDesc& desc, const skinning::DeformKernels& pass)
-        : device_(desc.device), asset_(desc.asset), instances_(desc.instances), pass_(&pass) {}
+    Deform(const CageStageDesc& desc, const skinning::DeformKernels& own)
+        : device_(desc.device), asset_(desc.asset), instances_(desc.instances), kernels_(&own) {}
 
     [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
         stride_ = buffers.stride;
         return sets_.create({device_,
-                             &pass_->layout(),
+                             &kernels_->layout(),
                              &buffers.listing->windows(),
                              asset_->buffers.buffer(0),
                              asset_->buffers.size(0),
@@ -29,16 +29,16 @@ public:
         gpu::computeBarrier(*device_, commandBuffer);
         shared::DeformPush push{}; // of no instances
         push.firstInfluences = asset_->firstInfluences;
-        pass_->record(commandBuffer, sets_[0], instances_->skinning(), push);
+        kernels_->record(commandBuffer, sets_[0], instances_->skinning(), push);
     }
 
     PassCost record(const CageFrame& frame) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
         const uint32_t vertices = asset_->character.cage.vertexCount();
         frame.windows.forEach([&](uint32_t w) {
-            pass_->record(frame.commands, sets_[w], layout.mode,
-                          {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride, stride_,
-                           layout.morphWeights, asset_->firstInfluences});
+            kernels_->record(frame.commands, sets_[w], layout.mode,
+                             {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride,
+                              stride_, layout.morphWeights, asset_->firstInfluences});
         });
         const uint64_t points = uint64_t{vertices} * frame.windows.visible;
         return {points, points * gpu::kVec4Bytes};
@@ -48,7 +48,7 @@ private:
     const gpu::Device* device_;
     const Asset* asset_;
     const InstanceSet* instances_;
-    const skinning::DeformKernels* pass_;
+    const skinning::DeformKernels* kernels_;
     uint32_t stride_ = 0;
     DeformSets sets_;
 };
@@ -56,12 +56,12 @@ private:
 } // namespace
 
 Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
-    Result<skinning::DeformKernels> pass = skinning::DeformKernels::create(device, pipelines);
-    if (!pass) {
-        return pass.error();
+    Result<skinning::DeformKernels> made = skinning::DeformKernels::create(device, pipelines);
+    if (!made) {
+        return made.error();
     }
-    auto kernels = std::make_unique<DeformKernels>();
-    kernels->pass = std::move(*pass);
+    auto kernels = std::make_unique<DeformStageKernels>();
+    kernels->kernels = std::move(*made);
     return std::unique_ptr<CageKernels>(std::move(kernels));
 }
 
@@ -70,19 +70,19 @@ bool wantsDeform(const CageStageDesc& desc) {
 }
 
 Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels) {
-    skinning::DeformKernels& pass = static_cast<DeformKernels&>(kernels).pass;
-    const Status prepared = pass.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
+    skinning::DeformKernels& own = static_cast<DeformStageKernels&>(kernels).kernels;
+    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
     if (!prepared) {
         return prepared.error();
     }
-    return std::unique_ptr<CageStage>(std::make_unique<Deform>(desc, pass));
+    return std::unique_ptr<CageStage>(std::make_unique<Deform>(desc, own));
 }
 
 Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels) {
     if (!planned.deforms) {
         return success();
     }
-    const auto made = static_cast<const DeformKernels&>(kernels).pass.make(planned.skinning, planned.morphs);
+    const auto made = static_cast<const DeformStageKernels&>(kernels).kernels.make(planned.skinning, planned.morphs);
     return made ? success() : made.error();
 }
 

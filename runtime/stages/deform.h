@@ -6,8 +6,9 @@
 
 namespace supple::runtime {
 
-struct DeformKernels final : CageKernels {
-    skinning::DeformKernels pass;
+/// What the stages have of the kernels.
+struct DeformStageKernels final : CageKernels {
+    skinning::DeformKernels kernels;
 };
 [[nodiscard]] Result<std::unique_ptr<CageKernels>> makeDeformKernels(const gpu::Device& device,
                                                                      gpu::Pipelines& pipelines);

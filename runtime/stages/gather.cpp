@@ -8,8 +8,8 @@ namespace {
 
 class Gather final : public CageStage {
 public:
-    Gather(const CageStageDesc& desc, const skinning::DeformKernels& pass)
-        : device_(desc.device), capacity_(desc.instances->capacity()), pass_(&pass), pieces_(desc.surfaces->size()) {
+    Gather(const CageStageDesc& desc, const skinning::DeformKernels& own)
+        : device_(desc.device), capacity_(desc.instances->capacity()), kernels_(&own), pieces_(desc.surfaces->size()) {
         for (size_t surface = 0; surface < pieces_.size(); ++surface) {
             pieces_[surface].of = (*desc.surfaces)[surface].piece();
         }
@@ -36,7 +36,7 @@ public:
             gpu::StaticBuffers& vertices = piece.of->vertices;
             addMember(vertices);
             status = piece.sets.create({device_,
-                                        &pass_->layout(),
+                                        &kernels_->layout(),
                                         &buffers.listing->windows(),
                                         vertices.buffer(0),
                                         vertices.size(0),
@@ -56,7 +56,7 @@ public:
         for (const Piece& piece : pieces_) {
             if (piece.of != nullptr) {
                 gpu::computeBarrier(*device_, commandBuffer);
-                pass_->recordGather(commandBuffer, piece.sets[0], {}); // of no instances
+                kernels_->recordGather(commandBuffer, piece.sets[0], {}); // of no instances
             }
         }
     }
@@ -73,7 +73,7 @@ public:
         frame.windows.forEach([&](uint32_t w) {
             push.firstInstance = frame.windows.firstEntry(w);
             push.instanceCount = frame.windows.listed[w].count;
-            pass_->recordGather(frame.commands, piece.sets[w], push);
+            kernels_->recordGather(frame.commands, piece.sets[w], push);
         });
         const uint64_t points = uint64_t{push.vertexCount} * frame.windows.visible;
         return {points, points * gpu::kVec4Bytes};
@@ -91,7 +91,7 @@ private:
 
     const gpu::Device* device_;
     uint32_t capacity_;
-    const skinning::DeformKernels* pass_;
+    const skinning::DeformKernels* kernels_;
     uint32_t wholeStride_ = 0;
     std::vector<Piece> pieces_; ///< by surface
 };
@@ -103,19 +103,19 @@ bool wantsGather(const CageStageDesc& desc) {
 }
 
 Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels) {
-    skinning::DeformKernels& pass = static_cast<DeformKernels&>(kernels).pass;
-    const Status prepared = pass.prepareGather();
+    skinning::DeformKernels& own = static_cast<DeformStageKernels&>(kernels).kernels;
+    const Status prepared = own.prepareGather();
     if (!prepared) {
         return prepared.error();
     }
-    return std::unique_ptr<CageStage>(std::make_unique<Gather>(desc, pass));
+    return std::unique_ptr<CageStage>(std::make_unique<Gather>(desc, own));
 }
 
 Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels) {
     if (!planned.pieces) {
         return success();
     }
-    const Result<gpu::Kernel> made = static_cast<const DeformKernels&>(kernels).pass.makeGather();
+    const Result<gpu::Kernel> made = static_cast<const DeformStageKernels&>(kernels).kernels.makeGather();
     return made ? success() : made.error();
 }
 

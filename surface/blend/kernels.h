@@ -5,7 +5,7 @@
 
 namespace supple::surface::blend {
 
-/// Of charts over the cage, and over what a step of subdivision makes of it.
+/// Kernels that make charts: over the cage, or over what a step of subdivision makes of it.
 inline constexpr KindOfKernel kChartKernels[] = {{Kernel::blendChart, 0}, {Kernel::blendChartMeshInPool, 0}};
 
 } // namespace supple::surface::blend

@@ -83,7 +83,7 @@ private:
         return check_.pool(record[3], kChartCoefficients);
     }
 
-    /// Of the samples of a rate. At levels there are neither coordinates nor samples.
+    /// Checks the samples of a rate. At levels there are neither coordinates nor samples.
     bool checkCoordinates() {
         check_.begin("coordinates");
         // Those on the grid, and half a step inside either end.
@@ -114,7 +114,7 @@ private:
         return true;
     }
 
-    /// Of texture coordinates the coefficients are in the tables, two an element.
+    /// The coefficients of texture coordinates are in the tables, two an element.
     bool checkUvs() {
         check_.begin("smooth texture coordinates");
         for (const PatchRange& range : tables_.ranges) {

@@ -208,7 +208,7 @@ bool ClassCheck::followFragments() {
     return !sharp_ || check_.words(sharpness_, uint64_t{spokes_} * fragments_);
 }
 
-/// Of every sector that of its run: how far kernels go round the first ring, and from which spokes.
+/// For every sector that of its run: how far kernels go round the first ring, and from which spokes.
 bool ClassCheck::followMasks() {
     check_.begin("masks");
     const uint64_t count = uint64_t{sectors_} * fragments_;

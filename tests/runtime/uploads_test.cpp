@@ -136,6 +136,13 @@ protected:
         std::unique_ptr<TestView> view;
         std::unique_ptr<UploadedTubes> tubes;
     };
+
+    /// What the group of the case draws of a character in a context without a budget.
+    DrawnPatches drawnWithoutBudget(const cage::Character& character) {
+        CrowdContext& free = context(SUPPLE_MAPPING_NARROW);
+        Made made(free, free.createAsset(character));
+        return made.tubes->drawn();
+    }
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, UploadsOf, testing::ValuesIn(kUploadCases),
                          [](const auto& param) { return std::string(param.param.name); });
@@ -175,9 +182,7 @@ TEST_P(UploadsOf, ArriveInPiecesAndAreDrawnWithTheSameBits) {
 
 TEST_P(UploadsOf, GoOnWhereFramesAreCancelled) {
     const ValidationGuard guard;
-    CrowdContext& free = context(SUPPLE_MAPPING_NARROW);
-    Made expected(free, free.createAsset(uploadedTube()));
-    const DrawnPatches drawn = expected.tubes->drawn();
+    const DrawnPatches drawn = drawnWithoutBudget(uploadedTube());
     const auto own = bounded(SUPPLE_MAPPING_NARROW);
     Made made(*own, own->createAsset(uploadedTube()));
     const SuppleGroup group = made.tubes->crowd.group();
@@ -194,9 +199,7 @@ TEST_P(UploadsOf, GoOnWhereFramesAreCancelled) {
 
 TEST_P(UploadsOf, AreThereAtOnceInAGroupThatGrows) {
     const ValidationGuard guard;
-    CrowdContext& free = context(SUPPLE_MAPPING_NARROW);
-    Made expected(free, free.createAsset(uploadedTube()));
-    const DrawnPatches drawn = expected.tubes->drawn();
+    const DrawnPatches drawn = drawnWithoutBudget(uploadedTube());
     const auto own = bounded(SUPPLE_MAPPING_NARROW);
     Made made(*own, own->createAsset(uploadedTube()));
     const SuppleGroup group = made.tubes->crowd.group();
@@ -213,9 +216,7 @@ TEST_P(UploadsOf, AreThereAtOnceInAGroupThatGrows) {
 
 TEST_P(UploadsOf, BeginAnewWhereTheAssetIsReloaded) {
     const ValidationGuard guard;
-    CrowdContext& free = context(SUPPLE_MAPPING_NARROW);
-    Made expected(free, free.createAsset(uploadedTube(12)));
-    const DrawnPatches drawn = expected.tubes->drawn();
+    const DrawnPatches drawn = drawnWithoutBudget(uploadedTube(12));
     const auto own = bounded(SUPPLE_MAPPING_NARROW);
     const SuppleAsset asset = own->createAsset(uploadedTube());
     Made made(*own, asset);
@@ -236,9 +237,7 @@ TEST_P(UploadsOf, BeginAnewWhereTheAssetIsReloaded) {
 
 TEST_P(UploadsOf, AreFinishedByTheNextFrameWhereTheBudgetEnds) {
     const ValidationGuard guard;
-    CrowdContext& free = context(SUPPLE_MAPPING_NARROW);
-    Made expected(free, free.createAsset(uploadedTube()));
-    const DrawnPatches drawn = expected.tubes->drawn();
+    const DrawnPatches drawn = drawnWithoutBudget(uploadedTube());
     const auto own = bounded(SUPPLE_MAPPING_NARROW);
     const SuppleAsset asset = own->createAsset(uploadedTube()), unused = own->createAsset(uploadedTube());
     Made made(*own, asset);

@@ -41,7 +41,7 @@ typedef struct SupplePrepareDesc {
  * What comes out never changes. Give it to suppleCreateAsset (SuppleAssetDesc.prepared) of any number of contexts: then
  * that call, and suppleCreateGroup for the groups that were planned, only copy. A group that was not planned, or that
  * differs from the plan in what its tables depend on (scheme, flags, options, uvInterpolation, flags of the view; of
- * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate, but tables of the former two serve lower rates of the same octave;
+ * CATMULL_CLARK, LOOP, BLEND and FRAGMENTS the rate, but tables of the former two serve some lower ones;
  * of CATMULL_CLARK and LOOP the mapping), works as well: suppleCreateGroup builds what is missing, and says so
  * (SUPPLE_MESSAGE_NOT_PREPARED). Pipelines need the context: suppleMakePipelines.
  *
