@@ -139,18 +139,10 @@ public:
             return nullptr;
         }
         auto rig = std::unique_ptr<Rig>(new Rig(host, std::move(*device)));
-        Result<BoundsKernels> pass = BoundsKernels::create(rig->device_, rig->pipelines_);
-        if (!pass) {
-            ADD_FAILURE() << pass.error().message;
+        if (!prepared(BoundsKernels::create(rig->device_, rig->pipelines_), rig->bounds_) ||
+            !prepared(OcclusionKernels::create(rig->device_, rig->pipelines_), rig->occlusion_)) {
             return nullptr;
         }
-        rig->pass_ = std::move(*pass);
-        Result<OcclusionKernels> occlusion = OcclusionKernels::create(rig->device_, rig->pipelines_);
-        if (!occlusion) {
-            ADD_FAILURE() << occlusion.error().message;
-            return nullptr;
-        }
-        rig->occlusion_ = std::move(*occlusion);
         return rig;
     }
 
@@ -194,16 +186,17 @@ public:
         };
         const auto count = static_cast<uint32_t>(windows.size());
         Result<gpu::DescriptorPoolHandle> pool =
-            gpu::createDescriptorPool(device_, pass_.boundsLayout(), count, "test");
-        Result<gpu::DescriptorPoolHandle> listPool = gpu::createDescriptorPool(device_, pass_.listLayout(), 1, "test");
+            gpu::createDescriptorPool(device_, bounds_.boundsLayout(), count, "test");
+        Result<gpu::DescriptorPoolHandle> listPool =
+            gpu::createDescriptorPool(device_, bounds_.listLayout(), 1, "test");
         EXPECT_TRUE(pool.ok() && listPool.ok());
-        Result<VkDescriptorSet> listSet = gpu::allocateSet(device_, pass_.listLayout(), listPool->get(), "test");
+        Result<VkDescriptorSet> listSet = gpu::allocateSet(device_, bounds_.listLayout(), listPool->get(), "test");
         EXPECT_TRUE(listSet.ok());
         const VkBufferView stateTexels = texels(states_, VK_FORMAT_R32G32_UINT, 0, states_.size());
         const VkBufferView hostTexels = texels(hostList, VK_FORMAT_R32_UINT, 0, hostList.size());
         std::vector<VkDescriptorSet> sets;
         for (const ListWindow& window : windows) {
-            Result<VkDescriptorSet> set = gpu::allocateSet(device_, pass_.boundsLayout(), pool->get(), "test");
+            Result<VkDescriptorSet> set = gpu::allocateSet(device_, bounds_.boundsLayout(), pool->get(), "test");
             EXPECT_TRUE(set.ok());
             const VkDeviceSize cageBytes = VkDeviceSize{scene.cageStride} * 16;
             const VkDeviceSize offset = window.firstSlot * cageBytes;
@@ -225,9 +218,9 @@ public:
                 {kCullViewBinding, whole(view)},
                 {kSizeBinding, whole(sizes)},
             };
-            gpu::writeSet(device_, pass_.boundsLayout(), *set, resources);
+            gpu::writeSet(device_, bounds_.boundsLayout(), *set, resources);
             if (sets.empty()) {
-                gpu::writeSet(device_, pass_.listLayout(), *listSet, resources);
+                gpu::writeSet(device_, bounds_.listLayout(), *listSet, resources);
             }
             sets.push_back(*set);
         }
@@ -253,10 +246,10 @@ public:
         EXPECT_TRUE(host_
                         .submitAndWait([&](VkCommandBuffer commands) {
                             for (uint32_t w = 0; w < count; ++w) {
-                                pass_.recordBounds(commands, sets[w],
-                                                   {scene.vertexCount, scene.cageStride, windows[w].firstEntry,
-                                                    windows[w].entries, windows[w].firstSlot, kMargin, kLongest,
-                                                    kBend});
+                                bounds_.recordBounds(commands, sets[w],
+                                                     {scene.vertexCount, scene.cageStride, windows[w].firstEntry,
+                                                      windows[w].entries, windows[w].firstSlot, kMargin, kLongest,
+                                                      kBend});
                             }
                             gpu::computeBarrier(device_, commands);
                             if (occlusionSet != VK_NULL_HANDLE) {
@@ -272,8 +265,8 @@ public:
                                 gpu::computeBarrier(device_, commands);
                             }
                             if (scene.room != kRoomForAll) {
-                                pass_.recordSizes(commands, *listSet,
-                                                  {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
+                                bounds_.recordSizes(commands, *listSet,
+                                                    {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
                                 gpu::computeBarrier(device_, commands);
                             }
                             const ListPush push{count,
@@ -283,7 +276,7 @@ public:
                                                 scene.slots,
                                                 scene.room,
                                                 0};
-                            pass_.recordList(commands, *listSet, push);
+                            bounds_.recordList(commands, *listSet, push);
                             gpu::memoryBarrier(device_, commands,
                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
                                                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT});
@@ -339,11 +332,23 @@ private:
         return std::move(*image);
     }
 
+    /// Puts kernels whose pipelines are made into `target`.
+    template <class Kernels>
+    static bool prepared(Result<Kernels> made, Kernels& target) {
+        const Status status = made ? made->prepare() : made.error();
+        if (!status) {
+            ADD_FAILURE() << status.error().message;
+            return false;
+        }
+        target = std::move(*made);
+        return true;
+    }
+
     Rig(host::Device& host, gpu::Device device) : host_(host), device_(std::move(device)), pipelines_(device_) {}
     host::Device& host_;
     gpu::Device device_;
     gpu::Pipelines pipelines_;
-    BoundsKernels pass_;
+    BoundsKernels bounds_;
     OcclusionKernels occlusion_;
     host::Buffer states_;
 };
