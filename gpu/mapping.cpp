@@ -12,6 +12,9 @@ Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoic
     // Narrow: one lane a patch; 32 lanes keep the count of workgroups low, each of which costs a fixed time on
     // lavapipe. Wide: four subgroups of 32, enough to hide latency with a few patches in shared memory.
     mapping.localSize = mapping.wide ? 128 : 32;
+    // A wide GPU of today has some 140 multiprocessors; nine subgroups of 32 on each hide latency by what every lane
+    // does by itself. No driver tells this number.
+    mapping.lanesToFill = type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 64 : 40'000;
     // lavapipe has its rasterizer write timestamps once anything has been drawn, whenever the next barrier makes it
     // run: a pass without a barrier behind it would end with the next one. And its vkGetQueryPoolResults waits for the
     // device to be idle. There a barrier and a copy cost next to nothing, because commands run one after another

@@ -25,6 +25,7 @@ struct ProgramOptions {
     uint32_t firstMask = 0;   ///< with lod: where masks of parts begin in the list of instances, in words
     uint32_t maskWords = 0;   ///< with lod: words of an instance's mask (shaders/shared/bounds.h)
     bool countsHidden = true; ///< with lod: the surface counts the patches that instances of the group hide
+    uint32_t instances = 0;   ///< at most; 0: not known yet, so that kernels for few and for many are made
     uint32_t rate = 0;        ///< the rate that the group is created with. Only this one gets pipelines of its own
 };
 

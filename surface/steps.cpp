@@ -60,8 +60,26 @@ uint32_t samplesOf(const ProgramBuilder& builder, PatchClass patchClass) {
     return builder.tables.hasIndexedMesh() ? interiorCount(domain, rate) : sampleCount(domain, rate);
 }
 
+bool isAtOwnRate(const ProgramBuilder& builder) {
+    return builder.evaluation.rate == builder.options.rate;
+}
+/// Wide mapping: there is a kernel at the group's own rate whose lanes take a whole patch each (evaluate/bicubic.comp).
+bool hasLanePatch(const ProgramBuilder& builder, PatchClass patchClass, uint32_t format) {
+    const uint32_t rate = builder.options.rate;
+    return builder.device.mapping.wide && patchClass == PatchClass::regular && format == kVertex16 && rate > 0 &&
+           rate <= kMaxLanePatchRate;
+}
+/// It is chosen where a group that is full has work for all lanes of the device.
+bool prefersLanePatch(const ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
+    return hasLanePatch(builder, range.patchClass, format) &&
+           uint64_t{range.section.count} * builder.options.instances >= builder.device.mapping.lanesToFill;
+}
+
 /// Patches a workgroup takes in the wide mapping.
 uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
+    if (isAtOwnRate(builder) && prefersLanePatch(builder, range, format)) {
+        return kPatchLanes;
+    }
     const PatchClassRow& row = rowOf(range.patchClass);
     const uint32_t lanes = builder.device.mapping.localSize, rate = builder.evaluation.rate;
     if (row.isBicubic()) { // a lane takes a row of samples
@@ -74,27 +92,42 @@ uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range,
     return patchesBySamples(samplesOf(builder, range.patchClass), lanes);
 }
 
-/// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
-/// The rate of a group with an indexed mesh stays.
-gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint32_t format) {
+gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint32_t format, uint32_t rate,
+                           bool lanePatch) {
     const bool indexed = builder.tables.hasIndexedMesh();
-    const auto make = [&](uint32_t rate) {
-        const std::string name = indexed ? "supple evaluate inside, " : "supple evaluate, ";
-        return builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
-                              {{kKindConstant, static_cast<uint32_t>(patchClass)},
-                               {kVertexFormatConstant, format},
-                               {kCornerNormalsConstant, cornerNormals(builder)},
-                               {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
-                               {kTangentsConstant, tangentsConstant(builder, format)},
-                               {kRateConstant, rate}},
-                              atRate(name + className(patchClass), rate));
-    };
-    const uint32_t ownRate = ownRatePays(builder, patchClass) ? builder.options.rate : 0;
-    if (indexed) {
-        return make(ownRate);
+    const std::string name = (indexed ? "supple evaluate inside, " : "supple evaluate, ") +
+                             std::string(className(patchClass)) + (lanePatch ? ", a lane a patch" : "");
+    return builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
+                          {{kKindConstant, static_cast<uint32_t>(patchClass)},
+                           {kVertexFormatConstant, format},
+                           {kCornerNormalsConstant, cornerNormals(builder)},
+                           {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
+                           {kTangentsConstant, tangentsConstant(builder, format)},
+                           {kRateConstant, rate},
+                           {kLanePatchConstant, lanePatch ? VK_TRUE : VK_FALSE},
+                           {kLocalSizeConstant, lanePatch ? kPatchLanes : builder.device.mapping.localSize}},
+                          atRate(name, rate));
+}
+
+/// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
+/// The rate of a group with an indexed mesh stays. If nobody knows yet how many instances there are, all that they may
+/// need are made.
+gpu::Kernel evaluateKernel(ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
+    const PatchClass patchClass = range.patchClass;
+    const bool indexed = builder.tables.hasIndexedMesh(), isUnknown = builder.options.instances == 0;
+    const bool prefersLane = prefersLanePatch(builder, range, format);
+    const uint32_t rate = builder.options.rate, ownRate = ownRatePays(builder, patchClass) ? rate : 0;
+    gpu::Kernel any, own;
+    if (!indexed) {
+        own = any = evaluateKernel(builder, patchClass, format, 0, false);
     }
-    const gpu::Kernel any = make(0), own = ownRate > 0 && format != kVertexPosition ? make(ownRate) : any;
-    return builder.evaluation.rate == builder.options.rate ? own : any;
+    if (!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition))) {
+        own = evaluateKernel(builder, patchClass, format, ownRate, false);
+    }
+    if (prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format))) {
+        own = evaluateKernel(builder, patchClass, format, rate, true);
+    }
+    return indexed || isAtOwnRate(builder) ? own : any;
 }
 
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
@@ -110,7 +143,7 @@ void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass
         push.patchesPerGroup = patchesPerGroup(builder, from, pass.format);
         size.perGroup = push.patchesPerGroup;
     }
-    builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from.patchClass, pass.format), size, push,
+    builder.add(*pass.steps, SetKind::evaluate, evaluateKernel(builder, from, pass.format), size, push,
                 static_cast<uint32_t>(range));
 }
 

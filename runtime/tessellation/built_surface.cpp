@@ -63,7 +63,9 @@ Result<BuiltSurface> buildSurface(const TessellationDesc& desc) {
 }
 
 surface::ProgramOptions programOptionsOf(const TessellationDesc& desc, const BuiltSurface& built) {
-    return programOptionsOf(outputWish(desc), built.outputs, built.beginRate);
+    surface::ProgramOptions options = programOptionsOf(outputWish(desc), built.outputs, built.beginRate);
+    options.instances = desc.group.capacity;
+    return options;
 }
 
 } // namespace supple::runtime

@@ -2,10 +2,12 @@
 // (docs/pm.md). Coefficients are gathered from the pool by index. A patch is collapsed in v to rows first, then each row is
 // sampled in u.
 //
-// Narrow mapping: a lane has the whole patch in registers. Wide mapping: it has a loop of its own, because rows are faster than
-// samples there. At a rate each lane collapses one row and evaluates all of its samples. At levels a workgroup has fewer rows:
-// lanes share the columns to collapse, then the samples. All use the functions collapse...() and finish(), so positions agree
-// bit for bit. At levels samples lie where the patch's record says instead of at i / rate (docs/lod.md).
+// A lane has a whole patch in registers, in the narrow mapping and, where a rate has patches enough for all lanes of a GPU, in the
+// wide one (kLanePatch). There the samples of a row pass through workgroup memory, so that neighbouring lanes store neighbouring
+// ones. Otherwise the wide mapping has loops of its own, because rows are faster than samples there. At a rate each lane collapses
+// one row and evaluates all of its samples. At levels a workgroup has fewer rows: lanes share the columns to collapse, then the
+// samples. All use the functions of rows.glsl, so positions agree bit for bit. At levels samples lie where the patch's record says
+// instead of at i / rate (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -32,19 +34,28 @@ Frame withCornerNormal(Frame frame, uint i, uint j, uint rate, uvec4 slots, uint
     return withNormal(frame, poolVector(base + slot));
 }
 
+// Where what a corner is made of lies: its coefficients are 0 itself, 1 towards the next corner, 2 towards the last, 3 of the face.
+const uvec4 kCorner0 = uvec4(0u, 1u, 4u, 5u), kCorner1 = uvec4(3u, 7u, 2u, 6u), kCorner2 = uvec4(15u, 14u, 11u, 10u),
+            kCorner3 = uvec4(12u, 8u, 13u, 9u);
+vec3 netVector(const PatchPlace at, NetRecord net, uint k) { return coefficient(at.base + netIndex(net, kPolar, k), at.isNew); }
+// The apex of a polar patch is all of its row v = 1: nothing lies between its two corners there.
+Corner loadCorner(const PatchPlace at, NetRecord net, uvec4 k) {
+    return Corner(netVector(at, net, k.x), kPolar && cornerOf(k.y) == k.y ? vec3(0.0) : netVector(at, net, k.y),
+                  kPolar && cornerOf(k.z) == k.z ? vec3(0.0) : netVector(at, net, k.z), netVector(at, net, k.w));
+}
 Patch loadPatch(const PatchPlace at) {
     Patch c;
     NetRecord net = netRecord(at.record);
-    for (uint k = 0u; k < 16u; ++k) c.g[k] = coefficient(at.base + netIndex(net, kPolar, k), at.isNew);
+    c.c0 = loadCorner(at, net, kCorner0);
+    c.c1 = loadCorner(at, net, kCorner1);
+    c.c2 = loadCorner(at, net, kCorner2);
+    c.c3 = loadCorner(at, net, kCorner3);
+    c.left = between(c.c0.point, c.c3.point);
+    c.right = between(c.c1.point, c.c2.point);
+    c.bottom = between(c.c0.point, c.c1.point);
     if (kPerturbed) {
         uvec4 edges = tableElement(at.record + 2u);
         for (uint k = 0u; k < 16u; ++k) c.h[k] = coefficient(at.base + perturbationIndex(edges, k), at.isNew);
-    }
-    for (uint k = 0u; k < 16u; ++k) {
-        uint corner = cornerOf(k);
-        vec3 offset = k == corner ? vec3(0.0) : c.g[k];
-        c.relative[k] = relativeTo(c.g[0], c.g[corner], offset);
-        if (k != corner) c.g[k] = placed(c.g[corner], offset);
     }
     return c;
 }
@@ -53,31 +64,116 @@ uvec4 normalSlots(uint record) {
     return kCornerNormals ? tableElement(record + kRecordElements - 1u) : uvec4(kNoNormal);
 }
 
-#if !defined(WIDE) && !defined(LEVELS)
-void evaluatePatch(const PatchPlace at) {
-    Patch c = loadPatch(at);
-    uvec4 slots = normalSlots(at.record);
+#ifndef LEVELS
+#ifdef WIDE
+layout(constant_id = kLanePatchConstant) const bool kLanePatch = false;
+// Lanes keep their rows an odd number of elements apart: then they do not meet in one bank.
+const uint kRowStride = (kInterior ? kRate - 1u : kRate + 1u) | 1u;
+shared uvec4 localSamples[kLanePatch ? kPatchLanes * kRowStride : 1u];
+const uint kNoVertex = 0xFFFFFFFFu;
+shared uint localPatches[kLanePatch ? kPatchLanes : 1u]; // the first surface vertex of each
+uint patchesHere; // in the workgroup
+// Where the samples of a row go that the lane stores for others: the surface vertex in row 0, and the element of localSamples.
+uint storesTo[kMaxLanePatchRate + 1u], storesFrom[kMaxLanePatchRate + 1u];
+#endif
 
-    uint rate = fixedRate(), first = kInterior ? 1u : 0u, end = rate + 1u - first;
-    uint vertex = at.vertex, own = at.own;
-    // Tested at the bottom: a loop tested at the top costs lavapipe one more time round with nothing to do.
-    uint j = first;
-    do {
-        Row row = collapse(c, parameterPair(j, rate));
-        uint i = first;
-        [[unroll]] do {
-            vec3 position;
-            Frame frame;
-            finish(row, parameterPair(i, rate), position, frame);
-            if (kPolar && j == rate) position = c.g[12]; // the apex itself, from every patch round it
-            if (kCornerNormals && !kInterior) frame = withCornerNormal(frame, i, j, rate, slots, at.base);
-            storeSurfaceVertex(vertex, own, position, frame);
-            ++vertex;
-            ++own;
-        } while (++i < end);
-    } while (++j < end);
+// Sample i of a row that a lane stores, of which `vertex` and `own` are the first ones.
+void keepSample(uint vertex, uint own, uint i, vec3 position, Frame frame) {
+#ifdef WIDE
+    localSamples[gl_LocalInvocationID.x * kRowStride + i] = uvec4(floatBitsToUint(position), encodeOctahedral(frame.normal));
+    if (gl_LocalInvocationID.x < patchesHere) storeTangent(vertex + i, own + i, frame);
+#else
+    storeSurfaceVertex(vertex + i, own + i, position, frame);
+#endif
+}
+// Behind row j of all lanes' patches, of `side` samples each.
+void storeRow(uint j, uint side) {
+#ifdef WIDE
+    barrier();
+    if (patchesHere == kPatchLanes) {
+        [[unroll]] for (uint s = 0u; s < side; ++s) surface16[storesTo[s] + j * side] = localSamples[storesFrom[s]];
+    } else {
+        for (uint s = 0u; s < side; ++s)
+            if (storesTo[s] != kNoVertex) surface16[storesTo[s] + j * side] = localSamples[storesFrom[s]];
+    }
+    barrier();
+#endif
 }
 
+// A row of all samples, of which `vertex` and `own` are the first.
+void evaluateRow(Row row, bool isInside, uint rate, uint vertex, uint own, uint inset, vec3 apex, bool isApex, uvec4 slots, uint j, uint base) {
+    vec3 position, farPosition;
+    Frame frame, farFrame;
+    if (!kInterior) {
+        endSample(row, false, position, frame);
+        endSample(row, true, farPosition, farFrame);
+        if (kPolar && isApex) position = farPosition = apex;
+        if (kCornerNormals && !isInside) {
+            frame = withCornerNormal(frame, 0u, j, rate, slots, base);
+            farFrame = withCornerNormal(farFrame, rate, j, rate, slots, base);
+        }
+        keepSample(vertex, own, 0u, position, frame);
+        keepSample(vertex, own, rate, farPosition, farFrame);
+        if (rate == 1u) return;
+    }
+    PointHalves points = pointHalves(row);
+    SlopeHalves slopes = slopeHalves(row);
+    uint i = 1u, pairs = rate / 2u;
+    [[unroll]] do {
+        mirroredSamples(row, points, slopes, parameterPair(i, rate), isInside, position, frame, farPosition, farFrame);
+        if (kPolar && isApex) position = farPosition = apex;
+        keepSample(vertex, own, i - inset, position, frame);
+        if (2u * i != rate) keepSample(vertex, own, rate - i - inset, farPosition, farFrame);
+    } while (++i <= pairs);
+}
+
+// Rows v = 0 and v = 1, then those between. Loops are tested at the bottom: one tested at the top costs lavapipe one more time
+// round with nothing to do.
+void evaluateRows(const PatchPlace at) {
+    Patch c = loadPatch(at);
+    uint rate = fixedRate(), inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset;
+    if (!kInterior) {
+        uvec4 slots = normalSlots(at.record);
+        uint j = 0u;
+        do {
+            bool isTop = j == rate;
+            Row row = borderRow(c, isTop);
+            // The apex itself, from every patch round it.
+            evaluateRow(row, false, rate, at.vertex + j * side, at.own + j * side, 0u, c.c2.point, isTop, slots, j, at.base);
+            storeRow(j, side);
+            j += rate;
+        } while (j <= rate);
+        if (rate == 1u) return;
+    }
+    uint j = 1u;
+    do {
+        uint first = (j - inset) * side;
+        evaluateRow(collapse(c, parameterPair(j, rate), kInnerRow), true, rate, at.vertex + first, at.own + first, inset, vec3(0.0), false,
+                    uvec4(kNoNormal), j, at.base);
+        storeRow(j - inset, side);
+    } while (++j < rate);
+}
+
+#ifdef WIDE
+// A lane a patch.
+void evaluatePatches() {
+    Share share = shareOfGroup();
+    if (share.count == 0u) return;
+    patchesHere = share.count;
+    PatchPlace at = PATCH_IN_PLACE(share, min(gl_LocalInvocationID.x, share.count - 1u)); // idle lanes repeat the last
+    localPatches[gl_LocalInvocationID.x] = at.vertex;
+    barrier();
+    const uint kSide = kInterior ? kRate - 1u : kRate + 1u;
+    [[unroll]] for (uint s = 0u; s < kSide; ++s) {
+        uint n = s * kPatchLanes + gl_LocalInvocationID.x, place = n / kSide, i = n - place * kSide;
+        storesFrom[s] = place * kRowStride + i;
+        storesTo[s] = place < share.count ? localPatches[place] + i : kNoVertex;
+    }
+    evaluateRows(at);
+}
+#else
+void evaluatePatch(const PatchPlace at) { evaluateRows(at); }
+#endif
 #endif
 
 #if !defined(WIDE) && defined(LEVELS)
@@ -93,23 +189,37 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
     const vec2 kBegin = vec2(0.0, 1.0), kEnd = vec2(1.0, 0.0);
     uint j = 0u;
     do {
-        bool border = j == 0u || j == last;
-        LodPattern along = insideU;
-        if (j == 0u) along = bottom;
-        if (j == last) along = top;
-        Row row = collapse(c, j == 0u ? kBegin : j == last ? kEnd : lodPair(insideV, j, last));
-        uint i = border ? 0u : 1u, end = border ? side : last;
+        bool isTop = j == last;
+        LodPattern along = bottom;
+        if (isTop) along = top;
+        Row row = borderRow(c, isTop);
+        uint i = 0u;
         do {
             vec3 position;
             Frame frame;
-            finish(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, frame);
-            if (kPolar && j == last) position = c.g[12];
+            borderSample(row, i == 0u ? kBegin : i == last ? kEnd : lodPair(along, i, last), position, frame);
+            if (kPolar && isTop) position = c.c2.point;
             if (kCornerNormals) frame = withCornerNormal(frame, i, j, last, slots, at.base);
             uint own = vertex + j * side + i;
             storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
-        } while (++i < end);
-    } while (++j < side);
+        } while (++i < side);
+        j += last;
+    } while (j < side);
     if (last == 1u) return; // no inner rows
+    j = 1u;
+    do {
+        Row row = collapse(c, lodPair(insideV, j, last), kInnerRow);
+        PointHalves points = pointHalves(row);
+        SlopeHalves slopes = slopeHalves(row);
+        uint i = 1u;
+        do {
+            vec3 position, farPosition;
+            Frame frame, farFrame;
+            mirroredSamples(row, points, slopes, lodPair(insideU, i, last), true, position, frame, farPosition, farFrame);
+            uint own = vertex + j * side + i;
+            storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
+        } while (++i < last);
+    } while (++j < last);
     uint n = 0u, count = 2u * (last - 1u);
     do {
         bool onRight = n >= last - 1u;
@@ -118,7 +228,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         j = n + (onRight ? 2u - last : 1u);
         vec3 position;
         Frame frame;
-        finish(collapse(c, lodPair(border, j, last)), onRight ? kEnd : kBegin, position, frame);
+        endSample(collapse(c, lodPair(border, j, last), kInnerRow), onRight, position, frame);
         uint own = vertex + j * side + (onRight ? last : 0u);
         storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, frame);
     } while (++n < count);
@@ -133,7 +243,7 @@ const uint kLocalStride = kPerturbed ? kWidePerturbedNetElements : kWideNetEleme
 #ifdef LEVELS
 const uint kLocalElements = kMaxPatchesPerGroup * kLocalStride;
 #else
-const uint kLocalElements = SUPPLE_WIDE_ELEMENTS(kVertexFormat);
+const uint kLocalElements = kLanePatch ? 1u : SUPPLE_WIDE_ELEMENTS(kVertexFormat);
 #endif
 shared vec4 localElements[kLocalElements]; // at a rate the positions of samples as well, when these are done with
 
@@ -165,16 +275,21 @@ uint localSlot(uint k) {
 }
 vec3 localPerturbation(uint from, uint k) { return localVector(from + 16u + SUPPLE_PREP_FACE_EDGE(k)); }
 
-// Column i of the coefficients, as loadPatch() has them.
-void localColumn(uint from, uint i, out vec3 g[4], out vec3 relative[4]) {
-    vec3 first = localVector(from + localSlot(0u));
+vec3 localCoefficient(uint from, uint k) { return localVector(from + localSlot(k)); }
+// Column i of the coefficients, as columnOf() has it.
+Column localColumn(uint from, uint i) {
+    Column c;
+    c.lower = localCoefficient(from, cornerOf(i));
+    c.upper = localCoefficient(from, kPolar ? 12u : cornerOf(12u + i));
     for (uint j = 0u; j < 4u; ++j) {
-        uint k = 4u * j + i, corner = cornerOf(k);
-        vec3 v = localVector(from + localSlot(corner)), offset = vec3(0.0);
-        if (k != corner) offset = localVector(from + localSlot(k));
-        relative[j] = relativeTo(first, v, offset);
-        g[j] = k == corner ? v : placed(v, offset);
+        uint k = 4u * j + i;
+        bool isCorner = k == cornerOf(k); // or the apex
+        c.offsets[j] = vec3(0.0);
+        if (!isCorner) c.offsets[j] = localCoefficient(from, k);
     }
+    c.side = between(c.lower, c.upper);
+    c.fromFirst = between(localCoefficient(from, 0u), c.lower);
+    return c;
 }
 void localOuter(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
     collapseOuter(v, vec3[2](localPerturbation(from, 8u + 2u * i), localPerturbation(from, 9u + 2u * i)), point, slope);
@@ -188,18 +303,15 @@ void localInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
 #if defined(WIDE) && !defined(LEVELS)
 // Samples of a row that are stored together: what there is room for, and an odd number, so that rows begin in different banks.
 const uint kMostTogether = kVertexFormat == kVertex24 ? 3u : 5u;
-shared uint localNormals[kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
-shared uint localRows[kMaxLanes]; // the first surface vertex of each
+shared uint localNormals[kLanePatch ? 1u : kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
+shared uint localRows[kLanePatch ? 1u : kMaxLanes]; // the first surface vertex of each
 
-Row collapseFrom(uint from, vec2 v) {
+Row collapseFrom(uint from, vec2 v, uint kind) {
     Row row;
-    vec3 relative[4];
-    [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-        vec3 g[4], r[4];
-        localColumn(from, i, g, r);
-        collapseColumn(v, g, r, row.g[i], relative[i], row.gv[i]);
-    }
-    for (uint i = 0u; i < 3u; ++i) row.gu[i] = relative[i + 1u] - relative[i];
+    vec3 first = localCoefficient(from, 0u), corners[4], offsets[4];
+    [[unroll]] for (uint i = 0u; i < 4u; ++i)
+        collapseColumn(localColumn(from, i), i, v, kind, first, row.g[i], corners[i], offsets[i], row.gv[i]);
+    differences(corners, offsets, row);
     if (kPerturbed) {
         [[unroll]] for (uint i = 0u; i < 2u; ++i) localInner(from, i, v, row.inner[i], row.innerV[i]);
         [[unroll]] for (uint i = 0u; i < 4u; ++i) localOuter(from, i, v, row.outer[i], row.outerV[i]);
@@ -210,6 +322,10 @@ Row collapseFrom(uint from, vec2 v) {
 // A lane a row, in registers; a lane a corner loads before. As coefficients are not needed any more then, positions take
 // their place on their way to be stored by neighbouring lanes side by side.
 void evaluateWide() {
+    if (kLanePatch) {
+        evaluatePatches();
+        return;
+    }
     const uint kInset = kInterior ? 1u : 0u;
     uint rate = fixedRate(), side = rate + 1u - 2u * kInset, lane = gl_LocalInvocationID.x;
     Share share = shareOfGroup();
@@ -224,9 +340,12 @@ void evaluateWide() {
     barrier();
     uint place = lane / side, j = lane - place * side + kInset;
     Row row;
+    PointHalves halves;
     vec3 apex;
+    bool isInner = j > 0u && j < rate;
     if (lane < rows) {
-        row = collapseFrom(place * kLocalStride, parameterPair(j, rate));
+        row = collapseFrom(place * kLocalStride, parameterPair(j, rate), rowKind(j, rate));
+        halves = pointHalves(row);
         if (kPolar) apex = localVector(place * kLocalStride + localSlot(12u));
     }
     uint rounds = (side + kMostTogether - 1u) / kMostTogether, chunk = ((side + rounds - 1u) / rounds) | 1u;
@@ -238,7 +357,7 @@ void evaluateWide() {
                 if (from + c >= side) break;
                 vec3 position;
                 Frame frame;
-                finish(row, parameterPair(i, rate), position, frame);
+                sampleOf(row, halves, parameterPair(i, rate), isInner && i > 0u && i < rate, position, frame);
                 if (kPolar && j == rate) position = apex;
                 if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
                     PatchPlace at = PATCH_IN_PLACE(share, place);
@@ -275,13 +394,12 @@ shared vec4 localPoints[(kPerturbed ? 3u : 1u) * kColumns];
 shared vec4 localSlopes[(kPerturbed ? 4u : 2u) * kColumns]; // relative points and slopes; slopes of perturbations
 
 // Collapses a column of the patch in a place of the workgroup into column `to` of the shared ones.
-void collapseLocal(uint to, uint place, uint i, vec2 v) {
-    vec3 g[4], relative[4], point, fromFirst, slope;
+void collapseLocal(uint to, uint place, uint i, vec2 v, uint kind) {
     uint from = place * kLocalStride;
-    localColumn(from, i, g, relative);
-    collapseColumn(v, g, relative, point, fromFirst, slope);
+    vec3 point, corners, offsets, slope;
+    collapseColumn(localColumn(from, i), i, v, kind, localCoefficient(from, 0u), point, corners, offsets, slope);
     localPoints[to] = vec4(point, 0.0);
-    localSlopes[to] = vec4(fromFirst, 0.0);
+    localSlopes[to] = vec4(corners + offsets, 0.0);
     localSlopes[kColumns + to] = vec4(slope, 0.0);
     if (!kPerturbed) return;
     localOuter(from, i, v, point, slope);
@@ -325,7 +443,8 @@ void evaluateWide() {
             uint row = firstRow + n / 12u, place = row / side, column = n / 4u % 3u;
             PatchPlace at = PATCH_IN_PLACE(share, place);
             uint i = column == 0u ? 1u : column == 1u ? 0u : at.capacity;
-            if (!at.empty) collapseLocal(n, place, n & 3u, lodV(place, at.capacity, i, row - place * side));
+            uint j = row - place * side;
+            if (!at.empty) collapseLocal(n, place, n & 3u, lodV(place, at.capacity, i, j), rowKind(j, at.capacity));
         }
         barrier();
         for (uint n = gl_LocalInvocationID.x; n < count * side; n += gl_WorkGroupSize.x) {
@@ -334,9 +453,10 @@ void evaluateWide() {
             vec3 position = vec3(0.0);
             Frame frame = Frame(vec3(0.0), vec3(0.0), vec3(0.0));
             if (!at.empty) {
-                finish(localRow(3u * slot + (i == 0u ? 1u : i == at.capacity ? 2u : 0u)), lodU(place, at.capacity, i, j),
-                       position, frame);
-                if (kPolar && j == at.capacity) position = localVector(place * kLocalStride + localSlot(12u));
+                bool isInside = i > 0u && i < at.capacity && rowKind(j, at.capacity) == kInnerRow;
+                Row r = localRow(3u * slot + (i == 0u ? 1u : i == at.capacity ? 2u : 0u));
+                sampleOf(r, pointHalves(r), lodU(place, at.capacity, i, j), isInside, position, frame);
+                if (kPolar && j == at.capacity) position = localCoefficient(place * kLocalStride, 12u);
                 if (kCornerNormals) frame = withCornerNormal(frame, i, j, at.capacity, normalSlots(at.record), at.base);
             }
             uint own = j * side + i;

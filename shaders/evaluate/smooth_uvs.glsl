@@ -28,23 +28,40 @@ const uint kDomain = kClass == kPolarPatch ? kPolarDomain : kQuadDomain;
 #include "shaders/evaluate/rows.glsl"
 
 const uint kSmoothElements = kPerturbed ? 16u : kPolar ? 7u : 8u;
-#define SmoothPatch Patch
+struct SmoothPatch {
+    vec3 g[16], h[16];
+};
 struct SmoothPlace {
     vec2 u, v;
 };
 SmoothPatch loadSmooth(uint first) {
-    Patch c;
-    for (uint k = 0u; k < 16u; ++k) c.g[k] = uvCoefficient(first, kPolar ? min(k, 12u) : k);
+    SmoothPatch c;
     for (uint k = 0u; k < 16u; ++k) {
-        c.relative[k] = c.g[k] - c.g[0];
+        c.g[k] = uvCoefficient(first, kPolar ? min(k, 12u) : k);
         c.h[k] = kPerturbed ? uvCoefficient(first, 16u + k) : vec3(0.0);
     }
     return c;
 }
+// A row by the sums of a border: all coefficients are points.
+Row collapseSmooth(SmoothPatch c, vec2 v) {
+    Row row;
+    vec4 b = bernstein3(v);
+    vec3 d = derivativeWeights3(v), fromFirst[4];
+    // Du of a polar patch as in collapseColumn().
+    vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
+    for (uint i = 0u; i < 4u; ++i) {
+        row.g[i] = sum4(b, c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]);
+        fromFirst[i] = blend4(along, c.g[i] - c.g[0], c.g[4u + i] - c.g[0], c.g[8u + i] - c.g[0], c.g[12u + i] - c.g[0]);
+        row.gv[i] = blend3(d, c.g[4u + i] - c.g[i], c.g[8u + i] - c.g[4u + i], c.g[12u + i] - c.g[8u + i]);
+    }
+    for (uint i = 0u; i < 3u; ++i) row.gu[i] = fromFirst[i + 1u] - fromFirst[i];
+    if (kPerturbed) collapsePerturbation(c.h, v, row);
+    return row;
+}
 SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     vec3 position;
     Frame frame;
-    finish(collapse(c, at.v), at.u, position, frame);
+    borderSample(collapseSmooth(c, at.v), at.u, position, frame);
     if (kPolar && at.v.y == 0.0) position = c.g[12];
     return smoothUv(position, frame);
 }

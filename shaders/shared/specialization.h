@@ -8,7 +8,7 @@
 SUPPLE_SHARED_BEGIN
 
 // Every kernel (shaders/shared/mapping.glsl; gpu/pipeline.cpp sets them).
-SUPPLE_SHARED_CONST kLocalSizeConstant = 0u;     // lanes per workgroup
+SUPPLE_SHARED_CONST kLocalSizeConstant = 0u;     // lanes per workgroup; a kernel may have a number of its own
 SUPPLE_SHARED_CONST kExactDivisionConstant = 1u; // bool: the device rounds division correctly
 
 // Surface kernels.
@@ -17,6 +17,7 @@ SUPPLE_SHARED_CONST kVertexFormatConstant = 3u;  // kVertex16, kVertex24 or kVer
 SUPPLE_SHARED_CONST kCornerNormalsConstant = 4u; // bool: patch records have an element of corner normals
 SUPPLE_SHARED_CONST kInteriorConstant = 5u;      // bool: samples inside patches alone; edges have theirs from elsewhere
 SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the push constants tell it
+SUPPLE_SHARED_CONST kLanePatchConstant = 17u;    // bool: wide mapping at kRateConstant: a lane takes a patch of kVertex16
 SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
 
 // Subdivision.

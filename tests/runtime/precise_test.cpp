@@ -160,7 +160,7 @@ TEST(Precise, MutationsAreCaught) {
     ASSERT_NE(testDevice(), nullptr);
     EXPECT_EQ(differingBits(optimized(compileShader("evaluate/bicubic.comp", ""))), 0u) << "unmutated";
     uint64_t shown = 0;
-    for (const char* helper : {"sum4", "sum2", "bernstein3", "bernstein5", "parameterPair", "finish", "*"}) {
+    for (const char* helper : {"sum4", "sum2", "bernstein3", "bernstein5", "parameterPair", "placed", "*"}) {
         const std::vector<uint32_t> spirv = compileShader("evaluate/bicubic.comp", helper);
         ASSERT_FALSE(spirv.empty());
         uint32_t checked = 0;

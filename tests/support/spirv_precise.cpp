@@ -237,7 +237,8 @@ private:
     /// Of GLSL.std.450, what has no rounding.
     [[nodiscard]] static bool exactBuiltIn(uint32_t instruction) {
         return instruction == 4 || instruction == 8 || instruction == 37 || // FAbs, Floor, FMin
-               instruction == 40 || instruction == 45;                      // FMax, SClamp
+               instruction == 40 || instruction == 45 ||                    // FMax, SClamp
+               instruction == 50; // Fma: one operation, and the same one wherever it feeds what is precise
     }
 
     void visit(Key key) {
