@@ -1,126 +1,132 @@
 #!/usr/bin/env bash
-# One call on a machine with a GPU: builds, runs the tests, measures, and leaves everything in one folder, the figures in one
-# result.json. Needs no network where the packages of tools/packages.sh are installed.
+# One call on a machine with a GPU: runs tests, measures, and leaves the figures in one result.json.
 # Usage: tools/gpu_check.sh [--out FOLDER] [--build-dir FOLDER] [--steps build,tests,bench,profile] [--quick]
-#                           [--device NAME|INDEX] [--allow-cpu] [--instances N] [--tests REGEX] [--timeout SECONDS]
-#                           [--no-validation] [--no-install]
-#   --out         build/gpu-check
+#                           [--device NAME|INDEX] [--allow-cpu] [--instances N] [--tests REGEX] [--suites FILTER]
+#                           [--timeout SECONDS] [--budget SECONDS] [--no-validation] [--no-install] [--lab FOLDER]
+#        tools/gpu_check.sh --pack FOLDER [--build-dir FOLDER] [--no-build] [--lab FOLDER]
+#        FOLDER/tools/gpu_check.sh --prebuilt FOLDER [--out FOLDER] [..]
+#   --out         build/gpu-check; with --prebuilt: gpu-check
 #   --build-dir   build/release
-#   --steps       all four
+#   --steps       build, tests, bench, profile. There are also lab, crowd, scene, patches, triangles and suites. With --prebuilt: lab,
+#                 crowd, profile, scene, patches, triangles, suites. They run in this order, in whatever order they are named
 #   --quick       short forms: does it all work?
 #   --device      for the measurements; tests take the best device there is
 #   --allow-cpu   go on where the device is a CPU, with smaller crowds
-#   --instances   of the profiled crowd: 1000; 8 with --quick and on CPUs
-#   --tests       only these, as ctest -R has them
+#   --instances   of the crowds: 1000; 8 with --quick and on CPUs
+#   --tests       of ctest: only these, as ctest -R has them
+#   --suites      of the step suites: only these, as --gtest_filter has them
 #   --timeout     of every step, instead of its own
-# What it leaves: result.json, written anew after every step; and what that was made of: device.json, machine.txt, tests.txt,
-# tests.xml, bench.json, bench.txt, profile.json, profile.txt, view.json, view.txt, clocks.csv (where nvidia-smi is).
+#   --budget      of all steps together: a step gets what is left at most. With --prebuilt 360, else none
+#   --lab         where the lab of kernels has its sources: ../shared/gpu_lab. If there is none, its step is left out
+#   --pack        builds and collects in FOLDER what --prebuilt needs on another machine: no compiler, no cmake, no network
+# Steps: lab: kernels side by side, into lab.json. crowd: `supple bench` of the crowd alone, at rates 4, 8 and 16. profile: a crowd by
+# passes; with --prebuilt at these rates. scene: 60 characters in one view, a group each, and the same 60 in two groups. patches:
+# Catmull-Clark's and Loop's in views. triangles: Loop's at rates. suites: device tests that take long, and those of these patches.
+# What it leaves: result.json, written anew after every step; lab.json; and what these were made of: a .json and a .txt of each
+# measurement, machine.txt, tests.xml, clocks.csv (where nvidia-smi is). With --prebuilt these are packed into parts.tar.gz.
 # Exit code: 0 when every step succeeded; 1: the steps that failed are named at the end; 3: there is no device, or only a CPU.
 set -euo pipefail
+called_from=$PWD
 cd "$(dirname "$0")/.."
-# shellcheck source=tools/packages.sh disable=SC2154
-. tools/packages.sh
+root=$PWD
+scripts=$root/tools/gpu_check
 
-out=build/gpu-check
-build=build/release
-steps=build,tests,bench,profile
-quick=no
-allow_cpu=no
-device=()
-instances=
-selection=()
-limit=
-validation=1
-install=yes
-usage() { sed -n '4,6p' tools/gpu_check.sh | sed 's/^# //' >&2; exit 2; }
+out='' pack='' prebuilt=''
+build=$root/build/release
+lab_sources=$root/../shared/gpu_lab
+steps='' build_first=yes install=yes
+quick=no allow_cpu=no
+device=() instances='' selection=() filter='' validated=(env SUPPLE_VALIDATION=1)
+limit='' budget=''
+usage() { sed -n '3,7p' "$root/tools/gpu_check.sh" | sed 's/^# //' >&2; exit 2; }
+absolute() { case "$1" in /*) echo "$1" ;; *) echo "$called_from/$1" ;; esac }
 while [ $# -gt 0 ]; do
     case "$1" in
-        --out) out=${2:?}; shift ;;
-        --build-dir) build=${2:?}; shift ;;
+        --out) out=$(absolute "${2:?}"); shift ;;
+        --build-dir) build=$(absolute "${2:?}"); shift ;;
+        --pack) pack=$(absolute "${2:?}"); shift ;;
+        --prebuilt) prebuilt=$(absolute "${2:?}"); shift ;;
+        --lab) lab_sources=$(absolute "${2:?}"); shift ;;
         --steps) steps=${2:?}; shift ;;
         --quick) quick=yes ;;
         --device) device=(--device "${2:?}"); shift ;;
         --allow-cpu) allow_cpu=yes ;;
         --instances) instances=${2:?}; shift ;;
         --tests) selection=(-R "${2:?}"); shift ;;
+        --suites) filter=${2:?}; shift ;;
         --timeout) limit=${2:?}; shift ;;
-        --no-validation) validation=0 ;;
+        --budget) budget=${2:?}; shift ;;
+        --no-validation) validated=(env -u SUPPLE_VALIDATION) ;; # any value switches it on
         --no-install) install=no ;;
+        --no-build) build_first=no ;;
         *) usage ;;
     esac
     shift
 done
+if [ -n "$pack" ]; then
+    exec "$scripts/pack.sh" "$pack" "$build" "$lab_sources" "$build_first"
+fi
+known=" build tests bench lab crowd profile scene patches triangles suites "
+if [ -n "$prebuilt" ]; then
+    known=" lab crowd profile scene patches triangles suites "
+    steps=${steps:-lab,crowd,profile,scene,patches,triangles,suites}
+    budget=${budget:-360}
+    validated=(env -u SUPPLE_VALIDATION) # the layer is not carried
+    out=${out:-$called_from/gpu-check}
+fi
+steps=${steps:-build,tests,bench,profile} out=${out:-$root/build/gpu-check}
+wanted() { [[ ",$steps," == *",$1,"* ]]; }
 for step in ${steps//,/ }; do
-    case "$step" in build | tests | bench | profile) ;; *) usage ;; esac
+    [[ "$known" == *" $step "* ]] || usage
 done
+if wanted bench && wanted crowd; then
+    echo "The step bench has the crowd already: leave out one of bench and crowd." >&2
+    exit 2
+fi
 mkdir -p "$out"
-out=$(cd "$out" && pwd) # ctest changes folders
+out=$(cd "$out" && pwd)
+parts=$out # what result.json is made of
 # Of this call alone.
-rm -f "$out"/{result,device,bench,profile,view}.json "$out"/{steps,clocks}.csv "$out"/tests.xml
-supple=$build/bin/supple
+rm -f "$out"/{result,device,bench,lab,triangles,profile,view,scene,scene_grouped,levels,loop_levels}.json "$out"/{steps,clocks}.csv \
+    "$out"/{tests.xml,suites.txt,patch_suites.txt,parts.tar.gz}
 jobs=$(nproc)
 failed=()
 
-wanted() { [[ ",$steps," == *",$1,"* ]]; }
-result() { python3 tools/gpu_check_result.py "$out" || failed+=("result.json"); }
-# run STEP LOG SECONDS command...: goes on after a failure and remembers it. What takes longer is ended.
-run() {
-    local step=$1 log=$2 seconds=${limit:-$3} begin=$SECONDS code=0
-    shift 3
-    echo "[$step] $(date +%T) $*"
-    timeout --kill-after=10 "$seconds" "$@" >"$log" 2>&1 || code=$?
-    local why="exit code $code"
-    [ $code -ne 124 ] || why="ended after $seconds s"
-    if [ $code -ne 0 ]; then
-        failed+=("$step ($why, see $log)")
-        tail -n 5 "$log" | sed 's/^/    /'
-    fi
-    echo "[$step] $(date +%T) $why, $((SECONDS - begin)) s"
-    echo "$step,$((SECONDS - begin)),$code" >>"$out/steps.csv"
-    result
-    return $code
-}
-finish() {
-    if [ ${#failed[@]} -gt 0 ]; then
-        printf 'failed: %s\n' "${failed[@]}"
-        exit "${1:-1}"
-    fi
-}
+# shellcheck source=tools/gpu_check/steps.sh
+. "$scripts/steps.sh"
+if [ -n "$prebuilt" ]; then
+    # shellcheck source=tools/gpu_check/prebuilt.sh
+    . "$scripts/prebuilt.sh"
+    unpack "$prebuilt"
+fi
+supple=$build/bin/supple
+lab=$build/gpu_lab/gpu_lab
 
 if wanted build; then
     if [ "$install" = yes ]; then
+        # shellcheck source=tools/packages.sh disable=SC2154
+        . tools/packages.sh
         # What cannot be installed, the build or a test will miss and name.
         install_missing "${supple_packages[@]}" "${supple_test_packages[@]}" || true
     fi
     # shellcheck disable=SC2016 # the inner shell's
-    run build "$out/build.txt" 2400 bash -c \
+    run build 2400 bash -c \
         'cmake --preset release -B "$0" -DSUPPLE_BUILD_TESTS=ON && cmake --build "$0" -j "$1"' "$build" "$jobs" || finish
-    rm "$out/build.txt" # says nothing when all went well
+    rm "$parts/build.txt" # says nothing when all went well
+fi
+if wanted lab && [ -z "$prebuilt" ] && [ -d "$lab_sources" ]; then
+    run lab_build 600 "$scripts/build_lab.sh" "$lab_sources" "$build/gpu_lab" || true
 fi
 
-{
-    echo "source: $(git describe --always --dirty 2>/dev/null || echo unknown)"
-    uname -sr
-    lscpu | grep -E '^(Model name|CPU\(s\)|Thread|L[23])' || true
-    free -h | head -2 || true
-    if command -v nvidia-smi >/dev/null; then
-        nvidia-smi --query-gpu=name,driver_version,pstate,clocks.sm,clocks.mem,clocks.max.sm,clocks.max.mem,power.limit,memory.total \
-            --format=csv || true
-    else
-        echo "no nvidia-smi"
-    fi
-    if command -v vulkaninfo >/dev/null; then
-        vulkaninfo --summary 2>/dev/null | sed -n '/^Devices/,$p' || true
-    fi
-} >"$out/machine.txt"
-cat "$out/machine.txt"
-
+describe_machine >"$parts/machine.txt"
+cat "$parts/machine.txt"
 # One frame of a cage: is there a device, and which?
-run device "$out/device.txt" 120 "$supple" profile samples/assets/pip_quads.glb --scheme cage --frames 1 "${device[@]}" \
-    --json "$out/device.json" || finish 3
-is_cpu=$(python3 -c 'import json, sys; print("yes" if json.load(open(sys.argv[1]))["machine"]["cpuDevice"] else "no")' "$out/device.json")
-if [ "$is_cpu" = yes ]; then
-    echo "The device is a CPU: $(head -n 1 "$out/device.txt")"
+run device 60 "$supple" profile samples/assets/pip_quads.glb --scheme cage --frames 1 "${device[@]}" --json "$parts/device.json" ||
+    finish 3
+is_cpu=no
+if grep -Eq '"cpuDevice": *true' "$parts/device.json"; then
+    is_cpu=yes
+    echo "The device is a CPU: $(head -n 1 "$parts/device.txt")"
     if [ "$allow_cpu" = no ]; then
         echo "No GPU was found, so nothing was tested or measured. --allow-cpu goes on with smaller crowds." >&2
         exit 3
@@ -130,32 +136,14 @@ if [ "$quick" = yes ] || [ "$is_cpu" = yes ]; then
     instances=${instances:-8}
 fi
 instances=${instances:-1000}
+watch_clocks
 
-if command -v nvidia-smi >/dev/null; then
-    nvidia-smi --query-gpu=timestamp,clocks.sm,clocks.mem,utilization.gpu,power.draw,temperature.gpu --format=csv,nounits -l 1 \
-        >"$out/clocks.csv" 2>/dev/null &
-    watcher=$!
-    trap 'kill "$watcher" 2>/dev/null || true' EXIT
-fi
-
-if wanted tests; then
-    run tests "$out/tests.txt" 3600 env SUPPLE_VALIDATION=$validation ctest --test-dir "$build" -j "$jobs" \
-        --output-on-failure --output-junit "$out/tests.xml" "${selection[@]}" || true
-    grep -E 'tests passed|\(Failed\)|\(Timeout\)|\*\*\*' "$out/tests.txt" | sed 's/^/    /' || true
-fi
-if wanted bench; then
-    bench=("$supple" bench "${device[@]}" --json "$out/bench.json")
-    [ "$quick" = no ] || bench+=(--quick --cages pip_quads --schemes pm --crowd "$instances" --no-loading)
-    run bench "$out/bench.txt" 2400 "${bench[@]}" || true
-fi
-if wanted profile; then
-    frames=200 scheme=all
-    [ "$quick" = no ] || frames=10 scheme=pm
-    profile=("$supple" profile samples/assets/pip.glb samples/assets/pip_quads.glb --scheme "$scheme" --instances "$instances"
-        --frames "$frames" "${device[@]}")
-    run profile "$out/profile.txt" 900 "${profile[@]}" --rate 8 --json "$out/profile.json" || true
-    run view "$out/view.txt" 900 "${profile[@]}" --view --json "$out/view.json" || true
-fi
+# The most valuable first: what comes late gets what is left of the budget.
+for step in tests lab bench crowd profile scene patches triangles suites; do
+    if wanted "$step"; then
+        "step_$step"
+    fi
+done
 
 finish
 echo "Results are in $out."
