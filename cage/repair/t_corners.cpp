@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 namespace supple::cage::repair {
@@ -43,9 +44,7 @@ public:
         for (const size_t i : order) {
             if (taken_[i] == 0 && follow(i) && fits()) {
                 taken_[i] = 1;
-                for (const size_t link : links_) {
-                    taken_[link] = 1;
-                }
+                take();
                 found.push_back(std::move(split_));
             }
         }
@@ -63,15 +62,38 @@ private:
         return inside && near ? std::optional(place) : std::nullopt;
     }
 
-    [[nodiscard]] bool isCorner(uint32_t face, uint32_t vertex) const {
-        const auto first = faces_.vertices.begin() + faces_.starts[face];
-        const auto last = faces_.vertices.begin() + faces_.starts[face + 1];
-        return std::find(first, last, vertex) != last;
+    /// The chain's sides are in no other chain, and the face has its vertices from now on.
+    void take() {
+        for (size_t i = 0; i < links_.size(); ++i) {
+            taken_[links_[i]] = 1;
+            marks_[faces_.vertices[split_.chain[i].end]] = split_.face;
+        }
+    }
+
+    /// Whether the face of the side at work has a vertex. Sides come face by face, so that each face is marked once.
+    [[nodiscard]] bool isOwnCorner(uint32_t vertex) {
+        marks_.resize(positions_.size(), kNone);
+        if (markedFace_ != split_.face) {
+            markedFace_ = split_.face;
+            for (uint32_t c = faces_.starts[markedFace_]; c < faces_.starts[markedFace_ + 1]; ++c) {
+                marks_[faces_.vertices[c]] = markedFace_;
+            }
+        }
+        return marks_[vertex] == markedFace_;
+    }
+
+    /// Each face is measured once: it may have any number of sides.
+    [[nodiscard]] const glm::dvec3& areaOf(uint32_t face) {
+        const auto [area, isNew] = areas_.try_emplace(face);
+        if (isNew) {
+            area->second = areaOfFace(positions_, faces_, face);
+        }
+        return area->second;
     }
 
     /// The open side that leads from a vertex to the next one on the side at work, and that one's place; the end of the
     /// side at work has place 1.
-    [[nodiscard]] std::pair<size_t, double> nextLink(size_t atWork, uint32_t vertex, double place, uint32_t end) const {
+    [[nodiscard]] std::pair<size_t, double> nextLink(size_t atWork, uint32_t vertex, double place, uint32_t end) {
         const auto first = std::lower_bound(ends_.begin(), ends_.end(), std::pair(vertex, size_t{0}));
         std::pair<size_t, double> next(open_.size(), 2.0);
         size_t tried = 0;
@@ -85,7 +107,7 @@ private:
                 continue;
             }
             const std::optional<double> at = far == end ? std::optional(1.0) : placeOf(far);
-            if (at && *at > place && *at < next.second && (far == end || !isCorner(open_[atWork].face, far))) {
+            if (at && *at > place && *at < next.second && (far == end || !isOwnCorner(far))) {
                 next = {entry->second, *at};
             }
         }
@@ -127,11 +149,11 @@ private:
 
     /// Whether no face of the chain would lie back to back with the side's. A face that runs along the side in the
     /// side's own direction is to be turned.
-    [[nodiscard]] bool fits() const {
+    [[nodiscard]] bool fits() {
         constexpr double kCosineOfOneDegree = 0.99984770;
-        const glm::dvec3 own = areaOfFace(positions_, faces_, split_.face);
+        const glm::dvec3 own = areaOf(split_.face);
         return std::none_of(split_.chain.begin(), split_.chain.end(), [&](const SplitSide::Link& link) {
-            const glm::dvec3 other = areaOfFace(positions_, faces_, link.face);
+            const glm::dvec3& other = areaOf(link.face);
             const bool same = faces_.next(link.face, link.begin) == link.end;
             const double lengths = glm::length(own) * glm::length(other);
             const double cosine = same ? -glm::dot(own, other) : glm::dot(own, other);
@@ -144,8 +166,11 @@ private:
     std::span<const Side> open_;
     std::vector<uint8_t> taken_;                    ///< per open side: part of a chain, or split by one
     std::vector<std::pair<uint32_t, size_t>> ends_; ///< vertices of open sides, sorted
-    SplitSide split_;                               ///< of the side at work
-    std::vector<size_t> links_;                     ///< the chain's open sides
+    std::vector<uint32_t> marks_;                   ///< per vertex: the last marked face that has it
+    uint32_t markedFace_ = kNone;
+    std::unordered_map<uint32_t, glm::dvec3> areas_; ///< by face
+    SplitSide split_;                                ///< of the side at work
+    std::vector<size_t> links_;                      ///< the chain's open sides
     glm::dvec3 origin_{0.0}, along_{0.0};
     double length2_ = 0.0;
 };

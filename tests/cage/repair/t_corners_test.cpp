@@ -267,6 +267,19 @@ TEST(RepairTCorners, AVertexThatOneFaceHasLeavesIt) {
     EXPECT_EQ(r.cage.vertexCount(), 8u);
 }
 
+TEST(RepairTCorners, NoFaceTakesAVertexTwice) {
+    // Two sides of face 0 lie nearly on one line, and so do two chains that have vertex 4 in common. Vertex 6 is near
+    // the second side alone.
+    const std::vector<glm::vec3> positions = {{0, 0, 0},  {4, 0, 0},       {1, 0.0039f, 0},   {0, 1, 0}, {2, 0, 0},
+                                              {2, -1, 0}, {3, 0.0041f, 0}, {1.5f, 0.003f, 0}, {2, 1, 1}};
+    const Cage cage =
+        makeCage(positions, {{0, 1, 2, 3}, {4, 0, 5}, {1, 4, 5}, {6, 1, 8}, {4, 6, 8}, {7, 4, 8}, {2, 7, 8}});
+    const Repaired r = afterRepair(cage);
+    ASSERT_FALSE(r.found.empty());
+    EXPECT_EQ(r.found[0], "cage: 1 T-corner: vertex 4 on edge (0, 1) of face 0");
+    EXPECT_EQ(r.cage.sides(0), 5u);
+}
+
 TEST(RepairTCorners, PartsAreNamed) {
     Cage row = rows({0, 4}, {0, 1, 4});
     row.faceParts = {0, 1, 1};
