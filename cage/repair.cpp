@@ -9,6 +9,7 @@
 #include "cage/repair/found.h"
 #include "cage/repair/remap.h"
 #include "cage/repair/sheets.h"
+#include "cage/repair/t_corners.h"
 #include "cage/topology.h"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ Found looseVertices(const Cage& cage) {
 struct CageDamage {
     Found loose;
     FaceDamage faces;
+    TCornerDamage tCorners;
     SheetDamage sheets;
     FanDamage fans;
     FoldDamage folds;
@@ -81,14 +83,30 @@ std::string foldRepairs(const FoldDamage& folds, size_t part) {
     return told;
 }
 
+/// "made five-sided facets"
+std::string facetsMade(const std::vector<uint32_t>& sides) {
+    if (sides.empty()) {
+        return {};
+    }
+    static const char* const kWords[] = {"four", "five", "six", "seven", "eight"};
+    const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+    const std::string facets = sides.size() == 1 ? " facet" : " facets";
+    if (*least == *most && *least >= 4 && *least - 4 < std::size(kWords)) {
+        return std::string("made ") + (sides.size() == 1 ? "a " : "") + kWords[*least - 4] + "-sided" + facets;
+    }
+    const std::string range = *least == *most ? "" : std::to_string(*least) + " to ";
+    return "made" + facets + " of " + range + std::to_string(*most) + " sides";
+}
+
 void report(const CageDamage& damage, size_t part, Reporter reporter) {
-    const auto& [loose, faces, sheets, fans, folds] = damage;
+    const auto& [loose, faces, tCorners, sheets, fans, folds] = damage;
     reporter.add(part == 0 ? loose : Found(), "vertex has no face", "vertices have no face", "left out");
     reporter.add(faces.empty.of(part), "face has fewer than three different vertices or bounds nothing",
                  "faces have fewer than three different vertices or bound nothing", "left out");
     reporter.add(faces.repeating.of(part), "face passes a vertex twice", "faces pass a vertex twice",
                  "cut into simple faces");
     reporter.add(faces.duplicated.of(part), "face is there twice", "faces are there twice", "left out");
+    reporter.add(tCorners.corners.of(part), "T-corner", "T-corners", facetsMade(tCorners.sides.at(part)));
     // Copies at cut edges are told once: of the crowded ones if there are any.
     const std::string copies = ", " + vertexCopies(fans.copiesAtCuts.at(part));
     const bool crowded = sheets.crowded.of(part).count > 0;
@@ -120,12 +138,13 @@ Status checkParts(const Cage& cage, const Draft& draft, const CageNames& names) 
     return success();
 }
 
-Status repairDamaged(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
-                     std::vector<Damage>& damages) {
+/// Takes the names as a copy: a cage whose T-corners are mended has further corners.
+Status repairDamaged(Cage& cage, SkinWeights& weights, Morphs& morphs, CageNames names, std::vector<Damage>& damages) {
     const Places places(cage, names);
     CageDamage damage;
     damage.loose = looseVertices(cage);
     Draft draft = withoutDuplicates(simpleFaces(cage, places, damage.faces), places, damage.faces);
+    mendTCorners(cage, names, places, draft, damage.tCorners);
     std::vector<uint32_t> twins = joinFaces(cage, draft, places, damage.sheets);
     separateFans(draft, twins, damage.sheets.atCut, places, damage.fans);
     dissolveFolds(cage, draft, std::move(twins), places, damage.folds);
@@ -138,19 +157,24 @@ Status repairDamaged(Cage& cage, SkinWeights& weights, Morphs& morphs, const Cag
     return applyDraft(draft, cage, weights, morphs);
 }
 
+bool hasTCorners(const Cage& cage, const Topology& topology) {
+    const std::vector<Side> open = openSides(cage, topology);
+    return !open.empty() && !findTCorners(cage.positions, {cage.faceStarts, cage.faceVertices}, open).empty();
+}
+
 } // namespace
 
 Status repairCage(Cage& cage, SkinWeights& weights, Morphs& morphs, const CageNames& names,
                   std::vector<Damage>& damages) {
     const std::string element = names.parts.size() == 1 ? names.parts[0] + ": " : std::string("file: ");
     const Result<Topology> topology = buildTopology(cage);
-    if (topology.ok()) {
-        return success();
-    }
-    if (topology.error().code != ErrorCode::asset) {
+    if (!topology && topology.error().code != ErrorCode::asset) {
         return Error{topology.error().code, element + topology.error().message};
     }
     try {
+        if (topology && !hasTCorners(cage, *topology)) {
+            return success();
+        }
         const Status repaired = repairDamaged(cage, weights, morphs, names, damages);
         const bool named = repaired || repaired.error().code == ErrorCode::asset;
         return named ? repaired : Error{repaired.error().code, element + repaired.error().message};

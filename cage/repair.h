@@ -1,5 +1,6 @@
 // Repairs what no surface can be built on: a cage that buildTopology() (cage/topology.h) refuses becomes one that it
-// takes. docs/gltf.md tells what is done about each kind of damage.
+// takes. T-corners, where a surface would be torn open, are mended too. docs/gltf.md tells what is done about each kind
+// of damage.
 #pragma once
 
 #include "base/result.h"
@@ -10,9 +11,10 @@
 
 namespace supple::cage {
 
-/// Leaves a cage that buildTopology() takes as it is, bit by bit. In any other one
+/// Leaves a cage that buildTopology() takes, and that has no T-corners, as it is, bit by bit. In any other one
 ///  - vertices without a face, faces that bound nothing, and faces that are there twice are left out;
 ///  - faces that pass a vertex twice are cut into simple loops;
+///  - vertices of neighbours that lie on a face's edge become corners of the face (cage/repair/t_corners.h);
 ///  - faces turned against those they are joined to are turned round;
 ///  - edges of three and more faces are cut into sheets and become hard creases, vertices of several fans are cut into
 ///    one each and become hard: so what touched goes on touching. The copies come behind all other vertices, in the

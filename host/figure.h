@@ -116,6 +116,7 @@ struct GroupOptions {
     SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode = SUPPLE_CREASES_CUT;
     float sharpThreshold = 1.0f;
+    SuppleFragmentRules fragmentRules = SUPPLE_RULES_CATMULL_CLARK;
     SuppleUvInterpolation uvInterpolation = SUPPLE_UV_FROM_FILE;
     bool sharedSamples = false;            ///< SUPPLE_GROUP_INDEXED_MESH
     std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`

@@ -120,6 +120,10 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     blend.creaseMode = options.creaseMode;
     blend.sharpThreshold = options.sharpThreshold;
     desc.blend = &blend;
+    SuppleFragmentsOptions fragments{};
+    fragments.structSize = sizeof fragments;
+    fragments.rules = options.fragmentRules;
+    desc.fragments = &fragments;
     if (const Status status = createWithTangents(context, desc, tangents && !options.levels, group->group_); !status)
         return status.error();
     if (const Status status = context.createInstances(group->group_, options.instances, group->instances_); !status)

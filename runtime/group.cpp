@@ -70,6 +70,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->drawnParts_ = DrawnParts(group->surfaces_.partPatches());
     group->desc_.prep = nullptr; // the caller's
     group->desc_.blend = nullptr;
+    group->desc_.fragments = nullptr;
     group->desc_.partSchemes = nullptr;
     Status status = group->createInstances(shared);
     const bool deforms = shared.instances == nullptr && desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;

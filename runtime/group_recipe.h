@@ -20,6 +20,9 @@ public:
         if (desc.blend != nullptr) {
             blend_ = *desc.blend;
         }
+        if (desc.fragments != nullptr) {
+            fragments_ = *desc.fragments;
+        }
         partSchemes_.assign(desc.partSchemes, desc.partSchemes + desc.partSchemeCount);
     }
 
@@ -28,6 +31,7 @@ public:
         SuppleGroupDesc desc = desc_;
         desc.prep = desc_.prep != nullptr ? &prep_ : nullptr;
         desc.blend = desc_.blend != nullptr ? &blend_ : nullptr;
+        desc.fragments = desc_.fragments != nullptr ? &fragments_ : nullptr;
         desc.partSchemes = partSchemes_.data();
         desc.partSchemeCount = static_cast<uint32_t>(partSchemes_.size());
         return desc;
@@ -50,6 +54,7 @@ private:
     SuppleGroupDesc desc_{};
     SupplePrepOptions prep_{};
     SuppleBlendOptions blend_{};
+    SuppleFragmentsOptions fragments_{};
     std::vector<SuppleScheme> partSchemes_;
 };
 

@@ -71,7 +71,7 @@ Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGro
     PlannedSurface surface;
     const cage::Cage& cage = prepared.cageOf(piece.get());
     surface.piece = std::move(piece);
-    const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), cage);
+    const surface::Drawer drawer = drawerOf(group.desc, parts.scheme, cage);
     SuppleGroupDesc desc = group.desc;
     desc.flags = surfaceFlags(desc.flags, drawer.scheme, parts.chosen);
     Result<SurfaceRecipe> recipe = surfaceRecipe(

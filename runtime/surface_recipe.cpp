@@ -66,6 +66,14 @@ Status chooseUvs(const SurfaceWish& wish, SurfaceRecipe& out) {
 
 } // namespace
 
+surface::Drawer drawerOf(const SuppleGroupDesc& group, SuppleScheme scheme, const cage::Cage& cage) {
+    const bool byLoop = group.fragments != nullptr && group.fragments->rules == SUPPLE_RULES_LOOP;
+    if (scheme == SUPPLE_SCHEME_FRAGMENTS && byLoop) {
+        return {surface::SchemeId::loopFragments, ""};
+    }
+    return surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage);
+}
+
 uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId drawer, bool schemeChosen) {
     const bool lacksMesh = schemeChosen && !surface::schemeOf(drawer).hasIndexedMesh;
     return lacksMesh ? groupFlags & ~uint32_t{SUPPLE_GROUP_INDEXED_MESH} : groupFlags;

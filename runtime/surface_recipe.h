@@ -6,6 +6,7 @@
 #include "supple/supple.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
+#include "surface/schemes.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,12 +16,15 @@
 
 namespace supple::runtime {
 
+/// What draws the parts of a group that have this scheme: surface::drawerOf(), and of fragments what their rules say.
+[[nodiscard]] surface::Drawer drawerOf(const SuppleGroupDesc& group, SuppleScheme scheme, const cage::Cage& cage);
+
 struct SurfaceWish {
     const cage::Character& character;
     std::span<const uint32_t> parts; ///< that the surface is made of
     const cage::Cage& cage;          ///< of these parts
     const SuppleGroupDesc& group;
-    surface::SchemeId drawer = surface::SchemeId::pm; ///< surface::drawerOf()
+    surface::SchemeId drawer = surface::SchemeId::pm; ///< drawerOf()
     bool schemeChosen = false;                        ///< the host left it to Supple: what the scheme lacks is left out
     std::optional<uint32_t> viewFlags;                ///< of a group of a view
     bool wide = false;                                ///< gpu/mapping.h

@@ -38,7 +38,7 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
-/// No host names it: see drawerOf().
+/// It is no scheme of its own: fragments may have Loop's rules, and see drawerOf().
 constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    RateRule::doubling,
                                    "Loop in fragments",

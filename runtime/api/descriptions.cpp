@@ -291,9 +291,15 @@ std::optional<Error> GivenGroup::takeOptions() {
         }
         desc.blend = &blend;
     }
+    if (desc.fragments != nullptr) {
+        if (std::optional<Error> fault = takeIn("fragments", desc.fragments, fragments)) {
+            return fault;
+        }
+        desc.fragments = &fragments;
+    }
     if (!within(prep.tangentMode, SUPPLE_TANGENTS_PRINTED) || !within(prep.cornerRule, SUPPLE_CORNERS_SMOOTH) ||
-        !within(blend.creaseMode, SUPPLE_CREASES_CURVE)) {
-        return Error{ErrorCode::range, "no such tangentMode, cornerRule or creaseMode"};
+        !within(blend.creaseMode, SUPPLE_CREASES_CURVE) || !within(fragments.rules, SUPPLE_RULES_LOOP)) {
+        return Error{ErrorCode::range, "no such tangentMode, cornerRule, creaseMode or rules"};
     }
     if (std::isnan(blend.sharpThreshold)) {
         return Error{ErrorCode::notFinite, "sharpThreshold is NaN"};

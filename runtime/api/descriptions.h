@@ -31,6 +31,7 @@ struct GivenGroup {
     SuppleGroupDesc desc{};
     SupplePrepOptions prep{};
     SuppleBlendOptions blend{};
+    SuppleFragmentsOptions fragments{};
 
     GivenGroup() = default;
     GivenGroup(const GivenGroup&) = delete;

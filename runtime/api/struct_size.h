@@ -33,6 +33,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleImageInfo)                                                                                                 \
     X(SupplePrepOptions)                                                                                               \
     X(SuppleBlendOptions)                                                                                              \
+    X(SuppleFragmentsOptions)                                                                                          \
     X(SuppleGroupDesc)                                                                                                 \
     X(SuppleGroupInfo)                                                                                                 \
     X(SuppleSurfaceInfo)                                                                                               \

@@ -12,7 +12,7 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
     }
     TessellationDesc desc = asked;
     const cage::Cage& cage = desc.asset->cageOf(desc.piece);
-    desc.drawer = surface::drawerOf(static_cast<surface::SchemeId>(desc.group.scheme), cage);
+    desc.drawer = drawerOf(desc.group, desc.group.scheme, cage);
     const surface::Scheme& row = surface::schemeOf(desc.drawer.scheme);
     if (desc.view != nullptr && !row.hasLevels && !row.hasRates()) {
         return Error{ErrorCode::argument,
@@ -35,6 +35,7 @@ Status Tessellation::buildTables() {
     built_ = std::move(*built);
     desc_.group.prep = nullptr; // the caller's
     desc_.group.blend = nullptr;
+    desc_.group.fragments = nullptr;
     evaluation_.rate = built_.beginRate;
     return success();
 }

@@ -1200,6 +1200,16 @@ void groups(Rows& r) {
           {kBlendSize, SUPPLE_CREASES_CUT, kNan});
     blend("blend, structSize 0", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_STRUCT_SIZE, {});
     prep("prep, structSize 0", {});
+    const auto fragments = [&](const std::string& what, int message, SuppleFragmentsOptions options) {
+        r.add(kCreate, what, SUPPLE_ERROR_ARGUMENT, message, [=](World& w) {
+            SuppleGroupDesc desc = w.groupDesc();
+            desc.fragments = &options;
+            return create(w, &desc);
+        });
+    };
+    fragments("fragments, structSize 0", SUPPLE_MESSAGE_STRUCT_SIZE, {});
+    fragments("rules 2", SUPPLE_MESSAGE_OUT_OF_RANGE,
+              {sizeof(SuppleFragmentsOptions), static_cast<SuppleFragmentRules>(2)});
     for (const int value : {8, 99, 101, -1}) {
         range("scheme " + std::to_string(value), [=](Desc& d) { d.scheme = static_cast<SuppleScheme>(value); });
     }

@@ -41,11 +41,13 @@ const std::vector<Plan>& plans() {
         options.creaseMode = SUPPLE_CREASES_CURVE;
         return options;
     }();
+    static const SuppleFragmentsOptions kByLoop{sizeof(kByLoop), SUPPLE_RULES_LOOP};
     constexpr uint32_t kAll = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
     static const std::vector<Plan> kPlans = {
         {"auto", {.flags = kAll, .capacity = 2, .rate = 2}},
         {"mesh", {.flags = kAll | SUPPLE_GROUP_INDEXED_MESH, .capacity = 2, .scheme = SUPPLE_SCHEME_PM, .rate = 3}},
         {"fragments", {.capacity = 2, .scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 4}},
+        {"by Loop's rules", {.capacity = 2, .scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 4, .fragments = &kByLoop}},
         {"blend", {.capacity = 2, .scheme = SUPPLE_SCHEME_BLEND, .rate = 4, .blend = &kBlend}},
         {"playing",
          {.capacity = 2, .scheme = SUPPLE_SCHEME_CATMULL_CLARK, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},

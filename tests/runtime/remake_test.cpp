@@ -157,6 +157,37 @@ TEST_P(RemakeOf, CapacityGrowsUnderTheSameHandles) {
     }
 }
 
+/// The options are the host's, and gone when the group is made anew.
+TEST_F(Remake, FragmentsKeepTheirRules) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    auto byLoop = std::make_unique<SuppleFragmentsOptions>();
+    byLoop->structSize = sizeof(*byLoop);
+    byLoop->rules = SUPPLE_RULES_LOOP;
+    SuppleGroupDesc desc{};
+    desc.asset = own.createAsset(tube());
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_FRAGMENTS;
+    desc.rate = 4;
+    desc.fragments = byLoop.get();
+    Crowd crowd(own, desc);
+    ASSERT_TRUE(crowd.valid());
+    byLoop.reset();
+    const auto allByLoop = [&] {
+        uint32_t count = crowd.output().surface.patchCount;
+        std::vector<SupplePatchInfo> patches(count);
+        EXPECT_EQ(suppleGetPatches(own.handle(), crowd.group(), 0, patches.data(), &count), SUPPLE_OK);
+        return !patches.empty() && std::all_of(patches.begin(), patches.end(), [](const SupplePatchInfo& patch) {
+            return patch.patchClass == SUPPLE_PATCH_LOOP;
+        });
+    };
+    EXPECT_TRUE(allByLoop());
+    ASSERT_EQ(suppleSetCapacity(own.handle(), crowd.group(), 5), SUPPLE_OK);
+    EXPECT_EQ(crowd.output().info.capacity, 5u);
+    EXPECT_TRUE(allByLoop());
+}
+
 TEST_F(Remake, CapacityThatThereIsNoMemoryForChangesNothing) {
     WrappedVulkan& wrapped = wrappedVulkan();
     const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);

@@ -19,8 +19,9 @@ namespace {
 using surface::subdivision::Mesh;
 using surface::subdivision::Subdivision;
 
-Subdivision subdivisionOf(SuppleScheme scheme) {
-    return scheme == SUPPLE_SCHEME_LOOP ? Subdivision::loop : Subdivision::catmullClark;
+Subdivision subdivisionOf(SuppleScheme scheme, SuppleFragmentRules rules = SUPPLE_RULES_CATMULL_CLARK) {
+    const bool loop = scheme == SUPPLE_SCHEME_LOOP || rules == SUPPLE_RULES_LOOP;
+    return loop ? Subdivision::loop : Subdivision::catmullClark;
 }
 
 /// With a semi-sharp crease, which Loop patches do not take: what is drawn is refined.
@@ -39,14 +40,17 @@ PatchFaces subdivisionPatches(const Mesh& mesh, const GpuSurface& gpu) {
 class SubdivisionOnGpu : public testing::TestWithParam<GpuCase> {
 protected:
     [[nodiscard]] static Mesh meshOf(const cage::Cage& cage) {
-        return subdivisionMesh(cage, subdivisionOf(GetParam().options.scheme));
+        return subdivisionMesh(cage, subdivisionOf(GetParam().options.scheme, GetParam().options.rules));
     }
 };
-INSTANTIATE_TEST_SUITE_P(Mappings, SubdivisionOnGpu,
-                         testing::ValuesIn(onBothMappings(
-                             {{"Fragments", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
-                              {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
-                         [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Mappings, SubdivisionOnGpu,
+    testing::ValuesIn(onBothMappings(
+        {{"Fragments", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
+         {"ByLoopsRules",
+          {.scheme = SUPPLE_SCHEME_FRAGMENTS, .rules = SUPPLE_RULES_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}},
+         {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
+    [](const auto& param) { return param.param.name; });
 
 /// Against double for exactness, and against float, whose sums are the device's own, for the bits.
 TEST_P(SubdivisionOnGpu, SurfaceMatchesTheReference) {

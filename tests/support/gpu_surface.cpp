@@ -134,8 +134,10 @@ void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, cons
     group.vertexFormat = options.format;
     const SupplePrepOptions prep{sizeof(prep), options.tangents, options.corners};
     const SuppleBlendOptions blend{sizeof(blend), options.creases, 0.0f};
+    const SuppleFragmentsOptions fragments{sizeof(fragments), options.rules};
     group.prep = &prep;
     group.blend = &blend;
+    group.fragments = &fragments;
     if (!check(suppleCreateGroup(context_->handle(), &group, &group_), "suppleCreateGroup")) {
         return;
     }

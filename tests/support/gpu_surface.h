@@ -38,6 +38,7 @@ struct GpuOptions {
     SuppleTangentMode tangents = SUPPLE_TANGENTS_DEFAULT;
     SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
     SuppleCreaseMode creases = SUPPLE_CREASES_CUT;
+    SuppleFragmentRules rules = SUPPLE_RULES_CATMULL_CLARK;
     uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_ATTRIBUTES;
     SuppleUvInterpolation uvInterpolation = SUPPLE_UV_FROM_FILE;
 };

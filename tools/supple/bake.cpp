@@ -1,16 +1,14 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
 #include "host/whole_file.h"
-#include "surface/choice.h"
-#include "surface/scheme.h"
 #include "tools/common/character_file.h"
 #include "tools/gltf/writer.h"
 #include "tools/supple/baked_mesh.h"
 #include "tools/supple/baked_obj.h"
+#include "tools/supple/baked_patches.h"
 #include "tools/supple/baked_ply.h"
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
 #include "tools/supple/output_files.h"
-#include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -29,6 +27,7 @@ struct BakeOptions {
     std::string file;
     std::string output;
     std::string patches;
+    std::string basis = "stored"; ///< of the patches
     bool noTangentFrames = false;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
@@ -54,79 +53,6 @@ std::optional<BakeFormat> bakeFormatOf(const std::string& path) {
 
 std::string bakeName(const std::string& text) {
     return bakeFormatOf(text) ? "" : text + " does not end in .obj, .ply or .glb";
-}
-
-void writePatch(TextFile& file, const EvaluatedSurface& surface, uint64_t patch) {
-    const SupplePatchInfo& info = surface.patches[patch];
-    file.text("{\"face\":").number(uint64_t{info.face});
-    file.text(",\"class\":\"")
-        .text(surface::className(static_cast<surface::PatchClass>(info.patchClass)))
-        .text("\",\"corners\":[");
-    for (uint32_t i = 0; i < info.cornerCount; ++i) {
-        file.text(i == 0 ? "" : ",").number(uint64_t{info.corners[i]});
-    }
-    file.text("],\"coefficients\":[");
-    // p-rep's always come as 16 g, 16 h; a regular patch's h are zero.
-    const host::GroupOutput& output = surface.output;
-    const uint64_t count = output.surface.scheme == SUPPLE_SCHEME_PREP ? SUPPLE_PATCH_STRIDE : info.coefficientCount;
-    for (uint64_t i = 0; i < count; ++i) {
-        const auto value =
-            element<glm::vec3>(surface.coefficients, output.surface.patchCoefficients, patch * SUPPLE_PATCH_STRIDE + i);
-        file.text(i == 0 ? "[" : ",[").number(value.x).text(",").number(value.y).text(",").number(value.z);
-        file.text("]");
-    }
-    file.text("]}");
-}
-
-Status writePatches(const std::string& path, const Evaluation& baked) {
-    std::string schemes;
-    for (const EvaluatedSurface& surface : baked.surfaces) {
-        schemes += (schemes.empty() ? "" : "+") + std::string(schemeName(surface.output.surface.scheme));
-    }
-    TextFile file(path);
-    file.text("{\"scheme\":\"").text(schemes).text("\",\"rate\":");
-    file.number(uint64_t{baked.surfaces.front().output.grid.rate}).text(",\"patches\":[");
-    const char* separator = "\n";
-    for (const EvaluatedSurface& surface : baked.surfaces) {
-        for (uint64_t patch = 0; patch < surface.output.surface.patchCount; ++patch) {
-            file.text(separator);
-            writePatch(file, surface, patch);
-            separator = ",\n";
-        }
-    }
-    file.text("\n]}\n");
-    return file.close();
-}
-
-/// "; pm, prep have"
-std::string whichHave() {
-    std::string names;
-    for (const Scheme& scheme : kSchemes) {
-        if (scheme.coefficients) {
-            names += (names.empty() ? "; " : ", ") + std::string(scheme.name);
-        }
-    }
-    return names + " have";
-}
-
-/// Why --patches cannot be, or empty: which part has a scheme without coefficients.
-std::string whyNoPatches(const cage::Character& character, const SurfaceFlags& flags,
-                         const std::vector<SuppleScheme>& partSchemes) {
-    const SuppleScheme named = schemeOf(flags.scheme);
-    if (partSchemes.empty() && named != SUPPLE_SCHEME_AUTO) {
-        return hasCoefficients(named) ? "" : "--patches: " + flags.scheme + " has no patch coefficients" + whichHave();
-    }
-    const std::vector<surface::SchemeChoice> choices = surface::chooseSchemes(character);
-    for (size_t part = 0; part < choices.size(); ++part) {
-        SuppleScheme scheme = partSchemes.empty() ? SUPPLE_SCHEME_AUTO : partSchemes[part];
-        scheme = scheme == SUPPLE_SCHEME_AUTO ? named : scheme;
-        scheme = scheme == SUPPLE_SCHEME_AUTO ? static_cast<SuppleScheme>(choices[part].scheme) : scheme;
-        if (!hasCoefficients(scheme)) {
-            return "--patches: part " + std::to_string(part) + " has scheme " + schemeName(scheme) +
-                   ", which has no patch coefficients" + whichHave();
-        }
-    }
-    return {};
 }
 
 /// With all that the file has a place for.
@@ -215,9 +141,13 @@ int runBake(const BakeOptions& options) {
         if (!baked) {
             return baked.error();
         }
-        Status status = writeBaked(options, *baked, file->character);
+        const PatchBasis basis = options.basis == "bezier" ? PatchBasis::bezier : PatchBasis::stored;
+        Status status = checkBasis(*baked, basis);
+        if (status) {
+            status = writeBaked(options, *baked, file->character);
+        }
         if (status && !options.patches.empty()) {
-            status = writePatches(options.patches, *baked);
+            status = writePatches(options.patches, *baked, basis);
         }
         return status;
     });
@@ -241,6 +171,13 @@ void bindBake(CLI::App& app, int& exitCode) {
                       "GLB: leave tangents out. Where these jump, neighbouring faces then have vertices in common");
     command->add_option("--patches", options->patches, "JSON of the patches and their coefficients")
         ->type_name("OUT.json");
+    command
+        ->add_option("--basis", options->basis,
+                     "Coefficients of --patches: as the device wrote them, or as tensor products in Bezier form, "
+                     "4x4, or 6x6 where p-rep has perturbed a patch")
+        ->check(CLI::IsMember({"stored", "bezier"}))
+        ->capture_default_str()
+        ->needs(command->get_option("--patches"));
     bindSurface(*command, options->surface, {kCageScheme});
     bindPose(*command, options->clip, options->time);
     command->add_flag("--rest-pose", options->restPose, "The rest pose instead: as the nodes of the file stand")

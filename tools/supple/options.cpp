@@ -125,6 +125,7 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
         ->check(CLI::IsMember({"sharp", "smooth"}))
         ->capture_default_str();
     bindSharpEdges(command, flags.creases, flags.sharpThreshold);
+    bindRules(command, flags.rules);
     bindUvMode(command, flags.uvMode);
 }
 
@@ -151,6 +152,12 @@ void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThresho
         ->capture_default_str();
 }
 
+void bindRules(CLI::App& command, std::string& rules) {
+    command.add_option("--rules", rules, "fragments: whose rules they are refined by; loop: on triangles")
+        ->check(CLI::IsMember({"catmull-clark", "loop"}))
+        ->capture_default_str();
+}
+
 Status describeSurface(const SurfaceFlags& flags, const cage::Character& character, SchemeOptions& options,
                        SuppleGroupDesc& desc) {
     Result<std::vector<SuppleScheme>> partSchemes =
@@ -167,6 +174,8 @@ Status describeSurface(const SurfaceFlags& flags, const cage::Character& charact
     options.blend = {sizeof options.blend, creaseModeOf(flags.creases), flags.sharpThreshold};
     desc.prep = &options.prep;
     desc.blend = &options.blend;
+    options.fragments = {sizeof options.fragments, rulesOf(flags.rules)};
+    desc.fragments = &options.fragments;
     desc.skinning = skinningOf(flags.skinning);
     desc.uvInterpolation = uvInterpolationOf(flags.uvMode);
     return success();
@@ -174,6 +183,10 @@ Status describeSurface(const SurfaceFlags& flags, const cage::Character& charact
 
 SuppleCreaseMode creaseModeOf(const std::string& name) {
     return name == "curve" ? SUPPLE_CREASES_CURVE : SUPPLE_CREASES_CUT;
+}
+
+SuppleFragmentRules rulesOf(const std::string& name) {
+    return name == "loop" ? SUPPLE_RULES_LOOP : SUPPLE_RULES_CATMULL_CLARK;
 }
 
 SuppleSkinning skinningOf(const std::string& name) {

@@ -42,6 +42,7 @@ struct SurfaceFlags {
     std::string corners = "sharp";
     std::string creases = "cut";
     float sharpThreshold = 1.0f;
+    std::string rules = "catmull-clark"; ///< of fragments
     std::string uvMode = "file";
     std::string skinning = "linear";
     host::ReadOptions reading;
@@ -52,12 +53,15 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
+/// --rules.
+void bindRules(CLI::App& command, std::string& rules);
 /// --uv-mode.
 void bindUvMode(CLI::App& command, std::string& uvMode);
 /// What a description of a group points to.
 struct SchemeOptions {
     SupplePrepOptions prep{};
     SuppleBlendOptions blend{};
+    SuppleFragmentsOptions fragments{};
     std::vector<SuppleScheme> partSchemes;
 };
 /// The description's fields that the flags set. It then points to `options`. The error names a part that is not there.
@@ -66,6 +70,8 @@ struct SchemeOptions {
 
 /// --creases: "cut" or "curve".
 [[nodiscard]] SuppleCreaseMode creaseModeOf(const std::string& name);
+/// --rules: "catmull-clark" or "loop".
+[[nodiscard]] SuppleFragmentRules rulesOf(const std::string& name);
 /// --uv-mode: "file", or a name of OpenSubdiv's.
 [[nodiscard]] SuppleUvInterpolation uvInterpolationOf(const std::string& name);
 /// --skinning: "linear" or "dual-quaternion".

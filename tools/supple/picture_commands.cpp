@@ -50,6 +50,7 @@ std::vector<std::string> viewNames() {
 void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
     bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
     bindSharpEdges(command, draw.creases, draw.sharpThreshold);
+    bindRules(command, draw.rules);
     bindUvMode(command, draw.uvMode);
     bindMorphs(command, draw.morphs);
     command.add_option("--part", draw.parts, "Draw these parts alone; once per part (supple inspect lists them)")

@@ -85,6 +85,7 @@ void addDraw(Words& words, const DrawOptions& draw) {
     words.option("--skinning", draw.skinning, usual.skinning);
     words.option("--creases", draw.creases, usual.creases);
     words.option("--sharp", double{draw.sharpThreshold}, double{usual.sharpThreshold});
+    words.option("--rules", draw.rules, usual.rules);
     words.option("--uv-mode", draw.uvMode, usual.uvMode);
     words.flag("--shared-samples", draw.sharedSamples);
     words.option("--view", draw.view, usual.view);

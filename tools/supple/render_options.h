@@ -18,21 +18,22 @@ inline constexpr float kChordError = 0.25f;
 struct DrawOptions {
     std::string scheme = "auto"; ///< auto, a scheme's, or cage (the deformed cage itself)
     std::vector<host::PartScheme> partSchemes;
-    std::string skinning = "linear"; ///< linear | dual-quaternion
-    std::string creases = "cut";     ///< cut | curve
-    float sharpThreshold = 1.0f;     ///< see SuppleGroupDesc
-    std::string uvMode = "file";     ///< file | one of OpenSubdiv's modes
-    uint32_t rate = 8;               ///< 1..64: see SuppleGroupDesc
-    std::vector<std::string> parts;  ///< names or indices: draw these alone; none: all
-    bool sharedSamples = false;      ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
-    std::string view = "shaded";     ///< of kViews (views.h)
-    std::string joint = "0";         ///< whose weights the view "weights" shows: name or index
-    bool levels = false;             ///< of detail, as the camera needs them, instead of `rate`
-    float chordError = kChordError;  ///< with `levels`: pixels
-    bool cageOverlay = false;        ///< the cage's edges drawn over the surface
-    bool split = false;              ///< the cage beside the surface
-    bool ground = true;              ///< a floor that takes shadows
-    bool alpha = false;              ///< nothing behind the figure: render, animate
+    std::string skinning = "linear";     ///< linear | dual-quaternion
+    std::string creases = "cut";         ///< cut | curve
+    float sharpThreshold = 1.0f;         ///< see SuppleGroupDesc
+    std::string rules = "catmull-clark"; ///< of fragments: catmull-clark | loop
+    std::string uvMode = "file";         ///< file | one of OpenSubdiv's modes
+    uint32_t rate = 8;                   ///< 1..64: see SuppleGroupDesc
+    std::vector<std::string> parts;      ///< names or indices: draw these alone; none: all
+    bool sharedSamples = false;          ///< SUPPLE_GROUP_INDEXED_MESH; patches then show no borders and classes
+    std::string view = "shaded";         ///< of kViews (views.h)
+    std::string joint = "0";             ///< whose weights the view "weights" shows: name or index
+    bool levels = false;                 ///< of detail, as the camera needs them, instead of `rate`
+    float chordError = kChordError;      ///< with `levels`: pixels
+    bool cageOverlay = false;            ///< the cage's edges drawn over the surface
+    bool split = false;                  ///< the cage beside the surface
+    bool ground = true;                  ///< a floor that takes shadows
+    bool alpha = false;                  ///< nothing behind the figure: render, animate
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;

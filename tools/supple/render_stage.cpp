@@ -91,6 +91,7 @@ Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const
                                              .skinning = skinningOf(options_.skinning),
                                              .creaseMode = creaseModeOf(options_.creases),
                                              .sharpThreshold = options_.sharpThreshold,
+                                             .fragmentRules = rulesOf(options_.rules),
                                              .uvInterpolation = uvInterpolationOf(options_.uvMode),
                                              .sharedSamples = options_.sharedSamples,
                                              .partSchemes = std::move(*partSchemes),

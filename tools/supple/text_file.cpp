@@ -29,6 +29,12 @@ TextFile& TextFile::number(float value) {
     return text({digits, static_cast<size_t>(end - digits)});
 }
 
+TextFile& TextFile::number(double value) {
+    char digits[32];
+    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    return text({digits, static_cast<size_t>(end - digits)});
+}
+
 TextFile& TextFile::number(uint64_t value) {
     char digits[32];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);

@@ -17,6 +17,8 @@ public:
     TextFile& text(std::string_view piece);
     /// As printf's %.9g: enough digits to read the same float back.
     TextFile& number(float value);
+    /// The fewest digits that read the same double back.
+    TextFile& number(double value);
     TextFile& number(uint64_t value);
 
     /// Writes what is left. Anything that went wrong on the way is reported here.

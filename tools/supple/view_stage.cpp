@@ -44,6 +44,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->skinning_ = skinningOf(options.skinning);
     stage->creaseMode_ = creaseModeOf(options.creases);
     stage->sharpThreshold_ = options.sharpThreshold;
+    stage->fragmentRules_ = rulesOf(options.rules);
     stage->uvInterpolation_ = uvInterpolationOf(options.uvMode);
     stage->reading_ = options.reading;
     stage->morphSettings_ = options.morphs;
@@ -130,6 +131,7 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .skinning = skinning_,
                                               .creaseMode = creaseMode_,
                                               .sharpThreshold = sharpThreshold_,
+                                              .fragmentRules = fragmentRules_,
                                               .uvInterpolation = uvInterpolation_,
                                               .sharedSamples = sharedSamples_,
                                               .partSchemes = std::move(*partSchemes),

@@ -178,6 +178,7 @@ private:
     SuppleSkinning skinning_ = SUPPLE_SKINNING_LINEAR;
     SuppleCreaseMode creaseMode_ = SUPPLE_CREASES_CUT;
     float sharpThreshold_ = 1.0f;
+    SuppleFragmentRules fragmentRules_ = SUPPLE_RULES_CATMULL_CLARK;
     SuppleUvInterpolation uvInterpolation_ = SUPPLE_UV_FROM_FILE;
     host::ReadOptions reading_;
     std::vector<host::MorphSetting> morphSettings_;

@@ -490,8 +490,9 @@ typedef enum SuppleScheme {
     /** No smooth surface: the file's own triangles, deformed, with the file's normals. Takes any cage, manifold or not.
      * Its groups have SUPPLE_TESSELLATION_INDEXED_MESH, in a view SUPPLE_TESSELLATION_RATES with one rate. */
     SUPPLE_SCHEME_POLYGONS = 6,
-    /** The limit of Catmull-Clark too, but by refinement (docs/subdivision.md): rates are powers of two, views draw an
-     * instance at one of several rates, and evaluation costs several times as much. For comparisons. */
+    /** The limit of Catmull-Clark too, or with SUPPLE_RULES_LOOP that of Loop, but by refinement (docs/subdivision.md):
+     * rates are powers of two, views draw an instance at one of several rates, and evaluation costs several times as
+     * much. For comparisons. */
     SUPPLE_SCHEME_FRAGMENTS = 7,
     SUPPLE_SCHEME_CAGE = 100, /**< the deformed cage alone, of any polygons: no patches, no surface vertices */
     SUPPLE_SCHEME_MAX_ENUM = 0x7FFFFFFF
@@ -736,6 +737,19 @@ typedef struct SuppleBlendOptions {
     float sharpThreshold; /**< edges of this sharpness and more are sharp, others smooth; 0 = 1 */
 } SuppleBlendOptions;
 
+/** Whose rules SUPPLE_SCHEME_FRAGMENTS refines by. CATMULL_CLARK: any polygons. LOOP: triangles, into which larger
+ * faces are split; patches are of class SUPPLE_PATCH_LOOP. */
+typedef enum SuppleFragmentRules {
+    SUPPLE_RULES_CATMULL_CLARK = 0,
+    SUPPLE_RULES_LOOP = 1,
+    SUPPLE_RULES_MAX_ENUM = 0x7FFFFFFF
+} SuppleFragmentRules;
+/** Options of SUPPLE_SCHEME_FRAGMENTS. */
+typedef struct SuppleFragmentsOptions {
+    uint32_t structSize;
+    SuppleFragmentRules rules;
+} SuppleFragmentsOptions;
+
 /** Layout of a surface vertex. Positions have the same bits in both. */
 typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
@@ -815,9 +829,10 @@ typedef struct SuppleGroupDesc {
     SuppleScheme scheme;
     /** Segments along a patch edge, 1..SUPPLE_MAX_RATE; 0 = 8.
      * FRAGMENTS: segments along an edge of the cage, rounded up to a power of two. A patch edge has half
-     * of them (SuppleGridOutput.rate). With FRAGMENTS, if the cage has faces that are no quads, it has a quarter.
-     * BLEND and CATMULL_CLARK: if the cage has faces that are no quads, `rate` counts segments along an edge of the
-     * cage. It is rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate is 1. */
+     * of them (SuppleGridOutput.rate). With Catmull-Clark's rules, if the cage has faces that are no quads, it has a
+     * quarter. BLEND and CATMULL_CLARK: if the cage has faces that are no quads, `rate` counts segments along an edge
+     * of the cage. It is rounded up to an even number, and a patch edge has half of it. POLYGONS ignores it: the rate
+     * is 1. */
     uint32_t rate;
     SuppleVertexFormat vertexFormat;
     SuppleSkinning skinning;
@@ -849,6 +864,7 @@ typedef struct SuppleGroupDesc {
     /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone. BLEND has all modes but
      * LINEAR_BOUNDARIES. If `scheme` names one of them with another mode, suppleCreateGroup fails. */
     SuppleUvInterpolation uvInterpolation;
+    const SuppleFragmentsOptions* fragments; /**< null: the defaults; other schemes ignore it */
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may

@@ -30,6 +30,33 @@ TEST(RepairHostile, AFaceAMillionTimes) {
     EXPECT_EQ(r.cage.vertexCount(), 3u);
 }
 
+TEST(RepairHostile, AFaceOfAHundredThousandTCorners) {
+    constexpr uint32_t kSides = 100000;
+    constexpr double kTurn = 6.283185307179586;
+    const auto at = [&](double side, double radius) {
+        const double angle = kTurn * side / kSides;
+        return glm::vec3(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    };
+    std::vector<glm::vec3> positions;
+    Faces faces(1);
+    for (uint32_t i = 0; i < kSides; ++i) { // a corner, the middle of a side, and a point outside
+        positions.push_back(at(i, 1000.0));
+        positions.push_back(0.5f * (at(i, 1000.0) + at(i + 1.0, 1000.0)));
+        positions.push_back(at(i + 0.5, 1001.0));
+    }
+    for (uint32_t i = 0; i < kSides; ++i) {
+        const uint32_t a = 3 * i, b = 3 * ((i + 1) % kSides);
+        faces[0].push_back(a);
+        faces.push_back({a + 1, a, a + 2});
+        faces.push_back({b, a + 1, a + 2});
+    }
+    const Repaired r = afterRepair(makeCage(std::move(positions), faces));
+    ASSERT_FALSE(r.found.empty());
+    EXPECT_EQ(r.found[0].find("cage: 100000 T-corners, the first is vertex 1 on edge (0, 3) of face 0"), 0u)
+        << r.found[0];
+    EXPECT_EQ(r.cage.sides(0), 2 * kSides);
+}
+
 TEST(RepairHostile, AnEdgeOfAHundredThousandFaces) {
     constexpr uint32_t kFaces = 100000;
     std::vector<glm::vec3> positions{{0, 0, 0}, {0, 0, 1}};

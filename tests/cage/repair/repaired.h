@@ -24,18 +24,17 @@ struct Repaired {
     std::string refusal;
 };
 
-/// Repairs a cage that has damage, and checks that a topology can be built of what comes out. Vertex i of the cage was
-/// vertex sourceVertices[i]; a skin is bound if there is one.
-inline Repaired repaired(cage::Cage cage, cage::SkinWeights weights = {}, cage::Morphs morphs = {}) {
-    EXPECT_FALSE(cage::buildTopology(cage).ok()) << "there is no damage";
+/// Repairs a cage, and checks that a topology can be built of what comes out. Vertex i of the cage was vertex
+/// sourceVertices[i]; a skin is bound if there is one. `names` may name several parts.
+inline Repaired afterRepair(cage::Cage cage, cage::SkinWeights weights = {}, cage::Morphs morphs = {},
+                            const cage::CageNames& names = {{"cage"}, {}}) {
     Repaired result{std::move(cage), std::move(weights), std::move(morphs), {}, {}, {}};
     result.cage.sourceVertices.clear();
     for (uint32_t v = 0; v < result.cage.vertexCount(); ++v) {
         result.cage.sourceVertices.push_back(v);
     }
     std::vector<cage::Damage> damages;
-    const Status status =
-        cage::repairCage(result.cage, result.weights, result.morphs, cage::CageNames{{"cage"}, {}}, damages);
+    const Status status = cage::repairCage(result.cage, result.weights, result.morphs, names, damages);
     for (const cage::Damage& damage : damages) {
         result.found.push_back(damage.found);
         result.repairs.push_back(damage.repair);
@@ -48,6 +47,12 @@ inline Repaired repaired(cage::Cage cage, cage::SkinWeights weights = {}, cage::
     EXPECT_TRUE(topology.ok()) << topology.error().message;
     EXPECT_EQ(result.cage.sourceVertices.size(), result.cage.positions.size());
     return result;
+}
+
+/// The same for a cage of which no topology can be built before.
+inline Repaired repaired(cage::Cage cage, cage::SkinWeights weights = {}, cage::Morphs morphs = {}) {
+    EXPECT_FALSE(cage::buildTopology(cage).ok()) << "there is no damage";
+    return afterRepair(std::move(cage), std::move(weights), std::move(morphs));
 }
 
 inline Repaired repaired(std::vector<glm::vec3> positions, const Faces& polygons) {

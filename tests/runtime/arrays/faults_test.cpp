@@ -4,6 +4,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/same_character.h"
 
+#include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -289,6 +290,53 @@ TEST(ArrayRepairs, WhatHasNoFaceIsLeftOut) {
     ASSERT_FALSE(strict.ok());
     EXPECT_EQ(strict.error().message, "tube: part 0: 1 face has fewer than three corners: face 3\n"
                                       "tube: part 0: 1 vertex has no face: vertex 0");
+}
+
+/// Adds a vertex halfway between two others, with the skin of the first.
+uint32_t addMiddle(cage::Character& character, uint32_t a, uint32_t b) {
+    cage::Cage& cage = character.cage;
+    cage.positions.push_back(0.5f * (cage.positions[a] + cage.positions[b]));
+    cage.sourceVertices.push_back(cage.vertexCount() - 1);
+    std::vector<cage::Influence>& influences = character.weights.influences;
+    for (uint32_t i = character.weights.starts[a]; i < character.weights.starts[a + 1]; ++i) {
+        influences.push_back(cage::Influence(influences[i]));
+    }
+    character.weights.starts.push_back(static_cast<uint32_t>(influences.size()));
+    return cage.vertexCount() - 1;
+}
+
+TEST(ArrayRepairs, TCornersBecomeCorners) {
+    cage::Character character = tube();
+    cage::Cage& cage = character.cage;
+    // Face 1 in two: those beside it have a T-corner each. Two of its sides have another face, opposite each other.
+    const std::vector<uint32_t> face(cage.faceVertices.begin() + 4, cage.faceVertices.begin() + 8);
+    const auto timesIn = [&](uint32_t a, uint32_t b) {
+        size_t count = 0;
+        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+            const auto begin = cage.faceVertices.begin() + cage.faceStarts[f];
+            const auto end = cage.faceVertices.begin() + cage.faceStarts[f + 1];
+            count += std::find(begin, end, a) != end && std::find(begin, end, b) != end ? 1 : 0;
+        }
+        return count;
+    };
+    const size_t k = timesIn(face[0], face[1]) == 2 ? 0 : 1;
+    const uint32_t a = face[k], b = face[k + 1], c = face[k + 2], d = face[(k + 3) % 4];
+    const uint32_t m = addMiddle(character, a, b), n = addMiddle(character, c, d);
+    std::vector<uint32_t> vertices(cage.faceVertices);
+    std::copy_n(std::vector<uint32_t>{a, m, n, d}.begin(), 4, vertices.begin() + 4);
+    vertices.insert(vertices.end(), {m, b, c, n});
+    cage = cage::Cage{.positions = cage.positions,
+                      .faceStarts = {0, 4, 8, 12, 16, 20},
+                      .faceVertices = vertices,
+                      .sourceVertices = cage.sourceVertices};
+    const CharacterArrays arrays(character);
+    const Result<cage::Character> read = runtime::characterFromArrays(arrays.desc, "tube", {});
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    ASSERT_EQ(read->damages.size(), 1u);
+    EXPECT_EQ(read->damages[0].found.find("part 0: 2 T-corners, the first is vertex "), 0u) << read->damages[0].found;
+    EXPECT_EQ(read->damages[0].repair, "made five-sided facets");
+    EXPECT_EQ(read->cage.faceStarts, (std::vector<uint32_t>{0, 5, 9, 14, 18, 22}));
+    EXPECT_FALSE(runtime::characterFromArrays(arrays.desc, "tube", {.strict = true}).ok());
 }
 
 /// A host of another version: structs are longer or shorter, and lie at other distances.
