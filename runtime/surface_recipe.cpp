@@ -66,8 +66,8 @@ Status chooseUvs(const SurfaceWish& wish, SurfaceRecipe& out) {
 
 } // namespace
 
-uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId drawer, bool schemeChosen) {
-    const bool lacksMesh = schemeChosen && !surface::schemeOf(drawer).hasIndexedMesh;
+uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen) {
+    const bool lacksMesh = schemeChosen && !surface::schemeOf(scheme).hasIndexedMesh;
     return lacksMesh ? groupFlags & ~uint32_t{SUPPLE_GROUP_INDEXED_MESH} : groupFlags;
 }
 
@@ -83,7 +83,7 @@ std::vector<surface::Recipe> ratesBelow(const surface::Recipe& finest, const sur
 Result<SurfaceRecipe> surfaceRecipe(const SurfaceWish& wish) {
     SurfaceRecipe out;
     surface::Recipe& recipe = out.recipe;
-    recipe.scheme = wish.drawer;
+    recipe.scheme = wish.scheme;
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     const bool tangents = wants(wish, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS);
     recipe.indexedMesh = (wish.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;

@@ -20,7 +20,7 @@ struct SurfaceWish {
     std::span<const uint32_t> parts; ///< that the surface is made of
     const cage::Cage& cage;          ///< of these parts
     const SuppleGroupDesc& group;
-    surface::SchemeId drawer = surface::SchemeId::pm; ///< surface::drawerOf()
+    surface::SchemeId scheme = surface::SchemeId::pm; ///< of the surface: the group's, or one of what AUTO chose
     bool schemeChosen = false;                        ///< the host left it to Supple: what the scheme lacks is left out
     std::optional<uint32_t> viewFlags;                ///< of a group of a view
     bool wide = false;                                ///< gpu/mapping.h
@@ -32,7 +32,7 @@ struct SurfaceWish {
 }
 
 /// SuppleGroupFlags of a group, without those that a scheme which Supple has chosen lacks.
-[[nodiscard]] uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId drawer, bool schemeChosen);
+[[nodiscard]] uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen);
 
 struct SurfaceRecipe {
     surface::Recipe recipe;

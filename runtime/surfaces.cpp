@@ -21,9 +21,7 @@ Result<TessellationDesc> describe(const TessellationDesc& group, const SchemePar
         }
         desc.piece = std::move(*piece);
     }
-    const surface::Drawer drawer =
-        surface::drawerOf(static_cast<surface::SchemeId>(parts.scheme), desc.asset->cageOf(desc.piece));
-    desc.group.flags = surfaceFlags(desc.group.flags, drawer.scheme, parts.chosen);
+    desc.group.flags = surfaceFlags(desc.group.flags, static_cast<surface::SchemeId>(parts.scheme), parts.chosen);
     return desc;
 }
 

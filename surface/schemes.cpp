@@ -138,13 +138,6 @@ const Scheme& schemeOf(SchemeId id) {
     return found != std::end(kSchemes) ? *found : kLoopFragments;
 }
 
-Drawer drawerOf(SchemeId asked, const cage::Cage& cage) {
-    if (asked == SchemeId::loop && cage::hasSemiSharpCreases(cage)) {
-        return {SchemeId::loopFragments, "creases are semi-sharp"};
-    }
-    return {asked, ""};
-}
-
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {
     if (!cage::hasTrimTiles(cage)) {
         return build(recipe, cage);
