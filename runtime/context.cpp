@@ -340,9 +340,6 @@ void Context::tellNotes(const Group& group) const {
         for (const std::string& note : surface->tables().notes) {
             tell(SUPPLE_MESSAGE_SCHEME_NOTE, note);
         }
-        if (!surface->drawerReason().empty()) {
-            tell(SUPPLE_MESSAGE_SCHEME_NOTE, surface->drawerReason() + ": it is refined, not drawn by patches");
-        }
         if (!surface->rateNote().empty()) {
             tell(SUPPLE_MESSAGE_RATE_CHANGED, surface->rateNote());
         }

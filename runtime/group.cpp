@@ -24,7 +24,8 @@ static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED ==
               SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch && SUPPLE_PATCH_TRIANGLE == kTrianglePatch &&
               SUPPLE_PATCH_IRREGULAR == kIrregularPatch && SUPPLE_PATCH_IRREGULAR_SHARP == kIrregularSharpPatch &&
               SUPPLE_PATCH_CREASED == kCreasedPatch && SUPPLE_PATCH_LOOP_REGULAR == kLoopRegularPatch &&
-              SUPPLE_PATCH_LOOP_IRREGULAR == kLoopIrregularPatch);
+              SUPPLE_PATCH_LOOP_IRREGULAR == kLoopIrregularPatch &&
+              SUPPLE_PATCH_LOOP_IRREGULAR_SHARP == kLoopIrregularSharpPatch);
 static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_PM == static_cast<int>(SchemeId::pm) &&
               SUPPLE_SCHEME_FRAGMENTS == static_cast<int>(SchemeId::fragments) &&

@@ -71,17 +71,17 @@ Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGro
     PlannedSurface surface;
     const cage::Cage& cage = prepared.cageOf(piece.get());
     surface.piece = std::move(piece);
-    const surface::Drawer drawer = drawerOf(group.desc, parts.scheme, cage);
+    const surface::SchemeId own = schemeIdOf(group.desc, parts.scheme);
     SuppleGroupDesc desc = group.desc;
-    desc.flags = surfaceFlags(desc.flags, drawer.scheme, parts.chosen);
-    Result<SurfaceRecipe> recipe = surfaceRecipe(
-        {prepared.character, parts.parts, cage, desc, drawer.scheme, parts.chosen, group.viewFlags, wide});
+    desc.flags = surfaceFlags(desc.flags, own, parts.chosen);
+    Result<SurfaceRecipe> recipe =
+        surfaceRecipe({prepared.character, parts.parts, cage, desc, own, parts.chosen, group.viewFlags, wide});
     if (!recipe) {
         return recipe.error();
     }
     surface.recipe = recipe->recipe;
     surface.groupFlags = desc.flags;
-    const surface::Scheme& scheme = surface::schemeOf(drawer.scheme);
+    const surface::Scheme& scheme = surface::schemeOf(own);
     surface.hasRates = group.viewFlags && !scheme.hasLevels && scheme.hasRates();
     return surface;
 }

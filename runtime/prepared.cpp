@@ -41,7 +41,7 @@ void nameInWhole(const cage::CagePiece& piece, std::vector<surface::PatchInfo>& 
 /// How much more curves bend in places than their cage says, by surface::Borders: found by
 /// LodCrowds.OneLevelAnInstance. Those of the blending surface interpolate the cage; those of exact quads bend more
 /// at irregular vertices.
-constexpr float kUneven[] = {1.0f, 1.5f, 1.0f, 1.0f, 2.0f};
+constexpr float kUneven[] = {1.0f, 1.5f, 1.0f, 1.0f, 1.0f, 2.0f};
 static_assert(std::size(kUneven) == static_cast<size_t>(surface::Borders::charts) + 1);
 
 } // namespace

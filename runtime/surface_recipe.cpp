@@ -66,16 +66,14 @@ Status chooseUvs(const SurfaceWish& wish, SurfaceRecipe& out) {
 
 } // namespace
 
-surface::Drawer drawerOf(const SuppleGroupDesc& group, SuppleScheme scheme, const cage::Cage& cage) {
+surface::SchemeId schemeIdOf(const SuppleGroupDesc& group, SuppleScheme scheme) {
     const bool byLoop = group.fragments != nullptr && group.fragments->rules == SUPPLE_RULES_LOOP;
-    if (scheme == SUPPLE_SCHEME_FRAGMENTS && byLoop) {
-        return {surface::SchemeId::loopFragments, ""};
-    }
-    return surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage);
+    return scheme == SUPPLE_SCHEME_FRAGMENTS && byLoop ? surface::SchemeId::loopFragments
+                                                       : static_cast<surface::SchemeId>(scheme);
 }
 
-uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId drawer, bool schemeChosen) {
-    const bool lacksMesh = schemeChosen && !surface::schemeOf(drawer).hasIndexedMesh;
+uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen) {
+    const bool lacksMesh = schemeChosen && !surface::schemeOf(scheme).hasIndexedMesh;
     return lacksMesh ? groupFlags & ~uint32_t{SUPPLE_GROUP_INDEXED_MESH} : groupFlags;
 }
 
@@ -91,7 +89,7 @@ std::vector<surface::Recipe> ratesBelow(const surface::Recipe& finest, const sur
 Result<SurfaceRecipe> surfaceRecipe(const SurfaceWish& wish) {
     SurfaceRecipe out;
     surface::Recipe& recipe = out.recipe;
-    recipe.scheme = wish.drawer;
+    recipe.scheme = wish.scheme;
     const surface::Scheme& scheme = surface::schemeOf(recipe.scheme);
     const bool tangents = wants(wish, SUPPLE_GROUP_TANGENTS, SUPPLE_VIEW_TANGENTS);
     recipe.indexedMesh = (wish.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;

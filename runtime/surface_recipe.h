@@ -16,15 +16,15 @@
 
 namespace supple::runtime {
 
-/// What draws the parts of a group that have this scheme: surface::drawerOf(), and of fragments what their rules say.
-[[nodiscard]] surface::Drawer drawerOf(const SuppleGroupDesc& group, SuppleScheme scheme, const cage::Cage& cage);
+/// The row that draws parts of this scheme. Of fragments it depends on the group's rules.
+[[nodiscard]] surface::SchemeId schemeIdOf(const SuppleGroupDesc& group, SuppleScheme scheme);
 
 struct SurfaceWish {
     const cage::Character& character;
     std::span<const uint32_t> parts; ///< that the surface is made of
     const cage::Cage& cage;          ///< of these parts
     const SuppleGroupDesc& group;
-    surface::SchemeId drawer = surface::SchemeId::pm; ///< drawerOf()
+    surface::SchemeId scheme = surface::SchemeId::pm; ///< schemeIdOf() the group, or of one of what AUTO chose
     bool schemeChosen = false;                        ///< the host left it to Supple: what the scheme lacks is left out
     std::optional<uint32_t> viewFlags;                ///< of a group of a view
     bool wide = false;                                ///< gpu/mapping.h
@@ -36,7 +36,7 @@ struct SurfaceWish {
 }
 
 /// SuppleGroupFlags of a group, without those that a scheme which Supple has chosen lacks.
-[[nodiscard]] uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId drawer, bool schemeChosen);
+[[nodiscard]] uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen);
 
 struct SurfaceRecipe {
     surface::Recipe recipe;

@@ -21,8 +21,7 @@ Result<TessellationDesc> describe(const TessellationDesc& group, const SchemePar
         }
         desc.piece = std::move(*piece);
     }
-    const surface::Drawer drawer = drawerOf(desc.group, parts.scheme, desc.asset->cageOf(desc.piece));
-    desc.group.flags = surfaceFlags(desc.group.flags, drawer.scheme, parts.chosen);
+    desc.group.flags = surfaceFlags(desc.group.flags, schemeIdOf(desc.group, parts.scheme), parts.chosen);
     return desc;
 }
 

@@ -15,9 +15,10 @@ bool checkSideOfRecord(TableCheck& check, uint32_t kind, std::span<const uint32_
     if (range == nullptr) {
         return check.require(false, "no record of a patch");
     }
-    const bool fits = kind == kHalvesEdges     ? rowOf(range->patchClass).borders == Borders::halves
-                      : kind == kTriangleEdges ? range->patchClass == PatchClass::loopRegular
-                                               : range->patchClass == PatchClass::loopIrregular;
+    const bool fits = kind == kHalvesEdges              ? rowOf(range->patchClass).borders == Borders::halves
+                      : kind == kTriangleEdges          ? range->patchClass == PatchClass::loopRegular
+                      : kind == kIrregularTriangleEdges ? range->patchClass == PatchClass::loopIrregular
+                                                        : range->patchClass == PatchClass::loopIrregularSharp;
     return check.require(fits, "a patch of another class") &&
            check.within(record[1], 1, cornerCount(domainOf(range->patchClass)), "sides");
 }

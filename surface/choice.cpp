@@ -1,7 +1,6 @@
 #include "surface/choice.h"
 
 #include "cage/corner_normals.h"
-#include "cage/features.h"
 #include "cage/parts.h"
 #include "cage/topology.h"
 
@@ -27,7 +26,6 @@ struct Counts {
     uint64_t hard = 0;      ///< of these, edges whose normals are split
     bool known = true;      ///< all polygons are as someone has drawn them
     bool paired = false;    ///< some are quads made of triangles
-    bool semiSharp = false; ///< some crease is sharp, but not infinitely
 
     [[nodiscard]] bool mostlyTriangles() const { return triangles > polygons; }
 };
@@ -51,21 +49,6 @@ std::vector<glm::dvec3> faceNormals(const cage::Cage& cage) {
     return normals;
 }
 
-void findSemiSharpCreases(const cage::Cage& cage, const std::vector<uint32_t>& groups, std::vector<Counts>& counts) {
-    std::vector<bool> ends(cage.vertexCount(), false);
-    for (const cage::Crease& crease : cage.creases) {
-        if (cage::isSemiSharp(crease) && crease.a < ends.size()) {
-            ends[crease.a] = true;
-        }
-    }
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        Counts& group = counts[groups[cage.faceParts.empty() ? 0 : cage.faceParts[face]]];
-        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
-            group.semiSharp = group.semiSharp || ends[cage.faceVertices[corner]];
-        }
-    }
-}
-
 /// Counts for each group, at the place of its smallest part.
 std::vector<Counts> count(const cage::Character& character, const cage::Topology& topology,
                           const std::vector<uint32_t>& groups) {
@@ -85,7 +68,6 @@ std::vector<Counts> count(const cage::Character& character, const cage::Topology
         const uint32_t sides = cage.sides(face);
         (sides > 3 ? countsOf(face).polygons : countsOf(face).triangles) += sides - 2;
     }
-    findSemiSharpCreases(cage, groups, counts);
     if (cage.cornerNormals.empty()) {
         return counts;
     }
@@ -162,9 +144,6 @@ std::vector<SchemeChoice> chooseSchemes(const cage::Character& character) {
     choices.reserve(groups.size());
     for (const uint32_t group : groups) {
         choices.push_back(madeFor[group] ? choose(*madeFor[group]) : choose(counts[group]));
-        if (choices.back().scheme == SchemeId::loop && counts[group].semiSharp) {
-            choices.back().reason += "; refined, for it has semi-sharp creases"; // drawerOf()
-        }
     }
     return choices;
 }

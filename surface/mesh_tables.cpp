@@ -15,7 +15,8 @@ namespace {
 using namespace shared;
 
 static_assert(kPlainEdges < kPerturbedEdges && kPerturbedEdges < kMixedEdges && kMixedEdges < kHalvesEdges &&
-              kHalvesEdges < kTriangleEdges && kTriangleEdges < kIrregularTriangleEdges);
+              kHalvesEdges < kTriangleEdges && kTriangleEdges < kIrregularTriangleEdges &&
+              kIrregularTriangleEdges < kSharpTriangleEdges);
 
 /// Numbers corners in the order in which they come.
 class MeshCorners {

@@ -35,6 +35,7 @@ enum class Borders : uint8_t {
     halves,       ///< exact Catmull-Clark: cubics, or two halves, each of its end's leaves
     splines,      ///< Loop: quartic box splines, one an edge; of a patch, also two
     splineHalves, ///< Loop, edges alone: two halves, each of its end's leaves
+    sharpHalves,  ///< the same, of a semi-sharp crease
     charts        ///< blends of two charts
 };
 
@@ -51,10 +52,11 @@ enum class PatchClass : uint32_t {
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
     irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
-    irregularSharp = shared::kIrregularSharpPatch, ///< some side is a crease, too
-    creased = shared::kCreasedPatch,               ///< no corner has a chain, but a semi-sharp crease passes
-    loopRegular = shared::kLoopRegularPatch,       ///< exact Loop: a quartic box spline
-    loopIrregular = shared::kLoopIrregularPatch    ///< some corner has a chain of leaves
+    irregularSharp = shared::kIrregularSharpPatch,        ///< some side is a crease, too
+    creased = shared::kCreasedPatch,                      ///< no corner has a chain, but a semi-sharp crease passes
+    loopRegular = shared::kLoopRegularPatch,              ///< exact Loop: a quartic box spline
+    loopIrregular = shared::kLoopIrregularPatch,          ///< some corner has a chain of leaves
+    loopIrregularSharp = shared::kLoopIrregularSharpPatch ///< some side is a semi-sharp crease, too
 };
 
 struct PatchClassRow {
@@ -110,6 +112,8 @@ inline constexpr PatchClassRow kPatchClasses[] = {
     {"loop-regular", Domain::triangle, 0, shared::kTriangleElements, Kernel::loopEvaluate, Kernel::loopEvaluateLevels,
      Kernel::count, lod::Form::triangleRings, Borders::splines},
     {"loop-irregular", Domain::triangle, 0, shared::kIrregularTriangleElements, Kernel::loopEvaluate,
+     Kernel::loopEvaluateLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
+    {"loop-irregular-sharp", Domain::triangle, 0, shared::kSharpTriangleElements, Kernel::loopEvaluate,
      Kernel::loopEvaluateLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
 };
 

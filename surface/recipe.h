@@ -48,8 +48,7 @@ struct Options {
 
 } // namespace blend
 
-/// Values of SuppleScheme; but for loopFragments: fragments by Loop's rules, which a host may ask for, and which draw
-/// what Loop patches do not take (drawerOf()).
+/// Values of SuppleScheme; but for loopFragments: fragments whose group asks for Loop's rules.
 enum class SchemeId : uint32_t {
     prep = 1,
     pm = 2,

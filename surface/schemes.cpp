@@ -38,7 +38,7 @@ constexpr Scheme kSchemes[] = {
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
-/// It is no scheme of its own: fragments may have Loop's rules, and see drawerOf().
+/// It is no scheme of a host's: fragments may have Loop's rules.
 constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    RateRule::doubling,
                                    "Loop in fragments",
@@ -136,13 +136,6 @@ const Scheme& schemeOf(SchemeId id) {
     const auto* found =
         std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
     return found != std::end(kSchemes) ? *found : kLoopFragments;
-}
-
-Drawer drawerOf(SchemeId asked, const cage::Cage& cage) {
-    if (asked == SchemeId::loop && cage::hasSemiSharpCreases(cage)) {
-        return {SchemeId::loopFragments, "creases are semi-sharp"};
-    }
-    return {asked, ""};
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

@@ -66,14 +66,6 @@ struct Scheme {
 [[nodiscard]] std::span<const Scheme> schemes();
 [[nodiscard]] const Scheme& schemeOf(SchemeId id);
 
-/// The scheme that draws a cage where another was asked for, and why it is not that one itself: Loop patches take no
-/// semi-sharp creases, and fragments do.
-struct Drawer {
-    SchemeId scheme = SchemeId::pm;
-    std::string reason; ///< "creases are semi-sharp"; empty: it is the one that was asked for
-};
-[[nodiscard]] Drawer drawerOf(SchemeId asked, const cage::Cage& cage);
-
 /// Builds the tables, or says why it cannot: "face 12 has 5 sides: p-rep takes quads only".
 [[nodiscard]] Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage);
 

@@ -3,6 +3,8 @@
 #include "shaders/shared/chains.h"
 #include "shaders/shared/prep.h"
 
+#include <algorithm>
+
 namespace supple::surface {
 namespace {
 
@@ -82,9 +84,17 @@ uint32_t uvElements(const Tables& tables, PatchClass patchClass) {
     if (!tables.uvLeaves) {
         return uvElements(patchClass);
     }
-    return domainOf(patchClass) == Domain::triangle
-               ? shared::kIrregularTriangleElements - shared::kTriangleCornerElement
-               : shared::kQuadRecordElements;
+    if (domainOf(patchClass) != Domain::triangle) {
+        return shared::kQuadRecordElements;
+    }
+    return (haveSharpUvs(tables) ? shared::kSharpTriangleElements : shared::kIrregularTriangleElements) -
+           shared::kTriangleCornerElement;
+}
+
+bool haveSharpUvs(const Tables& tables) {
+    return tables.uvLeaves && std::ranges::any_of(tables.ranges, [](const PatchRange& range) {
+               return range.patchClass == PatchClass::loopIrregularSharp;
+           });
 }
 
 std::vector<const std::vector<glm::vec2>*> uvSetsOf(const cage::Cage& cage) {

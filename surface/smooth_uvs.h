@@ -24,6 +24,10 @@ struct UvPatch {
 /// The same of tables, which may have leaves of texture coordinates (Tables::uvLeaves).
 [[nodiscard]] uint32_t uvElements(const Tables& tables, PatchClass patchClass);
 
+/// Whether triangles of leaves may have semi-sharp creases in their texture coordinates. All of them have the sharpness
+/// of their sides in their records then.
+[[nodiscard]] bool haveSharpUvs(const Tables& tables);
+
 /// The UV sets that a cage has: one entry per corner each.
 [[nodiscard]] std::vector<const std::vector<glm::vec2>*> uvSetsOf(const cage::Cage& cage);
 

@@ -3,6 +3,7 @@
 #include "shaders/shared/specialization.h"
 #include "surface/construction_names.h"
 #include "surface/indexed_mesh.h"
+#include "surface/smooth_uvs.h"
 
 #include <algorithm>
 #include <iterator>
@@ -178,6 +179,10 @@ AttributeKernel attributeKernel(const Tables& tables, PatchClass patchClass, boo
     return smooth;
 }
 
+uint32_t semiSharpUvs(const ProgramBuilder& builder) {
+    return haveSharpUvs(builder.tables) ? VK_TRUE : VK_FALSE;
+}
+
 void addAttributes(ProgramBuilder& builder, size_t range) {
     const PatchRange& from = builder.tables.ranges[range];
     const bool indexed = builder.tables.hasIndexedMesh();
@@ -187,6 +192,7 @@ void addAttributes(ProgramBuilder& builder, size_t range) {
                        {{kKindConstant, own.kind},
                         {kInteriorConstant, indexed ? VK_TRUE : VK_FALSE},
                         {kSectorsConstant, rowOf(from.patchClass).hasSectors() ? VK_TRUE : VK_FALSE},
+                        {kSemiSharpConstant, semiSharpUvs(builder)},
                         {kOutputsConstant, outputsOf(builder)}},
                        indexed ? "supple attributes inside" : "supple attributes");
     const uint32_t samples = samplesOf(builder, from.patchClass);
@@ -214,7 +220,8 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
                                                          {Kernel::evaluateEdge, "supple evaluate edges, P_m"},
                                                          {Kernel::catmullClarkEdge, "supple evaluate edges, irregular"},
                                                          {Kernel::loopEdge, "supple evaluate edges, Loop"},
-                                                         {Kernel::loopEdge, "supple evaluate edges, irregular Loop"}};
+                                                         {Kernel::loopEdge, "supple evaluate edges, irregular Loop"},
+                                                         {Kernel::loopEdge, "supple evaluate edges, sharp Loop"}};
     static_assert(std::size(kKinds) == kEdgeKinds);
     const uint32_t rate = ownRatePays(builder) ? builder.options.rate : 0;
     for (const MeshTables::Edges& edges : builder.tables.mesh.edges) {
@@ -242,7 +249,9 @@ void addEdgeAttributes(ProgramBuilder& builder) {
     const Kernel leaves = triangles ? Kernel::evaluateAttributesTriangles : Kernel::evaluateAttributesQuads;
     const Kernel which = builder.tables.uvLeaves ? leaves : Kernel::evaluateAttributes;
     const gpu::Kernel kernel = builder.kernel(SetKind::attributes, which,
-                                              {{kKindConstant, kEdgeDomain}, {kOutputsConstant, outputsOf(builder)}},
+                                              {{kKindConstant, kEdgeDomain},
+                                               {kSemiSharpConstant, semiSharpUvs(builder)},
+                                               {kOutputsConstant, outputsOf(builder)}},
                                               "supple attributes of edges");
     auto push = pushFor<AttributesPush>({mesh.attributes.table, mesh.attributes.count * builder.evaluation.rate});
     push.rate = builder.evaluation.rate;
@@ -345,9 +354,11 @@ void addRangesAtLevels(ProgramBuilder& builder) {
         }
         if (builder.options.attributes) {
             const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
-            const gpu::Kernel kernel = builder.kernel(
-                SetKind::attributes, own.kernel, {{kKindConstant, own.kind}, {kOutputsConstant, outputsOf(builder)}},
-                std::string("supple attributes at levels, ") + row.name);
+            const gpu::Kernel kernel = builder.kernel(SetKind::attributes, own.kernel,
+                                                      {{kKindConstant, own.kind},
+                                                       {kSemiSharpConstant, semiSharpUvs(builder)},
+                                                       {kOutputsConstant, outputsOf(builder)}},
+                                                      std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;
             push.smoothUvs = range.smoothUvs;
             builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);

@@ -16,7 +16,7 @@ inline constexpr auto kLast<surface::blend::CreaseMode> = surface::blend::Crease
 template <>
 inline constexpr auto kLast<surface::Stage> = surface::Stage::deepen;
 template <>
-inline constexpr auto kLast<surface::PatchClass> = surface::PatchClass::loopIrregular;
+inline constexpr auto kLast<surface::PatchClass> = surface::PatchClass::loopIrregularSharp;
 template <>
 inline constexpr auto kLast<surface::Domain> = static_cast<surface::Domain>(surface::kDomainCount - 1);
 template <>

@@ -29,7 +29,6 @@ struct TessellationDesc {
     SuppleGroupDesc group{};              ///< `scheme` is the surface's
     std::vector<uint32_t> parts;          ///< rising
     std::shared_ptr<AssetPiece> piece;    ///< those parts; null: all of the asset's
-    surface::Drawer drawer;               ///< create() finds it
     bool schemeChosen = false;            ///< the host left it to Supple: outputs that the scheme lacks are left out
     uint32_t surface = 0;                 ///< its number in the group
     const Tessellation* before = nullptr; ///< during creation: the surface whose place it takes; null: none

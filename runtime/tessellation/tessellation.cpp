@@ -6,14 +6,11 @@ namespace supple::runtime {
 
 using namespace supple::shared;
 
-Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDesc& asked) {
-    if (asked.group.scheme == SUPPLE_SCHEME_CAGE) {
-        return makeNoTessellation(asked);
+Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDesc& desc) {
+    if (desc.group.scheme == SUPPLE_SCHEME_CAGE) {
+        return makeNoTessellation(desc);
     }
-    TessellationDesc desc = asked;
-    const cage::Cage& cage = desc.asset->cageOf(desc.piece);
-    desc.drawer = drawerOf(desc.group, desc.group.scheme, cage);
-    const surface::Scheme& row = surface::schemeOf(desc.drawer.scheme);
+    const surface::Scheme& row = surface::schemeOf(schemeIdOf(desc.group, desc.group.scheme));
     if (desc.view != nullptr && !row.hasLevels && !row.hasRates()) {
         return Error{ErrorCode::argument,
                      desc.asset->character.name + ": " + row.name + " cannot be drawn in a view yet"};

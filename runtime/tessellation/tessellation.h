@@ -37,7 +37,7 @@ struct SharedIndices {
 class Tessellation : public gpu::FrameMembers {
 public:
     /// Builds the tables, prepares the pipelines and lays out an instance; refuses what the scheme cannot take.
-    [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& asked);
+    [[nodiscard]] static Result<std::unique_ptr<Tessellation>> create(const TessellationDesc& desc);
     virtual ~Tessellation() = default;
     Tessellation(const Tessellation&) = delete;
     Tessellation& operator=(const Tessellation&) = delete;
@@ -59,8 +59,6 @@ public:
     }
     /// Why the rate is not the one asked for, or empty.
     [[nodiscard]] const std::string& rateNote() const { return built_.rateNote; }
-    /// Why another scheme draws the surface than the one asked for, or empty.
-    [[nodiscard]] const std::string& drawerReason() const { return desc_.drawer.reason; }
     /// Why texture coordinates are linear though the file says otherwise, or empty.
     [[nodiscard]] const std::string& uvNote() const { return built_.uvNote; }
 

@@ -247,6 +247,7 @@ SmoothUv smoothOnSide(uint first, uint side, vec2 t) {
 #include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
 layout(constant_id = kKindConstant) const uint kDomain = kTriangleDomain;
+layout(constant_id = kSemiSharpConstant) const bool kSemiSharp = false;
 
 struct PatchPlace {
     uint record;
@@ -255,7 +256,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
 #include "shaders/loop/place.glsl"
 
 // Records begin with the corners: no side is whole, so that none asks for the vertices round the triangle.
-const uint kSmoothElements = kIrregularTriangleElements - kTriangleCornerElement;
+const uint kSmoothElements = (kSemiSharp ? kSharpTriangleElements : kIrregularTriangleElements) - kTriangleCornerElement;
 struct SmoothPatch {
     uint record;
 };

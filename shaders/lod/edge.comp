@@ -102,7 +102,7 @@ EdgeCurve curveOf(uint base, uint edge) {
 layout(constant_id = kKindConstant) const uint kMeasures = kMeasuresWholeSides;
 #include "shaders/shared/chains.h"
 #include "shaders/surface/net.glsl"
-const bool kTangents = false;
+const bool kTangents = false, kSemiSharp = kMeasures == kMeasuresSharpHalves;
 #include "shaders/evaluate/frame.glsl"
 
 struct PatchPlace {
@@ -115,7 +115,7 @@ EdgeCurve curveOf(uint base, uint edge) {
     uvec4 words = tableElement(push.table + edge);
     PatchPlace at = PatchPlace(words.x, base);
     uint side = words.y;
-    const bool kHalves = kMeasures == kMeasuresHalves;
+    const bool kHalves = kMeasures != kMeasuresWholeSides;
     Triangle t = triangleOf(at.record, kHalves);
     LeafSide whole;
     if (!kHalves) whole = leafSide(cageLeaf(at, t), side, false, hasFlag(t, kSharpTriangleSide, side));

@@ -31,7 +31,7 @@ const bool kNets = kCubics && kMeasures == kMeasuresNets;
 #endif
 #ifdef TRIANGLES // of Loop
 #include "shaders/shared/chains.h"
-const bool kTangents = false;
+const bool kTangents = false, kSemiSharp = false;
 #include "shaders/evaluate/frame.glsl"
 struct PatchPlace {
     uint record, base;
@@ -181,7 +181,8 @@ vec2 irregularLevels(uint record, uint base) {
 #endif
 
 #ifdef TRIANGLES
-// And of a Loop patch: as of sectors. Its middle is that of a leaf, of level 1 in an irregular triangle.
+// And of a Loop patch: as of sectors. Its middle is that of a leaf, of level 1 in an irregular triangle. That of a triangle with
+// semi-sharp creases may lie by 1 / 162 of their excess further in than is measured here.
 float triangleLevel(uint record, uint base) {
     PatchPlace at = PatchPlace(record, base);
     Triangle t = triangleOf(record, kIrregularTriangles);
@@ -462,7 +463,8 @@ void main() {
         scratchWords[target + 2u] = floatBitsToUint(own.y);
     }
     countPatch(counted, run, form, priority, bin, weight);
-    bool chains = patchClass == kLoopIrregularPatch || patchClass == kIrregularPatch || patchClass == kIrregularSharpPatch;
+    bool chains = patchClass == kLoopIrregularPatch || patchClass == kLoopIrregularSharpPatch || patchClass == kIrregularPatch ||
+                  patchClass == kIrregularSharpPatch;
     // Patches of hidden parts count too, so that hiding a part changes no other one.
     if (!kCubics && inside && chains) atomicMax(scratchWords[words + header.depths], floatBitsToUint(level));
 }

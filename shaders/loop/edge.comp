@@ -15,7 +15,7 @@
 #include "shaders/surface/net.glsl"
 
 layout(constant_id = kKindConstant) const uint kKind = kIrregularTriangleEdges;
-const bool kIrregular = kKind == kIrregularTriangleEdges;
+const bool kIrregular = kKind != kTriangleEdges, kSemiSharp = kKind == kSharpTriangleEdges;
 
 struct PatchPlace {
     uint record, base;

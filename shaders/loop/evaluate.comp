@@ -12,8 +12,8 @@
 #include "shaders/shared/lod.h"
 
 layout(constant_id = kKindConstant) const uint kClass = kLoopIrregularPatch;
-const bool kIrregular = kClass == kLoopIrregularPatch;
-const uint kRecordElements = kIrregular ? kIrregularTriangleElements : kTriangleElements;
+const bool kIrregular = kClass != kLoopRegularPatch, kSemiSharp = kClass == kLoopIrregularSharpPatch;
+const uint kRecordElements = kSemiSharp ? kSharpTriangleElements : kIrregular ? kIrregularTriangleElements : kTriangleElements;
 const uint kForm = kLodTriangleForm;
 const uint kParts = kIrregular ? kTriangleNetPoints : kLeafPoints;
 #include "shaders/evaluate/harness.glsl"
@@ -153,7 +153,7 @@ float netParameter(NetSamples s, uint k) {
     return x;
 }
 
-void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Leaf leaf) {
+void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Leaf leaf, Creases creases) {
     bool middle = cell == kMiddleCell;
     uint j = cell == 2u ? s.split : 1u;
     uint endJ = cell == 0u ? s.least : cell == 1u ? s.end + 1u - min(s.split, s.end) : middle ? min(s.split, s.end) : s.end;
@@ -165,10 +165,14 @@ void storeInside(const PatchPlace at, NetSource net, NetSamples s, uint cell, Le
         uint endI = !ownRow ? 0u : cell == 0u ? s.least - j : middle ? min(s.split, s.end - j) : s.end - j;
         do {
             precise float x = netParameter(s, i), inX = middle ? 1.0 - x : cell == 1u ? x - 1.0 : x;
-            precise vec3 p = net.origin + (leaf.first + rowOffset(row, inX));
             vec3 da = rowAlongX(row, inX), db = rowAlongY(row, inX);
+            CreaseSum more;
+            if (kSemiSharp) {
+                more = creaseSum(creases, cell, inX, inY);
+                da += more.dx, db += more.dy;
+            }
             Frame frame = seenFrom(s.corner, 0u, middle ? -da : da, middle ? -db : db);
-            store(at, i < endI, countsFrom(s.corner, i, j), p, frame);
+            store(at, i < endI, countsFrom(s.corner, i, j), inLeaf(net.origin, leaf, row, inX, more), frame);
         } while (++i < endI);
         ++j;
     } while (middle ? j < endJ : j + 1u < endJ);
@@ -183,7 +187,7 @@ void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, Lea
                    LeafPoints cage, bool back) {
     if (kInterior) return;
     uint corner = min(cell, 2u), side = back ? lastOf(corner) : corner;
-    bool whole = hasFlag(t, kWholeTriangleSide, side);
+    bool whole = !kSemiSharp && hasFlag(t, kWholeTriangleSide, side);
     LeafPoints from;
     [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) from.p[k] = SELECT3(whole, cage.p[k], points.p[k]);
     LeafSide line = leafSide(from, corner, back, hasFlag(t, kSharpTriangleSide, side));
@@ -197,14 +201,21 @@ void storeHalfSide(const PatchPlace at, Triangle t, NetSamples s, uint cell, Lea
     } while (++k < s.least);
 }
 // The middles of the sides, at even rates: the corners of the leaf in the middle.
-void storeMiddles(const PatchPlace at, Triangle t, NetSource net, LeafPoints points, Leaf leaf, LeafPoints cage) {
+void storeMiddles(const PatchPlace at, Triangle t, NetSource net, LeafPoints points, Leaf leaf, Creases creases, LeafPoints cage) {
     if (kInterior) return;
     uint side = 0u;
     do {
         uint v = lastOf(side);
-        bool whole = hasFlag(t, kWholeTriangleSide, side), sharp = hasFlag(t, kSharpTriangleSide, side);
+        bool whole = !kSemiSharp && hasFlag(t, kWholeTriangleSide, side), sharp = hasFlag(t, kSharpTriangleSide, side);
         vec3 position = whole ? onSide(leafSide(cage, side, false, sharp), vec2(0.5)) : middleOfSide(net, points, side);
-        Frame frame = leafFrame(leaf, vec2(v == 1u, v == 2u));
+        vec2 w = vec2(v == 1u, v == 2u);
+        LeafRow row = leafRow(leaf, w.y);
+        vec3 da = rowAlongX(row, w.x), db = rowAlongY(row, w.x);
+        if (kSemiSharp) {
+            CreaseSum more = creaseSum(creases, kMiddleCell, w.x, w.y);
+            da += more.dx, db += more.dy;
+        }
+        Frame frame = seenFrom(0u, 0u, da, db);
         store(at, last % 2u == 0u, countsFrom(side, last / 2u, 0u), position, Frame(-frame.du, -frame.dv, frame.normal));
     } while (++side < 3u);
 }
@@ -225,20 +236,29 @@ LeafPoints leafOfNet(NetPoints net, NetSource source, uint cell) {
     return leaf;
 }
 
+// What lies across semi-sharp creases stays as it is in `points`, for the samples on them.
+Leaf creasedLeaf(LeafPoints points, NetSource net, uint cell, out Creases creases) {
+    LeafPoints mirrored = points;
+    if (kSemiSharp) creases = takeCreases(mirrored, net.sharpness, cell);
+    return leafOf(mirrored);
+}
+
 // The triangle's own net: the leaf in the middle, which comes last, and those at plain corners.
 void storeOwnNet(const PatchPlace at, Triangle t) {
     uint nearer = (last + 1u) / 2u, cells = 1u << kMiddleCell | triangleFlags(t, kPlainTriangleCorner);
     NetSamples s = NetSamples(0u, last - nearer + 1u, nearer, last, 2.0);
     NetSource net = ownNet(at, t);
     NetPoints all = netPoints(at, net);
-    LeafPoints points, cage = cageLeaf(at, t);
+    LeafPoints points, cage; // sides of sharp triangles are never whole
+    if (!kSemiSharp) cage = cageLeaf(at, t);
     Leaf leaf;
+    Creases creases;
     bool more;
     do {
         uint cell = uint(findLSB(cells));
         points = leafOfNet(all, net, cell);
-        leaf = leafOf(points);
-        storeInside(at, net, s, cell, leaf);
+        leaf = creasedLeaf(points, net, cell, creases);
+        storeInside(at, net, s, cell, leaf, creases);
         storeHalfSide(at, t, s, cell, points, leaf, cage, false);
         storeHalfSide(at, t, s, cell, points, leaf, cage, true);
         store(at, !kInterior && cell < 3u, countsFrom(min(cell, 2u), 0u, 0u), cornerLimit(at, t, min(cell, 2u)),
@@ -248,21 +268,30 @@ void storeOwnNet(const PatchPlace at, Triangle t) {
         more = rest != 0u;
         cells = more ? rest : cells;
     } while (more);
-    storeMiddles(at, t, net, points, leaf, cage);
+    if (kSemiSharp) { // made anew: with creases, lavapipe does not keep it in lanes that have finished
+        points = leafOfNet(all, net, kMiddleCell);
+        leaf = creasedLeaf(points, net, kMiddleCell, creases);
+    }
+    storeMiddles(at, t, net, points, leaf, creases, cage);
 }
 
 // What a level has of the corner's two edges: the first has samples in cell 1, the second in cell 2.
-void storeOnEdge(const PatchPlace at, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf) {
+void storeOnEdge(const PatchPlace at, NetSource net, NetSamples s, uint cell, LeafPoints points, Leaf leaf, Creases creases) {
     if (kInterior) return;
     bool back = cell == 2u;
     LeafSide line = leafSide(points, 0u, back, (net.sides >> (back ? 2u : 0u) & 1u) != 0u);
+    float sharpness = back ? net.sharpness.z : net.sharpness.x;
     vec3 first = back ? leaf.c01 : leaf.c10, second = 2.0 * (back ? leaf.c02 : leaf.c20), third = 3.0 * (back ? leaf.c03 : leaf.c30);
     vec3 fourth = 4.0 * (back ? leaf.c04 : leaf.c40), mixed = back ? leaf.c12 : leaf.c21, across = back ? leaf.c10 : leaf.c01;
     uint k = s.split;
     do {
         precise float x = netParameter(s, k) - 1.0, rest = 1.0 - x;
-        precise vec3 p = net.origin + onSide(line, vec2(x, rest));
+        precise vec3 p = net.origin + onCreasedSide(line, sharpness, vec2(x, rest));
         vec3 d = first + x * (second + x * (third + x * fourth)), e = across + x * (leaf.c11 + x * (mixed + x * 0.5 * fourth));
+        if (kSemiSharp) {
+            CreaseWeights weights = creaseWeights(sharpness, vec2(x, 0.0));
+            d += weighted(creases.of[0], weights.along), e += weighted(creases.of[0], weights.across);
+        }
         store(at, cell < 3u && k < s.end, back ? countsFrom(s.corner, 0u, k) : countsFrom(s.corner, k, 0u), p,
               seenFrom(s.corner, 0u, back ? e : d, back ? d : e));
     } while (++k < s.end);
@@ -280,9 +309,10 @@ void storeChains(const PatchPlace at, Triangle t) {
         uint cell = 1u;
         do {
             LeafPoints points = leafOfNet(all, net, cell);
-            Leaf leaf = leafOf(points);
-            storeInside(at, net, s, cell, leaf);
-            storeOnEdge(at, net, s, cell, points, leaf);
+            Creases creases;
+            Leaf leaf = creasedLeaf(points, net, cell, creases);
+            storeInside(at, net, s, cell, leaf, creases);
+            storeOnEdge(at, net, s, cell, points, leaf, creases);
         } while (++cell < 4u);
         // At the corner the chords of the last level stand in for directions.
         bool isLast = level == chain.lastLevel;

@@ -52,8 +52,13 @@ vec3 middleOfSide(NetSource net, LeafPoints leaf, uint side) {
         p[k] = SELECT3(v == 0u, leaf.p[k], SELECT3(v == 1u, leaf.p[row + (at + 1u) % 3u], leaf.p[row + (at + 2u) % 3u]));
     }
     bool sharp = (net.sides >> side & 1u) != 0u;
+    float sharpness = kSemiSharp ? componentOf3(net.sharpness, side) : 0.0;
+    sharp = sharp || sharpness > 0.0;
     precise vec3 first = sharp ? p[8] + p[0] : p[11] + p[2], second = sharp ? p[0] + p[6] : p[3] + p[1];
-    return onLine(p[8], p[0], p[6], first, second);
+    vec3 middle = onLine(p[8], p[0], p[6], first, second);
+    if (!kSemiSharp) return middle;
+    vec3 creased = onCreasedLine(middle, excessOf(p[11], p[2], p[8], p[0]), excessOf(p[3], p[1], p[0], p[6]), sharpness);
+    return SELECT3(sharpness > 0.0, creased, middle);
 }
 
 // Where a sample of an irregular triangle lies in a leaf: in a cell of a net, the triangle's own or a chain's at `corner`.
@@ -113,10 +118,19 @@ vec3 onHalves(LeafPlace place, LeafPoints leaf, TrianglePoint s) {
     if (isMiddle(s)) return middleOfSide(place.net, leaf, s.side);
     bool far = s.along.x > s.along.y; // nearer to where the side ends
     uint begin = place.own ? place.cell : 0u;
-    bool sharp = (place.net.sides >> (far ? lastOf(begin) : begin) & 1u) != 0u;
+    uint side = far ? lastOf(begin) : begin; // of the net
+    bool endless = (place.net.sides >> side & 1u) != 0u;
+    float sharpness = kSemiSharp ? componentOf3(place.net.sharpness, side) : 0.0;
     precise float x = place.distance * place.scale - (place.own ? 0.0 : 1.0), rest = 1.0 - x;
-    precise vec3 p = place.net.origin + onSide(leafSide(leaf, begin, far, sharp), vec2(x, rest));
+    precise vec3 p = place.net.origin + onCreasedSide(leafSide(leaf, begin, far, endless), sharpness, vec2(x, rest));
     return p;
+}
+
+vec3 inLeaf(vec3 origin, Leaf leaf, LeafRow row, float x, CreaseSum more) {
+    precise vec3 p = leaf.first + rowOffset(row, x);
+    if (kSemiSharp) p = p + more.p;
+    precise vec3 position = origin + p;
+    return position;
 }
 
 void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to, out vec3 position, out Frame frame) {
@@ -124,9 +138,13 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
     LeafPlace place = leafPlace(at, t, s, isCorner != 3u);
     uint from = place.own ? 0u : place.corner;
     LeafPoints points = leafInCell(at, place.net, place.own, place.cell);
-    Leaf leaf = leafOf(points);
+    LeafPoints mirrored = points;
+    CreaseSum more;
+    if (kSemiSharp) more = creaseSum(takeCreases(mirrored, place.net.sharpness, place.cell), place.cell, place.x, place.y);
+    Leaf leaf = leafOf(mirrored);
     LeafRow row = leafRow(leaf, place.y);
     vec3 da = rowAlongX(row, place.x), db = rowAlongY(row, place.x);
+    if (kSemiSharp) da += more.dx, db += more.dy;
     if (isCorner != 3u) {
         position = cornerLimit(at, t, isCorner);
         if (!place.own) da = points.p[0] - points.p[11], db = points.p[8] - points.p[11]; // chords of the last level
@@ -137,8 +155,7 @@ void irregularTriangle(const PatchPlace at, Triangle t, TrianglePoint s, uint to
     bool reversed = place.cell == kMiddleCell;
     frame = seenFrom(from, to, reversed ? -da : da, reversed ? -db : db);
     if (s.side == kInside) {
-        precise vec3 p = place.net.origin + (leaf.first + rowOffset(row, place.x));
-        position = p;
+        position = inLeaf(place.net.origin, leaf, row, place.x, more);
     } else if (hasFlag(t, kWholeTriangleSide, s.side)) {
         position = onWholeSide(at, t, s.side, s.along);
     } else {

@@ -1,14 +1,17 @@
 // What a record says of a triangle of a Loop patch, and its leaves (docs/loop.md). Before the include: tables.glsl, frame.glsl,
-// net.glsl and what chain_place.glsl needs.
+// net.glsl and what chain_place.glsl and creases.glsl need.
 #include "shaders/loop/box_spline.glsl"
 #include "shaders/chains/chain_level.glsl"
 #include "shaders/chains/chain_place.glsl"
+#include "shaders/subdivision/sharpness.glsl"
+#include "shaders/loop/creases.glsl"
 
 struct Triangle {
     uvec4 corners; // limit points; then flags
     bool irregular;
     uvec4 chains, netLists, normals; // of an irregular one
     uint first; // what its net counts from
+    vec3 sharpness; // of its sides on level 1; of smooth and endless ones 0
 };
 Triangle triangleOf(uint record, bool irregular) {
     Triangle t;
@@ -16,6 +19,8 @@ Triangle triangleOf(uint record, bool irregular) {
     t.irregular = irregular;
     t.chains = t.netLists = t.normals = uvec4(0u);
     t.first = 0u;
+    t.sharpness = vec3(0.0);
+    if (kSemiSharp) t.sharpness = uintBitsToFloat(tableElement(record + kTriangleSharpnessElement).xyz);
     if (irregular) {
         t.chains = tableElement(record + kTriangleChainElement);
         t.netLists = tableElement(record + kTriangleChainElement + 1u);
@@ -52,19 +57,24 @@ Frame withCornerNormal(const PatchPlace at, Triangle t, uint corner, Frame frame
 }
 
 // A net: the triangle's own, of points of level 1, or that of a level of a chain. `net list`: which points from `first` on.
-// A bit a side that is a crease, and a corner that one passes.
+// A bit a side that is an endless crease, and a corner that one passes. Of its sides also the sharpness, 0 of endless ones.
 struct NetSource {
     uint netList, first;
     uint sides, corners;
-    vec3 origin;
+    vec3 sharpness, origin;
 };
 NetSource ownNet(const PatchPlace at, Triangle t) {
     return NetSource(at.record + kTriangleNetElement, t.first, triangleFlags(t, kSharpTriangleSide),
-                     triangleFlags(t, kCreasedTriangleCorner), vec3(0.0));
+                     triangleFlags(t, kCreasedTriangleCorner), t.sharpness, vec3(0.0));
 }
 NetSource chainNet(const PatchPlace at, Triangle t, Chain chain, uint corner, uint level) {
     uint sides = (hasFlag(t, kSharpTriangleSide, corner) ? 1u : 0u) | (hasFlag(t, kSharpTriangleSide, lastOf(corner)) ? 4u : 0u);
-    return NetSource(chain.netLists, levelPoints(chain, level), sides, 0u, chainOrigin(at, chain));
+    vec3 sharpness = vec3(0.0);
+    if (kSemiSharp) {
+        sharpness.x = softened(componentOf3(t.sharpness, corner), level - 1u);
+        sharpness.z = softened(componentOf3(t.sharpness, lastOf(corner)), level - 1u);
+    }
+    return NetSource(chain.netLists, levelPoints(chain, level), sides, 0u, sharpness, chainOrigin(at, chain));
 }
 // The points of the leaf in a cell, by their numbers in the net.
 const uint kCellPoints[4][12] = uint[4][12](uint[12](0u, 3u, 5u, 6u, 1u, 11u, 9u, 4u, 14u, 12u, 2u, 17u),
@@ -87,7 +97,7 @@ uint[kTriangleNetPoints] netIndices(NetSource net) {
     }
     return indices;
 }
-// Creases at the leaf in a cell.
+// Endless creases at the leaf in a cell.
 void mirrorInCell(inout LeafPoints leaf, NetSource net, uint cell) {
     uint own = 1u << cell, beside = 1u << cell | 1u << lastOf(cell);
     bool middle = cell == kMiddleCell;

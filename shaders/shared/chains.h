@@ -69,7 +69,8 @@ SUPPLE_SHARED_CONST kNetFirstShift = 4u;
 
 // Loop (docs/loop.md). Triangles: kLeafPoints pool indices of vertices; limit points of the corners, flags. Irregular ones
 // then have, an element each: pool index of the chains of the corners or 0; net lists of their sector; then their net, as quads:
-// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Net lists are as those of quads.
+// kTriangleNetPoints points of level 1, normals, in the last word the pool index alone. Net lists are as those of quads. Those
+// with semi-sharp creases end with the sharpness of their sides on level 1, 0 of smooth and endless ones.
 SUPPLE_SHARED_CONST kLeafPoints = 12u;
 SUPPLE_SHARED_CONST kTriangleNetPoints = 18u;
 SUPPLE_SHARED_CONST kTriangleNetListElements = 3u;
@@ -77,10 +78,12 @@ SUPPLE_SHARED_CONST kTriangleNetListNormals = 18u;
 SUPPLE_SHARED_CONST kTriangleNetListLastWord = 11u;
 SUPPLE_SHARED_CONST kTriangleElements = 4u;
 SUPPLE_SHARED_CONST kIrregularTriangleElements = 9u;
+SUPPLE_SHARED_CONST kSharpTriangleElements = 10u;
 SUPPLE_SHARED_CONST kTriangleCageElement = 0u;
 SUPPLE_SHARED_CONST kTriangleCornerElement = 3u;
 SUPPLE_SHARED_CONST kTriangleChainElement = 4u;
 SUPPLE_SHARED_CONST kTriangleNetElement = 6u;
+SUPPLE_SHARED_CONST kTriangleSharpnessElement = 9u;
 // Flags, three bits each: a side is an endless crease; a crease passes a plain corner, along none of the sides; both ends of a
 // side are plain; a corner is plain.
 SUPPLE_SHARED_CONST kSharpTriangleSide = 0u;

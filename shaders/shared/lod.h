@@ -151,6 +151,7 @@ SUPPLE_SHARED_CONST kMeasuresIrregularTriangles = 3u;
 // And lod/edge.comp of Loop.
 SUPPLE_SHARED_CONST kMeasuresWholeSides = 0u;
 SUPPLE_SHARED_CONST kMeasuresHalves = 1u;
+SUPPLE_SHARED_CONST kMeasuresSharpHalves = 2u; // of a semi-sharp crease
 
 // What the passes that choose levels are told.
 struct LodPush {

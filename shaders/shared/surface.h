@@ -90,6 +90,7 @@ SUPPLE_SHARED_CONST kIrregularSharpPatch = 12u;
 SUPPLE_SHARED_CONST kCreasedPatch = 13u;
 SUPPLE_SHARED_CONST kLoopRegularPatch = 14u;
 SUPPLE_SHARED_CONST kLoopIrregularPatch = 15u;
+SUPPLE_SHARED_CONST kLoopIrregularSharpPatch = 16u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;
@@ -161,7 +162,8 @@ SUPPLE_SHARED_CONST kMixedEdges = 2u;     // of all of P_m's patches
 SUPPLE_SHARED_CONST kHalvesEdges = 3u;    // of irregular quads of exact patches
 SUPPLE_SHARED_CONST kTriangleEdges = 4u;   // of regular Loop patches
 SUPPLE_SHARED_CONST kIrregularTriangleEdges = 5u;
-SUPPLE_SHARED_CONST kEdgeKinds = 6u;
+SUPPLE_SHARED_CONST kSharpTriangleEdges = 6u; // of irregular triangles with semi-sharp creases
+SUPPLE_SHARED_CONST kEdgeKinds = 7u;
 
 SUPPLE_SHARED_CONST kEdgeElements = 3u;
 SUPPLE_SHARED_CONST kNoEdgeSample = 0xFFFFFFFFu;

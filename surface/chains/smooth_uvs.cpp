@@ -38,6 +38,7 @@ public:
     }
     /// Behind write(). `p`: its index in device order.
     virtual void writePatch(uint32_t p, const DraftPatch& patch, FanTables& fans, TableWriter& writer) = 0;
+    void setSharp(bool sharp) { sharp_ = sharp; }
     /// Behind write().
     [[nodiscard]] Status checkSize() const { return points_.checkSize(); }
 
@@ -56,6 +57,7 @@ protected:
     }
 
     UvPoints points_;
+    bool sharp_ = false; ///< triangles have the sharpness of their sides (haveSharpUvs())
 
 private:
     size_t netSize_;
@@ -121,6 +123,9 @@ public:
         const uint32_t first = firstOfNet(numbersOf(p));
         writeNetList(numbersOf(p), first, shared::kTriangleNetListElements,
                      {shared::kTriangleNetListNormals, {}, points_.firstPoint() + first}, writer);
+        if (sharp_) {
+            writer.put(triangles_.sharpnessOf(patch.cageCorners));
+        }
     }
 
 private:
@@ -165,6 +170,9 @@ Status writeUvLeaves(const Recipe& recipe, const cage::Cage& cage, const UvDeman
     }
     tables.uvMode = recipe.uvMode;
     tables.uvLeaves = true;
+    for (const std::unique_ptr<UvSet>& set : sets) {
+        set->setSharp(haveSharpUvs(tables));
+    }
     for (PatchRange& range : tables.ranges) {
         range.smoothUvs = writer.element();
         for (uint32_t p = range.firstPatch; p < range.firstPatch + range.section.count; ++p) {

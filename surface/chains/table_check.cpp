@@ -59,7 +59,7 @@ private:
     bool checkMembers() {
         using enum PatchClass;
         const bool fits = subdivision_ == Subdivision::loop
-                              ? checkClasses(check_, {loopRegular, loopIrregular})
+                              ? checkClasses(check_, {loopRegular, loopIrregular, loopIrregularSharp})
                               : checkClasses(check_, {regular, irregular, irregularSharp, creased});
         check_.begin("tables");
         // A step, plain vertices, points of level 1, limits, whole chains, then levels.

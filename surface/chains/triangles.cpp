@@ -1,14 +1,22 @@
 #include "surface/chains/triangles.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace supple::surface::loop {
 namespace {
 
 constexpr uint32_t kRegularSpokes = 6, kOpposite = 3;
 
-/// `sharp`: by spoke.
-bool isPlainFan(const std::vector<bool>& sharp, bool open) {
+/// `spokes`: their sharpness. Chains alone have semi-sharp ones.
+bool isPlainFan(const std::vector<float>& spokes, bool open) {
+    std::vector<bool> sharp;
+    for (const float spoke : spokes) {
+        if (spoke > 0.0f && spoke < kInfiniteSharpness) {
+            return false;
+        }
+        sharp.push_back(spoke > 0.0f);
+    }
     const auto count = std::count(sharp.begin(), sharp.end(), true);
     if (open) {
         return sharp.size() == kRegularSpokes - 2 && count == 2;
@@ -24,13 +32,13 @@ bool isPlainFan(const std::vector<bool>& sharp, bool open) {
 
 Triangles::Triangles(const RefinedMesh& mesh) : mesh_(mesh) {
     const cage::Topology& topology = mesh.topology;
-    std::vector<bool> sharp;
+    std::vector<float> spokes;
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
-        sharp.clear();
+        spokes.clear();
         for (uint32_t s = topology.spokeStarts[v]; s < topology.spokeStarts[v + 1]; ++s) {
-            sharp.push_back(mesh.edgeSharpness[cage::spokeEdge(mesh.cage, topology, s)] > 0.0f);
+            spokes.push_back(mesh.edgeSharpness[cage::spokeEdge(mesh.cage, topology, s)]);
         }
-        plain_.push_back(mesh.vertexSharpness[v] == 0.0f && isPlainFan(sharp, topology.boundary[v] != 0) ? 1 : 0);
+        plain_.push_back(mesh.vertexSharpness[v] == 0.0f && isPlainFan(spokes, topology.boundary[v] != 0) ? 1 : 0);
     }
 }
 
@@ -76,11 +84,19 @@ uint32_t Triangles::flagsOf(std::span<const uint32_t> corners) const {
     uint32_t flags = 0;
     for (uint32_t i = 0; i < 3; ++i) {
         const CornerKind kind = kindOf(corners[i]);
-        flags |= isSharp(corners[i]) ? 1u << (shared::kSharpTriangleSide + i) : 0u;
+        flags |= isEndless(corners[i]) ? 1u << (shared::kSharpTriangleSide + i) : 0u;
         flags |= kind == CornerKind::creased ? 1u << (shared::kCreasedTriangleCorner + i) : 0u;
         flags |= kind != CornerKind::chain ? 1u << (shared::kPlainTriangleCorner + i) : 0u;
     }
     return flags;
+}
+
+std::array<uint32_t, 4> Triangles::sharpnessOf(std::span<const uint32_t> corners) const {
+    std::array<uint32_t, 4> words{};
+    for (uint32_t i = 0; i < 3; ++i) {
+        words[i] = std::bit_cast<uint32_t>(isSemiSharp(corners[i]) ? softened(sharpness(corners[i]), 1) : 0.0f);
+    }
+    return words;
 }
 
 uint32_t Triangles::chainsFrom(uint32_t face, uint32_t first) const {

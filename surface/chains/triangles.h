@@ -3,6 +3,7 @@
 
 #include "shaders/shared/chains.h"
 #include "surface/refinement.h"
+#include "surface/subdivision_rules.h"
 
 #include <array>
 #include <span>
@@ -58,12 +59,16 @@ public:
     /// As chains::Corners::firstCorner(), and a bit per corner from that one on that has a chain.
     [[nodiscard]] uint8_t firstCorner(uint32_t face) const;
     [[nodiscard]] uint32_t chainsOf(uint32_t face) const { return chainsFrom(face, firstCorner(face)); }
-    [[nodiscard]] bool isSharp(uint32_t corner) const {
-        return mesh_.edgeSharpness[mesh_.topology.cornerEdges[corner]] > 0.0f;
+    /// The side behind a corner: whether it is an endless crease, or a semi-sharp one on level 1.
+    [[nodiscard]] bool isEndless(uint32_t corner) const { return sharpness(corner) >= kInfiniteSharpness; }
+    [[nodiscard]] bool isSemiSharp(uint32_t corner) const {
+        return !isEndless(corner) && softened(sharpness(corner), 1) > 0.0f;
     }
     /// Flags of a record (shaders/shared/chains.h) but for whole sides. `corners`: of the mesh, from the patch's first
     /// on.
     [[nodiscard]] uint32_t flagsOf(std::span<const uint32_t> corners) const;
+    /// The sharpness of its sides, as records have it.
+    [[nodiscard]] std::array<uint32_t, 4> sharpnessOf(std::span<const uint32_t> corners) const;
     /// The limit at a plain vertex, as weights of vertices of the mesh.
     void addLimit(uint32_t vertex, Stencils& rows) const;
 
@@ -73,6 +78,9 @@ public:
     [[nodiscard]] TriangleNet netOf(uint32_t face, uint32_t first) const;
 
 private:
+    [[nodiscard]] float sharpness(uint32_t corner) const {
+        return mesh_.edgeSharpness[mesh_.topology.cornerEdges[corner]];
+    }
     [[nodiscard]] uint32_t cornerOf(uint32_t face, uint32_t i) const { return mesh_.cage.faceStarts[face] + i % 3; }
     [[nodiscard]] uint32_t chainsFrom(uint32_t face, uint32_t first) const;
     /// The spoke so many steps counter-clockwise from a corner's own; cage::kNone behind a border.

@@ -21,6 +21,7 @@ constexpr EdgeKernel kEdgeKernels[] = {{Kernel::lodEdge},
                                        {Kernel::lodEdgeHalves},
                                        {Kernel::lodEdgeTriangles, shared::kMeasuresWholeSides},
                                        {Kernel::lodEdgeTriangles, shared::kMeasuresHalves},
+                                       {Kernel::lodEdgeTriangles, shared::kMeasuresSharpHalves},
                                        {Kernel::lodEdgeCharts}};
 static_assert(std::size(kEdgeKernels) == static_cast<size_t>(Borders::charts) + 1);
 
@@ -40,6 +41,7 @@ PatchKernel patchKernel(PatchClass patchClass) {
         return {Kernel::lodPatchHalves, Kernel::lodPatchHalves};
     case Borders::splines:
     case Borders::splineHalves: // edges alone have these
+    case Borders::sharpHalves:
         return patchClass == PatchClass::loopRegular
                    ? PatchKernel{Kernel::lodPatchTriangles, Kernel::lodPatchBackFacesTriangles,
                                  shared::kMeasuresRegularTriangles}

@@ -18,8 +18,11 @@ bool checkSide(TableCheck& check, Borders borders, std::span<const uint32_t> edg
     if (range == nullptr) {
         return check.require(false, "no record of a patch");
     }
-    const bool fits = borders == Borders::splineHalves ? range->patchClass == PatchClass::loopIrregular
-                                                       : rowOf(range->patchClass).borders == borders;
+    const bool irregular = range->patchClass == PatchClass::loopIrregular,
+               sharp = range->patchClass == PatchClass::loopIrregularSharp;
+    const bool fits = borders == Borders::splineHalves  ? irregular || sharp
+                      : borders == Borders::sharpHalves ? sharp
+                                                        : rowOf(range->patchClass).borders == borders;
     return check.require(fits, "a patch of another class") &&
            check.within(edge[1], 1, cornerCount(domainOf(range->patchClass)), "sides");
 }

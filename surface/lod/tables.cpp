@@ -46,8 +46,8 @@ void writeEdge(const PatchSide& side, uint32_t record, uint32_t number, TableWri
 Words writeEdges(const PatchEdges& edges, const std::vector<uint32_t>& records, Tables& tables) {
     TableWriter writer(tables.words);
     Words numbers(edges.edgeBound(), cage::kNone);
-    for (const Borders kind :
-         {Borders::cubics, Borders::halves, Borders::splines, Borders::splineHalves, Borders::charts}) {
+    for (const Borders kind : {Borders::cubics, Borders::halves, Borders::splines, Borders::splineHalves,
+                               Borders::sharpHalves, Borders::charts}) {
         const uint32_t first = tables.lod.edgeCount, element = writer.element();
         for (uint32_t patch = 0; patch < records.size(); ++patch) {
             const std::span<const PatchSide> sides = edges.sidesOf(patch);

@@ -1,5 +1,4 @@
 // Loop patches as a scheme: the tables of shaders/shared/{surface,chains}.h (docs/loop.md).
-#include "cage/features.h"
 #include "surface/build.h"
 #include "surface/chains/chain_tables.h"
 #include "surface/chains/needed_rows.h"
@@ -42,7 +41,7 @@ public:
         const std::vector<DraftPatch> patches =
             draftPatches({cage_, mesh_.hostVertices, parent_.sourceFaces, firstCorners_}, [&](DraftPatch& patch) {
                 patch.kind = triangles_.chainsOf(patch.facet);
-                return patch.kind == 0 ? PatchClass::loopRegular : PatchClass::loopIrregular;
+                return classOf(patch);
             });
         findPoints(patches);
         layOutPool();
@@ -75,6 +74,15 @@ private:
         }
         return contents;
     }
+    [[nodiscard]] PatchClass classOf(const DraftPatch& patch) const {
+        bool sharp = false;
+        for (uint32_t i = 0; i < 3; ++i) {
+            sharp = sharp || triangles_.isSemiSharp(patch.cageCorners[i]);
+        }
+        return sharp             ? PatchClass::loopIrregularSharp
+               : patch.kind == 0 ? PatchClass::loopRegular
+                                 : PatchClass::loopIrregular;
+    }
     [[nodiscard]] uint32_t firstOf(const DraftPatch& patch) const { return firstCorners_[patch.facet]; }
 
     /// Whether both ends of a side are plain: then it is one spline, of vertices.
@@ -91,7 +99,7 @@ private:
         }
         netOfPatch_.assign(patches.size(), cage::kNone);
         for (const uint32_t p : chains::patchesByNeighbours(patches, cage_, topology_)) {
-            if (patches[p].info.patchClass == PatchClass::loopIrregular) {
+            if (patches[p].info.patchClass != PatchClass::loopRegular) {
                 netOfPatch_[p] = static_cast<uint32_t>(nets_.size());
                 levelOne_.needNet(nets_.emplace_back(triangles_.netOf(patches[p].facet, firstOf(patches[p]))));
             }
@@ -162,11 +170,17 @@ private:
             PatchSide& side = edges_->sides.emplace_back();
             side.edge = topology_.cornerEdges[c];
             side.corner = cornerNumber(c);
-            side.creased = triangles_.isSharp(c);
-            side.borders = isWhole(patch, i) ? Borders::splines : Borders::splineHalves;
-            side.kind = patch.info.patchClass == PatchClass::loopRegular ? shared::kTriangleEdges
-                                                                         : shared::kIrregularTriangleEdges;
+            side.creased = triangles_.isEndless(c);
+            side.borders = triangles_.isSemiSharp(c) ? Borders::sharpHalves
+                           : isWhole(patch, i)       ? Borders::splines
+                                                     : Borders::splineHalves;
+            side.kind = edgeKind(patch.info.patchClass);
         }
+    }
+    [[nodiscard]] static uint32_t edgeKind(PatchClass patchClass) {
+        return patchClass == PatchClass::loopRegular     ? shared::kTriangleEdges
+               : patchClass == PatchClass::loopIrregular ? shared::kIrregularTriangleEdges
+                                                         : shared::kSharpTriangleEdges;
     }
     /// PatchSide::corner. Triangles between creases have normals of their own. A plain vertex stores none: it is named
     /// by its limit point and by the side of its crease.
@@ -195,6 +209,9 @@ private:
         const uint32_t first = chains::firstOfNet(net);
         chains::writeNetList(net, first, shared::kTriangleNetListElements,
                              {shared::kTriangleNetListNormals, normals, firstLevelOne_ + first}, writer_);
+        if (patch.info.patchClass == PatchClass::loopIrregularSharp) {
+            writer_.put(triangles_.sharpnessOf(patch.cageCorners));
+        }
     }
 
     const cage::Cage& host_;
@@ -221,9 +238,6 @@ private:
 } // namespace
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges) {
-    if (cage::hasSemiSharpCreases(cage)) {
-        return Error{ErrorCode::asset, "creases are semi-sharp: Loop patches have hard ones"};
-    }
     const Result<Isolation> isolation = subdivision::isolateCage(cage, Subdivision::loop);
     if (!isolation) {
         return isolation.error();

@@ -239,7 +239,6 @@ cage::Cage withUvs(cage::Cage cage) {
     return cage;
 }
 
-/// Loop has patches without semi-sharp creases.
 cage::Cage creased(cage::Cage cage) {
     return withRandomSharpness(std::move(cage), 7);
 }
@@ -250,14 +249,11 @@ std::vector<RateCase> rateCases() {
     const auto named =
         std::find_if(zoo.begin(), zoo.end(), [](const SubdivisionCage& z) { return z.name == "mixed, valence 5"; });
     const cage::Cage mixed = withUvs(named->cage);
-    const cage::Cage triangles = withUvs(inTriangles(perturbed(cage::makeCubeSphere(2), 0.05f, 4)));
     std::vector<RateCase> cases{
         {"fragments, quads", SUPPLE_SCHEME_FRAGMENTS, bodyOf(quads)},
         {"fragments, quads, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(quads))},
         {"fragments, mixed", SUPPLE_SCHEME_FRAGMENTS, bodyOf(mixed), SUPPLE_BIND_POSE, 4},
         {"fragments, mixed, creased", SUPPLE_SCHEME_FRAGMENTS, bodyOf(creased(mixed)), SUPPLE_BIND_POSE, 4},
-        {"Loop, triangles, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(triangles))},
-        {"Loop, mixed, creased", SUPPLE_SCHEME_LOOP, bodyOf(creased(mixed))},
     };
     const Result<cage::Character> pip = cage::readGltfFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb");
     EXPECT_TRUE(pip.ok());

@@ -1,5 +1,4 @@
 // Loop patches on the device: against the limit in double, both mappings, and the bits that patches share.
-#include "cage/features.h"
 #include "surface/build.h"
 #include "tests/support/crowd.h"
 #include "tests/support/large_pole.h"
@@ -26,17 +25,6 @@ GpuOptions loopOptions(SuppleMapping mapping, uint32_t rate) {
     options.flags = 0;
     options.rate = rate;
     return options;
-}
-
-/// Those that Loop patches take.
-std::vector<SubdivisionCage> loopZoo() {
-    std::vector<SubdivisionCage> cages;
-    for (const SubdivisionCage& zoo : subdivisionZoo()) {
-        if (!cage::hasSemiSharpCreases(zoo.cage)) {
-            cages.push_back(zoo);
-        }
-    }
-    return cages;
 }
 
 class LoopOnGpu : public testing::TestWithParam<SuppleMapping> {
@@ -87,7 +75,7 @@ TEST_P(LoopOnGpu, SurfaceIsTheLimit) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    const std::vector<SubdivisionCage> zoo = loopZoo();
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
     for (const uint32_t rate : {1u, 2u, 3u, 5u, 8u, 17u}) {
         Worst worst;
         for (size_t i = 0; i < zoo.size(); i += rate < 8 ? 1 : 3) {
@@ -123,9 +111,6 @@ TEST_P(LoopOnGpu, CharactersAreTheLimit) {
         cage::Cage cage = character.cage;
         cage.faceMaterials.clear(); // the group is made of arrays without them
         cage.faceParts.clear();
-        if (cage::hasSemiSharpCreases(cage)) {
-            return;
-        }
         Worst worst;
         ASSERT_NO_FATAL_FAILURE(compare(*device, cage, 4, 1 + cage.faceCount() / 40, worst));
         EXPECT_LE(worst.position, 1e-6);
@@ -158,7 +143,7 @@ TEST_P(LoopOnGpu, BordersAgreeBitForBit) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     std::map<uint32_t, ComparedBits> byRate;
-    const std::vector<SubdivisionCage> zoo = loopZoo();
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
     for (size_t i = 0; i < zoo.size(); ++i) {
         SCOPED_TRACE(zoo[i].name);
         const LoopTriangles triangles(zoo[i].cage);
@@ -186,7 +171,7 @@ TEST(LoopMappings, GiveTheSamePositionBits) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     ComparedBits bits;
-    for (const SubdivisionCage& zoo : loopZoo()) {
+    for (const SubdivisionCage& zoo : subdivisionZoo()) {
         for (const uint32_t rate : {6u, 7u}) {
             ASSERT_NO_FATAL_FAILURE(compareMappings(*device, zoo.cage, loopOptions(SUPPLE_MAPPING_NARROW, rate), bits));
         }

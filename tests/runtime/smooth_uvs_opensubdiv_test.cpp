@@ -199,6 +199,7 @@ TEST(SmoothUvsOpenSubdiv, InSixModes) {
     compareAll("catmull-clark, creases", withRandomSharpness(quads, 2), SUPPLE_SCHEME_CATMULL_CLARK);
     compareAll("fragments, quads", quads, SUPPLE_SCHEME_FRAGMENTS);
     compareAll("loop, triangles", triangles, SUPPLE_SCHEME_LOOP);
+    compareAll("loop, creases", withRandomSharpness(triangles, 2), SUPPLE_SCHEME_LOOP);
 }
 
 #endif

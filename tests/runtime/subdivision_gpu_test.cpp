@@ -1,6 +1,5 @@
 // The subdivision on the device: against the reference, both mappings, all depths, and the bits its patches
 // share.
-#include "cage/features.h"
 #include "tests/support/corner_weights.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/prep_surface.h"
@@ -19,19 +18,6 @@ namespace {
 using surface::subdivision::Mesh;
 using surface::subdivision::Subdivision;
 
-Subdivision subdivisionOf(SuppleScheme scheme, SuppleFragmentRules rules = SUPPLE_RULES_CATMULL_CLARK) {
-    const bool loop = scheme == SUPPLE_SCHEME_LOOP || rules == SUPPLE_RULES_LOOP;
-    return loop ? Subdivision::loop : Subdivision::catmullClark;
-}
-
-/// With a semi-sharp crease, which Loop patches do not take: what is drawn is refined.
-cage::Cage refined(cage::Cage cage, SuppleScheme scheme) {
-    if (scheme == SUPPLE_SCHEME_LOOP) {
-        cage.creases.push_back({cage.faceVertices[0], cage.faceVertices[1], 0.5f});
-    }
-    return cage;
-}
-
 /// Patches of one class.
 PatchFaces subdivisionPatches(const Mesh& mesh, const GpuSurface& gpu) {
     return patchFaces(mesh, gpu, [](uint32_t /*face*/) { return 0; });
@@ -40,7 +26,8 @@ PatchFaces subdivisionPatches(const Mesh& mesh, const GpuSurface& gpu) {
 class SubdivisionOnGpu : public testing::TestWithParam<GpuCase> {
 protected:
     [[nodiscard]] static Mesh meshOf(const cage::Cage& cage) {
-        return subdivisionMesh(cage, subdivisionOf(GetParam().options.scheme, GetParam().options.rules));
+        return subdivisionMesh(cage, GetParam().options.rules == SUPPLE_RULES_LOOP ? Subdivision::loop
+                                                                                   : Subdivision::catmullClark);
     }
 };
 INSTANTIATE_TEST_SUITE_P(
@@ -48,8 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(onBothMappings(
         {{"Fragments", {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = SUPPLE_GROUP_ATTRIBUTES}},
          {"ByLoopsRules",
-          {.scheme = SUPPLE_SCHEME_FRAGMENTS, .rules = SUPPLE_RULES_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}},
-         {"Loop", {.scheme = SUPPLE_SCHEME_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
+          {.scheme = SUPPLE_SCHEME_FRAGMENTS, .rules = SUPPLE_RULES_LOOP, .flags = SUPPLE_GROUP_ATTRIBUTES}}})),
     [](const auto& param) { return param.param.name; });
 
 /// Against double for exactness, and against float, whose sums are the device's own, for the bits.
@@ -64,7 +50,7 @@ TEST_P(SubdivisionOnGpu, SurfaceMatchesTheReference) {
         ComparedBits bits;
         for (size_t i = 0; i < zoo.size(); i += depth < 4 ? 1 : 7) {
             SCOPED_TRACE(zoo[i].name);
-            const cage::Cage cage = refined(zoo[i].cage, GetParam().options.scheme);
+            const cage::Cage& cage = zoo[i].cage;
             GpuSurface gpu(*device, cage, GetParam().at(1u << depth));
             ASSERT_TRUE(gpu.valid());
             gpu.evaluate();
@@ -118,7 +104,7 @@ TEST_P(SubdivisionOnGpu, BordersAgreeBitForBit) {
     ComparedBits bits;
     const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
     for (size_t i = 0; i < zoo.size(); ++i) {
-        const cage::Cage cage = refined(zoo[i].cage, GetParam().options.scheme);
+        const cage::Cage& cage = zoo[i].cage;
         const Mesh mesh = meshOf(cage);
         const Result<cage::Topology> topology = cage::buildTopology(mesh.cage);
         ASSERT_TRUE(topology.ok());
@@ -142,7 +128,7 @@ TEST_P(SubdivisionOnGpu, LargeFragmentsGoThroughTheScratchBuffer) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    const cage::Cage cage = refined(gyroBipyramid(40), GetParam().options.scheme);
+    const cage::Cage cage = gyroBipyramid(40);
     GpuOptions wanted = GetParam().at(64);
     wanted.instanceCount = 2;
     GpuSurface gpu(*device, cage, wanted);
@@ -166,7 +152,7 @@ TEST_P(SubdivisionOnGpu, AttributesReachTheSurfaceVertices) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
-    cage::Cage cage = refined(subdivisionZoo().front().cage, GetParam().options.scheme);
+    cage::Cage cage = subdivisionZoo().front().cage;
     for (uint32_t c = 0; c < cage.cornerCount(); ++c) { // a seam at every edge
         const auto x = static_cast<float>(c % 97) / 97.0f;
         cage.cornerUvs.emplace_back(x, 1.0f - x * x);
@@ -198,24 +184,21 @@ TEST(SubdivisionMappings, GiveTheSamePositionBits) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     ComparedBits bits;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-        for (const SubdivisionCage& entry : subdivisionZoo()) {
-            ASSERT_NO_FATAL_FAILURE(
-                compareMappings(*device, refined(entry.cage, scheme), {.scheme = scheme, .flags = 0}, bits));
-        }
+    for (const SubdivisionCage& entry : subdivisionZoo()) {
+        ASSERT_NO_FATAL_FAILURE(
+            compareMappings(*device, entry.cage, {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = 0}, bits));
     }
     bits.print("samples");
     EXPECT_EQ(bits.different, 0u);
 }
 
-void compareCharacter(host::Device& device, const std::string& path, const cage::Character& character,
-                      SuppleScheme scheme) {
-    const Result<Mesh> mesh = surface::subdivision::buildMesh(character.cage, subdivisionOf(scheme));
+void compareCharacter(host::Device& device, const std::string& path, const cage::Character& character) {
+    const Result<Mesh> mesh = surface::subdivision::buildMesh(character.cage, Subdivision::catmullClark);
     if (!mesh.ok()) { // tests/runtime/assets_table_test.cpp says which these are
         std::printf("refused: %s: %s\n", std::filesystem::path(path).filename().c_str(), mesh.error().message.c_str());
         return;
     }
-    GpuSurface gpu(device, path, {.scheme = scheme, .flags = 0});
+    GpuSurface gpu(device, path, {.scheme = SUPPLE_SCHEME_FRAGMENTS, .flags = 0});
     ASSERT_TRUE(gpu.valid());
     evaluateInAPose(gpu, character);
     const PatchFaces found = subdivisionPatches(*mesh, gpu);
@@ -228,9 +211,9 @@ void compareCharacter(host::Device& device, const std::string& path, const cage:
                 bits.compare(gpu.vertex(0, p, s).position, grid.samples[s].position + 0.0f);
             }
         });
-    std::printf("%-24s %-13s %8llu samples, %llu differ from the float reference\n",
-                std::filesystem::path(path).filename().c_str(), scheme == SUPPLE_SCHEME_LOOP ? "Loop" : "fragments",
-                static_cast<unsigned long long>(bits.samples), static_cast<unsigned long long>(bits.different));
+    std::printf("%-24s %8llu samples, %llu differ from the float reference\n",
+                std::filesystem::path(path).filename().c_str(), static_cast<unsigned long long>(bits.samples),
+                static_cast<unsigned long long>(bits.different));
     EXPECT_EQ(bits.different, 0u);
 }
 
@@ -240,10 +223,7 @@ TEST(SubdivisionCharacters, HaveTheReferencesBits) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     forEachCharacter(allCharacters(), [&](const std::string& path, const cage::Character& character) {
-        compareCharacter(*device, path, character, SUPPLE_SCHEME_FRAGMENTS);
-        if (cage::hasSemiSharpCreases(character.cage)) { // others have patches
-            compareCharacter(*device, path, character, SUPPLE_SCHEME_LOOP);
-        }
+        compareCharacter(*device, path, character);
     });
 }
 

@@ -18,7 +18,8 @@ inline uint32_t chainDepth(const std::vector<LodSurface::Patch>& patches, uint32
     float finest = 1.0f;
     for (const LodSurface::Patch& patch : patches) {
         const surface::PatchClass own = classOf(patch.patch);
-        if (patch.slot == slot && (own == irregular || own == irregularSharp || own == loopIrregular)) {
+        if (patch.slot == slot &&
+            (own == irregular || own == irregularSharp || own == loopIrregular || own == loopIrregularSharp)) {
             for (size_t pair = 0; pair < patch.levels.size(); pair += 2) {
                 finest = std::max(finest, 2.0f * patch.levels[pair] + 1.0f);
             }

@@ -19,11 +19,7 @@ struct LoopTriangles {
     template <class Patches>
     [[nodiscard]] PatchFaces patches(const Patches& patches) const {
         PatchFaces found = patchFaces(
-            isolation.parent, patches,
-            [&](uint32_t face) {
-                return triangles.chainsOf(face) == 0 ? surface::PatchClass::loopRegular
-                                                     : surface::PatchClass::loopIrregular;
-            },
+            isolation.parent, patches, [&](uint32_t face) { return classOf(face); },
             [&](uint32_t face) { return triangles.chainsOf(face); });
         for (uint32_t f = 0; f < isolation.parent.cage.faceCount(); ++f) {
             found.firstCorners.push_back(triangles.firstCorner(f));
@@ -58,6 +54,13 @@ struct LoopTriangles {
     surface::loop::Triangles triangles;
 
 private:
+    [[nodiscard]] surface::PatchClass classOf(uint32_t face) const {
+        using enum surface::PatchClass;
+        const uint32_t first = isolation.parent.cage.faceStarts[face];
+        const bool sharp =
+            triangles.isSemiSharp(first) || triangles.isSemiSharp(first + 1) || triangles.isSemiSharp(first + 2);
+        return sharp ? loopIrregularSharp : triangles.chainsOf(face) == 0 ? loopRegular : loopIrregular;
+    }
     static surface::subdivision::Isolation isolationOf(const cage::Cage& cage) {
         Result<surface::subdivision::Isolation> isolation =
             surface::subdivision::isolateCage(cage, surface::subdivision::Subdivision::loop);

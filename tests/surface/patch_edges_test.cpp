@@ -103,7 +103,7 @@ TEST(PatchEdges, BothSidesOfAnEdgeSayTheSame) {
             ++kinds[sides[0].side->borders];
         }
     });
-    EXPECT_EQ(kinds.size(), 5u) << "of all kinds";
+    EXPECT_EQ(kinds.size(), 6u) << "of all kinds";
     EXPECT_GT(creased, 0u);
     EXPECT_GT(single, 0u);
 }

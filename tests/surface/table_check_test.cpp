@@ -166,7 +166,7 @@ void expectRefused(const Sample& sample, std::span<const Change> changes) {
 
 TEST(TableCheck, PatchesAndRanges) {
     constexpr Change kChanges[] = {
-        {"patches: an unknown class", [](Tables& t) { t.patches[3].patchClass = static_cast<PatchClass>(16); }},
+        {"patches: an unknown class", [](Tables& t) { t.patches[3].patchClass = static_cast<PatchClass>(17); }},
         {"patches: a count of corners not its class's", [](Tables& t) { t.patches[3].cornerCount = 6; }},
         {"patches: 18, of # faces", [](Tables& t) { t.patches[3].face = 18; }},
         {"patches: 999, of # cage vertices", [](Tables& t) { t.patches[3].corners[1] = 999; }},
@@ -267,7 +267,7 @@ TEST(TableCheck, ClassesOfOtherSchemes) {
 
 TEST(TableCheck, IndexedMesh) {
     constexpr Change kChanges[] = {
-        {"edges of the indexed mesh: 6, of # kinds", [](Tables& t) { t.mesh.edges[0].kind = shared::kEdgeKinds; }},
+        {"edges of the indexed mesh: 7, of # kinds", [](Tables& t) { t.mesh.edges[0].kind = shared::kEdgeKinds; }},
         {"edges of the indexed mesh: no record of a patch",
          [](Tables& t) { t.mesh.edges[0].kind = shared::kHalvesEdges; }},
         {"edges of the indexed mesh: they do not follow each other",

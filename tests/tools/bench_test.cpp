@@ -98,8 +98,7 @@ TEST_F(Bench, QuickRunIsWhole) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
             ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
                            scheme + " frame / plain C++ bi-3"});
-            const bool refined = scheme == "loop" && expected.cage == std::string("pip"); // its creases are semi-sharp
-            if (scheme != "fragments" && scheme != "blend" && !refined) {
+            if (scheme != "fragments" && scheme != "blend") {
                 contestants.insert({scheme + " shared evaluate", scheme + " shared frame"});
                 ratios.insert({scheme + " shared evaluate / " + scheme + " evaluate",
                                scheme + " shared evaluate / plain C++ bi-3"});

@@ -77,8 +77,8 @@ Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> byt
 
 } // namespace
 
-bool sharesSamples(SuppleScheme scheme, const cage::Cage& cage) {
-    return surface::schemeOf(surface::drawerOf(static_cast<surface::SchemeId>(scheme), cage).scheme).hasIndexedMesh;
+bool sharesSamples(SuppleScheme scheme) {
+    return surface::schemeOf(static_cast<surface::SchemeId>(scheme)).hasIndexedMesh;
 }
 
 const std::vector<std::string>& builtInCages() {

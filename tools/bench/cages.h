@@ -20,7 +20,7 @@ struct BenchCage {
 };
 
 /// Whether a cage is also measured as an indexed mesh of the scheme, which stores the samples that patches share once.
-[[nodiscard]] bool sharesSamples(SuppleScheme scheme, const cage::Cage& cage);
+[[nodiscard]] bool sharesSamples(SuppleScheme scheme);
 
 /// The names of the built-in ones.
 [[nodiscard]] const std::vector<std::string>& builtInCages();

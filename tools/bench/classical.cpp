@@ -119,7 +119,7 @@ Status Race::load() {
     for (const SuppleScheme scheme : desc_.cage->schemes) {
         const std::string name = tools::schemeName(scheme);
         ways_.push_back({name, cage_, scheme, 0, *fileBytes, nullptr});
-        if (sharesSamples(scheme, desc_.cage->character.cage)) {
+        if (sharesSamples(scheme)) {
             ways_.push_back({name + " shared", cage_, scheme, SUPPLE_GROUP_INDEXED_MESH, *fileBytes, nullptr});
         }
     }

@@ -86,7 +86,7 @@ Status Heat::addSchemes() {
         if (status && scheme == SUPPLE_SCHEME_PREP && desc_.cage->bothFormats) {
             status = addSubject(*asset, scheme, kVertex24Variant);
         }
-        if (status && sharesSamples(scheme, desc_.cage->character.cage)) {
+        if (status && sharesSamples(scheme)) {
             status = addSubject(*asset, scheme, kSharedVariant);
         }
         if (!status && (status.error().code == ErrorCode::asset || status.error().code == ErrorCode::limit)) {

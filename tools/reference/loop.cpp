@@ -26,30 +26,46 @@ Place scaled(int32_t s, const Place& x) {
     return {s * x.a, s * x.b};
 }
 
-/// The points of a fragment by their places. What lies across an endless crease is the mirror image of what lies on
-/// this side: the point that makes a parallelogram with the triangle at the crease.
+/// Each line through a corner of a facet has two points on its far side; with them, the triangles they mirror. The
+/// first lies beside the corner before, the second beside the one behind.
+struct Mirror {
+    uint32_t line;
+    Place own, end, otherEnd, mirrored;
+};
+constexpr std::array<Mirror, 6> kMirrors = {{{0, {-1, 0}, {0, 0}, {-1, 1}, {0, 1}},
+                                             {0, {0, -1}, {0, 0}, {1, -1}, {1, 0}},
+                                             {1, {2, -1}, {1, 0}, {1, -1}, {0, 0}},
+                                             {1, {2, 0}, {1, 0}, {1, 1}, {0, 1}},
+                                             {2, {0, 2}, {0, 1}, {1, 1}, {1, 0}},
+                                             {2, {-1, 2}, {0, 1}, {-1, 1}, {0, 0}}}};
+
+/// The points of a fragment by their places. What lies across a crease is the mirror image of what lies on this side:
+/// the point that makes a parallelogram with the triangle at the crease.
 class Lattice {
 public:
     Lattice(const FragmentNet<double>& net, const Fan& fan, uint32_t sector)
         : points_(net.points()), fan_(fan), sector_(sector),
-          facet_(false), sharp_{net.sharpnessOf(sector) > 0.0f,
-                                net.sharpnessOf((sector + 1) % (fan.sectors + (fan.open ? 1 : 0))) > 0.0f, false} {}
+          facet_(false), sharpness_{net.sharpnessOf(sector),
+                                    net.sharpnessOf((sector + 1) % (fan.sectors + (fan.open ? 1 : 0))), 0.0f},
+          sharp_{sharpness_[0] > 0.0f, sharpness_[1] > 0.0f, false} {}
     explicit Lattice(const FragmentNet<double>& net)
-        : points_(net.points()),
-          facet_(true), sharp_{net.sharpnessOf(0) > 0.0f, net.sharpnessOf(1) > 0.0f, net.sharpnessOf(2) > 0.0f} {}
+        : points_(net.points()), facet_(true), sharpness_{net.sharpnessOf(0), net.sharpnessOf(1), net.sharpnessOf(2)},
+          sharp_{sharpness_[0] > 0.0f, sharpness_[1] > 0.0f, sharpness_[2] > 0.0f} {}
+
+    /// Of the two spokes beside a sector, or of a facet's three lines: the sharpness of semi-sharp creases alone.
+    [[nodiscard]] float semiSharp(size_t line) const {
+        return sharpness_[line] < kInfiniteSharpness ? sharpness_[line] : 0.0f;
+    }
+    /// What the two points beside a segment of a crease are more than its ends, which the mirror images make up. Both
+    /// points beside it must be there.
+    [[nodiscard]] glm::dvec3 excess(const Place& begin, const Place& end, const Place& one, const Place& other) const {
+        return stored(one) + stored(other) - stored(begin) - stored(end);
+    }
 
     [[nodiscard]] glm::dvec3 at(const Place& p) const {
         if (!facet_) {
             return inSector(p);
         }
-        // Each line through a corner has two points on its far side; with them, the triangles they mirror.
-        struct Mirror {
-            uint32_t line;
-            Place own, end, otherEnd, mirrored;
-        };
-        constexpr Mirror kMirrors[] = {{0, {-1, 0}, {0, 0}, {-1, 1}, {0, 1}}, {0, {0, -1}, {0, 0}, {1, -1}, {1, 0}},
-                                       {1, {2, -1}, {1, 0}, {1, -1}, {0, 0}}, {1, {2, 0}, {1, 0}, {1, 1}, {0, 1}},
-                                       {2, {0, 2}, {0, 1}, {1, 1}, {1, 0}},   {2, {-1, 2}, {0, 1}, {-1, 1}, {0, 0}}};
         for (const Mirror& m : kMirrors) {
             if (sharp_[m.line] && m.own.a == p.a && m.own.b == p.b) {
                 return stored(m.end) + stored(m.otherEnd) - stored(m.mirrored);
@@ -76,6 +92,7 @@ private:
     Fan fan_;
     uint32_t sector_ = 0;
     bool facet_;
+    std::array<float, 3> sharpness_;
     std::array<bool, 3> sharp_; ///< spokes on both sides of the sector, or lines of the facet
 };
 
@@ -108,6 +125,104 @@ Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation
         }
     }
     return point;
+}
+
+/// The excess of three segments of a crease that follow each other.
+using Excess = std::array<glm::dvec3, 3>;
+
+/// Of the second segment's half: a sharp step halves the excess, and else refines it as quadratic B-splines.
+Excess afterSharpStep(const Excess& s, bool secondHalf) {
+    const auto between = [](const glm::dvec3& near, const glm::dvec3& far) { return (3.0 * near + far) / 8.0; };
+    return secondHalf ? Excess{between(s[1], s[0]), between(s[1], s[2]), between(s[2], s[1])}
+                      : Excess{between(s[0], s[1]), between(s[1], s[0]), between(s[1], s[2])};
+}
+
+/// What the points across a smooth line with this excess add to the box spline: at x along the second segment and y
+/// from the line. Derivatives in x and y.
+Point smoothExcess(const Excess& s, double x, double y) {
+    Point point;
+    const auto add = [&](const glm::dvec3& excess, double weight, double alongX, double alongY) {
+        point.position += excess * (weight / 12.0);
+        point.du += excess * (alongX / 12.0), point.dv += excess * (alongY / 12.0);
+    };
+    if (y >= 1.0) {
+        return point;
+    }
+    if (x + y > 1.0) { // the triangle that touches the line at the segment's end
+        const double a = 1.0 - y, aaa = a * a * a, x01 = 1.0 - x, x11 = x + y - 1.0;
+        add(s[1], a * aaa + 2.0 * aaa * x01, -2.0 * aaa, -4.0 * aaa - 6.0 * a * a * x01);
+        add(s[2], a * aaa + 2.0 * aaa * x11, 2.0 * aaa, -4.0 * aaa - 6.0 * a * a * x11 + 2.0 * aaa);
+        return point;
+    }
+    const double u = 1.0 - x - y, v = x, w = y, uu = u * u, vv = v * v;
+    const double du0 = 4.0 * u * uu + 6.0 * uu * v, dv0 = 2.0 * u * uu;
+    add(s[0], uu * uu + 2.0 * u * uu * v, dv0 - du0, -du0);
+    const double du2 = 2.0 * v * vv, dv2 = 4.0 * v * vv + 6.0 * vv * u;
+    add(s[2], vv * vv + 2.0 * v * vv * u, dv2 - du2, -du2);
+    const double both = uu * uu + vv * vv + 6.0 * u * v * (uu + vv) + 12.0 * uu * vv;
+    const double beside = 2.0 * (u * uu + v * vv) + 6.0 * u * v * (u + v);
+    const double du1 =
+        4.0 * u * uu + 18.0 * uu * v + 24.0 * u * vv + 6.0 * v * vv + w * (6.0 * uu + 12.0 * u * v + 6.0 * vv);
+    const double dv1 =
+        4.0 * v * vv + 18.0 * vv * u + 24.0 * v * uu + 6.0 * u * uu + w * (6.0 * vv + 12.0 * u * v + 6.0 * uu);
+    add(s[1], both + w * beside, dv1 - du1, beside - du1);
+    return point;
+}
+
+/// The same where the first `steps` steps are sharp.
+Point excessAfter(Excess s, uint32_t steps, double x, double y) {
+    for (uint32_t step = 0; step < steps && y < 1.0; ++step) {
+        const bool secondHalf = x >= 0.5;
+        s = afterSharpStep(s, secondHalf);
+        x = 2.0 * x - (secondHalf ? 1.0 : 0.0);
+        y *= 2.0;
+    }
+    Point point = smoothExcess(s, x, y);
+    const double scale = std::exp2(steps);
+    point.du *= scale, point.dv *= scale;
+    return point;
+}
+
+/// The same at a sharpness, whose last step is partly sharp.
+Point creaseExcess(const Excess& s, float sharpness, double x, double y) {
+    if (sharpness <= 0.0f) {
+        return {};
+    }
+    const auto steps = static_cast<uint32_t>(sharpness);
+    const double part = static_cast<double>(sharpness) - steps;
+    const Point few = excessAfter(s, steps, x, y), more = excessAfter(s, steps + 1, x, y);
+    return {glm::mix(few.position, more.position, part),
+            glm::mix(few.du, more.du, part),
+            glm::mix(few.dv, more.dv, part),
+            {}};
+}
+
+/// Adds a crease to a point, given the derivatives of `x` and `y` of the crease in those of the point.
+void addCrease(const Point& crease, const glm::dvec2& x, const glm::dvec2& y, Point& point) {
+    point.position += crease.position;
+    point.du += x.x * crease.du + y.x * crease.dv;
+    point.dv += x.y * crease.du + y.y * crease.dv;
+}
+
+/// What the two spokes beside a sector add at (x, y), steps along them.
+void addSpokes(const Lattice& lattice, double x, double y, Point& point) {
+    const auto excessOf = [&](bool second, int32_t i) {
+        const auto place = [&](int32_t a, int32_t b) { return second ? Place{b, a} : Place{a, b}; };
+        return lattice.excess(place(i, 0), place(i + 1, 0), place(i, 1), place(i + 1, -1));
+    };
+    for (const bool second : {false, true}) {
+        const float sharpness = lattice.semiSharp(second ? 1 : 0);
+        const double along = second ? y : x, across = second ? x : y;
+        if (sharpness <= 0.0f || across >= 1.0) {
+            continue;
+        }
+        const Excess near = {glm::dvec3(0.0), excessOf(second, 0), excessOf(second, 1)};
+        const Point crease = along >= 1.0
+                                 ? creaseExcess({near[1], near[2], excessOf(second, 2)}, sharpness, along - 1.0, across)
+                                 : creaseExcess(near, sharpness, along, across);
+        const glm::dvec2 first(1.0, 0.0), other(0.0, 1.0);
+        addCrease(crease, second ? other : first, second ? first : other, point);
+    }
 }
 
 } // namespace
@@ -172,6 +287,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
         point = boxSpline(lattice, {1, 1}, -1, 1.0 - x, 1.0 - y);
         point.du = -point.du, point.dv = -point.dv;
     }
+    addSpokes(lattice, x, y, point);
     point.du *= scale, point.dv *= scale;
     return point;
 }
@@ -179,7 +295,22 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
 Point LimitSurface::inMiddle(const Sector& facet, double x, double y) const {
     FragmentNet<double> net(mesh_, isolated_);
     net.load(mesh_.fragments[facet.fragment]);
-    return boxSpline(Lattice(net), {0, 0}, 1, x, y);
+    const Lattice lattice(net);
+    Point point = boxSpline(lattice, {0, 0}, 1, x, y);
+    const std::array<double, 3> weights = {1.0 - x - y, x, y};
+    const std::array<glm::dvec2, 3> slopes = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
+    for (size_t corner = 0; corner < 3; ++corner) {
+        Excess excess{};
+        for (size_t k = 0; k < 2; ++k) {
+            const Mirror& m = kMirrors[2 * corner + k];
+            excess[1 + k] = lattice.excess(m.end, m.otherEnd, m.own, m.mirrored);
+        }
+        const size_t last = (corner + 2) % 3;
+        const Point crease =
+            creaseExcess(excess, lattice.semiSharp(corner), 1.0 - weights[last], 1.0 - weights[corner]);
+        addCrease(crease, -slopes[last], -slopes[corner], point);
+    }
+    return point;
 }
 
 } // namespace supple::surface::loop

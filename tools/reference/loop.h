@@ -16,7 +16,7 @@ namespace supple::surface::loop {
 
 using catmull_clark::Point;
 
-/// The limit surface over the triangles of a cage whose creases are endless.
+/// The limit surface over the triangles of a cage.
 class LimitSurface {
 public:
     /// `mesh`: of Loop; must outlive this. `positions`: of the cage it was built from.

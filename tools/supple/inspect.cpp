@@ -58,8 +58,7 @@ struct Findings {
 SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
     SchemeVerdict verdict{scheme.name, "", {}, {}, {}, {}};
     surface::Recipe recipe;
-    const surface::Drawer drawer = surface::drawerOf(static_cast<surface::SchemeId>(scheme.scheme), cage);
-    recipe.scheme = drawer.scheme;
+    recipe.scheme = static_cast<surface::SchemeId>(scheme.scheme);
     recipe.rate = SurfaceFlags{}.rate;
     const Result<surface::Tables> tables = surface::buildTables(recipe, cage);
     if (!tables) {
@@ -75,9 +74,6 @@ SchemeVerdict judge(const Scheme& scheme, const cage::Cage& cage) {
         ++verdict.patches[surface::className(patch.patchClass)];
     }
     verdict.notes = tables->notes;
-    if (!drawer.reason.empty()) {
-        verdict.notes.push_back("refined: " + drawer.reason);
-    }
     if (scheme.scheme == SUPPLE_SCHEME_PM) {
         if (const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage)) {
             verdict.folds = findFolds(*mesh);

@@ -59,7 +59,7 @@ void bindRate(CLI::App& command, uint32_t& rate) {
     command
         .add_option("--rate", rate,
                     "Segments along a patch edge. catmull-clark, blend and fragments: along an edge of the cage; "
-                    "fragments, and loop with semi-sharp creases, round it up to a power of two")
+                    "fragments round it up to a power of two")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
         ->capture_default_str();
 }

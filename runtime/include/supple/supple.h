@@ -481,8 +481,7 @@ typedef enum SuppleScheme {
      * semi-sharp creases. If not all faces are quads, the cage is subdivided once. */
     SUPPLE_SCHEME_CATMULL_CLARK = 3,
     /** The limit of Loop subdivision by one patch per triangle (docs/loop.md), at any rate: triangles, into which
-     * larger faces are split, and hard creases. With semi-sharp creases it is refined, and what is said of FRAGMENTS
-     * holds for it: SUPPLE_MESSAGE_SCHEME_NOTE tells. */
+     * larger faces are split, semi-sharp creases. */
     SUPPLE_SCHEME_LOOP = 4,
     /** Charts blended: any polygons (if not all are quads, the cage is subdivided once). Interpolates the cage's
      * vertices. Edges are either sharp or smooth. */
@@ -802,8 +801,8 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_MOTION = 4,     /**< also write where every surface vertex was in the frame before */
     /** PREP, PM, CATMULL_CLARK and LOOP without a view (POLYGONS has it in any case): an instance is one indexed mesh,
      * which stores samples on the borders of patches once. Positions have the same bits as in other groups. Along
-     * creases and boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. LOOP lacks it
-     * where it is refined. See SuppleDrawRange. */
+     * creases and boundaries, and with ATTRIBUTES along their seams, each side has vertices of its own. See
+     * SuppleDrawRange. */
     SUPPLE_GROUP_INDEXED_MESH = 8,
     /** Groups of a view: one level of detail per instance instead of one per edge. It is computed from the instance's
      * bounds, and from the longest edge and the sharpest bend in the bind pose. */
@@ -839,10 +838,10 @@ typedef struct SuppleGroupDesc {
     SupplePoseSource poseSource; /**< PALETTE_BUFFER needs linear skinning */
     /** Optional: the group belongs to this view, which chooses its levels of detail (supple_view.h). flags may then
      * only have ONE_LEVEL and BOUNDS: the view's flags and vertexFormat apply. PREP, PM, CATMULL_CLARK, LOOP and BLEND
-     * ignore `rate` and have a SuppleLevelOutput. With FRAGMENTS, and LOOP where it is refined, each instance gets the
-     * rate that its level asks for, at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is
-     * drawn as it is. The vertices of FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's
-     * maxVertices, but count in SuppleCameraDesc.vertexBudget. */
+     * ignore `rate` and have a SuppleLevelOutput. With FRAGMENTS each instance gets the rate that its level asks for,
+     * at most `rate`: see SuppleGridOutput.rates. POLYGONS has one rate only, so it is drawn as it is. The vertices of
+     * FRAGMENTS and POLYGONS are in the group's own memory. They use none of the view's maxVertices, but count in
+     * SuppleCameraDesc.vertexBudget. */
     SuppleView view;
     const SupplePrepOptions* prep;   /**< null: the defaults; other schemes ignore it */
     const SuppleBlendOptions* blend; /**< the same */
@@ -1148,8 +1147,8 @@ typedef enum SuppleTessellation {
     SUPPLE_TESSELLATION_NONE = 0,         /**< SUPPLE_SCHEME_CAGE: there are no surface vertices */
     SUPPLE_TESSELLATION_GRIDS = 1,        /**< a grid of samples per patch: SuppleGridOutput */
     SUPPLE_TESSELLATION_INDEXED_MESH = 2, /**< one mesh per instance: SuppleGridOutput */
-    /** FRAGMENTS in a view, and LOOP where it is refined: grids, and a rate per instance. POLYGONS in a view: one mesh
-     * per instance, and one rate. SuppleGridOutput. */
+    /** FRAGMENTS in a view: grids, and a rate per instance. POLYGONS in a view: one mesh per instance, and one rate.
+     * SuppleGridOutput. */
     SUPPLE_TESSELLATION_RATES = 3,
     SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
 } SuppleTessellation;
@@ -1331,7 +1330,7 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_P4 = 4,               /**< 25 */
     SUPPLE_PATCH_P5 = 5,               /**< 31 */
     SUPPLE_PATCH_FRAGMENT = 6,         /**< none, FRAGMENTS: a face of the cage once (or twice) subdivided */
-    SUPPLE_PATCH_LOOP = 7,             /**< none, LOOP by refinement: a quarter of a triangle */
+    SUPPLE_PATCH_LOOP = 7,             /**< of versions that refined LOOP: no patch has it any more */
     SUPPLE_PATCH_BLEND = 8,            /**< none: a face of the cage, or of the subdivided cage */
     SUPPLE_PATCH_BLEND_SHARP = 9,      /**< none: with sharp edges */
     SUPPLE_PATCH_TRIANGLE = 10,        /**< none, POLYGONS: a triangle, as it is */
@@ -1339,8 +1338,9 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
     SUPPLE_PATCH_CREASED = 13,
-    SUPPLE_PATCH_LOOP_REGULAR = 14,  /**< none, LOOP: a triangle whose corners have valence 6 */
-    SUPPLE_PATCH_LOOP_IRREGULAR = 15 /**< none, LOOP: a triangle of leaves */
+    SUPPLE_PATCH_LOOP_REGULAR = 14,        /**< none, LOOP: a triangle whose corners have valence 6 */
+    SUPPLE_PATCH_LOOP_IRREGULAR = 15,      /**< none, LOOP: a triangle of leaves */
+    SUPPLE_PATCH_LOOP_IRREGULAR_SHARP = 16 /**< none, LOOP: with semi-sharp edges */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5

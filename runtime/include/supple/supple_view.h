@@ -10,8 +10,8 @@
  * All groups of a view write into the view's surface vertices. Before a frame writes any, it counts how many they want.
  * If these do not fit, a factor that changes continuously scales all levels down (docs/lod.md).
  *
- * Subdivision by refinement (FRAGMENTS, and LOOP with semi-sharp creases) has no such levels per edge. Each instance is
- * drawn at one of several rates, and jumps from one to the next, which may be seen.
+ * Subdivision by refinement (FRAGMENTS) has no such levels per edge. Each instance is drawn at one of several rates,
+ * and jumps from one to the next, which may be seen.
  */
 #ifndef SUPPLE_VIEW_H
 #define SUPPLE_VIEW_H

@@ -58,7 +58,7 @@ uint32_t expectPasses(const char* name, const cage::Cage& cage, const std::vecto
         for (const uint32_t rate : rates) {
             const Result<ExactTables> made = makeExactTables(recipe, rate, cage);
             if (!made) {
-                continue; // Loop refuses semi-sharp creases, and every scheme a face without a split
+                continue; // every scheme refuses a face without a split
             }
             const Status status = made->check();
             EXPECT_TRUE(status) << name << ", rate " << rate << ", scheme " << static_cast<uint32_t>(recipe.scheme)

@@ -362,7 +362,7 @@ std::string traced(const ExactTables& made, const Tables& tables) {
         for (uint32_t p = 0; p < range.section.count && range.patchClass != PatchClass::regular; ++p) {
             const uint32_t record = range.section.table + each * p;
             if (loop) {
-                leaves.triangle(record, range.patchClass == PatchClass::loopIrregular, false);
+                leaves.triangle(record, range.patchClass != PatchClass::loopRegular, false);
             } else {
                 leaves.quad(record, false);
             }

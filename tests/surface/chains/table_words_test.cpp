@@ -207,7 +207,7 @@ private:
             for (uint32_t k = 0; k < kLeafPoints + 3; ++k) {
                 add(k < kLeafPoints ? "vertex of a triangle" : "limit point of a triangle", record + k, pool());
             }
-            if (patchClass == PatchClass::loopIrregular) {
+            if (patchClass != PatchClass::loopRegular) {
                 addLeaves(record + 4 * kTriangleChainElement, record + 4 * kTriangleChainElement + 4,
                           record + 4 * kTriangleNetElement, true);
             }
