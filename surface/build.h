@@ -27,7 +27,7 @@ void check(TableCheck& check);
 } // namespace pm
 
 namespace fragments {
-/// Fragments of Catmull-Clark or Loop. Refuses a vertex with so many edges that 16 bits do not number the points of its
+/// Fragments of Catmull-Clark. Refuses a vertex with so many edges that 16 bits do not number the points of its
 /// fragment: "vertex 7 has 260 faces: ...".
 [[nodiscard]] Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* edges = nullptr);
 void check(TableCheck& check);

@@ -125,7 +125,6 @@ uint32_t mostSteps(SchemeId scheme) {
     case SchemeId::fragments:
         return 2;
     case SchemeId::catmullClark:
-    case SchemeId::loopFragments:
     case SchemeId::blend:
         return 1;
     default:
@@ -140,8 +139,7 @@ void checkRecipe(TableCheck& check) {
     const Recipe& recipe = check.source().recipe;
     const SchemeId scheme = recipe.scheme;
     const bool exact = scheme == SchemeId::catmullClark || scheme == SchemeId::loop,
-               mesh = scheme == SchemeId::polygons,
-               fragments = scheme == SchemeId::fragments || scheme == SchemeId::loopFragments;
+               mesh = scheme == SchemeId::polygons, fragments = scheme == SchemeId::fragments;
     check.require(tables.words.size() % 4 == 0, "no whole elements");
     check.require(tables.words.size() >= shared::kTableHeaderWords, "no room for their header");
     check.require(tables.uvSets == 1 || tables.uvSets == 2, "neither one UV set nor two");

@@ -46,8 +46,8 @@ enum class PatchClass : uint32_t {
     p3 = shared::kP3Patch,               ///< P_m: three, four, five triangular sectors of degree 4
     p4 = shared::kP4Patch,
     p5 = shared::kP5Patch,
-    fragment = shared::kFragmentPatch, ///< subdivision: a face of the isolated level
-    loop = shared::kLoopPatch,
+    fragment = shared::kFragmentPatch,     ///< subdivision: a face of the isolated level
+    loop = shared::kLoopPatch,             ///< none has it any more
     blend = shared::kBlendPatch,           ///< blending surface: smooth all over
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face

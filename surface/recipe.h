@@ -48,17 +48,8 @@ struct Options {
 
 } // namespace blend
 
-/// Values of SuppleScheme; but for loopFragments, which draws what Loop patches do not take (drawerOf()).
-enum class SchemeId : uint32_t {
-    prep = 1,
-    pm = 2,
-    catmullClark = 3,
-    loop = 4,
-    blend = 5,
-    polygons = 6,
-    fragments = 7,
-    loopFragments = 0x100
-};
+/// Values of SuppleScheme.
+enum class SchemeId : uint32_t { prep = 1, pm = 2, catmullClark = 3, loop = 4, blend = 5, polygons = 6, fragments = 7 };
 
 struct Recipe {
     SchemeId scheme = SchemeId::pm;

@@ -76,7 +76,6 @@ struct DrawRange {
 /// The subdivision evaluates fragments instead of patches (shaders/shared/subdivision.h).
 struct Fragments {
     uint32_t steps = 0;         ///< of refinement beyond the isolated level
-    bool loop = false;          ///< else Catmull-Clark
     uint32_t scratchStride = 0; ///< points per instance in the scratch buffer
     struct Class {
         uint32_t sharedPoints = 0; ///< points that a workgroup holds at a time

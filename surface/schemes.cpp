@@ -1,6 +1,5 @@
 #include "surface/schemes.h"
 
-#include "cage/features.h"
 #include "cage/trim.h"
 #include "surface/build.h"
 #include "surface/lod/table_check.h"
@@ -37,19 +36,6 @@ constexpr Scheme kSchemes[] = {
     {SchemeId::polygons, RateRule::none, "polygons", &polygons::build, "", false, true, false, kLinearUvs,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
-
-/// No host names it: see drawerOf().
-constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
-                                   RateRule::doubling,
-                                   "Loop in fragments",
-                                   &fragments::build,
-                                   "2, 4, 8..",
-                                   false,
-                                   false,
-                                   false,
-                                   kAllUvModes,
-                                   [](const cage::Cage&) { return 0.001f; },
-                                   &fragments::check};
 
 static_assert(std::ranges::all_of(kSchemes, [](const Scheme& scheme) { return scheme.check != nullptr; }));
 
@@ -135,7 +121,7 @@ std::span<const Scheme> schemes() {
 const Scheme& schemeOf(SchemeId id) {
     const auto* found =
         std::find_if(std::begin(kSchemes), std::end(kSchemes), [&](const Scheme& row) { return row.id == id; });
-    return found != std::end(kSchemes) ? *found : kLoopFragments;
+    return found != std::end(kSchemes) ? *found : kSchemes[0]; // there are no other ids
 }
 
 Result<Tables> buildTables(const Recipe& recipe, const cage::Cage& cage) {

@@ -21,12 +21,11 @@ template <>
 inline constexpr auto kLast<surface::Domain> = static_cast<surface::Domain>(surface::kDomainCount - 1);
 template <>
 inline constexpr auto kLast<surface::Borders> = surface::Borders::charts;
-/// It begins with 1, and one stands apart.
+/// It begins with 1.
 template <>
 constexpr bool isEnumerator<surface::SchemeId>(uint32_t number) {
     using surface::SchemeId;
-    return (number >= static_cast<uint32_t>(SchemeId::prep) && number <= static_cast<uint32_t>(SchemeId::fragments)) ||
-           number == static_cast<uint32_t>(SchemeId::loopFragments);
+    return number >= static_cast<uint32_t>(SchemeId::prep) && number <= static_cast<uint32_t>(SchemeId::fragments);
 }
 
 } // namespace supple::runtime
@@ -112,7 +111,7 @@ void fields(A& a, T& own) {
 }
 template <class A, Is<Fragments> T>
 void fields(A& a, T& fragments) {
-    a(fragments.steps, fragments.loop, fragments.scratchStride, fragments.classes);
+    a(fragments.steps, fragments.scratchStride, fragments.classes);
 }
 template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {

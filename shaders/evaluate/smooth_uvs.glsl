@@ -3,7 +3,7 @@
 //   BICUBIC   regular, perturbed and polar patches
 //   SECTORS   P_3, P_4 and P_5
 //   BLEND     the blending surface
-//   SAMPLES   fragments of Catmull-Clark and Loop: the samples of a rate themselves
+//   SAMPLES   fragments: the samples of a rate themselves
 //   QUADS     exact Catmull-Clark patches: quads of leaves, all of the form of irregular ones
 //   TRIANGLES Loop patches: likewise, triangles
 // For each there are SmoothPatch, which a lane loads once, SmoothPlace, where a sample lies in it, and smoothAt().
@@ -167,8 +167,7 @@ SmoothPlace placeAtRate(uint index) {
 #endif
 
 #ifdef SAMPLES
-layout(constant_id = kKindConstant) const uint kClass = kFragmentPatch;
-const uint kDomain = kClass == kLoopPatch ? kTriangleDomain : kQuadDomain;
+const uint kDomain = kQuadDomain;
 
 #define kSmoothElements push.samples
 struct SmoothPatch {

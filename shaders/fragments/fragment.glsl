@@ -16,17 +16,14 @@ vec3 refinedPoint(uvec4 packedRow, uint neighbours, uint classHeader, uint fragm
         sharpness = spokeSharpness(head.w, spoke - 1u, fragments, fragment, step - 1u);
     vec3 p = vec3(0.0);
     if (rule == kVertexRule) {
-        Sources around;
-        if (kLoop) around = Sources(uint[8](row.s[1], row.s[3], row.s[4], row.s[2], row.s[5], row.s[6], 0u, 0u));
-        else around = unpackSources(tableElement(neighbours + row.s[0]));
+        Sources around = unpackSources(tableElement(neighbours + row.s[0]));
         p = vertexPoint(point(row.s[0]), pointsOf(around), sharpness);
     }
     if (rule == kEdgeRule) {
-        vec3 q[4] = vec3[4](point(row.s[2]), vec3(0.0), point(row.s[3]), vec3(0.0)); // Loop's
-        if (!kLoop) q = vec3[4](q[0], q[2], point(row.s[4]), point(row.s[5]));
-        p = edgePoint(point(row.s[0]), point(row.s[1]), q[0], q[1], q[2], q[3], sharpness);
+        vec3 left0 = point(row.s[2]), left1 = point(row.s[3]);
+        p = edgePoint(point(row.s[0]), point(row.s[1]), left0, left1, point(row.s[4]), point(row.s[5]), sharpness);
     }
-    if (!kLoop && rule == kFaceRule)
+    if (rule == kFaceRule)
         p = facePoint(point(row.s[0]), point(row.s[1]), point(row.s[2]), point(row.s[3]));
     if (rule == kCentreRule) {
         vec2 weights = uintBitsToFloat(tableElement(classHeader + 2u).xy);

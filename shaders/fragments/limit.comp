@@ -33,17 +33,10 @@ void limitStrip() {
         place = next;
         next = tableElement(strip.x + i);
         behind = vec3[3](point(next.x & 0xFFFFu), point(next.x >> 16), point(next.y & 0xFFFFu));
-        vec3 n[8];
-        if (kLoop) {
-            vec3 round[6] = vec3[6](behind[1], here[2], before[2], before[1], here[0], behind[0]);
-            for (uint k = 0u; k < 6u; ++k)
-                n[k] = place.z == 0u ? round[k] : place.z == 1u ? round[(k + 1u) % 6u] : round[(k + 2u) % 6u];
-        } else {
-            n = vec3[8](behind[1], behind[2], here[2], before[2], before[1], before[0], here[0], behind[0]);
-        }
+        vec3 n[8] = vec3[8](behind[1], behind[2], here[2], before[2], before[1], before[0], here[0], behind[0]);
         vec3 position;
         Frame frame;
-        limitPoint(here[1], n, 0.0, false, kLoop ? 6u - place.z : 0u, position, frame);
+        limitPoint(here[1], n, 0.0, false, 0u, position, frame);
         if (drawn && i >= 2u && place.z != kNoSample) writeSample(patchIndex, place.y >> 16, position, frame);
     }
 }

@@ -21,21 +21,13 @@ void refineCell(uint neighbours) {
     vec3 c = point(targets.s[7]);
     vec3 n[8] = pointsOf(unpackSources(tableElement(neighbours + targets.s[7])));
     if (targets.s[0] != kNoTarget) writePoint(targets.s[0], vertexPoint(c, n, 0.0));
-    if (kLoop) {
-        for (uint k = 0u; k < 6u; ++k) {
-            if (targets.s[1u + k] != kNoTarget)
-                writePoint(targets.s[1u + k],
-                           edgePoint(c, n[k], n[(k + 1u) % 6u], vec3(0.0), n[(k + 5u) % 6u], vec3(0.0), 0.0));
-        }
-    } else {
-        const uint kSlots[5] = uint[5](SUPPLE_SUBDIVISION_QUAD_SLOTS);
-        for (uint i = 0u; i < 5u; ++i) {
-            uint k = kSlots[i], left = (k + 1u) & 7u, right = (k + 7u) & 7u;
-            if (targets.s[1u + i] == kNoTarget) continue;
-            if ((k & 1u) != 0u) writePoint(targets.s[1u + i], facePoint(c, n[k], n[left], n[right]));
-            else
-                writePoint(targets.s[1u + i], edgePoint(c, n[k], n[left], n[(k + 2u) & 7u], n[right], n[(k + 6u) & 7u], 0.0));
-        }
+    const uint kSlots[5] = uint[5](SUPPLE_SUBDIVISION_QUAD_SLOTS);
+    for (uint i = 0u; i < 5u; ++i) {
+        uint k = kSlots[i], left = (k + 1u) & 7u, right = (k + 7u) & 7u;
+        if (targets.s[1u + i] == kNoTarget) continue;
+        if ((k & 1u) != 0u) writePoint(targets.s[1u + i], facePoint(c, n[k], n[left], n[right]));
+        else
+            writePoint(targets.s[1u + i], edgePoint(c, n[k], n[left], n[(k + 2u) & 7u], n[right], n[(k + 6u) & 7u], 0.0));
     }
 }
 

@@ -1,12 +1,8 @@
 // Limit samples of fragments, all kinds. Needs fragment.glsl and frame.glsl.
 
-// Derivatives along the grid of a sector, from the one along an axis and the one a quarter turn further (Loop: what the derivative
-// a sixth of a turn further has beyond half of the axis'). `turns`: from the axis to the sector's first edge.
+// Derivatives along the grid of a sector, from the one along an axis and the one a quarter turn further. `turns`: from the axis to
+// the sector's first edge.
 vec3 derivativeTowards(uint turns, vec3 axis, vec3 beside) {
-    if (kLoop) {
-        vec3 d = turns % 3u == 0u ? axis : turns % 3u == 1u ? 0.5 * axis + beside : beside - 0.5 * axis;
-        return turns % 6u < 3u ? d : -d;
-    }
     vec3 d = (turns & 1u) == 0u ? axis : beside;
     return (turns & 2u) == 0u ? d : -d;
 }
@@ -14,33 +10,18 @@ vec3 derivativeTowards(uint turns, vec3 axis, vec3 beside) {
 // Limit position and frame of a point off the centre, from its neighbours counter-clockwise from its axis on. `right`: the sector
 // lies right of the axis.
 void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, uint turns, out vec3 position, out Frame frame) {
-    precise vec3 limit, along, across, axis;
     bool sharp = sharpness > 0.0;
-    if (kLoop) {
-        axis = p[0] + p[3];
-        precise vec3 left = p[1] + p[2], rights = p[4] + p[5];
-        precise vec3 difference = p[0] - p[3];
-        limit = (6.0 * c + ((left + rights) + axis)) * (1.0 / 12.0);
-        along = 2.0 * difference + ((p[1] - p[2]) + (p[5] - p[4]));
-        across = left - rights;
-        if (sharp) {
-            along = difference;
-            precise vec3 side = right ? rights : left;
-            across = 2.0 * (side - c) - axis;
-        }
-    } else {
-        axis = p[0] + p[4];
-        precise vec3 edges = axis + (p[2] + p[6]);
-        precise vec3 diagonals = (p[1] + p[5]) + (p[3] + p[7]);
-        limit = (16.0 * c + (4.0 * edges + diagonals)) * (1.0 / 36.0);
-        along = (4.0 * p[0] + (p[1] + p[7])) - (4.0 * p[4] + (p[3] + p[5]));
-        across = (4.0 * p[2] + (p[1] + p[3])) - (4.0 * p[6] + (p[5] + p[7]));
-        if (sharp) {
-            along = p[0] - p[4];
-            precise vec3 corners = right ? p[7] + p[5] : p[1] + p[3];
-            vec3 edge = right ? p[6] : p[2];
-            across = 4.0 * (edge - c) + (corners - axis);
-        }
+    precise vec3 axis = p[0] + p[4];
+    precise vec3 edges = axis + (p[2] + p[6]);
+    precise vec3 diagonals = (p[1] + p[5]) + (p[3] + p[7]);
+    precise vec3 limit = (16.0 * c + (4.0 * edges + diagonals)) * (1.0 / 36.0);
+    precise vec3 along = (4.0 * p[0] + (p[1] + p[7])) - (4.0 * p[4] + (p[3] + p[5]));
+    precise vec3 across = (4.0 * p[2] + (p[1] + p[3])) - (4.0 * p[6] + (p[5] + p[7]));
+    if (sharp) {
+        along = p[0] - p[4];
+        precise vec3 corners = right ? p[7] + p[5] : p[1] + p[3];
+        vec3 edge = right ? p[6] : p[2];
+        across = 4.0 * (edge - c) + (corners - axis);
     }
     precise vec3 crease = (4.0 * c + axis) * (1.0 / 6.0);
     precise vec3 p0 = sharp ? crease : limit;
@@ -50,7 +31,7 @@ void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, uint turns, out 
     if (kTangents) {
         // Twelve times the derivatives of a step of the grid: along and across have lost different factors.
         float side = right ? -1.0 : 1.0;
-        vec3 first = (sharp ? 6.0 : kLoop ? 2.0 : 1.0) * along, second = (kLoop ? 3.0 : sharp ? 2.0 : 1.0) * across;
+        vec3 first = (sharp ? 6.0 : 1.0) * along, second = (sharp ? 2.0 : 1.0) * across;
         if (sharp) second *= side;
         frame.du = derivativeTowards(turns, first, second);
         frame.dv = derivativeTowards(turns + 1u, first, second);
@@ -60,7 +41,7 @@ void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, uint turns, out 
 // Limit position and frame of the centre in one of its sectors, by the mask of the sector's run.
 const float kPi = 3.14159265;
 void centreLimit(uint mask, uint sector, out vec3 position, out Frame frame) {
-    const uint stride = kLoop ? 1u : 2u;
+    const uint stride = 2u;
     uvec4 head = tableElement(mask);
     vec3 c = point(0u);
     precise vec3 sum = vec3(0.0), first = vec3(0.0), second = vec3(0.0);
@@ -87,7 +68,7 @@ void centreLimit(uint mask, uint sector, out vec3 position, out Frame frame) {
         bool whole = (head.x & kWholeMask) != 0u;
         float turn = (whole ? 2.0 : 1.0) * kPi / float(head.z), angle = turn * float(h);
         vec3 across = second;
-        if (!whole) across *= kLoop ? inversesqrt(3.0) : 1.0 / 3.0; // per length of the one along the crease
+        if (!whole) across *= 1.0 / 3.0; // per length of the one along the crease
         frame.du = cos(angle) * first + sin(angle) * across;
         frame.dv = cos(angle + turn) * first + sin(angle + turn) * across;
         if ((head.x & kCornerMask) != 0u) {
@@ -107,6 +88,6 @@ void limitSample(uvec4 around, uvec4 place, uint classHeader, uint fragments, ui
     if (place.y != 0u && (head.y & kSharpClass) != 0u)
         sharpness = spokeSharpness(head.w, place.y - 1u, fragments, fragment, step);
     limitPoint(point(place.x), pointsOf(unpackSources(around)), sharpness, (place.z & kRightSide) != 0u, turns, position, frame);
-    if (place.x == 0u && lists.y != 0u) // facets have no centre
+    if (place.x == 0u)
         centreLimit(tableWord(lists.y + sector * fragments + fragment), sector, position, frame);
 }

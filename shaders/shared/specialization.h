@@ -20,7 +20,6 @@ SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the pu
 SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
 
 // Subdivision.
-SUPPLE_SHARED_CONST kLoopConstant = 8u;              // bool: Loop's rules, else Catmull-Clark's
 SUPPLE_SHARED_CONST kSourceConstant = 9u;           // kFromScratch, kFromNet or kFromPastNet
 SUPPLE_SHARED_CONST kWorkConstant = 10u;            // kInBulk or kOneByOne
 SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 11u; // points that workgroup memory has room for

@@ -5,7 +5,7 @@
 // Scratch buffer: vec4 elements, TableHeader::scratchStride an instance; for every step and class of fragments one run of points,
 // point by point, in each the fragments of the class.
 //
-// A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
+// A class is all fragments of one kind: sectors, open or closed, with or without sharpness.
 //
 // Tables
 //   stencil vertices   of a row: how many pairs follow, its first vertex, the others in pairs. A number has 16 bits if that is
@@ -22,7 +22,7 @@
 //   row lists          one word a point of a level: pattern rows that no cell makes, rising
 //   cells              one element a cell, 16 bits each: the points it makes (kNoTarget: none), and its own
 //   strips             one element a strip: (first column, columns, sector, 0); a column is an element: (point before |
-//                      point of the strip << 16, point behind | sample << 16, kNoSample or Loop's axis, 0)
+//                      point of the strip << 16, point behind | sample << 16, kNoSample where it stores none, 0)
 //   masks              (kCornerMask, kWholeMask or 0, first sector, sectors, points of ring 1), then one element a point of ring 1:
 //                      (position, first tangent, second tangent, 0); one an arrangement of sharp spokes and run
 //   class words        [point][fragment] net: pool indices; [spoke][fragment] sharpness; [sector][fragment] patches or
@@ -78,8 +78,8 @@ SUPPLE_SHARED_CONST kFromPastNet = 2u;
 SUPPLE_SHARED_CONST kSources = 3u;
 
 SUPPLE_SHARED_CONST kCellTargets = 7u;
-// The points a cell makes, by neighbour: its own vertex point, then the edge points (Loop: all, Catmull-Clark:
-// neighbours 0, 2, 6) and face points (Catmull-Clark: 1, 7) towards them.
+// The points a cell makes, by neighbour: its own vertex point, then the edge points (neighbours 0, 2, 6) and face
+// points (1, 7) towards them.
 #define SUPPLE_SUBDIVISION_QUAD_SLOTS 0u, 1u, 2u, 6u, 7u
 SUPPLE_SHARED_CONST kNoTarget = 0xFFFFu;
 SUPPLE_SHARED_CONST kNoSample = 0xFFFFFFFFu;

@@ -8,7 +8,7 @@
 #ifdef LOOP_RULES
 const bool kLoop = true;
 #else
-layout(constant_id = kLoopConstant) const bool kLoop = false;
+const bool kLoop = false;
 #endif
 
 struct Sources {

@@ -22,8 +22,7 @@ constexpr uint64_t kMostFollowed = 4;
 constexpr uint64_t kMostFragments = 1u << 21;
 constexpr uint64_t kMostPoints = 0xFFFE; ///< the last number of 16 bits is none
 
-constexpr uint32_t kSourcesOfRule[] = {1, 6, 4, 0};         // Catmull-Clark; by rule
-constexpr uint32_t kSourcesOfTriangleRule[] = {7, 4, 0, 0}; // Loop
+constexpr uint32_t kSourcesOfRule[] = {1, 6, 4, 0}; // by rule
 
 uint32_t half(std::span<const uint32_t> words, uint32_t k) {
     return words[k / 2] >> 16 * (k % 2) & 0xFFFFu;
@@ -54,8 +53,7 @@ bool ScratchRuns::take(uint32_t run, uint64_t points) {
 }
 
 ClassCheck::ClassCheck(TableCheck& check, Followed& followed, uint32_t header)
-    : check_(check), followed_(followed), all_(check.tables().fragments),
-      subdivision_(all_.loop ? Subdivision::loop : Subdivision::catmullClark), header_(header) {}
+    : check_(check), followed_(followed), all_(check.tables().fragments), header_(header) {}
 
 bool ClassCheck::run(ScratchRuns& runs) {
     check_.begin("headers of classes");
@@ -105,23 +103,21 @@ bool ClassCheck::readHeader() {
            check_.within(sectors_, 0, kMostPoints, "sectors");
 }
 
-/// Whether it is of fans or facets, and as many points as these have at every step.
+/// Whether it is of fans, and as many points as these have at every step.
 bool ClassCheck::findShape() {
     const auto fan = [&](bool open, uint32_t step) {
-        return pointCount({subdivision_, sectors_, open}, (1u << step) + 1);
+        return pointCount({Subdivision::catmullClark, sectors_, open}, (1u << step) + 1);
     };
-    facet_ = all_.loop && sectors_ == 1 && level(0).points == facetPointCount(1);
-    open_ = !facet_ && level(0).points == fan(true, 0);
-    spokes_ = facet_ ? 3 : sectors_ + (open_ ? 1 : 0);
+    open_ = level(0).points == fan(true, 0);
+    spokes_ = sectors_ + (open_ ? 1 : 0);
     for (uint32_t step = 0; step <= last(); ++step) {
         const uint32_t points = level(step).points;
-        if (!check_.require(points == (facet_ ? facetPointCount(1u << step) : fan(open_, step)),
-                            "points of no fan and no facet") ||
+        if (!check_.require(points == fan(open_, step), "points of no fan") ||
             !check_.within(points, 0, kMostPoints, "points")) {
             return false;
         }
     }
-    return check_.require(!facet_ || masks_ == 0, "masks of a facet");
+    return true;
 }
 
 bool ClassCheck::isPoint(uint64_t point, uint32_t step) {
@@ -147,15 +143,13 @@ bool ClassCheck::followRows(uint32_t step) {
 
 bool ClassCheck::followRow(std::span<const uint32_t> row, uint32_t step) {
     const uint32_t packed = half(row, 7), rule = packed & 3u, spoke = packed >> 2; // 1 + spoke, or 0
-    if ((sharp_ && !check_.within(0, spoke, spokes_, "spokes")) ||
-        !points(row, all_.loop ? kSourcesOfTriangleRule[rule] : kSourcesOfRule[rule], step - 1)) {
+    if ((sharp_ && !check_.within(0, spoke, spokes_, "spokes")) || !points(row, kSourcesOfRule[rule], step - 1)) {
         return false;
     }
     if (rule == kCentreRule) { // the points of its first ring
-        return check_.require(!facet_, "a facet with a centre") &&
-               isPoint(uint64_t{all_.loop ? 1u : 2u} * sectors_, step - 1);
+        return isPoint(uint64_t{2} * sectors_, step - 1);
     }
-    if (rule != kVertexRule || all_.loop) {
+    if (rule != kVertexRule) {
         return true;
     }
     const uint64_t neighbours = uint64_t{level(step - 1).neighbours} + half(row, 0);
@@ -164,16 +158,15 @@ bool ClassCheck::followRow(std::span<const uint32_t> row, uint32_t step) {
 
 bool ClassCheck::followLimitRows() {
     check_.begin("limit rows");
-    const Domain domain = all_.loop ? Domain::triangle : Domain::quad;
-    const uint32_t samples = sampleCount(domain, check_.tables().rate);
+    const uint32_t samples = sampleCount(Domain::quad, check_.tables().rate);
     if (!check_.require(limitRows_.count == uint64_t{sectors_} * samples, "not as many as samples") ||
         !followed_.elements(limitRows_.table, uint64_t{2} * limitRows_.count)) {
         return false;
     }
     for (uint64_t row = 0; row < limitRows_.count; ++row) {
         const std::span<const uint32_t> place = check_.element(limitRows_.table + 2 * row + 1);
-        if (!points(check_.element(limitRows_.table + 2 * row), all_.loop ? 6 : 8, last()) ||
-            !isPoint(place[0], last()) || (sharp_ && !check_.within(0, place[1], spokes_, "spokes")) ||
+        if (!points(check_.element(limitRows_.table + 2 * row), 8, last()) || !isPoint(place[0], last()) ||
+            (sharp_ && !check_.within(0, place[1], spokes_, "spokes")) ||
             !check_.within(place[2] & kSectorMask, 1, sectors_, "sectors") ||
             !check_.within(place[3], 1, samples, "samples")) {
             return false;
@@ -212,13 +205,10 @@ bool ClassCheck::followFragments() {
 bool ClassCheck::followMasks() {
     check_.begin("masks");
     const uint64_t count = uint64_t{sectors_} * fragments_;
-    if (masks_ == 0) {
-        return true;
-    }
     if (!followed_.words(masks_, count)) {
         return false;
     }
-    const uint32_t ring = all_.loop ? spokes_ : sectors_ + spokes_;
+    const uint32_t ring = sectors_ + spokes_;
     for (const uint32_t mask : std::span(check_.tables().words).subspan(masks_, count)) {
         if (!check_.elements(mask, uint64_t{1} + ring)) {
             return false;
@@ -235,7 +225,7 @@ bool ClassCheck::followMasks() {
 bool ClassCheck::followCentreSteps() {
     check_.begin("centre steps");
     const uint64_t count = uint64_t{all_.steps} * fragments_;
-    if (!sharp_ || facet_) {
+    if (!sharp_) {
         return true;
     }
     if (!followed_.elements(centreSteps_, count)) {
@@ -255,16 +245,16 @@ bool ClassCheck::followCells(const Section& cells, uint32_t step) {
     if (!followed_.elements(cells.table, cells.count)) {
         return false;
     }
-    const uint32_t targets = all_.loop ? kCellTargets : 6; // the last of Catmull-Clark makes nothing
+    constexpr uint32_t kTargets = 6; // the last makes nothing
     for (uint64_t c = cells.table; c < uint64_t{cells.table} + cells.count; ++c) {
         const std::span<const uint32_t> cell = check_.element(c);
         const uint32_t point = half(cell, kCellTargets);
         const uint64_t neighbours = uint64_t{level(step - 1).neighbours} + point;
         if (!isPoint(point, step - 1) || !check_.elements(neighbours, 1) ||
-            !points(check_.element(neighbours), all_.loop ? 6 : 8, step - 1)) {
+            !points(check_.element(neighbours), 8, step - 1)) {
             return false;
         }
-        for (uint32_t k = 0; k < targets; ++k) {
+        for (uint32_t k = 0; k < kTargets; ++k) {
             if (half(cell, k) != kNoTarget && !isPoint(half(cell, k), step)) {
                 return false;
             }

@@ -1,7 +1,6 @@
 // Checks a class of fragments in the tables (surface/table_check.h). Private to subdivision/.
 #pragma once
 
-#include "surface/subdivision_rules.h"
 #include "surface/table_check.h"
 
 #include <cstdint>
@@ -82,10 +81,9 @@ private:
     TableCheck& check_;
     Followed& followed_;
     const Fragments& all_;
-    Subdivision subdivision_;
     uint32_t header_; ///< element
     uint32_t fragments_ = 0, sectors_ = 0, spokes_ = 0;
-    bool sharp_ = false, open_ = false, facet_ = false;
+    bool sharp_ = false, open_ = false;
     uint32_t net_ = 0, sharpness_ = 0, patches_ = 0, masks_ = 0, centreSteps_ = 0;
     Section limitRows_;
     std::vector<Level> levels_; ///< 0..steps

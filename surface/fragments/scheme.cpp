@@ -28,16 +28,13 @@ constexpr uint32_t kMaxPoints = 0xFFFF; ///< 16-bit indices
 
 /// Fragments that share all their tables.
 struct ClassKey {
-    FragmentKind kind = FragmentKind::vertex;
     Fan fan;
     bool sharp = false;
 
-    bool operator<(const ClassKey& other) const {
-        return std::tie(kind, fan, sharp) < std::tie(other.kind, other.fan, other.sharp);
-    }
+    bool operator<(const ClassKey& other) const { return std::tie(fan, sharp) < std::tie(other.fan, other.sharp); }
 };
 
-/// A fan's pattern, or a facet's of one step, and where it lies in the tables.
+/// A fan's pattern, and where it lies in the tables.
 struct PatternTables {
     Pattern pattern;
     uint32_t rows = 0, neighbours = 0; ///< elements
@@ -71,13 +68,13 @@ class Builder {
 public:
     /// `depth`: steps from the cage, at least the isolation steps.
     Builder(const Mesh& mesh, const cage::Cage& cage, const Recipe& recipe, uint32_t depth)
-        : mesh_(mesh), host_(cage), recipe_(recipe), loop_(mesh.subdivision == Subdivision::loop),
+        : mesh_(mesh), host_(cage), recipe_(recipe),
           steps_(depth > mesh.isolationSteps ? depth - mesh.isolationSteps : 0), writer_(tables_.words) {}
 
     Result<Tables> build() {
         sortFragments();
         for (const ClassTables& c : classes_) {
-            if (c.key.kind == FragmentKind::vertex && pointCount(c.key.fan, (1u << steps_) + 1) >= kMaxPoints) {
+            if (pointCount(c.key.fan, (1u << steps_) + 1) >= kMaxPoints) {
                 const Fragment& fragment = mesh_.fragments[c.fragments.front()];
                 return Error{ErrorCode::limit, "vertex " + std::to_string(mesh_.net[fragment.firstNet]) + " has " +
                                                    std::to_string(c.key.fan.sectors) + " faces: at depth " +
@@ -98,8 +95,7 @@ public:
         writeFragments();
         writeBlocks();
         if (!patches_.empty()) {
-            tables_.ranges.push_back(
-                {loop_ ? PatchClass::loop : PatchClass::fragment, {0, static_cast<uint32_t>(patches_.size())}, 0, 0});
+            tables_.ranges.push_back({PatchClass::fragment, {0, static_cast<uint32_t>(patches_.size())}, 0, 0});
         }
         finishTables(recipe_, mesh_.cage, patches_, writer_, tables_, nullptr);
         const Status smooth = writeUvs();
@@ -122,16 +118,14 @@ private:
             const std::span<const float> spokes = sharpness(fragment);
             const bool sharp = fragment.centreSharpness > 0.0f ||
                                std::any_of(spokes.begin(), spokes.end(), [](float s) { return s > 0.0f; });
-            byKey[{fragment.kind, {mesh_.subdivision, fragment.sectors, fragment.open}, sharp}].push_back(f);
+            byKey[{{mesh_.subdivision, fragment.sectors, fragment.open}, sharp}].push_back(f);
         }
         for (auto& [key, fragments] : byKey) {
             ClassTables& c = classes_.emplace_back();
             c.key = key;
             c.fragments = std::move(fragments);
             for (uint32_t step = 0; step <= steps_; ++step) {
-                const uint32_t side = 1u << step;
-                c.after.push_back(
-                    {key.kind == FragmentKind::facet ? facetPointCount(side) : pointCount(key.fan, side + 1)});
+                c.after.push_back({pointCount(key.fan, (1u << step) + 1)});
             }
         }
         std::stable_sort(classes_.begin(), classes_.end(), [](const ClassTables& a, const ClassTables& b) {
@@ -140,9 +134,8 @@ private:
     }
 
     void sortPatches() {
-        const PatchClass patchClass = loop_ ? PatchClass::loop : PatchClass::fragment;
         patches_ = draftPatches({mesh_.cage, mesh_.hostVertices, mesh_.sourceFaces},
-                                [&](const DraftPatch&) { return patchClass; });
+                                [](const DraftPatch&) { return PatchClass::fragment; });
         facePatches_.assign(mesh_.cage.faceCount(), shared::kNoPatch);
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             facePatches_[patches_[p].facet] = p;
@@ -181,26 +174,13 @@ private:
         return tables;
     }
 
-    const PatternTables& patternOf(const ClassKey& key, uint32_t step) {
-        if (key.kind == FragmentKind::vertex) { // one for all steps
-            const auto [known, isNew] = fans_.try_emplace(key.fan);
-            if (isNew) {
-                known->second = writePattern(fanPattern(key.fan, steps_));
-            }
-            return known->second;
-        }
-        const auto [known, isNew] = facets_.try_emplace(step);
+    /// One for all steps.
+    const PatternTables& patternOf(const Fan& fan) {
+        const auto [known, isNew] = fans_.try_emplace(fan);
         if (isNew) {
-            known->second = writePattern(facetPattern(step));
+            known->second = writePattern(fanPattern(fan, steps_));
         }
         return known->second;
-    }
-
-    /// The points of the next step that a point's ring makes: towards which neighbours.
-    [[nodiscard]] std::span<const uint32_t> cellSlots() const {
-        static constexpr uint32_t kQuadSlots[] = {SUPPLE_SUBDIVISION_QUAD_SLOTS};
-        static constexpr uint32_t kTriangleSlots[] = {0, 1, 2, 3, 4, 5};
-        return loop_ ? std::span<const uint32_t>(kTriangleSlots) : std::span<const uint32_t>(kQuadSlots);
     }
 
     /// The points a cell makes, as the tables have them.
@@ -210,7 +190,8 @@ private:
     /// one has all of its sources round it, and takes it from `rows`. `neighbours` are those before the step.
     std::vector<Cell> makeCells(const ClassKey& key, std::span<const Neighbours> neighbours,
                                 const std::vector<Row>& pattern, std::vector<uint32_t>& rows) const {
-        const std::span<const uint32_t> slots = cellSlots();
+        // The points of the next step that a point's ring makes: towards which neighbours.
+        constexpr uint32_t kSlots[] = {SUPPLE_SUBDIVISION_QUAD_SLOTS};
         std::map<uint32_t, Cell> cells;
         const auto give = [&](uint32_t point, uint32_t slot, uint32_t row) {
             const auto [cell, isNew] = cells.try_emplace(point);
@@ -229,16 +210,16 @@ private:
             const uint32_t corners = r.rule == Rule::vertex ? 1 : r.rule == Rule::edge ? 2 : 4;
             for (uint32_t k = 0; k < corners; ++k) {
                 const uint32_t point = r.sources[k];
-                const bool centre = key.kind == FragmentKind::vertex && point == 0;
-                if (centre || point >= neighbours.size() || neighbours[point][0] == point) { // or in the halo
+                if (point == 0 || point >= neighbours.size() ||
+                    neighbours[point][0] == point) { // the centre, or in the halo
                     continue;
                 }
                 if (r.rule == Rule::vertex) {
                     give(point, 0, row);
                     return true;
                 }
-                for (uint32_t slot = 0; slot < slots.size(); ++slot) {
-                    if (neighbours[point][slots[slot]] == r.sources[k ^ 1u]) {
+                for (uint32_t slot = 0; slot < std::size(kSlots); ++slot) {
+                    if (neighbours[point][kSlots[slot]] == r.sources[k ^ 1u]) {
                         give(point, 1 + slot, row);
                         return true;
                     }
@@ -255,15 +236,14 @@ private:
 
     void writeWork(ClassTables& c) {
         for (uint32_t step = 0; step <= steps_; ++step) {
-            c.after[step].pattern = &patternOf(c.key, step);
+            c.after[step].pattern = &patternOf(c.key.fan);
         }
         for (uint32_t step = 1; step <= steps_; ++step) {
             StepTables& own = c.after[step];
-            // Of a fan's neighbours those that were covered before the step; they come first.
-            std::span<const Neighbours> neighbours = c.after[step - 1].pattern->pattern.neighbours;
-            if (c.key.kind == FragmentKind::vertex) {
-                neighbours = neighbours.first(pointCount(c.key.fan, 1u << (step - 1)));
-            }
+            // Those neighbours that were covered before the step; they come first.
+            const std::span<const Neighbours> neighbours =
+                std::span<const Neighbours>(c.after[step - 1].pattern->pattern.neighbours)
+                    .first(pointCount(c.key.fan, 1u << (step - 1)));
             std::vector<uint32_t> rows(own.points);
             std::iota(rows.begin(), rows.end(), 0u);
             const std::vector<Cell> cells = makeCells(c.key, neighbours, own.pattern->pattern.rows, rows);
@@ -276,35 +256,13 @@ private:
         }
     }
 
-    /// The point of a fragment at the last step, at (a, b) of a sector, or kNoPoint.
-    [[nodiscard]] uint32_t pointAt(const ClassKey& key, uint32_t sector, int32_t a, int32_t b) const {
-        return key.kind == FragmentKind::facet ? facetPointIndex(1u << steps_, a, b)
-                                               : pointIndex(key.fan, sector, a, b);
-    }
-
-    /// Which of a sector's directions a point's neighbours begin with, kNoSample where with none of Loop's: its rules
-    /// depend on it, Catmull-Clark's do not.
-    [[nodiscard]] uint32_t axisOf(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
-                                  int32_t b) const {
-        if (!loop_) {
-            return 0;
-        }
-        constexpr int32_t kWays[3][2] = {{1, 0}, {0, 1}, {-1, 1}};
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            if (neighbours[0] == pointAt(key, sector, a + kWays[axis][0], b + kWays[axis][1])) {
-                return axis;
-            }
-        }
-        return shared::kNoSample;
-    }
-
-    /// How often to turn from a point's first neighbour to the direction of the sector's first edge, by quarters (Loop:
-    /// sixths). A centre has 0.
-    [[nodiscard]] uint32_t turnsAt(const ClassKey& key, const Neighbours& neighbours, uint32_t sector, int32_t a,
-                                   int32_t b) const {
-        const uint32_t next = pointAt(key, sector, a + 1, b), step = loop_ ? 1 : 2;
-        for (uint32_t turns = 0; turns * step < (loop_ ? 6u : 8u); ++turns) {
-            if (neighbours[turns * step] == next) {
+    /// How many quarters to turn from a point's first neighbour to the direction of the sector's first edge. A centre
+    /// has 0.
+    [[nodiscard]] static uint32_t turnsAt(const Fan& fan, const Neighbours& neighbours, uint32_t sector, int32_t a,
+                                          int32_t b) {
+        const uint32_t next = pointIndex(fan, sector, a + 1, b);
+        for (uint32_t turns = 0; turns < 4; ++turns) {
+            if (neighbours[2 * turns] == next) {
                 return turns;
             }
         }
@@ -317,7 +275,6 @@ private:
 
     /// Strips of the samples that need neither sharpness nor the centre's mask, and rows for all, the others first.
     void writeLimits(ClassTables& c) {
-        const bool facet = c.key.kind == FragmentKind::facet;
         const Pattern& pattern = c.after[steps_].pattern->pattern;
         const int32_t side = 1 << steps_;
         std::vector<LimitRow> oneByOne, inStrips;
@@ -327,35 +284,31 @@ private:
         for (uint32_t sector = 0; sector < c.key.fan.sectors; ++sector) {
             uint32_t sample = 0;
             for (int32_t b = 0; b <= side; ++b) {
-                const int32_t last = loop_ ? side - b : side;
-                strips.push_back({column, static_cast<uint32_t>(last + 3)});
+                strips.push_back({column, static_cast<uint32_t>(side + 3)});
                 stripSectors.push_back(sector);
-                for (int32_t a = -1; a <= last + 1; ++a, ++column) {
+                for (int32_t a = -1; a <= side + 1; ++a, ++column) {
                     // Points that no sample of the strip asks for may be missing, or lie beyond the halo.
                     const auto at = [&](int32_t y) {
-                        const uint32_t point = pointAt(c.key, sector, a, y);
+                        const uint32_t point = pointIndex(c.key.fan, sector, a, y);
                         return point < c.after[steps_].points ? point : 0u;
                     };
                     const uint32_t point = at(b);
-                    const bool isSample = a >= 0 && a <= last;
-                    uint32_t axis = shared::kNoSample;
+                    const bool isSample = a >= 0 && a <= side;
+                    uint32_t inStrip = shared::kNoSample;
                     if (isSample) {
                         const uint32_t spoke = pattern.spokes[point];
-                        const bool centre = !facet && point == 0;
-                        if (!centre && !(c.key.sharp && spoke != kNoSpoke)) {
-                            axis = axisOf(c.key, pattern.neighbours[point], sector, a, b);
+                        if (point != 0 && !(c.key.sharp && spoke != kNoSpoke)) {
+                            inStrip = 0;
                         }
-                        // A facet lies right of the lines through c0 and c2, left of that through c1.
-                        const bool right = facet ? spoke != 1 : a == 0;
-                        (axis == shared::kNoSample ? oneByOne : inStrips)
+                        (inStrip == shared::kNoSample ? oneByOne : inStrips)
                             .push_back(
                                 {point,
                                  sector |
-                                     turnsAt(c.key, pattern.neighbours[point], sector, a, b) << shared::kTurnShift |
-                                     (right ? shared::kRightSide : 0u),
+                                     turnsAt(c.key.fan, pattern.neighbours[point], sector, a, b) << shared::kTurnShift |
+                                     (a == 0 ? shared::kRightSide : 0u),
                                  sample});
                     }
-                    writer_.put({at(b - 1) | point << 16, at(b + 1) | sample << 16, axis, 0u});
+                    writer_.put({at(b - 1) | point << 16, at(b + 1) | sample << 16, inStrip, 0u});
                     sample += isSample ? 1 : 0;
                 }
             }
@@ -381,11 +334,10 @@ private:
     }
 
     void writeClass(ClassTables& c) {
-        const bool facet = c.key.kind == FragmentKind::facet;
         const uint32_t sectors = c.key.fan.sectors;
         writeWork(c);
         writeLimits(c);
-        for (size_t i = 0; i < c.fragments.size() && !facet; ++i) {
+        for (size_t i = 0; i < c.fragments.size(); ++i) {
             if (i == 0 || c.key.sharp) {
                 writeMasks(c.key.fan, mesh_.fragments[c.fragments[i]]);
             } else { // the same as the first one's
@@ -394,7 +346,7 @@ private:
                 }
             }
         }
-        if (c.key.sharp && !facet) {
+        if (c.key.sharp) {
             writeCentreSteps(c);
         }
         const auto words = [&](uint32_t rows, auto&& value) {
@@ -415,23 +367,21 @@ private:
                 return std::bit_cast<uint32_t>(sharpness(f)[spoke]);
             });
         }
-        if (!facet) {
-            uint32_t next = 0;
-            std::vector<uint32_t> own;
-            std::swap(own, masks_);
-            c.masks = words(
-                sectors, [&](const Fragment&, uint32_t sector) { return own[next++ % c.count() * sectors + sector]; });
-        }
-        const CentreWeights weights = facet ? CentreWeights{} : refineWeights(mesh_.subdivision, c.key.fan.sectors);
+        uint32_t next = 0;
+        std::vector<uint32_t> own;
+        std::swap(own, masks_);
+        c.masks = words(sectors,
+                        [&](const Fragment&, uint32_t sector) { return own[next++ % c.count() * sectors + sector]; });
+        const CentreWeights weights = refineWeights(mesh_.subdivision, c.key.fan.sectors);
         c.header = writer_.element();
         writer_.put({c.count(), sectors | (c.key.sharp ? shared::kSharpClass : 0u), c.net, c.sharpness, c.patches,
                      c.masks, c.centreSteps, 0u, floatBits(weights.spoke), floatBits(weights.face), c.limitRows.table,
                      c.limitRows.count});
         for (uint32_t step = 0; step <= steps_; ++step) {
-            StepTables& own = c.after[step];
-            own.run = tables_.fragments.scratchStride;
-            writer_.put({own.pattern->rows, own.pattern->neighbours, own.points, own.run});
-            tables_.fragments.scratchStride += step > 0 ? own.points * c.count() : 0;
+            StepTables& after = c.after[step];
+            after.run = tables_.fragments.scratchStride;
+            writer_.put({after.pattern->rows, after.pattern->neighbours, after.points, after.run});
+            tables_.fragments.scratchStride += step > 0 ? after.points * c.count() : 0;
         }
     }
 
@@ -477,7 +427,6 @@ private:
 
     void writeFragments() {
         tables_.fragments.steps = steps_;
-        tables_.fragments.loop = loop_;
         tables_.fragments.scratchStride = poolStrideFor(tables_.fragments.scratchStride);
         for (const ClassTables& c : classes_) {
             tables_.fragments.classes.push_back({c.sharedPoints(), {writer_.element(), c.count()}, {}});
@@ -556,7 +505,6 @@ private:
     const Mesh& mesh_;
     const cage::Cage& host_;
     const Recipe& recipe_;
-    bool loop_;
     uint32_t steps_;
     Tables tables_;
     TableWriter writer_;
@@ -564,7 +512,6 @@ private:
     std::vector<DraftPatch> patches_;
     std::vector<uint32_t> facePatches_; ///< per face of the isolated mesh
     std::map<Fan, PatternTables> fans_;
-    std::map<uint32_t, PatternTables> facets_; ///< by step
     std::map<std::vector<uint32_t>, uint32_t> maskElements_;
     std::vector<uint32_t> masks_; ///< [fragment][sector] of the class at work
 };
@@ -572,8 +519,7 @@ private:
 } // namespace
 
 Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* /*edges*/) {
-    const Result<Mesh> mesh =
-        buildMesh(cage, recipe.scheme == SchemeId::loopFragments ? Subdivision::loop : Subdivision::catmullClark);
+    const Result<Mesh> mesh = buildMesh(cage, Subdivision::catmullClark);
     if (!mesh) {
         return mesh.error();
     }

@@ -42,11 +42,10 @@ class Evaluator {
 public:
     Evaluator(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass)
         : builder_(builder), fragments_(builder.tables.fragments), format_(pass.format), steps_(*pass.steps),
-          loop_(fragments_.loop ? 1 : 0), tangents_(tangentsConstant(builder, format_)),
-          net_(format_ == kVertexPosition ? kFromPastNet : kFromNet) {
+          tangents_(tangentsConstant(builder, format_)), net_(format_ == kVertexPosition ? kFromPastNet : kFromNet) {
         const Evaluation& evaluation = builder.evaluation;
         push_.verticesPerInstance = evaluation.verticesPerInstance;
-        push_.samples = sampleCount(fragments_.loop ? Domain::triangle : Domain::quad, evaluation.rate);
+        push_.samples = sampleCount(Domain::quad, evaluation.rate);
         push_.firstVertex = evaluation.firstVertices.empty() ? 0 : evaluation.firstVertices.front();
         push_.today = builder.options.view && format_ == kVertexPosition ? 1 : 0;
     }
@@ -78,8 +77,7 @@ private:
                 push_.count += fragments_.classes[c].fragments.count;
             }
             add(builder_.kernel(SetKind::subdivide, Kernel::fragmentsFragment,
-                                {{kLoopConstant, loop_},
-                                 {kVertexFormatConstant, format_},
+                                {{kVertexFormatConstant, format_},
                                  {kTangentsConstant, tangents_},
                                  {kWorkgroupPointsConstant, points}},
                                 "supple subdivision, shared memory"),
@@ -94,15 +92,13 @@ private:
         for (uint32_t kind = 0; kind < kWorkKinds; ++kind) {
             for (const uint32_t source : {kFromScratch, net_}) {
                 if (fragments_.steps > (source == kFromScratch ? 1u : 0u)) {
-                    refine[source][kind] =
-                        builder_.kernel(SetKind::subdivide, Kernel::fragmentsRefine,
-                                        {{kLoopConstant, loop_}, {kSourceConstant, source}, {kWorkConstant, kind}},
-                                        "supple subdivision, refine");
+                    refine[source][kind] = builder_.kernel(SetKind::subdivide, Kernel::fragmentsRefine,
+                                                           {{kSourceConstant, source}, {kWorkConstant, kind}},
+                                                           "supple subdivision, refine");
                 }
             }
             limit[kind] = builder_.kernel(SetKind::subdivide, Kernel::fragmentsLimit,
-                                          {{kLoopConstant, loop_},
-                                           {kVertexFormatConstant, format_},
+                                          {{kVertexFormatConstant, format_},
                                            {kTangentsConstant, tangents_},
                                            {kSourceConstant, fragments_.steps == 0 ? net_ : kFromScratch},
                                            {kWorkConstant, kind}},
@@ -140,7 +136,7 @@ private:
     const Fragments& fragments_;
     uint32_t format_;
     Steps& steps_;
-    uint32_t loop_, tangents_;
+    uint32_t tangents_;
     uint32_t net_; ///< where the isolated level is read
     FragmentPush push_{};
 };

@@ -95,11 +95,9 @@ public:
 
 private:
     bool checkMembers() {
-        const bool loop = check_.source().recipe.scheme == SchemeId::loopFragments;
         check_.begin("fragments");
-        return check_.require(all_.loop == loop, "of another subdivision") &&
-               check_.require(all_.steps < 32 && tables_.rate == 1u << all_.steps, "steps of another rate") &&
-               checkClasses(check_, {loop ? PatchClass::loop : PatchClass::fragment});
+        return check_.require(all_.steps < 32 && tables_.rate == 1u << all_.steps, "steps of another rate") &&
+               checkClasses(check_, {PatchClass::fragment});
     }
 
     /// The steps before the isolated level, by stencils.
@@ -189,7 +187,7 @@ private:
     /// The samples of a rate themselves.
     bool checkUvs() {
         check_.begin("smooth texture coordinates");
-        const uint64_t samples = sampleCount(all_.loop ? Domain::triangle : Domain::quad, tables_.rate);
+        const uint64_t samples = sampleCount(Domain::quad, tables_.rate);
         return tables_.uvMode == cage::UvMode::all ||
                check_.elements(tables_.ranges.front().smoothUvs, samples * tables_.uvSets * tables_.patches.size());
     }

@@ -15,7 +15,7 @@ using namespace surface;
 class FragmentWords {
 public:
     FragmentWords(WordList& list, const TableSource& source)
-        : list_(list), tables_(list.tables()), all_(tables_.fragments), loop_(all_.loop), vertices_(source.vertices) {}
+        : list_(list), tables_(list.tables()), all_(tables_.fragments), vertices_(source.vertices) {}
 
     void run() {
         for (const Construction& step : tables_.constructions) {
@@ -45,17 +45,13 @@ private:
         count_ = list_.at(header);
         sectors_ = list_.at(header + 1) & ~kSharpClass;
         sharp_ = (list_.at(header + 1) & kSharpClass) != 0;
-        facet_ = list_.at(header + 5) == 0;
-        const uint32_t each = (loop_ ? 3 : 6) * sectors_;
-        spokes_ = facet_ ? 3 : sectors_ + (points(0) > 1 + each ? 1 : 0);
+        spokes_ = sectors_ + (points(0) > 1 + 6 * sectors_ ? 1 : 0);
     }
     [[nodiscard]] uint32_t level(uint32_t step, uint32_t k) const {
         return list_.at(header_ + uint64_t{4} * (kClassHeaderElements + step) + k);
     }
     [[nodiscard]] uint32_t points(uint32_t step) const { return level(step, 2); }
-    [[nodiscard]] uint32_t samples() const {
-        return sampleCount(loop_ ? Domain::triangle : Domain::quad, tables_.rate);
-    }
+    [[nodiscard]] uint32_t samples() const { return sampleCount(Domain::quad, tables_.rate); }
     /// Whether a word is not listed yet for classes with or without sharpness.
     bool isNew(uint64_t word) { return known_.insert({word, sharp_}).second; }
     void addOther(const char* what, uint64_t word) { list_.add(what, word, {~0u, list_.at(word) + 1}); }
@@ -69,8 +65,8 @@ private:
             list_.addIndex("sharpness of a class", header_ + 3, tables_.words.size());
         }
         list_.addIndex("patches of a class", header_ + 4, tables_.words.size());
-        list_.add("masks of a class", header_ + 5, {~0u, facet_ ? 1 : static_cast<uint32_t>(tables_.words.size())});
-        if (sharp_ && !facet_) {
+        list_.add("masks of a class", header_ + 5, {~0u, static_cast<uint32_t>(tables_.words.size())});
+        if (sharp_) {
             list_.addIndex("centre steps of a class", header_ + 6, list_.elements() + 1);
         }
         list_.addIndex("limit rows of a class", header_ + 10, list_.elements());
@@ -94,10 +90,7 @@ private:
         if (!isNew(row)) {
             return;
         }
-        const uint32_t sources = rule == kCentreRule ? 0
-                                 : rule == kFaceRule ? 4
-                                 : rule == kEdgeRule ? (loop_ ? 4 : 6)
-                                                     : (loop_ ? 7 : 1);
+        const uint32_t sources = rule == kCentreRule ? 0 : rule == kFaceRule ? 4 : rule == kEdgeRule ? 6 : 1;
         for (uint32_t k = 0; k < 8; ++k) {
             list_.add("rule", row + k / 2, {});
         }
@@ -107,7 +100,7 @@ private:
         if (sharp_) {
             list_.add("spoke of a row", row + 3, {(list_.at(row + 3) & 0x3FFFFu) | (spokes_ + 1) << 18});
         }
-        if (rule == kVertexRule && !loop_) {
+        if (rule == kVertexRule) {
             addNeighbours(4 * (uint64_t{level(step - 1, 1)} + list_.half(row, 0)), 8, step - 1);
         }
     }
@@ -123,7 +116,7 @@ private:
     void addLimitRows() {
         for (uint64_t row = 0; row < list_.at(header_ + 11); ++row) {
             const uint64_t word = 4 * (list_.at(header_ + 10) + 2 * row);
-            for (uint32_t k = 0; k < (loop_ ? 6u : 8u); ++k) {
+            for (uint32_t k = 0; k < 8; ++k) {
                 list_.addHalf("neighbour of a sample", word, k, points(all_.steps));
             }
             list_.addIndex("point of a sample", word + 4, points(all_.steps));
@@ -147,11 +140,9 @@ private:
         for (uint64_t k = 0; k < uint64_t{count_} * sectors_; ++k) {
             list_.add("patch of a sector", list_.at(header_ + 4) + k,
                       {kNoPatch - 1, static_cast<uint32_t>(tables_.patches.size())});
-            if (!facet_) {
-                addMask(list_.at(header_ + 5) + k);
-            }
+            addMask(list_.at(header_ + 5) + k);
         }
-        for (uint64_t k = 0; sharp_ && !facet_ && k < uint64_t{all_.steps} * count_; ++k) {
+        for (uint64_t k = 0; sharp_ && k < uint64_t{all_.steps} * count_; ++k) {
             list_.addIndex("first spoke of a centre", 4 * (list_.at(header_ + 6) + k) + 2, spokes_);
             list_.addIndex("second spoke of a centre", 4 * (list_.at(header_ + 6) + k) + 3, spokes_);
         }
@@ -203,12 +194,12 @@ private:
         }
     }
     void addCell(uint64_t cell, uint32_t step) {
-        const uint32_t targets = loop_ ? 7 : 6;
+        const uint32_t targets = 6;
         for (uint32_t k = 0; k < targets; ++k) {
             list_.addHalf("target of a cell", cell, k, points(step), false);
         }
         list_.addHalf("point of a cell", cell, kCellTargets, points(step - 1));
-        addNeighbours(4 * (uint64_t{level(step - 1, 1)} + list_.half(cell, kCellTargets)), loop_ ? 6 : 8, step - 1);
+        addNeighbours(4 * (uint64_t{level(step - 1, 1)} + list_.half(cell, kCellTargets)), 8, step - 1);
     }
     void addStrip(uint64_t strip) {
         const uint32_t columns = list_.at(strip + 1);
@@ -232,11 +223,10 @@ private:
     WordList& list_;
     const Tables& tables_;
     const Fragments& all_;
-    bool loop_;
     uint64_t vertices_;
     uint64_t header_ = 0; ///< word; of the class at work, as what follows
     uint32_t count_ = 0, sectors_ = 0, spokes_ = 0;
-    bool sharp_ = false, facet_ = false;
+    bool sharp_ = false;
     std::set<std::pair<uint64_t, bool>> known_; ///< words with which rows, neighbours and masks begin
 };
 

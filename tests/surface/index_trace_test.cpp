@@ -73,8 +73,7 @@ void traceStencils(Memory& at, const Construction& c) {
 class FragmentTrace {
 public:
     FragmentTrace(const Tables& tables, Memory& memory)
-        : tables_(tables), all_(tables.fragments), at_(memory), loop_(all_.loop),
-          samples_(sampleCount(loop_ ? Domain::triangle : Domain::quad, tables.rate)) {}
+        : tables_(tables), all_(tables.fragments), at_(memory), samples_(sampleCount(Domain::quad, tables.rate)) {}
 
     void run() {
         for (const Fragments::Class& own : all_.classes) {
@@ -119,19 +118,17 @@ private:
 
     void refinedPoint(uint32_t row, uint32_t neighbours, uint32_t header, uint32_t step) {
         const uint32_t packed = at_.half(row, 7), rule = packed & 3u, spoke = packed >> 2;
-        const uint32_t head = at_.element(header, 1), sectors = head & ~kSharpClass, stride = loop_ ? 1 : 2;
+        const uint32_t head = at_.element(header, 1), sectors = head & ~kSharpClass, stride = 2;
         const bool sharp = (head & kSharpClass) != 0;
         if (spoke != 0 && sharp) {
             (void)at_.word(at_.element(header, 3) + (spoke - 1) * fragments_ + fragment_);
         }
         if (rule == kVertexRule) {
-            points(row, loop_ ? 7 : 1);
-            if (!loop_) {
-                points(neighbours + at_.half(row, 0), 8);
-            }
+            points(row, 1);
+            points(neighbours + at_.half(row, 0), 8);
         } else if (rule == kEdgeRule) {
-            points(row, loop_ ? 4 : 6);
-        } else if (rule == kFaceRule && !loop_) {
+            points(row, 6);
+        } else if (rule == kFaceRule) {
             points(row, 4);
         } else if (rule == kCentreRule) {
             for (uint32_t k = 0; k < sectors && at_.goesOn(); ++k) {
@@ -160,14 +157,14 @@ private:
             (void)at_.word(at_.element(header, 3) + (spoke - 1) * fragments_ + fragment_);
         }
         point(own);
-        points(row, loop_ ? 6 : 8);
-        if (own == 0 && masks != 0) {
+        points(row, 8);
+        if (own == 0) {
             centreLimit(at_.word(masks + sector * fragments_ + fragment_), sector);
         }
         writeSample(at_.word(patches + sector * fragments_ + fragment_), at_.element(row + 1, 3));
     }
     void centreLimit(uint32_t mask, uint32_t sector) {
-        const uint32_t stride = loop_ ? 1 : 2, first = at_.element(mask, 1), sectors = at_.element(mask, 2),
+        const uint32_t stride = 2, first = at_.element(mask, 1), sectors = at_.element(mask, 2),
                        ring = at_.element(mask, 3);
         point(0);
         for (uint32_t i = 1; i <= ring && at_.goesOn(); ++i) {
@@ -243,8 +240,8 @@ private:
     void cell(uint32_t cell, uint32_t neighbours) {
         const uint32_t own = at_.half(cell, kCellTargets);
         point(own);
-        points(neighbours + own, loop_ ? 6 : 8);
-        for (uint32_t k = 0; k < (loop_ ? 7u : 6u); ++k) {
+        points(neighbours + own, 8);
+        for (uint32_t k = 0; k < 6; ++k) {
             if (at_.half(cell, k) != kNoTarget) {
                 write(at_.half(cell, k));
             }
@@ -264,7 +261,7 @@ private:
     const Tables& tables_;
     const Fragments& all_;
     Memory& at_;
-    bool loop_, fromNet_ = false;
+    bool fromNet_ = false;
     uint32_t samples_, fragments_ = 0, fragment_ = 0, read_ = 0, write_ = 0;
     uint32_t local_ = 0, region_ = 0, target_ = 0; ///< local_: in workgroup memory, which has so many points
 };
@@ -378,7 +375,7 @@ TEST(IndexTrace, WhatPassesStaysWithinBounds) {
         cage::Cage& cage = own.cage;
         cage.creases.push_back({cage.faceVertices[0], cage.faceVertices[1], 1.5f});
         cage = test::withAttributes(cage);
-        for (const SchemeId scheme : {SchemeId::fragments, SchemeId::loopFragments, SchemeId::blend}) {
+        for (const SchemeId scheme : {SchemeId::fragments, SchemeId::blend}) {
             for (const uint32_t rate : {2u, 8u}) {
                 Recipe recipe;
                 recipe.scheme = scheme;

@@ -42,7 +42,7 @@ std::vector<test::NamedCage> cages() {
 }
 
 std::vector<SchemeId> allSchemes() {
-    std::vector<SchemeId> all{SchemeId::loopFragments};
+    std::vector<SchemeId> all;
     for (const Scheme& scheme : schemes()) {
         all.push_back(scheme.id);
     }
@@ -385,7 +385,6 @@ TEST(TableCheck, SectionsOfBlend) {
 TEST(TableCheck, SectionsOfFragments) {
     constexpr Change kChanges[] = {
         {"tables: fragments not as the recipe says", [](Tables& t) { t.fragments.classes.clear(); }},
-        {"fragments: of another subdivision", [](Tables& t) { t.fragments.loop = true; }},
         {"fragments: steps of another rate", [](Tables& t) { t.fragments.steps = 33; }},
         {"tables: steps of subdivision", [](Tables& t) { t.isolationSteps = 3; }},
         {"tables: made for another rate", [](Tables& t) { t.isolationSteps = 1; }},
@@ -477,7 +476,7 @@ TEST(TableCheck, AnotherSourceIsRefused) {
 TEST(TableCheck, WhatTheSchemeDoesNotHaveIsRefused) {
     Recipe recipe;
     recipe.rate = 8;
-    for (const SchemeId scheme : {SchemeId::blend, SchemeId::fragments, SchemeId::loopFragments}) {
+    for (const SchemeId scheme : {SchemeId::blend, SchemeId::fragments}) {
         recipe.scheme = scheme;
         Sample sample = sampleOf(recipe, test::cube());
         EXPECT_TRUE(sample.check().ok());

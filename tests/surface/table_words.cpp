@@ -51,7 +51,7 @@ private:
             addBlendWords(list, source_);
             return;
         }
-        if (scheme == SchemeId::fragments || scheme == SchemeId::loopFragments) {
+        if (scheme == SchemeId::fragments) {
             addFragmentWords(list, source_);
             return;
         }

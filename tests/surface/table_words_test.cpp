@@ -69,9 +69,7 @@ void forAllTables(Visit&& visit) {
             }
         }
     }
-    for (const SchemeId scheme : {SchemeId::fragments, SchemeId::loopFragments}) {
-        forFragments(scheme, cages, visit);
-    }
+    forFragments(SchemeId::fragments, cages, visit);
 }
 
 TEST(TableWords, WhatLeadsOutOfBoundsIsRefused) {
