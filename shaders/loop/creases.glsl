@@ -43,18 +43,21 @@ CreaseWeights weightsAfter(float steps, vec2 at) {
     precise float near = aa * aa * (1.0 / 32.0) + xx * (0.25 * aa - (xx + a * aa) * (1.0 / 6.0));
     precise float far = a * aa * (x - xx) * (1.0 / 6.0);
     precise float ripple = SELECT(touches, near, far), own = h * (a * aa) * (1.0 / 6.0), square = middle * middle - 0.25 * hh;
-    float alongX = SELECT(touches, x * (0.5 * aa - (2.0 * xx + a * aa) * (1.0 / 3.0)), a * aa * (1.0 - 2.0 * x) * (1.0 / 6.0));
-    float alongA = SELECT(touches, a * (0.125 * aa + 0.5 * xx * (1.0 - a)), 0.5 * aa * (x - xx)), slope = -0.5 * aa;
+    precise float alongX = SELECT(touches, x * (0.5 * aa - (2.0 * xx + a * aa) * (1.0 / 3.0)), a * aa * (1.0 - 2.0 * x) * (1.0 / 6.0));
+    precise float alongA = SELECT(touches, a * (0.125 * aa + 0.5 * xx * (1.0 - a)), 0.5 * aa * (x - xx)), slope = -0.5 * aa;
     precise vec3 w = vec3(own, own * middle, own * square + h * hh * ripple);
-    return CreaseWeights(w, vec3(0.0, own, 2.0 * own * middle + hh * alongX),
-                         vec3(slope, slope * middle + 0.5 * own, slope * square + own * middle + hh * (0.5 * alongX - alongA)));
+    precise vec3 along = vec3(0.0, own, 2.0 * own * middle + hh * alongX);
+    precise vec3 across =
+        vec3(slope, slope * middle + 0.5 * own, slope * square + own * middle + hh * (0.5 * alongX - alongA));
+    return CreaseWeights(w, along, across);
 }
 // The last step of a sharpness that is no whole number is sharp by its fraction.
 CreaseWeights creaseWeights(float sharpness, vec2 at) {
     precise float steps = floor(sharpness), sharp = sharpness - steps, rest = 1.0 - sharp;
     CreaseWeights few = weightsAfter(steps, at), more = weightsAfter(steps + 1.0, at);
     precise vec3 w = rest * few.w + sharp * more.w;
-    return CreaseWeights(w, rest * few.along + sharp * more.along, rest * few.across + sharp * more.across);
+    precise vec3 along = rest * few.along + sharp * more.along, across = rest * few.across + sharp * more.across;
+    return CreaseWeights(w, along, across);
 }
 vec3 weighted(Crease c, vec3 w) {
     precise vec3 sum = (w.x * c.own + w.y * c.along) + w.z * c.bend;

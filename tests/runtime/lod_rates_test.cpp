@@ -393,71 +393,69 @@ std::vector<std::vector<uint32_t>> slotsByRate(const ReadBack& written) {
 TEST_P(LodRates, OnlyWhatIsSeenIsEvaluatedAndDrawn) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-        TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
-        SuppleGroupDesc desc = groupOf(context.createAsset(creased(bumpySphere())), 12, scheme, 8);
-        desc.view = view.handle();
-        Crowd crowd(context, desc);
-        ASSERT_TRUE(crowd.valid());
-        std::vector<SuppleInstance> instances;
-        for (int i = 0; i < 10; ++i) {
-            instances.push_back(crowd.spawn());
-        }
-        std::map<uint32_t, double> moved; // along x, by slot
-        // Sees about 12 units of a row with an instance every 6, from `left` on.
-        const auto drawn = [&](float left, float drift) {
-            for (size_t i = 0; i < instances.size(); ++i) {
-                const glm::vec3 at(6.0f * static_cast<float>(i) + drift, 0.0f, 0.0f);
-                crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
-            }
-            const glm::mat4 both = glm::orthoRH_ZO(-6.0f, 6.0f, -4.0f, 4.0f, 0.1f, 100.0f) *
-                                   glm::lookAt(glm::vec3(left + 6.0f, 0.0f, 30.0f), glm::vec3(left + 6.0f, 0.0f, 0.0f),
-                                               glm::vec3(0.0f, 1.0f, 0.0f));
-            std::memcpy(view.camera.viewProjection, &both, sizeof(both));
-            view.look({left + 6.0f, 0.0f, 30.0f});
-            context.run(crowd.group());
-            const ReadBack written = readBack(crowd);
-            std::set<uint32_t> seen;
-            for (const uint32_t slot : allSlots(crowd, written)) {
-                const size_t rate = written.rateOf(slot).value_or(0);
-                const auto x = [](const std::vector<std::byte>& bytes) {
-                    float first = 0.0f;
-                    std::memcpy(&first, bytes.data(), sizeof(first));
-                    return static_cast<double>(first);
-                };
-                moved[slot] = x(written.positionsOf(slot, rate)) - x(written.previousOf(slot, rate));
-                seen.insert(slot);
-            }
-            size_t listed = 0;
-            for (const RateOutput& rate : written.rates) {
-                listed += rate.slots.size();
-                for (const uint32_t slot : rate.slots) {
-                    EXPECT_TRUE(seen.contains(slot));
-                }
-            }
-            EXPECT_EQ(listed, seen.size());
-            return seen;
-        };
-        EXPECT_EQ(drawn(-3.0f, 0.0f), (std::set<uint32_t>{0, 1}));
-        EXPECT_EQ(drawn(3.0f, 0.25f), (std::set<uint32_t>{1, 2}));
-        EXPECT_NEAR(moved[1], 0.25, 1e-5);
-        EXPECT_NEAR(moved[2], 0.0, 1e-5) << "was not seen before: has no past";
-        EXPECT_EQ(drawn(200.0f, 0.5f), std::set<uint32_t>{});
-        EXPECT_EQ(drawn(3.0f, 0.75f), (std::set<uint32_t>{1, 2}));
-        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was not seen in the frame before";
-        crowd.setVisible(instances[1], false);
-        EXPECT_EQ(drawn(3.0f, 1.0f), (std::set<uint32_t>{2}));
-        EXPECT_NEAR(moved[2], 0.25, 1e-5);
-        crowd.setVisible(instances[1], true);
-        EXPECT_EQ(drawn(3.0f, 1.25f), (std::set<uint32_t>{1, 2}));
-        EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was hidden";
-        EXPECT_NEAR(moved[2], 0.25, 1e-5);
-        view.camera.farthest = 10.0f;
-        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
-        view.camera.farthest = 0.0f;
-        view.camera.smallestRadius = 1e6f;
-        EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+    TestView view(context, 1024, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL);
+    SuppleGroupDesc desc = groupOf(context.createAsset(creased(bumpySphere())), 12, SUPPLE_SCHEME_FRAGMENTS, 8);
+    desc.view = view.handle();
+    Crowd crowd(context, desc);
+    ASSERT_TRUE(crowd.valid());
+    std::vector<SuppleInstance> instances;
+    for (int i = 0; i < 10; ++i) {
+        instances.push_back(crowd.spawn());
     }
+    std::map<uint32_t, double> moved; // along x, by slot
+    // Sees about 12 units of a row with an instance every 6, from `left` on.
+    const auto drawn = [&](float left, float drift) {
+        for (size_t i = 0; i < instances.size(); ++i) {
+            const glm::vec3 at(6.0f * static_cast<float>(i) + drift, 0.0f, 0.0f);
+            crowd.pose(instances[i], SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), at));
+        }
+        const glm::mat4 both = glm::orthoRH_ZO(-6.0f, 6.0f, -4.0f, 4.0f, 0.1f, 100.0f) *
+                               glm::lookAt(glm::vec3(left + 6.0f, 0.0f, 30.0f), glm::vec3(left + 6.0f, 0.0f, 0.0f),
+                                           glm::vec3(0.0f, 1.0f, 0.0f));
+        std::memcpy(view.camera.viewProjection, &both, sizeof(both));
+        view.look({left + 6.0f, 0.0f, 30.0f});
+        context.run(crowd.group());
+        const ReadBack written = readBack(crowd);
+        std::set<uint32_t> seen;
+        for (const uint32_t slot : allSlots(crowd, written)) {
+            const size_t rate = written.rateOf(slot).value_or(0);
+            const auto x = [](const std::vector<std::byte>& bytes) {
+                float first = 0.0f;
+                std::memcpy(&first, bytes.data(), sizeof(first));
+                return static_cast<double>(first);
+            };
+            moved[slot] = x(written.positionsOf(slot, rate)) - x(written.previousOf(slot, rate));
+            seen.insert(slot);
+        }
+        size_t listed = 0;
+        for (const RateOutput& rate : written.rates) {
+            listed += rate.slots.size();
+            for (const uint32_t slot : rate.slots) {
+                EXPECT_TRUE(seen.contains(slot));
+            }
+        }
+        EXPECT_EQ(listed, seen.size());
+        return seen;
+    };
+    EXPECT_EQ(drawn(-3.0f, 0.0f), (std::set<uint32_t>{0, 1}));
+    EXPECT_EQ(drawn(3.0f, 0.25f), (std::set<uint32_t>{1, 2}));
+    EXPECT_NEAR(moved[1], 0.25, 1e-5);
+    EXPECT_NEAR(moved[2], 0.0, 1e-5) << "was not seen before: has no past";
+    EXPECT_EQ(drawn(200.0f, 0.5f), std::set<uint32_t>{});
+    EXPECT_EQ(drawn(3.0f, 0.75f), (std::set<uint32_t>{1, 2}));
+    EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was not seen in the frame before";
+    crowd.setVisible(instances[1], false);
+    EXPECT_EQ(drawn(3.0f, 1.0f), (std::set<uint32_t>{2}));
+    EXPECT_NEAR(moved[2], 0.25, 1e-5);
+    crowd.setVisible(instances[1], true);
+    EXPECT_EQ(drawn(3.0f, 1.25f), (std::set<uint32_t>{1, 2}));
+    EXPECT_NEAR(moved[1], 0.0, 1e-5) << "was hidden";
+    EXPECT_NEAR(moved[2], 0.25, 1e-5);
+    view.camera.farthest = 10.0f;
+    EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
+    view.camera.farthest = 0.0f;
+    view.camera.smallestRadius = 1e6f;
+    EXPECT_EQ(drawn(3.0f, 1.25f), std::set<uint32_t>{});
 }
 
 TEST_P(LodRates, WithoutAVertexBudgetTheyAreNotCounted) {
@@ -706,8 +704,7 @@ TEST_P(LodRates, OneRateWhereThereIsNoCoarserOne) {
     for (const Case& c :
          {Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 1, 1, 1}, Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
           Case{bumpySphere(), SUPPLE_SCHEME_FRAGMENTS, 5, 3, 4}, Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 2, 1, 1},
-          Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 64, 5, 16},
-          Case{creased(dodecahedron()), SUPPLE_SCHEME_LOOP, 64, 6, 32}}) {
+          Case{dodecahedron(), SUPPLE_SCHEME_FRAGMENTS, 64, 5, 16}}) {
         SuppleGroupDesc desc = groupOf(context.createAsset(c.cage), 2, c.scheme, c.asked);
         desc.view = view.handle();
         Crowd crowd(context, desc);
@@ -752,12 +749,12 @@ struct DrawnRates {
     std::map<uint32_t, std::vector<std::byte>> previous;
     WrappedVulkan counts;
 };
-DrawnRates drawRatesThrough(LimitedDevice& device, uint32_t count, uint32_t capacity, SuppleScheme scheme) {
+DrawnRates drawRatesThrough(LimitedDevice& device, uint32_t count, uint32_t capacity) {
     DrawnRates drawn;
     if (device.context() != nullptr) {
         CrowdContext& context = *device.context();
         TestView view(context, 1024, SUPPLE_VIEW_MOTION);
-        SuppleGroupDesc desc = groupOf(context.createAsset(creased(cube())), capacity, scheme, 8);
+        SuppleGroupDesc desc = groupOf(context.createAsset(creased(cube())), capacity, SUPPLE_SCHEME_FRAGMENTS, 8);
         desc.view = view.handle();
         Crowd crowd(context, desc);
         EXPECT_TRUE(crowd.valid());
@@ -792,41 +789,35 @@ DrawnRates drawRatesThrough(LimitedDevice& device, uint32_t count, uint32_t capa
 
 TEST_P(LodRates, CommandsDoNotCountInstances) {
     LimitedDevice device(GetParam(), [](WrappedVulkan&) {});
-    for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-        const DrawnRates one = drawRatesThrough(device, 1, 1000, scheme);
-        for (const uint32_t instances : {30u, 1000u}) {
-            const DrawnRates many = drawRatesThrough(device, instances, 1000, scheme);
-            EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
-            EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
-            EXPECT_EQ(many.counts.barriers, one.counts.barriers);
-            EXPECT_EQ(many.counts.copies, one.counts.copies);
-        }
-        std::printf("scheme %d: %llu dispatches, %llu indirect ones, %llu barriers\n", scheme,
-                    static_cast<unsigned long long>(one.counts.dispatches),
-                    static_cast<unsigned long long>(one.counts.indirectDispatches),
-                    static_cast<unsigned long long>(one.counts.barriers));
-        EXPECT_GT(one.counts.indirectDispatches, 3u);
+    const DrawnRates one = drawRatesThrough(device, 1, 1000);
+    for (const uint32_t instances : {30u, 1000u}) {
+        const DrawnRates many = drawRatesThrough(device, instances, 1000);
+        EXPECT_EQ(many.counts.dispatches, one.counts.dispatches);
+        EXPECT_EQ(many.counts.indirectDispatches, one.counts.indirectDispatches);
+        EXPECT_EQ(many.counts.barriers, one.counts.barriers);
+        EXPECT_EQ(many.counts.copies, one.counts.copies);
     }
+    std::printf("%llu dispatches, %llu indirect ones, %llu barriers\n",
+                static_cast<unsigned long long>(one.counts.dispatches),
+                static_cast<unsigned long long>(one.counts.indirectDispatches),
+                static_cast<unsigned long long>(one.counts.barriers));
+    EXPECT_GT(one.counts.indirectDispatches, 3u);
 }
 
 TEST_P(LodRates, SplitDispatchesDrawTheSame) {
     const uint32_t instances = 600, capacity = 1200;
-    std::map<SuppleScheme, DrawnRates> drawn[2]; // whole and split
+    DrawnRates drawn[2]; // whole and split
     for (const size_t split : {0u, 1u}) {
         LimitedDevice device(GetParam(), [&](WrappedVulkan& w) { w.maxComputeWorkGroupCountX = split == 1 ? 3 : 0; });
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_LOOP}) {
-            drawn[split][scheme] = drawRatesThrough(device, instances, capacity, scheme);
-        }
+        drawn[split] = drawRatesThrough(device, instances, capacity);
     }
-    for (const auto& [scheme, whole] : drawn[0]) {
-        std::set<size_t> rates;
-        for (const auto& [slot, at] : whole.instances) {
-            rates.insert(at.first);
-        }
-        EXPECT_GE(rates.size(), 2u);
-        EXPECT_TRUE(drawn[1].at(scheme).instances == whole.instances);
-        EXPECT_TRUE(drawn[1].at(scheme).previous == whole.previous);
+    std::set<size_t> rates;
+    for (const auto& [slot, at] : drawn[0].instances) {
+        rates.insert(at.first);
     }
+    EXPECT_GE(rates.size(), 2u);
+    EXPECT_TRUE(drawn[1].instances == drawn[0].instances);
+    EXPECT_TRUE(drawn[1].previous == drawn[0].previous);
 }
 
 } // namespace

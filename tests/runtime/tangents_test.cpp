@@ -215,11 +215,11 @@ const TangentCase kPatchCases[] = {
     {"catmullClark", SUPPLE_SCHEME_CATMULL_CLARK, roughBiped},
     {"blend", SUPPLE_SCHEME_BLEND, roughBiped},
     {"loop", SUPPLE_SCHEME_LOOP, roughPolygons},
+    {"loopCreased", SUPPLE_SCHEME_LOOP, creased, 0.993},
 };
 const TangentCase kFragmentCases[] = {
     {"fragments", SUPPLE_SCHEME_FRAGMENTS, roughPolygons},
     {"fragmentsCreased", SUPPLE_SCHEME_FRAGMENTS, creased, 0.993},
-    {"loopCreased", SUPPLE_SCHEME_LOOP, creased, 0.993},
 };
 
 class Tangents : public CrowdContexts {};
