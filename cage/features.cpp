@@ -104,10 +104,6 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     return features;
 }
 
-bool hasSemiSharpCreases(const Cage& cage) {
-    return std::any_of(cage.creases.begin(), cage.creases.end(), isSemiSharp);
-}
-
 std::string sharpRoundCorners(const Cage& cage) {
     const size_t count = cage.roundCorners.size();
     return count == 0

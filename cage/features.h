@@ -23,12 +23,6 @@ struct Features {
 /// of an edge the last. Negative or NaN sharpness counts as 0. A scalar outside 0..1 is not used.
 /// O(corners), and for each crease the smaller valence of its ends.
 [[nodiscard]] Features buildFeatures(const Cage& cage, const Topology& topology);
-/// Whether a crease is sharp, but not infinitely.
-[[nodiscard]] inline bool isSemiSharp(const Crease& crease) {
-    return crease.sharpness > 0.0f && crease.sharpness < kHardSharpness;
-}
-/// Whether some crease is.
-[[nodiscard]] bool hasSemiSharpCreases(const Cage& cage);
 
 /// For the notes of schemes that make corners of Cage::roundCorners; empty if there are none.
 [[nodiscard]] std::string sharpRoundCorners(const Cage& cage);

@@ -1,5 +1,4 @@
 // The exact limit surface of Loop against the fragments at their samples, and against its own derivatives.
-#include "cage/features.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
@@ -22,7 +21,7 @@ using test::raise;
 float semiSharpSteps(const cage::Cage& cage) {
     float most = 0.0f;
     for (const cage::Crease& crease : cage.creases) {
-        most = std::max(most, cage::isSemiSharp(crease) ? crease.sharpness : 0.0f);
+        most = std::max(most, crease.sharpness < cage::kHardSharpness ? crease.sharpness : 0.0f);
     }
     return most;
 }
