@@ -55,7 +55,7 @@ public:
 
 private:
     /// Consecutive faces round a vertex with nothing discontinuous between them.
-    struct Run {
+    struct CornerRun {
         uint32_t first = 0, faces = 0;
         uint32_t value = 0; ///< a number of the value round this vertex
     };
@@ -143,7 +143,7 @@ private:
         }
         facts_.clear();
         std::vector<Value> known;
-        for (Run& run : runs_) {
+        for (CornerRun& run : runs_) {
             const Value value = valueAt(cornerAt(run.first));
             auto at = folded_ > 0 ? known.end() : std::find(known.begin(), known.end(), value);
             run.value = static_cast<uint32_t>(at - known.begin());
@@ -202,7 +202,7 @@ private:
         const bool matches = cuts_ == 0 && (closed_ || !linearBorders());
         const bool all = !matches && (allCorners(v) || pointsToPole());
         const auto first = static_cast<uint32_t>(channel_.values.size());
-        for (const Run& run : runs_) {
+        for (const CornerRun& run : runs_) {
             const auto index = static_cast<uint32_t>(channel_.values.size());
             const ValueFacts& facts = facts_[run.value];
             const bool corner = all || disjoint(facts) || (facts.faces == 1 && mode_ != UvMode::none);
@@ -235,7 +235,7 @@ private:
     uint32_t base_ = 0, spokes_ = 0, faces_ = 0, cuts_ = 0;
     uint32_t folded_ = 0; ///< edges that are folds
     bool closed_ = true;
-    std::vector<Run> runs_;
+    std::vector<CornerRun> runs_;
     std::vector<ValueFacts> facts_; ///< by number of the value
 };
 

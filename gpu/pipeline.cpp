@@ -66,13 +66,15 @@ Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLay
     }
     const ShaderModuleHandle module(device, shader);
 
-    std::vector<Constant> all(constants.begin(), constants.end());
-    const bool ownLocalSize = std::any_of(
-        all.begin(), all.end(), [](const Constant& constant) { return constant.id == shared::kLocalSizeConstant; });
-    if (!ownLocalSize) {
-        all.push_back({shared::kLocalSizeConstant, device.mapping.localSize});
+    std::vector<Constant> all = {{shared::kLocalSizeConstant, device.mapping.localSize},
+                                 {shared::kExactDivisionConstant, device.mapping.exactDivision ? VK_TRUE : VK_FALSE}};
+    for (const Constant& constant : constants) {
+        if (constant.id == shared::kLocalSizeConstant) {
+            all.front() = constant;
+        } else {
+            all.push_back(constant);
+        }
     }
-    all.push_back({shared::kExactDivisionConstant, device.mapping.exactDivision ? VK_TRUE : VK_FALSE});
     std::vector<VkSpecializationMapEntry> entries;
     std::vector<uint32_t> values;
     for (const Constant& constant : all) {

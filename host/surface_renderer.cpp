@@ -430,7 +430,7 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
     return success();
 }
 
-DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const Run& run, bool blend) const {
+DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun& run, bool blend) const {
     const bool isFlat = scene.view >= shared::kViewTangents;
     const bool hasMaps = scene.group->figure().materials().hasMaps(run.material);
     const uint32_t edgeRate = scene.group->surfaces()[run.surface].edgeRate;
@@ -456,7 +456,7 @@ std::vector<DrawPipelines::Faces> SurfaceRenderer::allFaces(const Scene& scene) 
     std::vector<DrawPipelines::Faces> all;
     if (scene.group == nullptr)
         return all;
-    for (const Run& run : runsOf(scene)) {
+    for (const DrawRun& run : runsOf(scene)) {
         const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
         all.push_back(facesOf(scene, run, false));
         if (isBlended(scene, material))
@@ -622,7 +622,7 @@ void SurfaceRenderer::drawPane(VkCommandBuffer commands, const DrawTarget& targe
 }
 
 void SurfaceRenderer::drawScene(VkCommandBuffer commands, const Scene& scene) const {
-    std::vector<Run> runs;
+    std::vector<DrawRun> runs;
     if (scene.group != nullptr) {
         runs = runsOf(scene);
         drawFaces(commands, scene, runs, false);
@@ -692,8 +692,8 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     }
 }
 
-std::vector<SurfaceRenderer::Run> SurfaceRenderer::runsOf(const Scene& scene) const {
-    std::vector<Run> runs;
+std::vector<SurfaceRenderer::DrawRun> SurfaceRenderer::runsOf(const Scene& scene) const {
+    std::vector<DrawRun> runs;
     const std::vector<FigureSurface>& surfaces = scene.group->surfaces();
     for (size_t s = 0; !scene.cageFaces && s < surfaces.size(); ++s) {
         for (size_t i = 0; i < surfaces[s].draws.size(); ++i)
@@ -705,23 +705,24 @@ std::vector<SurfaceRenderer::Run> SurfaceRenderer::runsOf(const Scene& scene) co
     return runs;
 }
 
-void SurfaceRenderer::keepBlended(std::vector<Run>& runs, const Scene& scene) const {
+void SurfaceRenderer::keepBlended(std::vector<DrawRun>& runs, const Scene& scene) const {
     const Figure& figure = scene.group->figure();
-    std::erase_if(runs, [&](const Run& run) { return !isBlended(scene, figure.materials().of(run.material)); });
+    std::erase_if(runs, [&](const DrawRun& run) { return !isBlended(scene, figure.materials().of(run.material)); });
     const glm::vec3 eye = scene.camera.eye();
     const glm::vec3 ahead = scene.camera.target - eye;
-    const auto distance = [&](const Run& run) {
+    const auto distance = [&](const DrawRun& run) {
         return glm::dot(figure.centerOf(run.part, run.material) - eye, ahead);
     };
-    std::stable_sort(runs.begin(), runs.end(), [&](const Run& a, const Run& b) { return distance(a) > distance(b); });
+    std::stable_sort(runs.begin(), runs.end(),
+                     [&](const DrawRun& a, const DrawRun& b) { return distance(a) > distance(b); });
 }
 
-void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<Run>& runs,
+void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<DrawRun>& runs,
                                 bool blend) const {
     const FigureMaterials& materials = scene.group->figure().materials();
     VkPipeline bound = VK_NULL_HANDLE;
     const FigureSurface* surface = nullptr;
-    for (const Run& run : runs) {
+    for (const DrawRun& run : runs) {
         const bool blended = isBlended(scene, materials.of(run.material));
         if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < shared::kSolidAlpha)
             continue;
@@ -747,7 +748,7 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
 }
 
-void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
+void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const DrawRun& run, VkCullModeFlags cull,
                               uint32_t flags) const {
     const FigureSurface& surface = scene.group->surfaces()[run.surface];
     vkCmdSetCullMode(commands, cull);

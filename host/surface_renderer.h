@@ -121,23 +121,23 @@ private:
     void drawSurfaceShadow(VkCommandBuffer commands, const Scene& scene, const FigureSurface& surface,
                            uint32_t light) const;
     /// Faces of one part and material: a draw of a surface, or a range of the cage.
-    struct Run {
+    struct DrawRun {
         size_t surface = 0;
         size_t range = 0;
         uint32_t part = 0;
         uint32_t material = SUPPLE_NO_MATERIAL;
     };
-    [[nodiscard]] std::vector<Run> runsOf(const Scene& scene) const;
-    [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const Run& run, bool blend) const;
+    [[nodiscard]] std::vector<DrawRun> runsOf(const Scene& scene) const;
+    [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const DrawRun& run, bool blend) const;
     /// What the scene, of one pane, draws with.
     [[nodiscard]] std::vector<DrawPipelines::Faces> allFaces(const Scene& scene) const;
     /// Leaves the runs that blend, the farthest first.
-    void keepBlended(std::vector<Run>& runs, const Scene& scene) const;
+    void keepBlended(std::vector<DrawRun>& runs, const Scene& scene) const;
     /// blend: what blends, over what is there; else what hides all behind it, also where a material that blends is
     /// solid.
-    void drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<Run>& runs, bool blend) const;
+    void drawFaces(VkCommandBuffer commands, const Scene& scene, const std::vector<DrawRun>& runs, bool blend) const;
     /// flags: shared::kDraw..., besides those of the surface.
-    void drawRun(VkCommandBuffer commands, const Scene& scene, const Run& run, VkCullModeFlags cull,
+    void drawRun(VkCommandBuffer commands, const Scene& scene, const DrawRun& run, VkCullModeFlags cull,
                  uint32_t flags) const;
     void drawCageShadow(VkCommandBuffer commands, const Scene& scene, uint32_t light) const;
     void drawCageEdges(VkCommandBuffer commands, const Scene& scene) const;

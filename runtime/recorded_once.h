@@ -35,15 +35,15 @@ public:
              VkDeviceSize size = VK_WHOLE_SIZE) {
         if (buffer.buffer() != VK_NULL_HANDLE) {
             device_ = &device;
-            runs_.push_back({buffer.buffer(), offset, size});
+            ranges_.push_back({buffer.buffer(), offset, size});
         }
     }
-    [[nodiscard]] bool staticsPending() const override { return !runs_.empty() && once_.due(); }
+    [[nodiscard]] bool staticsPending() const override { return !ranges_.empty() && once_.due(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override {
         if (staticsPending()) {
             once_.record(frame);
-            for (const Run& run : runs_) {
-                device_->vk.CmdFillBuffer(commandBuffer, run.buffer, run.offset, run.size, 0);
+            for (const BufferRange& range : ranges_) {
+                device_->vk.CmdFillBuffer(commandBuffer, range.buffer, range.offset, range.size, 0);
             }
         }
         return 0;
@@ -52,12 +52,12 @@ public:
     [[nodiscard]] bool recordedIn(uint64_t frame) const { return once_.recordedIn(frame); }
 
 private:
-    struct Run {
+    struct BufferRange {
         VkBuffer buffer = VK_NULL_HANDLE;
         VkDeviceSize offset = 0, size = 0;
     };
     const gpu::Device* device_ = nullptr;
-    std::vector<Run> runs_;
+    std::vector<BufferRange> ranges_;
     RecordedOnce once_;
 };
 

@@ -100,12 +100,12 @@ struct LodTables {
     std::vector<Edges> edges;
     uint32_t edgeCount = 0;
     Section patches; ///< two elements per patch, all classes, in device order
-    struct Run {
+    struct PatchRun {
         PatchClass patchClass = PatchClass::regular;
         uint32_t material = cage::kNone;
         uint32_t patchCount = 0;
     };
-    std::vector<Run> runs; ///< patches of the same class and material, in device order
+    std::vector<PatchRun> runs; ///< patches of the same class and material, in device order
     /// Where patches have chains (surface/chains/chain_tables.h): what of an instance's pool tells their last level; 0:
     /// there are none. And the element of the lanes that make each depth (shared::kDepths).
     uint32_t depth = 0, depthLanes = 0;

@@ -82,7 +82,7 @@ template <class A, Is<LodTables::Edges> T>
 void fields(A& a, T& edges) {
     a(edges.borders, edges.first, edges.section);
 }
-template <class A, Is<LodTables::Run> T>
+template <class A, Is<LodTables::PatchRun> T>
 void fields(A& a, T& run) {
     a(run.patchClass, run.material, run.patchCount);
 }

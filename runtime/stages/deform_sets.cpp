@@ -26,7 +26,7 @@ Status DeformSets::create(const Desc& desc) {
         if (!set) {
             return set.error();
         }
-        const auto range = [&](const Run& run) {
+        const auto range = [&](const InstanceArray& run) {
             const VkDeviceSize bytes = run.stride * gpu::kVec4Bytes;
             return VkDescriptorBufferInfo{run.buffer, windows.firstSlot(w) * bytes, windows.slots(w) * bytes};
         };

@@ -12,7 +12,7 @@ namespace supple::runtime {
 class DeformSets {
 public:
     /// A buffer that has `stride` elements of 16 bytes for every slot.
-    struct Run {
+    struct InstanceArray {
         VkBuffer buffer = VK_NULL_HANDLE;
         uint32_t stride = 0;
     };
@@ -22,8 +22,8 @@ public:
         const InstanceWindows* windows = nullptr;
         VkBuffer table = VK_NULL_HANDLE;
         VkDeviceSize tableBytes = 0;
-        Run source;                     ///< poses; or, to gather a piece of a cage, the whole deformed cage
-        Run target;                     ///< the deformed cage
+        InstanceArray source;           ///< poses; or, to gather a piece of a cage, the whole deformed cage
+        InstanceArray target;           ///< the deformed cage
         VkBuffer list = VK_NULL_HANDLE; ///< of instances
         VkDeviceSize listBytes = 0;     ///< that the pass reads
     };

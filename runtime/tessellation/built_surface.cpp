@@ -35,7 +35,7 @@ Result<BuiltSurface> buildSurface(const TessellationDesc& desc) {
         viewFlags = desc.view->desc().flags;
     }
     Result<SurfaceRecipe> recipe = surfaceRecipe({desc.asset->character, desc.parts, desc.asset->cageOf(desc.piece),
-                                                  desc.group, static_cast<surface::SchemeId>(desc.group.scheme),
+                                                  desc.group, schemeIdOf(desc.group, desc.group.scheme),
                                                   desc.schemeChosen, viewFlags, desc.device->mapping.wide});
     if (!recipe) {
         return recipe.error();

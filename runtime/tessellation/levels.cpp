@@ -75,7 +75,7 @@ Status Levels::begin() {
         return program.error();
     }
     program_ = std::move(*program);
-    for (const surface::LodTables::Run& run : tables().lod.runs) {
+    for (const surface::LodTables::PatchRun& run : tables().lod.runs) {
         leastVertices_ += run.patchCount * surface::lod::sampleCount(surface::rowOf(run.patchClass).form, 1);
     }
     return success();
@@ -97,7 +97,7 @@ surface::ProgramOptions Levels::levelOptions() const {
 Status Levels::join(const InstanceWindows& windows) {
     std::vector<bool> doubleSided;
     const std::vector<cage::Material>& materials = desc_.asset->character.materials;
-    for (const surface::LodTables::Run& run : tables().lod.runs) {
+    for (const surface::LodTables::PatchRun& run : tables().lod.runs) {
         doubleSided.push_back(run.material < materials.size() && materials[run.material].doubleSided);
     }
     const Result<uint32_t> first = view()->takeRuns(tables().lod, doubleSided, windows.count());
@@ -112,7 +112,7 @@ Status Levels::join(const InstanceWindows& windows) {
 
 void Levels::layOutDraws(uint32_t windowCount) {
     for (uint32_t w = 0; w < windowCount; ++w) {
-        for (const surface::LodTables::Run& run : tables().lod.runs) {
+        for (const surface::LodTables::PatchRun& run : tables().lod.runs) {
             const surface::lod::Form form = surface::rowOf(run.patchClass).form;
             for (const uint32_t capacity : surface::lod::kCapacities) {
                 const uint32_t samples = surface::lod::sampleCount(form, capacity);

@@ -100,17 +100,21 @@ void storeRow(uint j, uint side) {
 #endif
 }
 
-// A row of all samples, of which `vertex` and `own` are the first.
-void evaluateRow(Row row, bool isInside, uint rate, uint vertex, uint own, uint inset, vec3 apex, bool isApex, uvec4 slots, uint j, uint base) {
+// All samples of row j. `isInside`: it is on no border.
+void evaluateRow(const PatchPlace at, Patch c, Row row, uint j, uint rate, bool isInside) {
+    uint inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset, first = (j - inset) * side;
+    uint vertex = at.vertex + first, own = at.own + first;
+    bool isApex = kPolar && !isInside && j == rate; // the apex itself, from every patch round it
     vec3 position, farPosition;
     Frame frame, farFrame;
     if (!kInterior) {
         endSample(row, false, position, frame);
         endSample(row, true, farPosition, farFrame);
-        if (kPolar && isApex) position = farPosition = apex;
+        if (isApex) position = farPosition = c.c2.point;
         if (kCornerNormals && !isInside) {
-            frame = withCornerNormal(frame, 0u, j, rate, slots, base);
-            farFrame = withCornerNormal(farFrame, rate, j, rate, slots, base);
+            uvec4 slots = normalSlots(at.record);
+            frame = withCornerNormal(frame, 0u, j, rate, slots, at.base);
+            farFrame = withCornerNormal(farFrame, rate, j, rate, slots, at.base);
         }
         keepSample(vertex, own, 0u, position, frame);
         keepSample(vertex, own, rate, farPosition, farFrame);
@@ -121,7 +125,7 @@ void evaluateRow(Row row, bool isInside, uint rate, uint vertex, uint own, uint 
     uint i = 1u, pairs = rate / 2u;
     [[unroll]] do {
         mirroredSamples(row, points, slopes, parameterPair(i, rate), isInside, position, frame, farPosition, farFrame);
-        if (kPolar && isApex) position = farPosition = apex;
+        if (isApex) position = farPosition = c.c2.point;
         keepSample(vertex, own, i - inset, position, frame);
         if (2u * i != rate) keepSample(vertex, own, rate - i - inset, farPosition, farFrame);
     } while (++i <= pairs);
@@ -131,25 +135,18 @@ void evaluateRow(Row row, bool isInside, uint rate, uint vertex, uint own, uint 
 // round with nothing to do.
 void evaluateRows(const PatchPlace at) {
     Patch c = loadPatch(at);
-    uint rate = fixedRate(), inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset;
+    uint rate = fixedRate(), inset = kInterior ? 1u : 0u, side = rate + 1u - 2u * inset, j = 0u;
     if (!kInterior) {
-        uvec4 slots = normalSlots(at.record);
-        uint j = 0u;
         do {
-            bool isTop = j == rate;
-            Row row = borderRow(c, isTop);
-            // The apex itself, from every patch round it.
-            evaluateRow(row, false, rate, at.vertex + j * side, at.own + j * side, 0u, c.c2.point, isTop, slots, j, at.base);
+            evaluateRow(at, c, borderRow(c, j == rate), j, rate, false);
             storeRow(j, side);
             j += rate;
         } while (j <= rate);
         if (rate == 1u) return;
     }
-    uint j = 1u;
+    j = 1u;
     do {
-        uint first = (j - inset) * side;
-        evaluateRow(collapse(c, parameterPair(j, rate), kInnerRow), true, rate, at.vertex + first, at.own + first, inset, vec3(0.0), false,
-                    uvec4(kNoNormal), j, at.base);
+        evaluateRow(at, c, collapse(c, parameterPair(j, rate), kInnerRow), j, rate, true);
         storeRow(j - inset, side);
     } while (++j < rate);
 }

@@ -184,7 +184,7 @@ vec3 pointInside(vec4 b, PointHalves h) {
     return placed(weighted(evenWeights(b), h.even[0], h.even[1]), weighted(oddWeights(b), h.odd[0], h.odd[1]));
 }
 
-// The sample of a row at u. `isInside`: neither the row nor the sample is on a border. `h` is not looked at where it is.
+// The sample of a row at u. `isInside`: neither the row nor the sample is on a border. Only there `h` counts.
 void sampleOf(Row row, PointHalves h, vec2 u, bool isInside, out vec3 position, out Frame frame) {
     vec4 b = bernstein3(u);
     vec3 p = SELECT3(isInside, pointInside(b, h), sum4(b, row.g[0], row.g[1], row.g[2], row.g[3]));

@@ -72,7 +72,7 @@ public:
         RingWriter ring(cage_, topology_, points, firstCorners_, writer_);
         writePatches(ring);
         for (const uint32_t r : order_) {
-            const Run& run = corners_.runs()[r];
+            const FanRun& run = corners_.runs()[r];
             ring.add(run.vertex, corners_.spokesOf(run), !run.closed);
         }
         tables_.ring = ring.write();
@@ -105,7 +105,7 @@ private:
             return fits;
         }
         SpokeLimits spokes;
-        for (const Run& run : corners_.runs()) {
+        for (const FanRun& run : corners_.runs()) {
             spokes.add(run.vertex, run.spokes());
         }
         return spokes.check();
@@ -145,7 +145,7 @@ private:
     }
     /// Runs: closed ones first. Slots lie in this order.
     void layOutPool() {
-        const std::vector<Run>& runs = corners_.runs();
+        const std::vector<FanRun>& runs = corners_.runs();
         order_.resize(runs.size());
         std::iota(order_.begin(), order_.end(), 0u);
         std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
@@ -189,7 +189,7 @@ private:
         for (const bool closed : {true, false}) {
             Construction vertices{meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
             for (const uint32_t r : order_) {
-                const Run& run = corners_.runs()[r];
+                const FanRun& run = corners_.runs()[r];
                 if (run.closed != closed) {
                     continue;
                 }

@@ -60,7 +60,7 @@ void Corners::addRuns(uint32_t vertex, std::span<const float> spokes) {
             sharp.push_back(k);
         }
     }
-    const auto add = [&](Run run) {
+    const auto add = [&](FanRun run) {
         for (uint32_t k = 0; k < run.faces; ++k) {
             runOfSector_[first + (run.firstSpoke + k) % sectors] = static_cast<uint32_t>(runs_.size());
         }
@@ -76,7 +76,7 @@ void Corners::addRuns(uint32_t vertex, std::span<const float> spokes) {
     }
 }
 
-std::vector<uint32_t> Corners::spokesOf(const Run& run) const {
+std::vector<uint32_t> Corners::spokesOf(const FanRun& run) const {
     const uint32_t first = mesh_.topology.spokeStarts[run.vertex], count = mesh_.topology.spokeCount(run.vertex);
     std::vector<uint32_t> spokes;
     for (uint32_t k = 0; k < run.spokes(); ++k) {

@@ -19,7 +19,7 @@ enum class VertexKind : uint8_t {
 [[nodiscard]] VertexKind vertexKind(std::span<const float> spokes, bool open, float vertexSharpness);
 
 /// Faces of a plain vertex between two endless creases, or all round it.
-struct Run {
+struct FanRun {
     uint32_t vertex = 0;
     uint32_t firstSpoke = 0; ///< of the vertex
     uint32_t faces = 0;
@@ -37,11 +37,11 @@ public:
 
     [[nodiscard]] VertexKind kind(uint32_t vertex) const { return kinds_[vertex]; }
     /// Vertex by vertex.
-    [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+    [[nodiscard]] const std::vector<FanRun>& runs() const { return runs_; }
     /// By spoke of the topology: the run that has the sector behind it, or cage::kNone.
     [[nodiscard]] uint32_t runOf(uint32_t spoke) const { return runOfSector_[spoke]; }
     /// Spokes of the topology.
-    [[nodiscard]] std::vector<uint32_t> spokesOf(const Run& run) const;
+    [[nodiscard]] std::vector<uint32_t> spokesOf(const FanRun& run) const;
     /// Quads whose chains lie at the same corners are evaluated side by side: this is the corner of a face that is
     /// corner 0 of its patch, so that there are as few kinds as possible.
     [[nodiscard]] uint8_t firstCorner(uint32_t face) const;
@@ -58,7 +58,7 @@ private:
 
     const RefinedMesh& mesh_;
     std::vector<VertexKind> kinds_;
-    std::vector<Run> runs_;
+    std::vector<FanRun> runs_;
     std::vector<uint32_t> runOfSector_;
 };
 

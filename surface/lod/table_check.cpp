@@ -73,7 +73,7 @@ void checkRuns(TableCheck& check) {
     check.begin("runs of patches");
     const Tables& tables = check.tables();
     uint64_t next = 0;
-    for (const LodTables::Run& run : tables.lod.runs) {
+    for (const LodTables::PatchRun& run : tables.lod.runs) {
         if (!check.require(run.patchCount > 0, "an empty one") ||
             !check.within(next, run.patchCount, tables.patches.size(), "patches")) {
             return;

@@ -60,29 +60,51 @@ void demandSameFaces(const supple::cage::Cage& first, const supple::cage::Cage& 
     }
 }
 
+/// An error if it cannot be written. What is written can be read.
+supple::Result<supple::cage::Character> writtenAndRead(const supple::cage::Character& character,
+                                                       const supple::cage::GltfOptions& options) {
+    using namespace supple;
+    const Result<cage::GlbFile> written = cage::writeGlb(character);
+    if (!written) {
+        fuzz::demand(written.error().message.starts_with(character.name + ": "), "a refusal without the name");
+        return written.error();
+    }
+    Result<cage::Character> read = cage::readGltf(written->bytes, "written.glb", "", options);
+    if (!read) {
+        std::fprintf(stderr, "%s\n", read.error().message.c_str());
+    }
+    fuzz::demand(read.ok(), "what was written cannot be read");
+    return read;
+}
+
+bool hasTCorners(const supple::cage::Character& character) {
+    return std::any_of(character.damages.begin(), character.damages.end(), [](const supple::cage::Damage& damage) {
+        return damage.found.find("T-corner") != std::string::npos;
+    });
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace supple;
     cage::GltfOptions options;
     options.pairing = size % 2 == 0 ? cage::Pairing::always : cage::Pairing::whereClean;
-    const Result<cage::Character> first = cage::readGltf(fuzz::bytesOf(data, size), "fuzz.glb", "", options);
+    Result<cage::Character> first = cage::readGltf(fuzz::bytesOf(data, size), "fuzz.glb", "", options);
     if (!first) {
-        return 0;
-    }
-    const Result<cage::GlbFile> written = cage::writeGlb(*first);
-    if (!written) {
-        fuzz::demand(written.error().message.starts_with("fuzz.glb: "), "a refusal without the name");
         return 0;
     }
     options.pairing = cage::Pairing::never;
     options.sewParts = false;
     options.memoryLimit = uint64_t{1} << 32;
-    const Result<cage::Character> second = cage::readGltf(written->bytes, "written.glb", "", options);
-    if (!second) {
-        std::fprintf(stderr, "%s\n", second.error().message.c_str());
+    Result<cage::Character> second = writtenAndRead(*first, options);
+    // Where repairs cut faces apart, their new borders may have T-corners, which the next reading mends.
+    for (uint32_t again = 0; again < 3 && second && hasTCorners(*second); ++again) {
+        first = std::move(second);
+        second = writtenAndRead(*first, options);
     }
-    fuzz::demand(second.ok(), "what was written cannot be read");
+    if (!second) {
+        return 0;
+    }
     demandSameFaces(first->cage, second->cage);
     // glTF has no clips without channels.
     const auto moving = std::count_if(first->clips.begin(), first->clips.end(),

@@ -55,6 +55,13 @@ TEST(ComputePipeline, HasTheCodeAndTheConstantsOfTheMapping) {
                                                      {shared::kExactDivisionConstant, isWide ? VK_FALSE : VK_TRUE},
                                                      {shared::kRateConstant, 8}}));
     }
+    const Constant own[] = {rate, {shared::kLocalSizeConstant, 16}};
+    ASSERT_TRUE(
+        createComputePipeline(vulkan.device, layout->pipelineLayout.get(), {narrow, wide}, own, "evaluate").ok());
+    EXPECT_EQ(
+        vulkan.pipelines.back().constants,
+        (std::vector<Pair>{{shared::kLocalSizeConstant, 16}, {shared::kExactDivisionConstant, VK_FALSE}, {rate.id, 8}}))
+        << "a kernel may have a local size of its own";
     EXPECT_TRUE(vulkan.shaders.empty()) << "modules go when their pipeline is made";
 }
 

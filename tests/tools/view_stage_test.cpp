@@ -178,7 +178,7 @@ TEST_F(RemadeStage, SchemeAndSkinningChange) {
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_CATMULL_CLARK);
     ASSERT_TRUE(stage.setScheme(SUPPLE_SCHEME_LOOP, lastFrame()).ok());
     EXPECT_EQ(stage.group().schemeOfPart(0), SUPPLE_SCHEME_LOOP);
-    EXPECT_EQ(stage.settings.rate, 8) << "a power of two";
+    EXPECT_EQ(stage.settings.rate, 6) << "patches have every rate";
     const Status refused = stage.setScheme(SUPPLE_SCHEME_PREP, lastFrame());
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().message.find("quads only"), std::string::npos) << refused.error().message;
