@@ -10,8 +10,8 @@ struct Mapping {
     bool wide = false;          ///< many lanes a patch and storage-buffer loads, else one lane a patch and texel loads
     bool exactDivision = false; ///< the device rounds float division correctly, so k / rate needs no table
     uint32_t localSize = 32;
-    uint32_t lanesToFill =
-        64; ///< lanes that keep all of the device busy: a kernel with so many need not divide its work
+    /// Lanes that keep all of the device busy: a kernel with so many need not divide its work.
+    uint32_t lanesToFill = 64;
     /// The driver writes timestamps late and reads them only from an idle device: gpu/timers.h.
     bool lazyTimestamps = false;
 };

@@ -5,7 +5,7 @@
 
 float componentOf3(vec3 v, uint k) { return SELECT(k == 0u, v.x, SELECT(k == 1u, v.y, v.z)); }
 
-// Of a segment of the crease: what the two points beside it are more than its ends. Both triangles at it have the same bits.
+// What the two points beside a segment of the crease are more than its ends. Both triangles at it have the same bits.
 vec3 excessOf(vec3 one, vec3 other, vec3 begin, vec3 end) {
     precise vec3 excess = (one + other) - (begin + end);
     return excess;
@@ -28,7 +28,7 @@ Crease creaseOf(vec3 before, vec3 behind, vec3 further, float sharpness) {
     return Crease(SELECT3(sharp, own, vec3(0.0)), SELECT3(sharp, along, vec3(0.0)), SELECT3(sharp, bend, vec3(0.0)), sharpness);
 }
 
-// Of a crease's three vectors, and the derivatives along the crease and across it.
+// The weights of a crease's three vectors, and their derivatives along the crease and across it.
 struct CreaseWeights {
     vec3 w, along, across;
 };

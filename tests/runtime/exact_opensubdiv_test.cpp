@@ -5,6 +5,7 @@
 #include "tools/common/character_file.h"
 #ifdef SUPPLE_HAS_OPENSUBDIV
 #include "tests/support/catmull_clark_limit.h"
+#include "tests/support/limit_figures.h"
 #endif
 
 #include <cstdio>
@@ -24,41 +25,9 @@ TEST(ExactOpenSubdiv, onTheDevice) {
 
 constexpr uint32_t kRate = 5; ///< along a quad's edge: no sample lies where a step of subdivision has a vertex
 
-struct Figures {
-    double position = 0.0, normal = 0.0; ///< the largest, as a part of the extent and in degrees
-    /// The same at corners. OpenSubdiv's approximation at level 10 is 1e-5 from the limit at the tips of darts: points
-    /// of ever finer levels come near ours.
-    double corner = 0.0;
-    uint64_t samples = 0, normals = 0, steep = 0;
-
-    void add(const Figures& other) {
-        raise(position, other.position);
-        raise(normal, other.normal);
-        raise(corner, other.corner);
-        samples += other.samples;
-        normals += other.normals;
-        steep += other.steep;
-    }
-    void print(const char* name) const {
-        std::printf("%s: %llu samples, positions within %.1e of the extent, at corners %.1e; %llu of %llu normals "
-                    "above 0.05 degrees, at most %.2f\n",
-                    name, static_cast<unsigned long long>(samples), position, corner,
-                    static_cast<unsigned long long>(steep), static_cast<unsigned long long>(normals), normal);
-    }
-};
-
-/// What errors are measured by: the extent, or the largest coordinate where that is larger, since float rounds there.
-double sizeOf(const std::vector<glm::dvec3>& positions) {
-    double size = extent(positions);
-    for (const glm::dvec3& p : positions) {
-        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    return size;
-}
-
 /// Every `stride`-th sample. At corners normals are not compared: OpenSubdiv's derivatives there are those of one quad.
-Figures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
-    Figures figures;
+LimitFigures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
+    LimitFigures figures;
     const ExactQuads quads(cage);
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
@@ -104,14 +73,14 @@ Figures compare(host::Device& device, const cage::Cage& cage, uint32_t stride) {
     return figures;
 }
 
-void expectEqual(const Figures& figures) {
+void expectEqual(const LimitFigures& figures) {
     EXPECT_LE(figures.position, 1e-6);
     EXPECT_LE(figures.corner, 2e-5);
     EXPECT_LE(static_cast<double>(figures.steep), 1e-3 * static_cast<double>(figures.normals)) << figures.normal;
 }
 
 /// Compares no more than some thousand samples of a file.
-Figures compareFile(host::Device& device, const std::string& path, uint32_t& refused) {
+LimitFigures compareFile(host::Device& device, const std::string& path, uint32_t& refused) {
     const Result<host::CharacterFile> file = host::readCharacterFile(path);
     if (!file) {
         std::printf("  not read: %s\n", file.error().message.c_str());
@@ -123,7 +92,7 @@ Figures compareFile(host::Device& device, const std::string& path, uint32_t& ref
     cage.faceParts.clear();
     const std::string name = std::filesystem::path(path).filename().string();
     SCOPED_TRACE(name);
-    const Figures figures = compare(device, cage, 1 + cage.faceCount() / 200);
+    const LimitFigures figures = compare(device, cage, 1 + cage.faceCount() / 200);
     expectEqual(figures);
     if (figures.position > 5e-7 || figures.corner > 1e-6 || figures.steep > 0) {
         figures.print(name.c_str());
@@ -141,7 +110,7 @@ TEST(ExactOpenSubdiv, onTheDevice) {
         std::printf("all shared meshes left out: %s is not present\n", folder.c_str());
     }
     for (const auto& [name, paths] : {std::pair("meshes", shapes), std::pair("characters", allCharacters())}) {
-        Figures all;
+        LimitFigures all;
         uint32_t refused = 0;
         for (const std::string& path : paths) {
             all.add(compareFile(*device, path, refused));
@@ -149,10 +118,10 @@ TEST(ExactOpenSubdiv, onTheDevice) {
         std::printf("%zu %s, %u not read. ", paths.size(), name, refused);
         all.print("All");
     }
-    Figures zoo;
+    LimitFigures zoo;
     for (const SubdivisionCage& made : subdivisionZoo()) {
         SCOPED_TRACE(made.name);
-        const Figures figures = compare(*device, made.cage, 1);
+        const LimitFigures figures = compare(*device, made.cage, 1);
         expectEqual(figures);
         zoo.add(figures);
     }

@@ -6,6 +6,7 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/character_file.h"
 #ifdef SUPPLE_HAS_OPENSUBDIV
+#include "tests/support/limit_figures.h"
 #include "tests/support/loop_limit.h"
 #endif
 
@@ -26,39 +27,9 @@ TEST(LoopOpenSubdiv, onTheDevice) {
 
 constexpr uint32_t kLoopRate = 5; ///< no sample lies where a step of subdivision has a vertex
 
-struct LoopFigures {
-    double position = 0.0, normal = 0.0; ///< the largest, as a part of the extent and in degrees
-    double corner = 0.0;                 ///< at corners, where OpenSubdiv stops at level 10
-    uint64_t samples = 0, normals = 0, steep = 0;
-
-    void add(const LoopFigures& other) {
-        raise(position, other.position);
-        raise(normal, other.normal);
-        raise(corner, other.corner);
-        samples += other.samples;
-        normals += other.normals;
-        steep += other.steep;
-    }
-    void print(const char* name) const {
-        std::printf("%s: %llu samples, positions within %.1e of the extent, at corners %.1e; %llu of %llu normals "
-                    "above 0.05 degrees, at most %.2f\n",
-                    name, static_cast<unsigned long long>(samples), position, corner,
-                    static_cast<unsigned long long>(steep), static_cast<unsigned long long>(normals), normal);
-    }
-};
-
-/// What errors are measured by: the extent, or the largest coordinate where that is larger, since float rounds there.
-double sizeToCompare(const std::vector<glm::dvec3>& positions) {
-    double size = extent(positions);
-    for (const glm::dvec3& p : positions) {
-        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    return size;
-}
-
 /// Every `stride`-th sample. At corners normals are not compared: OpenSubdiv's derivatives there are those of one face.
-LoopFigures compareWithLimit(host::Device& device, const cage::Cage& cage, uint32_t stride) {
-    LoopFigures figures;
+LimitFigures compareWithLimit(host::Device& device, const cage::Cage& cage, uint32_t stride) {
+    LimitFigures figures;
     const LoopTriangles triangles(cage);
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_LOOP;
@@ -76,7 +47,7 @@ LoopFigures compareWithLimit(host::Device& device, const cage::Cage& cage, uint3
     faces.sharpVertices = cage.sharpVertices;
     faces.roundCorners = cage.roundCorners;
     const std::vector<glm::dvec3> positions = doublePositions(faces);
-    const double size = sizeToCompare(positions);
+    const double size = sizeOf(positions);
     const LoopLimit limit(faces, positions);
     const PatchFaces found = triangles.patches(gpu.patches());
     uint32_t next = 0;
@@ -110,7 +81,7 @@ LoopFigures compareWithLimit(host::Device& device, const cage::Cage& cage, uint3
     return figures;
 }
 
-void expectTheLimit(const LoopFigures& figures) {
+void expectTheLimit(const LimitFigures& figures) {
     EXPECT_LE(figures.position, 3e-7);
     EXPECT_LE(figures.corner, 2e-5);
     EXPECT_LE(static_cast<double>(figures.steep), 1e-3 * static_cast<double>(figures.normals)) << figures.normal;
@@ -121,7 +92,7 @@ TEST(LoopOpenSubdiv, onTheDevice) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     const std::string folder = sharedFolder() + "meshes/opensubdiv";
-    LoopFigures all;
+    LimitFigures all;
     uint32_t shapes = 0, refused = 0;
     for (const std::string& path : filesBelow(folder, {".obj"})) {
         const std::string name = std::filesystem::path(path).filename().string();
@@ -138,7 +109,7 @@ TEST(LoopOpenSubdiv, onTheDevice) {
         cage::Cage cage = file->character.cage;
         cage.faceMaterials.clear(); // the group is made of arrays without them
         cage.faceParts.clear();
-        const LoopFigures figures = compareWithLimit(*device, cage, 1 + cage.faceCount() / 200);
+        const LimitFigures figures = compareWithLimit(*device, cage, 1 + cage.faceCount() / 200);
         expectTheLimit(figures);
         if (figures.position > 3e-7 || figures.corner > 1e-6 || figures.steep > 0) {
             figures.print(name.c_str());
@@ -151,10 +122,10 @@ TEST(LoopOpenSubdiv, onTheDevice) {
     if (shapes == 0) {
         std::printf("all shapes left out: %s is not present\n", folder.c_str());
     }
-    LoopFigures zoo;
+    LimitFigures zoo;
     for (const SubdivisionCage& made : subdivisionZoo()) {
         SCOPED_TRACE(made.name);
-        const LoopFigures figures = compareWithLimit(*device, made.cage, 1);
+        const LimitFigures figures = compareWithLimit(*device, made.cage, 1);
         expectTheLimit(figures);
         zoo.add(figures);
     }

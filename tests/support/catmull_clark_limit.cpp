@@ -1,11 +1,9 @@
 #include "tests/support/catmull_clark_limit.h"
 
-#include "tools/bench/opensubdiv_refiner.h"
+#include "tests/support/bfr_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <opensubdiv/bfr/refinerSurfaceFactory.h>
-#include <opensubdiv/bfr/surface.h>
 #include <set>
 
 namespace supple::test {
@@ -14,44 +12,17 @@ namespace {
 
 using namespace OpenSubdiv;
 
-/// Bfr 3.5.0 crashes on irregular facets at 12.
-constexpr int kApproximationLevel = 10;
 /// Steps along a side of a part's grid.
 constexpr uint32_t kGrid = 8;
 
-Bfr::SurfaceFactory::Options approximation() {
-    return Bfr::SurfaceFactory::Options()
-        .SetApproxLevelSmooth(kApproximationLevel)
-        .SetApproxLevelSharp(kApproximationLevel);
-}
-
 } // namespace
 
-struct CatmullClarkLimit::Surfaces {
-    struct Face {
-        Bfr::Surface<double> surface; ///< not valid for holes
-        std::vector<double> points;
-    };
-
-    Surfaces(const cage::Cage& cage, const std::vector<glm::dvec3>& positions)
-        : refiner(bench::opensubdivRefiner(cage, Sdc::SCHEME_CATMARK)), factory(*refiner, approximation()),
-          faces(cage.faceCount()) {
-        for (uint32_t f = 0; f < cage.faceCount(); ++f) {
-            Face& face = faces[f];
-            if (factory.InitVertexSurface(static_cast<int>(f), &face.surface)) {
-                face.points.resize(3 * static_cast<size_t>(face.surface.GetNumPatchPoints()));
-                face.surface.PreparePatchPoints(&positions[0].x, 3, face.points.data(), 3);
-            }
-        }
-    }
-
-    std::unique_ptr<Far::TopologyRefiner> refiner;
-    Bfr::RefinerSurfaceFactory<> factory;
-    std::vector<Face> faces;
+struct CatmullClarkLimit::Surfaces : BfrSurfaces {
+    using BfrSurfaces::BfrSurfaces;
 };
 
 CatmullClarkLimit::CatmullClarkLimit(const cage::Cage& cage, const std::vector<glm::dvec3>& positions)
-    : surfaces_(std::make_unique<Surfaces>(cage, positions)), near_(cage.faceCount()) {
+    : surfaces_(std::make_unique<Surfaces>(cage, positions, Sdc::SCHEME_CATMARK)), near_(cage.faceCount()) {
     std::vector<std::vector<uint32_t>> partsOfFace(cage.faceCount()), facesOfVertex(cage.vertexCount());
     for (uint32_t f = 0; f < cage.faceCount(); ++f) {
         for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {

@@ -52,7 +52,7 @@ public:
         : points_(net.points()), facet_(true), sharpness_{net.sharpnessOf(0), net.sharpnessOf(1), net.sharpnessOf(2)},
           sharp_{sharpness_[0] > 0.0f, sharpness_[1] > 0.0f, sharpness_[2] > 0.0f} {}
 
-    /// Of the two spokes beside a sector, or of a facet's three lines: the sharpness of semi-sharp creases alone.
+    /// The sharpness of semi-sharp creases alone: of the two spokes beside a sector, or of a facet's three lines.
     [[nodiscard]] float semiSharp(size_t line) const {
         return sharpness_[line] < kInfiniteSharpness ? sharpness_[line] : 0.0f;
     }
@@ -130,7 +130,7 @@ Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation
 /// The excess of three segments of a crease that follow each other.
 using Excess = std::array<glm::dvec3, 3>;
 
-/// Of the second segment's half: a sharp step halves the excess, and else refines it as quadratic B-splines.
+/// The excess on a half of the second segment after a sharp step, which refines it as quadratic B-splines and halves it.
 Excess afterSharpStep(const Excess& s, bool secondHalf) {
     const auto between = [](const glm::dvec3& near, const glm::dvec3& far) { return (3.0 * near + far) / 8.0; };
     return secondHalf ? Excess{between(s[1], s[0]), between(s[1], s[2]), between(s[2], s[1])}
