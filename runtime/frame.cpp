@@ -132,13 +132,17 @@ PassCost recordUpload(const Frame& frame, Group& group) {
     return cost;
 }
 
-PassCost recordAttributes(const Frame& frame, Tessellation& surface) {
+PassCost recordAttributes(const Frame& frame, Tessellation& surface, surface::Round&) {
     return surface.recordAttributes(frame.commands, frame.number);
 }
 
 template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
-PassCost recordSurface(const Frame& frame, Tessellation& surface) {
+PassCost recordSurface(const Frame& frame, Tessellation& surface, surface::Round&) {
     return (surface.*record)(frame.commands);
+}
+template <PassCost (Tessellation::*record)(surface::Round&) const>
+PassCost recordInRounds(const Frame&, Tessellation& surface, surface::Round& round) {
+    return (surface.*record)(round);
 }
 /// All surfaces together, for passes that also work on the group.
 template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
@@ -194,12 +198,15 @@ PassCost recordList(const Frame& frame, Group& group) {
 }
 
 template <Stage stage>
-PassCost recordStage(const Frame& frame, Tessellation& surface) {
-    return surface.recordStage(frame.commands, stage);
+PassCost recordStage(const Frame&, Tessellation& surface, surface::Round& round) {
+    return surface.recordStage(round, stage);
 }
 
-bool countsRates(const Group& group) {
-    return group.culling() != nullptr && group.culling()->hasRates() && group.view()->countsRates();
+bool choosesRates(Group& group) {
+    return group.culling() != nullptr && group.culling()->hasRates();
+}
+bool countsRates(Group& group) {
+    return choosesRates(group) && group.view()->countsRates();
 }
 
 PassCost recordPatchLevels(const Frame& frame, Group& group) {
@@ -222,14 +229,12 @@ PassCost recordSolve(const Frame& frame, Group& group) {
     return {0, 0, true, group.view()};
 }
 
-PassCost recordPlaces(const Frame& frame, Group& group) {
-    PassCost cost = recordSurfaces<&Tessellation::recordPlaces>(frame, group);
-    if (group.culling() != nullptr && group.culling()->hasRates()) {
-        // Behind the solver; and all add to the view's count of vertices, each with one lane.
-        frame.computeBarrier();
-        cost += group.culling()->recordRates(frame.commands, countsRates(group));
+PassCost recordRates(const Frame& frame, Group& group) {
+    if (!choosesRates(group)) {
+        return {};
     }
-    return cost;
+    gpu::disjointBarrier(frame.device, frame.commands);
+    return group.culling()->recordRates(frame.commands, countsRates(group));
 }
 
 /// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
@@ -280,11 +285,11 @@ enum class Behind { nothing, compute, uploads, bounds, arguments, places, readba
 /// (runtime/stages/cage_stages.h).
 struct Work {
     constexpr Work() = default;
-    constexpr Work(PassCost (*record)(const Frame&, Group&)) : ofGroup(record) {}          // NOLINT
-    constexpr Work(PassCost (*record)(const Frame&, Tessellation&)) : ofSurface(record) {} // NOLINT
+    constexpr Work(PassCost (*record)(const Frame&, Group&)) : ofGroup(record) {}                           // NOLINT
+    constexpr Work(PassCost (*record)(const Frame&, Tessellation&, surface::Round&)) : ofSurface(record) {} // NOLINT
 
     PassCost (*ofGroup)(const Frame&, Group&) = nullptr;
-    PassCost (*ofSurface)(const Frame&, Tessellation&) = nullptr;
+    PassCost (*ofSurface)(const Frame&, Tessellation&, surface::Round&) = nullptr;
     [[nodiscard]] constexpr bool isCageStages() const { return ofGroup == nullptr && ofSurface == nullptr; }
 };
 
@@ -316,16 +321,18 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_ASSEMBLE, constructs<Stage::assemble>, recordStage<Stage::assemble>},
     {SUPPLE_PASS_PATCH, anySurface<&Tessellation::writesPatches>, recordSurface<&Tessellation::recordPatch>,
      Behind::nothing},
-    {SUPPLE_PASS_LEVEL, isInView, recordSurface<&Tessellation::recordEdgeLevels>},
+    {SUPPLE_PASS_LEVEL, isInView, recordInRounds<&Tessellation::recordEdgeLevels>},
     {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
-    {SUPPLE_PASS_SOLVE, isInView, recordSolve, Behind::nothing}, // places begin with a barrier
-    {SUPPLE_PASS_PLACE, isInView, recordPlaces, Behind::places},
+    {SUPPLE_PASS_SOLVE, isInView, recordSolve},
+    {SUPPLE_PASS_PLACE, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDepths>},
+    {SUPPLE_PASS_PLACE, isInView, recordSurfaces<&Tessellation::recordPlaces>, Behind::places},
+    {SUPPLE_PASS_PLACE, choosesRates, recordRates, Behind::places},
     {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},
-    {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDeepen>},
+    {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordInRounds<&Tessellation::recordDeepen>},
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
-    {SUPPLE_PASS_EVALUATE, always, recordSurface<&Tessellation::recordEvaluate>, Behind::scratch},
-    {SUPPLE_PASS_MOTION, anySurface<&Tessellation::writesMotion>, recordSurface<&Tessellation::recordMotion>,
+    {SUPPLE_PASS_EVALUATE, always, recordInRounds<&Tessellation::recordEvaluate>, Behind::scratch},
+    {SUPPLE_PASS_MOTION, anySurface<&Tessellation::writesMotion>, recordInRounds<&Tessellation::recordMotion>,
      Behind::nothing},
 };
 
@@ -394,20 +401,48 @@ struct Timed {
     }
 };
 
+/// Surfaces share the barriers between rounds. If they are timed, they come one after the other, so that each is told
+/// what it takes itself.
+void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
+    const auto forEachSurface = [&](auto&& visit) {
+        frame.forEach([&](Group& group) {
+            for (uint32_t surface = 0; surface < group.surfaces().size(); ++surface) {
+                visit(group, surface);
+            }
+        });
+    };
+    if (!timed.timing.isOpen()) {
+        surface::inRounds(frame.device, frame.commands, [&](surface::Round& round) {
+            forEachSurface([&](Group& group, uint32_t surface) {
+                (void)row.work.ofSurface(frame, group.surfaces()[surface], round);
+            });
+        });
+        return;
+    }
+    forEachSurface([&](Group& group, uint32_t surface) {
+        timed(group, surface, [&] {
+            Tessellation& own = group.surfaces()[surface];
+            PassCost cost;
+            own.inRounds(frame.commands, [&](surface::Round& round) {
+                const PassCost ofRound = row.work.ofSurface(frame, own, round);
+                cost = round.number == 0 ? ofRound : cost;
+            });
+            return cost;
+        });
+    });
+}
+
 void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
     if (row.timed) {
         frame.device.beginLabel(frame.commands, passName(row.pass));
     }
     const Timed timed{row.pass, timing};
-    frame.forEach([&](Group& group) {
-        if (row.work.ofGroup != nullptr) {
-            timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); });
-            return;
-        }
-        for (uint32_t surface = 0; surface < group.surfaces().size(); ++surface) {
-            timed(group, surface, [&] { return row.work.ofSurface(frame, group.surfaces()[surface]); });
-        }
-    });
+    if (row.work.ofSurface != nullptr) {
+        recordEachSurface(frame, row, timed);
+    } else {
+        frame.forEach(
+            [&](Group& group) { timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); }); });
+    }
     if (row.timed) {
         frame.device.endLabel(frame.commands);
     }

@@ -21,10 +21,10 @@ static_assert(SUPPLE_PATCH_REGULAR == kRegularPatch && SUPPLE_PATCH_PERTURBED ==
               SUPPLE_PATCH_POLAR == kPolarPatch && SUPPLE_PATCH_P3 == kP3Patch && SUPPLE_PATCH_P4 == kP4Patch &&
               SUPPLE_PATCH_P5 == kP5Patch && SUPPLE_PATCH_FRAGMENT == kFragmentPatch &&
               SUPPLE_PATCH_LOOP == kLoopPatch && SUPPLE_PATCH_BLEND == kBlendPatch &&
-              SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch && SUPPLE_PATCH_TRIANGLE == kTrianglePatch &&
-              SUPPLE_PATCH_IRREGULAR == kIrregularPatch && SUPPLE_PATCH_IRREGULAR_SHARP == kIrregularSharpPatch &&
-              SUPPLE_PATCH_CREASED == kCreasedPatch && SUPPLE_PATCH_LOOP_REGULAR == kLoopRegularPatch &&
-              SUPPLE_PATCH_LOOP_IRREGULAR == kLoopIrregularPatch &&
+              SUPPLE_PATCH_BLEND_SHARP == kBlendSharpPatch && SUPPLE_PATCH_BLEND_REGULAR == kBlendRegularPatch &&
+              SUPPLE_PATCH_TRIANGLE == kTrianglePatch && SUPPLE_PATCH_IRREGULAR == kIrregularPatch &&
+              SUPPLE_PATCH_IRREGULAR_SHARP == kIrregularSharpPatch && SUPPLE_PATCH_CREASED == kCreasedPatch &&
+              SUPPLE_PATCH_LOOP_REGULAR == kLoopRegularPatch && SUPPLE_PATCH_LOOP_IRREGULAR == kLoopIrregularPatch &&
               SUPPLE_PATCH_LOOP_IRREGULAR_SHARP == kLoopIrregularSharpPatch);
 static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_PM == static_cast<int>(SchemeId::pm) &&

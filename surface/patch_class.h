@@ -52,11 +52,12 @@ enum class PatchClass : uint32_t {
     blendSharp = shared::kBlendSharpPatch, ///< with creases, or without derivatives somewhere on its border
     triangle = shared::kTrianglePatch,     ///< polygons: a triangle of a face
     irregular = shared::kIrregularPatch, ///< exact Catmull-Clark: a quad of leaves, some corner having a chain of them
-    irregularSharp = shared::kIrregularSharpPatch,        ///< some side is a crease, too
-    creased = shared::kCreasedPatch,                      ///< no corner has a chain, but a semi-sharp crease passes
-    loopRegular = shared::kLoopRegularPatch,              ///< exact Loop: a quartic box spline
-    loopIrregular = shared::kLoopIrregularPatch,          ///< some corner has a chain of leaves
-    loopIrregularSharp = shared::kLoopIrregularSharpPatch ///< some side is a semi-sharp crease, too
+    irregularSharp = shared::kIrregularSharpPatch,         ///< some side is a crease, too
+    creased = shared::kCreasedPatch,                       ///< no corner has a chain, but a semi-sharp crease passes
+    loopRegular = shared::kLoopRegularPatch,               ///< exact Loop: a quartic box spline
+    loopIrregular = shared::kLoopIrregularPatch,           ///< some corner has a chain of leaves
+    loopIrregularSharp = shared::kLoopIrregularSharpPatch, ///< some side is a semi-sharp crease, too
+    blendRegular = shared::kBlendRegularPatch              ///< blending surface: all charts are quarters, none creased
 };
 
 struct PatchClassRow {
@@ -71,10 +72,11 @@ struct PatchClassRow {
     lod::Form form = lod::Form::quad; ///< of its grids at levels
     Borders borders = Borders::cubics;
     bool ownNarrow = false, ownWide = false; ///< by mapping: a pipeline of its own for a rate pays
-    uint32_t netElements = 0;                ///< bicubic patches: what one takes of a workgroup's memory in the wide
-                                             ///< mapping, where a lane takes a row of its samples. Of others a lane
-                                             ///< takes a sample, or see hasQuarters()
-    [[nodiscard]] constexpr bool isBicubic() const { return netElements > 0; }
+    uint32_t netElements = 0;                ///< what a patch takes of a workgroup's memory in the wide mapping, where
+                                             ///< a lane takes a row of its samples. 0: a lane takes a sample, or see
+                                             ///< hasQuarters()
+    [[nodiscard]] constexpr bool hasRows() const { return netElements > 0; }
+    [[nodiscard]] constexpr bool isBicubic() const { return hasRows() && borders == Borders::cubics; }
     /// Exact Catmull-Clark: in the wide mapping a lane takes a quarter at a rate.
     [[nodiscard]] constexpr bool hasQuarters() const { return borders == Borders::halves; }
     /// P_m: triangular sectors round a centre.
@@ -115,6 +117,8 @@ inline constexpr PatchClassRow kPatchClasses[] = {
      Kernel::loopEvaluateLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
     {"loop-irregular-sharp", Domain::triangle, 0, shared::kSharpTriangleElements, Kernel::loopEvaluate,
      Kernel::loopEvaluateLevels, Kernel::count, lod::Form::triangleRings, Borders::splines},
+    {"blend-regular", Domain::quad, 0, 4, Kernel::blendEvaluate, Kernel::blendEvaluateLevels, Kernel::count,
+     lod::Form::quad, Borders::charts, true, true, shared::kWideBlendElements},
 };
 
 [[nodiscard]] constexpr const PatchClassRow& rowOf(PatchClass patchClass) {

@@ -21,34 +21,74 @@ std::vector<DispatchSize> sizesOf(std::initializer_list<const Steps*> passes) {
     return sizes;
 }
 
+void recordBarrier(const gpu::Device& device, VkCommandBuffer commandBuffer, Order order) {
+    if (order == Order::after) {
+        gpu::computeBarrier(device, commandBuffer);
+    } else if (order != Order::free) {
+        gpu::disjointBarrier(device, commandBuffer);
+    }
+}
+
+/// Whether a step waits for a round of its own.
+bool beginsRound(const Step& step) {
+    return step.order == Order::disjoint || step.order == Order::after;
+}
+
+void dispatch(const gpu::Device& device, VkCommandBuffer commandBuffer, const Step& step, const Window& window) {
+    std::array<std::byte, gpu::kPushConstantBytes> push = step.push;
+    std::memcpy(push.data(), &window.push, sizeof(window.push));
+    gpu::bind(device, commandBuffer, step.kernel, window.sets[static_cast<size_t>(step.sets)],
+              std::span<const std::byte>(push).first(step.pushBytes));
+    if (step.size.isOneGroup()) {
+        device.vk.CmdDispatch(commandBuffer, 1, 1, 1);
+    } else if (window.arguments != VK_NULL_HANDLE) {
+        device.vk.CmdDispatchIndirect(commandBuffer, window.arguments,
+                                      window.firstArgument + step.argument * window.argumentStride);
+    } else {
+        const uint64_t elements = uint64_t{step.size.elements} * window.push.instanceCount;
+        gpu::dispatchLinear(device, commandBuffer, (elements + step.size.perGroup - 1) / step.size.perGroup);
+    }
+}
+
 } // namespace
 
-void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<const Step> steps,
-            const Window& window) {
+bool Round::advance() {
+    if (next == Order::free) {
+        return false;
+    }
+    recordBarrier(device, commandBuffer, next);
+    ++number;
+    next = Order::free;
+    return true;
+}
+
+void record(Round& round, std::span<const Step> steps, const Window& window) {
+    uint32_t number = 0;
     for (const Step& step : steps) {
-        if (step.order == Order::disjoint) {
-            gpu::disjointBarrier(device, commandBuffer);
-        } else if (step.order == Order::after) {
-            gpu::computeBarrier(device, commandBuffer);
+        number += beginsRound(step) ? 1 : 0;
+        if (number > round.number) {
+            round.next = std::max(round.next, step.order);
+            return;
         }
-        std::array<std::byte, gpu::kPushConstantBytes> push = step.push;
-        std::memcpy(push.data(), &window.push, sizeof(window.push));
-        gpu::bind(device, commandBuffer, step.kernel, window.sets[static_cast<size_t>(step.sets)],
-                  std::span<const std::byte>(push).first(step.pushBytes));
-        if (step.size.isOneGroup()) {
-            device.vk.CmdDispatch(commandBuffer, 1, 1, 1);
-        } else if (window.arguments != VK_NULL_HANDLE) {
-            device.vk.CmdDispatchIndirect(commandBuffer, window.arguments,
-                                          window.firstArgument + step.argument * window.argumentStride);
-        } else {
-            const uint64_t elements = uint64_t{step.size.elements} * window.push.instanceCount;
-            gpu::dispatchLinear(device, commandBuffer, (elements + step.size.perGroup - 1) / step.size.perGroup);
+        if (number == round.number) {
+            if (step.order == Order::shared) {
+                recordBarrier(round.device, round.commandBuffer, step.order);
+            }
+            dispatch(round.device, round.commandBuffer, step, window);
         }
     }
 }
 
+void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<const Step> steps,
+            const Window& window) {
+    for (const Step& step : steps) {
+        recordBarrier(device, commandBuffer, step.order);
+        dispatch(device, commandBuffer, step, window);
+    }
+}
+
 void Program::setCamera(const shared::LodCamera& camera) {
-    for (Steps* steps : {&edgeLevels, &patchLevels, &places}) {
+    for (Steps* steps : {&edgeLevels, &patchLevels, &depths, &places}) {
         for (Step& step : *steps) {
             std::memcpy(step.push.data() + offsetof(shared::LodPush, camera), &camera, sizeof(camera));
         }

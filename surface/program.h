@@ -44,6 +44,7 @@ struct Window {
 /// How a dispatch depends on the dispatch before it in the same pass. That one may belong to the window before.
 enum class Order : uint32_t {
     free,     ///< they share nothing: no barrier
+    shared,   ///< they write into the words of the view, and so do other groups: gpu::disjointBarrier between any two
     disjoint, ///< they share buffers, but touch different elements (gpu::disjointBarrier)
     after     ///< it reads what the other one wrote (gpu::computeBarrier)
 };
@@ -79,7 +80,31 @@ struct Step {
 };
 using Steps = std::vector<Step>;
 
-/// Records the steps in order. Before each comes the barrier that its order asks for; only patchLevels and places begin
+/// Groups share the barriers inside of a pass: it is recorded in rounds. A round has of every group the steps that need
+/// no barrier but those that the rounds before end with.
+struct Round {
+    const gpu::Device& device;
+    VkCommandBuffer commandBuffer = VK_NULL_HANDLE;
+    uint32_t number = 0;
+    Order next = Order::free; ///< what the steps of the next round ask for; free: nobody has one
+
+    /// Goes on to the next round, with the barrier before it. False if there is none.
+    [[nodiscard]] bool advance();
+};
+
+/// Calls record(round) for every round that there is.
+template <class Record>
+void inRounds(const gpu::Device& device, VkCommandBuffer commandBuffer, Record&& record) {
+    Round round{device, commandBuffer};
+    do {
+        record(round);
+    } while (round.advance());
+}
+
+/// Records the steps of a round. Allocates nothing.
+void record(Round& round, std::span<const Step> steps, const Window& window);
+
+/// Records all steps in order. Before each comes the barrier that its order asks for; only patchLevels and places begin
 /// with one. Allocates nothing.
 void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<const Step> steps,
             const Window& window);
@@ -94,11 +119,12 @@ struct Program {
     Steps attributes; ///< at a rate: for a single instance, once. At levels: for every window in every frame
     Steps evaluate;
     Steps motion; ///< positions alone, from the coefficients of the frame before
-    // Groups with levels. The push constants are shared::LodPush; setCamera() fills in what changes in every frame. All
-    // windows write into the words of the view, so patchLevels begins with a disjoint step and places with one that
-    // waits.
+    // Groups with levels. The push constants are shared::LodPush; setCamera() fills in what changes in every frame.
+    // patchLevels, depths and places are of one round each.
     Steps edgeLevels; ///< empty if an instance has one level (ProgramOptions::levelOffset)
-    Steps patchLevels, places;
+    Steps patchLevels;
+    Steps depths; ///< which instances need which levels of chains, before places
+    Steps places;
     Steps deepen; ///< coefficients that the levels ask for. Sizes are in the scratch of a window's first instance, from
                   ///< word firstDepthDispatch on, by Step::argument
     uint32_t firstDepthDispatch = 0;

@@ -83,7 +83,7 @@ uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range,
     }
     const PatchClassRow& row = rowOf(range.patchClass);
     const uint32_t lanes = builder.device.mapping.localSize, rate = builder.evaluation.rate;
-    if (row.isBicubic()) { // a lane takes a row of samples
+    if (row.hasRows()) { // a lane takes one
         const uint32_t rows = builder.tables.hasIndexedMesh() ? rate - 1 : rate + 1;
         return std::min(lanes / rows, SUPPLE_WIDE_ELEMENTS(format) / row.netElements);
     }

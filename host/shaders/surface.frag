@@ -32,7 +32,7 @@ const vec3 kClay = vec3(0.50, 0.47, 0.44);
 // A color a class of patches, as sRGB bytes. Chosen so that classes of one scheme keep apart for eyes of every kind, those
 // of different schemes as well as so many colors can: under simulated protanopia, deuteranopia and tritanopia the former are
 // 0.12 and more apart in OKLab, the latter 0.05, with differences of lightness, which shading changes, counted half.
-const vec3 kClassColors[16] = vec3[16](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
+const vec3 kClassColors[18] = vec3[18](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
                                        vec3(0x50, 0x20, 0x80),  // perturbed: violet
                                        vec3(0x80, 0x20, 0x50),  // polar: wine
                                        vec3(0xF0, 0xE4, 0x42),  // P_3: yellow
@@ -47,7 +47,9 @@ const vec3 kClassColors[16] = vec3[16](vec3(0x8E, 0x9B, 0xA8),  // regular: slat
                                        vec3(0xC0, 0x00, 0x18),  // irregular, sharp: red
                                        vec3(0x78, 0x30, 0xA8),  // creased: purple
                                        vec3(0x48, 0x98, 0x90),  // Loop, regular: teal
-                                       vec3(0xF8, 0xB8, 0xA8)); // Loop, irregular: salmon
+                                       vec3(0xF8, 0xB8, 0xA8),  // Loop, irregular: salmon
+                                       vec3(0x90, 0x30, 0xF0),  // Loop, irregular, sharp: electric violet
+                                       vec3(0x90, 0x78, 0x60)); // blend, regular: taupe
 
 /// Distances from the patch's border, in segments.
 vec3 insideBorder() {

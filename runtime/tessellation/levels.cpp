@@ -26,15 +26,16 @@ public:
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
-    PassCost recordEdgeLevels(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEdgeLevels(surface::Round& round) const override;
     PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
+    PassCost recordDepths(VkCommandBuffer commandBuffer) const override;
     PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
-    PassCost recordDeepen(VkCommandBuffer commandBuffer) const override;
+    PassCost recordDeepen(surface::Round& round) const override;
     [[nodiscard]] bool writesLevelAttributes() const override { return built_.outputs.streams.has(Stream::attributes); }
     PassCost recordLevelAttributes(VkCommandBuffer commandBuffer) const override;
-    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEvaluate(surface::Round& round) const override;
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
-    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+    PassCost recordMotion(surface::Round& round) const override;
     [[nodiscard]] bool isBudgeted() const override { return true; }
     [[nodiscard]] uint32_t leastVertices() const override { return leastVertices_; }
     [[nodiscard]] uint32_t patchesAtLevels() const override { return static_cast<uint32_t>(tables().patches.size()); }
@@ -186,8 +187,8 @@ surface::Window Levels::placed(uint32_t window, const surface::Sets& sets) const
     return result;
 }
 
-PassCost Levels::recordEdgeLevels(VkCommandBuffer commandBuffer) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.edgeLevels, levelWindow(w)); });
+PassCost Levels::recordEdgeLevels(surface::Round& round) const {
+    windows().forEach([&](uint32_t w) { surface::record(round, program_.edgeLevels, levelWindow(w)); });
     return visibility_->cost(program_.edgeLevels.size(), 0);
 }
 
@@ -196,12 +197,17 @@ PassCost Levels::recordPatchLevels(VkCommandBuffer commandBuffer) const {
     return visibility_->cost(patchesAtLevels(), 0);
 }
 
+PassCost Levels::recordDepths(VkCommandBuffer commandBuffer) const {
+    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.depths, levelWindow(w)); });
+    return {0, 0, deepens() && windows().visible > 0};
+}
+
 PassCost Levels::recordPlaces(VkCommandBuffer commandBuffer) const {
     windows().forEach([&](uint32_t w) { record(commandBuffer, program_.places, levelWindow(w)); });
     return visibility_->cost(patchesAtLevels(), 0);
 }
 
-PassCost Levels::recordDeepen(VkCommandBuffer commandBuffer) const {
+PassCost Levels::recordDeepen(surface::Round& round) const {
     if (!deepens()) {
         return {};
     }
@@ -211,7 +217,7 @@ PassCost Levels::recordDeepen(VkCommandBuffer commandBuffer) const {
         listed.arguments = memory_.scratch().buffer();
         listed.firstArgument = scratch + sizeof(uint32_t) * VkDeviceSize{program_.firstDepthDispatch};
         listed.argumentStride = sizeof(VkDispatchIndirectCommand);
-        record(commandBuffer, program_.deepen, listed);
+        surface::record(round, program_.deepen, listed);
     });
     return {0, 0, windows().visible > 0};
 }
@@ -224,17 +230,17 @@ PassCost Levels::recordLevelAttributes(VkCommandBuffer commandBuffer) const {
     return {0, 0, windows().visible > 0};
 }
 
-PassCost Levels::recordEvaluate(VkCommandBuffer commandBuffer) const {
+PassCost Levels::recordEvaluate(surface::Round& round) const {
     // The device alone knows how many vertices: SuppleViewStatistics.
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.evaluate, placed(w, sets(w))); });
+    windows().forEach([&](uint32_t w) { surface::record(round, program_.evaluate, placed(w, sets(w))); });
     return {0, 0, windows().visible > 0};
 }
 
-PassCost Levels::recordMotion(VkCommandBuffer commandBuffer) const {
+PassCost Levels::recordMotion(surface::Round& round) const {
     if (!writesMotion()) {
         return {};
     }
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.motion, ofPast(placed(w, pastSets(w)))); });
+    windows().forEach([&](uint32_t w) { surface::record(round, program_.motion, ofPast(placed(w, pastSets(w)))); });
     return {0, 0, windows().visible > 0};
 }
 

@@ -14,8 +14,8 @@ public:
 
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
     [[nodiscard]] Status prepareRate(uint32_t rate) override { return checkRate(rate, built_.askedRate); }
-    PassCost recordEvaluate(VkCommandBuffer) const override { return {}; }
-    PassCost recordMotion(VkCommandBuffer) const override { return {}; }
+    PassCost recordEvaluate(surface::Round&) const override { return {}; }
+    PassCost recordMotion(surface::Round&) const override { return {}; }
 
 protected:
     void bindOutput(const SurfaceSets::Which&, SetContents&) const override {}

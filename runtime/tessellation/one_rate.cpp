@@ -84,13 +84,13 @@ VkDeviceSize OneRate::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame
            hostDraws_.recordUpload(*desc_.device, commandBuffer, changed, desc_.handsOver, draws_, windows());
 }
 
-PassCost OneRate::recordEvaluate(VkCommandBuffer commandBuffer) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.evaluate, seen(w)); });
+PassCost OneRate::recordEvaluate(surface::Round& round) const {
+    windows().forEach([&](uint32_t w) { surface::record(round, program_.evaluate, seen(w)); });
     const uint64_t points = uint64_t{vertexCount_} * windows().visible;
     return {points, points * streams_.frameBytes()};
 }
 
-PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {
+PassCost OneRate::recordMotion(surface::Round& round) const {
     if (!writesMotion()) {
         return {};
     }
@@ -100,14 +100,14 @@ PassCost OneRate::recordMotion(VkCommandBuffer commandBuffer) const {
             return;
         }
         if (!first) {
-            gpu::disjointBarrier(*desc_.device, commandBuffer); // other instances
+            gpu::disjointBarrier(round.device, round.commandBuffer); // other instances
         }
         first = false;
         surface::Window window;
         window.sets = sets;
         window.push.firstInstance = from;
         window.push.instanceCount = count;
-        record(commandBuffer, program_.motion, past ? ofPast(window) : window);
+        surface::record(round, program_.motion, past ? ofPast(window) : window);
     };
     // Instances with a past from the coefficients of the frame before, new ones from today's.
     windows().forEach([&](uint32_t w) {

@@ -35,8 +35,8 @@ public:
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
     void recordNoDraws(VkCommandBuffer commandBuffer) override { hostDraws_.recordNone(*desc_.device, commandBuffer); }
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
-    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
-    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEvaluate(surface::Round& round) const override;
+    PassCost recordMotion(surface::Round& round) const override;
 
 protected:
     using OwnVertices::OwnVertices;

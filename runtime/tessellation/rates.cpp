@@ -35,8 +35,8 @@ public:
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
-    PassCost recordEvaluate(VkCommandBuffer commandBuffer) const override;
-    PassCost recordMotion(VkCommandBuffer commandBuffer) const override;
+    PassCost recordEvaluate(surface::Round& round) const override;
+    PassCost recordMotion(surface::Round& round) const override;
     [[nodiscard]] bool isBudgeted() const override { return view()->countsRates(); }
     [[nodiscard]] uint32_t leastVertices() const override { return own_.front().vertices; }
 
@@ -57,7 +57,8 @@ private:
     [[nodiscard]] Status buildRates();
     [[nodiscard]] Status layOutDraws();
     [[nodiscard]] const Culling& culling() const { return static_cast<const Culling&>(*visibility_); }
-    void recordRates(VkCommandBuffer commandBuffer, bool previous) const;
+    /// Rates take turns, so all they need is recorded in the first round.
+    void recordRates(const surface::Round& round, bool previous) const;
 
     std::vector<Rate> own_;        ///< rising; the last one's tables are built_.scheme
     std::vector<uint32_t> places_; ///< by rate of the group's ladder, in own_
@@ -235,7 +236,11 @@ void Rates::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
     }
 }
 
-void Rates::recordRates(VkCommandBuffer commandBuffer, bool previous) const {
+void Rates::recordRates(const surface::Round& round, bool previous) const {
+    if (round.number > 0) {
+        return;
+    }
+    const VkCommandBuffer commandBuffer = round.commandBuffer;
     bool first = true;
     for (uint32_t r = 0; r < places_.size(); ++r) {
         const Rate& rate = own_[places_[r]];
@@ -252,16 +257,16 @@ void Rates::recordRates(VkCommandBuffer commandBuffer, bool previous) const {
     }
 }
 
-PassCost Rates::recordEvaluate(VkCommandBuffer commandBuffer) const {
-    recordRates(commandBuffer, false);
+PassCost Rates::recordEvaluate(surface::Round& round) const {
+    recordRates(round, false);
     return {0, 0, windows().visible > 0};
 }
 
-PassCost Rates::recordMotion(VkCommandBuffer commandBuffer) const {
+PassCost Rates::recordMotion(surface::Round& round) const {
     if (!writesMotion()) {
         return {};
     }
-    recordRates(commandBuffer, true);
+    recordRates(round, true);
     return {0, 0, windows().visible > 0};
 }
 

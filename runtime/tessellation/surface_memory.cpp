@@ -15,9 +15,9 @@ constexpr VkFormat kUint1 = VK_FORMAT_R32_UINT;
 /// The kinds of sets that a program binds.
 std::vector<SetKind> setKindsOf(const surface::Program& program) {
     std::vector<SetKind> kinds;
-    for (const surface::Steps* steps :
-         {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
-          &program.patchLevels, &program.places, &program.deepen, &program.evaluate, &program.motion}) {
+    for (const surface::Steps* steps : {&program.vertex, &program.assemble, &program.patch, &program.attributes,
+                                        &program.edgeLevels, &program.patchLevels, &program.depths, &program.places,
+                                        &program.deepen, &program.evaluate, &program.motion}) {
         for (const surface::Step& step : *steps) {
             if (std::find(kinds.begin(), kinds.end(), step.sets) == kinds.end()) {
                 kinds.push_back(step.sets);

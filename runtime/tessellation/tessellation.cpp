@@ -143,7 +143,7 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Pr
     };
     for (const surface::Steps* steps :
          {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
-          &program.patchLevels, &program.places, &program.deepen, &program.evaluate}) {
+          &program.patchLevels, &program.depths, &program.places, &program.deepen, &program.evaluate}) {
         nothing(*steps, sets.at({0, 0, false}));
     }
     if (writesMotion()) {
@@ -168,8 +168,8 @@ surface::Window Tessellation::seen(uint32_t window) const {
     return result;
 }
 
-PassCost Tessellation::recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, stepsOf(stage), seen(w)); });
+PassCost Tessellation::recordStage(surface::Round& round, surface::Stage stage) const {
+    windows().forEach([&](uint32_t w) { surface::record(round, stepsOf(stage), seen(w)); });
     uint64_t points = 0, coefficients = 0;
     for (const surface::Construction& construction : tables().constructions) {
         if (construction.stage == stage) {

@@ -107,7 +107,13 @@ public:
     /// In a frame that leaves the group out: its indirect draws draw nothing until a frame records it.
     virtual void recordNoDraws(VkCommandBuffer /*commandBuffer*/) {}
 
-    // The passes of a frame. What their dispatches need between them they record themselves.
+    // The passes of a frame. Those that take a command buffer record themselves what their dispatches need between
+    // them.
+    /// Records a pass in rounds, of this surface alone: calls record(round) for each.
+    template <class Record>
+    void inRounds(VkCommandBuffer commandBuffer, Record&& record) const {
+        surface::inRounds(*desc_.device, commandBuffer, std::forward<Record>(record));
+    }
     /// How far the origin of the coordinates has moved since the group's last recording.
     void setPastStep(const glm::vec3& step) { pastStep_ = step; }
     /// `changed`: the list of instances has.
@@ -115,24 +121,25 @@ public:
     [[nodiscard]] virtual bool attributesDue() const { return false; }
     virtual PassCost recordAttributes(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return {}; }
     [[nodiscard]] bool has(surface::Stage stage) const { return !stepsOf(stage).empty(); }
-    PassCost recordStage(VkCommandBuffer commandBuffer, surface::Stage stage) const;
+    PassCost recordStage(surface::Round& round, surface::Stage stage) const;
     [[nodiscard]] bool writesPatches() const { return memory_.patches().buffer() != VK_NULL_HANDLE; }
     PassCost recordPatch(VkCommandBuffer commandBuffer) const;
     // Groups of a view, in this order; the view solves its budget before places.
-    virtual PassCost recordEdgeLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordEdgeLevels(surface::Round& /*round*/) const { return {}; }
     virtual PassCost recordPatchLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordDepths(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordPlaces(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     [[nodiscard]] bool deepens() const { return !program_.deepen.empty(); }
-    virtual PassCost recordDeepen(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordDeepen(surface::Round& /*round*/) const { return {}; }
     [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
     virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
-    virtual PassCost recordEvaluate(VkCommandBuffer commandBuffer) const = 0;
+    virtual PassCost recordEvaluate(surface::Round& round) const = 0;
     [[nodiscard]] bool writesTangents() const { return built_.outputs.streams.has(Stream::tangents); }
     /// Previous positions.
     [[nodiscard]] bool writesMotion() const { return memory_.hasMotion(); }
     /// Evaluation and motion write the same memory, so that a barrier stands between the two.
     [[nodiscard]] virtual bool usesScratch() const { return memory_.scratch().buffer() != VK_NULL_HANDLE; }
-    virtual PassCost recordMotion(VkCommandBuffer commandBuffer) const = 0;
+    virtual PassCost recordMotion(surface::Round& round) const = 0;
 
     /// Whether the vertices count in the view's budget.
     [[nodiscard]] virtual bool isBudgeted() const { return false; }

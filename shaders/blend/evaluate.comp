@@ -1,10 +1,11 @@
 // Evaluates the blending surface: four local geometries per face, blended by Hermite weights (docs/blend.md). At a rate, tables
 // say where samples lie in the charts: nothing transcendental is computed here. Narrow mapping: a lane has all coefficients of a
 // patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and checkedFrame(), so
-// positions agree bit for bit.
+// positions agree bit for bit. Regular faces go by rows (blend/regular.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/blend.h"
@@ -13,12 +14,22 @@
 const uint kRecordElements = 4u;
 const uint kForm = kLodQuadForm;
 const uint kParts = 4u * kChartCoefficients; // coefficients
+#ifndef LEVELS
+#define CHOOSES_WIDE
+#endif
 #include "shaders/evaluate/harness.glsl"
 
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
-#include "shaders/evaluate/rate.glsl"
+const bool kRegular = kClass == kBlendRegularPatch;
+#include "shaders/evaluate/pairs.glsl"
 #include "shaders/blend/sample.glsl"
+#include "shaders/blend/regular.glsl"
+
+Along alongOf(vec2 pair) {
+    vec2 eta = hermite(pair.x);
+    return Along(pair.x, pair.y, eta.x, hermite(pair.y).x, eta.y);
+}
 
 #ifndef WIDE
 Corner[4] loadCorners(const PatchPlace at) {
@@ -30,9 +41,93 @@ Corner[4] loadCorners(const PatchPlace at) {
     }
     return corners;
 }
+vec3[36] loadRegular(const PatchPlace at) {
+    vec3 net[36];
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        uvec4 words = tableElement(at.record + k);
+        uint first = at.base + (words.x & kPoolIndexMask);
+        [[unroll]] for (uint n = 0u; n < 9u; ++n)
+            net[9u * k + n] = withQuarterSign(words.w, n, coefficient(first + quarterSource(words.w, n), at.isNew));
+    }
+    return net;
+}
+
+// A row on a border, then what lies between, row by row. Loops are tested at the bottom, see evaluate/bicubic.comp.
+#ifdef LEVELS
+LodPattern patterns[6];
+Along alongRow(uint i, uint j, uint last) {
+    vec2 u = vec2(i == 0u ? 0.0 : 1.0, i == 0u ? 1.0 : 0.0);
+    if (i > 0u && i < last) u = lodPair(j == 0u ? patterns[2] : j == last ? patterns[4] : patterns[0], i, last);
+    return alongOf(u);
+}
+Along acrossRow(uint i, uint j, uint last) {
+    vec2 v = vec2(j == 0u ? 0.0 : 1.0, j == 0u ? 1.0 : 0.0);
+    if (j > 0u && j < last) v = lodPair(i == last ? patterns[3] : i == 0u ? patterns[5] : patterns[1], j, last);
+    return alongOf(v);
+}
+#else
+Along alongRow(uint i, uint j, uint last) { return alongOf(parameterPair(i, last)); }
+Along acrossRow(uint i, uint j, uint last) { return alongOf(parameterPair(j, last)); }
+#endif
+
+struct RegularFace {
+    vec3 diagonal, other;
+    uint vertex, own, last;
+    bool empty;
+};
+void storeRegular(RegularFace face, uint i, uint j, vec3 position, vec3 du, vec3 dv) {
+    uint at = j * (face.last + 1u) + i;
+    Frame frame = checkedFrame(face.diagonal, face.other, frameOf(du, dv));
+    storeSurfaceVertex(face.vertex + at, face.own + at, face.empty ? vec3(0.0) : position, frame);
+}
+// An end of an inner row.
+void endOfRow(RegularFace face, vec3 net[36], RegularRow row, bool isRight, uint j) {
+    uint i = isRight ? face.last : 0u;
+    Along v = acrossRow(i, j, face.last);
+#ifdef LEVELS // which lies elsewhere than the row
+    row = collapseRegular(net, v);
+#endif
+    vec3 position, du, dv;
+    regularSample(row, alongRow(i, j, face.last), position, du, dv);
+    RegularBorder border = leftBorder(net);
+    if (isRight) border = rightBorder(net);
+    storeRegular(face, i, j, onBorder(border, v), du, dv);
+}
+void evaluateRegular(const PatchPlace at, uint last) {
+    vec3 net[36] = loadRegular(at), position, du, dv;
+    RegularFace face = RegularFace(net[18] - net[0], net[27] - net[9], at.vertex, at.own, last, at.empty);
+    uint j = 0u;
+    [[dont_unroll]] do {
+        RegularRow row = collapseRegular(net, acrossRow(1u, j, last));
+        RegularBorder border = chosen(j == 0u, bottomBorder(net), topBorder(net));
+        uint i = 0u;
+        [[unroll]] do {
+            Along u = alongRow(i, j, last);
+            regularSample(row, u, position, du, dv);
+            storeRegular(face, i, j, onBorder(border, u), du, dv);
+        } while (++i <= last);
+        j += last;
+    } while (j <= last);
+    if (last == 1u) return;
+    j = 1u;
+    [[dont_unroll]] do {
+        RegularRow row = collapseRegular(net, acrossRow(1u, j, last));
+        uint i = 1u;
+        [[unroll]] do {
+            regularSample(row, alongRow(i, j, last), position, du, dv);
+            storeRegular(face, i, j, position, du, dv);
+        } while (++i < last);
+        endOfRow(face, net, row, false, j);
+        endOfRow(face, net, row, true, j);
+    } while (++j < last);
+}
 
 #ifndef LEVELS
 void evaluatePatch(const PatchPlace at) {
+    if (kRegular) {
+        evaluateRegular(at, fixedRate());
+        return;
+    }
     Corner corners[4] = loadCorners(at);
     uint side = dispatchRate() + 1u, vertex = at.vertex, j = 0u;
     do {
@@ -58,12 +153,14 @@ void evaluatePatch(const PatchPlace at) {
 }
 
 #else
-// Loops are tested at the bottom, see evaluate/bicubic.comp.
 void evaluatePatch(const PatchPlace at, uint lodRecord) {
     uint last = at.capacity, side = last + 1u;
-    Corner corners[4] = loadCorners(at);
-    LodPattern patterns[6];
     for (uint k = 0u; k < 6u; ++k) patterns[k] = recordPattern(lodRecord, k, at.capacityIndex);
+    if (kRegular) {
+        evaluateRegular(at, last);
+        return;
+    }
+    Corner corners[4] = loadCorners(at);
     uint j = 0u;
     do {
         uint i = 0u;
@@ -82,26 +179,104 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
 
 #endif
 #else
-shared vec4 localCoefficients[kMaxPatchesPerGroup * kParts];
 
-void loadPart(uint to, const PatchPlace at, uint c) {
-    uint poolIndex = tableElement(at.record + c / kChartCoefficients).x & kPoolIndexMask;
-    localCoefficients[to] = vec4(coefficient(at.base + poolIndex + c % kChartCoefficients, at.isNew), 0.0);
+const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighbouring faces in different banks
+#ifdef LEVELS
+shared vec4 localElements[kMaxPatchesPerGroup * kLocalStride];
+#else
+shared vec4 localElements[kRegular ? SUPPLE_WIDE_ELEMENTS(kVertexFormat) : kMaxPatchesPerGroup * kLocalStride];
+#endif
+
+void loadCoefficient(uint place, const PatchPlace at, uint c) {
+    uint corner = c / kChartCoefficients, n = c - corner * kChartCoefficients;
+    uvec4 words = tableElement(at.record + corner);
+    uint first = at.base + (words.x & kPoolIndexMask);
+    vec3 value = coefficient(first + (kRegular ? quarterSource(words.w, n) : n), at.isNew);
+    if (kRegular) value = withQuarterSign(words.w, n, value);
+    localElements[place * kLocalStride + c].xyz = value;
+}
+vec3[36] localNet(uint place) {
+    vec3 net[36];
+    [[unroll]] for (uint n = 0u; n < 36u; ++n) net[n] = localElements[place * kLocalStride + n].xyz;
+    return net;
 }
 
+void loadPart(uint to, const PatchPlace at, uint c) { loadCoefficient(to / kParts, at, c); }
+
+#ifdef LEVELS
+// The sample (i, j) of a face whose last one is (last, last).
+void finishRegular(vec3 net[36], Along u, Along v, uint i, uint j, uint last, out vec3 position, out Frame frame) {
+    vec3 du, dv;
+    regularSample(collapseRegular(net, v), u, position, du, dv);
+    bool isEnd = i == 0u || i == last;
+    if (isEnd || j == 0u || j == last) {
+        RegularBorder border = chosen(isEnd, chosen(i == 0u, leftBorder(net), rightBorder(net)),
+                                      chosen(j == 0u, bottomBorder(net), topBorder(net)));
+        Along along = u;
+        if (isEnd) along = v;
+        position = onBorder(border, along);
+    }
+    frame = checkedFrame(net[18] - net[0], net[27] - net[9], frameOf(du, dv));
+}
+#endif
+
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
+#ifdef LEVELS
+    uint last = at.capacity, j = index / (last + 1u), i = index - j * (last + 1u);
+    vec2 u = lodU(place, last, i, j), v = lodV(place, last, i, j);
+    if (kRegular) {
+        finishRegular(localNet(place), alongOf(u), alongOf(v), i, j, last, position, frame);
+        return;
+    }
+#endif
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
         uint poolIndex;
         corners[k] = cornerOf(at.record + k, poolIndex);
-        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = localCoefficients[place * kParts + 9u * k + c].xyz;
+        for (uint c = 0u; c < 9u; ++c) corners[k].c[c] = localElements[place * kLocalStride + 9u * k + c].xyz;
     }
 #ifdef LEVELS
-    uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
-    evaluateLevels(corners, lodU(place, at.capacity, i, j), lodV(place, at.capacity, i, j), position, frame);
+    evaluateLevels(corners, u, v, position, frame);
 #else
     uint j = index / (dispatchRate() + 1u), i = index - j * (dispatchRate() + 1u);
     evaluateAtRate(corners, i, j, kSharp && liesStill(corners, i, j), position, frame);
 #endif
 }
+
+#ifndef LEVELS
+const uint kRowParts = kParts;
+void loadRowPart(uint place, const PatchPlace at, uint c) { loadCoefficient(place, at, c); }
+
+// The lane's row, and positions on borders: where the row lies on one, what that is made of, else its two ends.
+RegularRow laneRow;
+RegularBorder laneBorder;
+vec3 laneLeft, laneRight, laneDiagonal, laneOther;
+void makeRow(uint place, uint j, uint rate) {
+    vec3 net[36] = localNet(place);
+    Along v = alongOf(parameterPair(j, rate));
+    laneRow = collapseRegular(net, v);
+    laneBorder = chosen(j == 0u, bottomBorder(net), topBorder(net));
+    laneLeft = onBorder(leftBorder(net), v);
+    laneRight = onBorder(rightBorder(net), v);
+    laneDiagonal = net[18] - net[0];
+    laneOther = net[27] - net[9];
+}
+void sampleOfRow(Share share, uint place, uint i, uint j, uint rate, out vec3 position, out Frame frame) {
+    vec3 du, dv;
+    Along u = alongOf(parameterPair(i, rate));
+    regularSample(laneRow, u, position, du, dv);
+    if (j == 0u || j == rate) position = onBorder(laneBorder, u);
+    else if (i == 0u) position = laneLeft;
+    else if (i == rate) position = laneRight;
+    frame = checkedFrame(laneDiagonal, laneOther, frameOf(du, dv));
+}
+uint rowRate() { return fixedRate(); }
+const bool kHasRows = kRegular, kInterior = false;
+#include "shaders/evaluate/wide_rows.glsl"
+
+void evaluateWide() {
+    if (kRegular) evaluateWideRows();
+    else evaluateWideSamples();
+}
+#endif
 #endif

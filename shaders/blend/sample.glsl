@@ -47,12 +47,15 @@ bool liesStill(Corner corners[4], uint i, uint j) {
     return still;
 }
 
-// Where even the face has a longer normal, that.
-Frame checkedFrame(Corner corners[4], Frame f) {
-    vec3 n = f.normal, diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
+// Where even the face has a longer normal, that. `diagonal`, `other`: those of the face.
+Frame checkedFrame(vec3 diagonal, vec3 other, Frame f) {
+    vec3 n = f.normal;
     if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other))))
         f = withNormal(f, cross(diagonal, other));
     return f;
+}
+Frame checkedFrame(Corner corners[4], Frame f) {
+    return checkedFrame(corners[2].c[0] - corners[0].c[0], corners[3].c[0] - corners[1].c[0], f);
 }
 
 // At corner k from its chart, where the blend's derivatives have a limit: along the two edges the powers of z that they have in

@@ -125,6 +125,6 @@ void main() {
     }
     for (uint number = 1u; number <= push.partCount; ++number) listPart(number, entries);
     if (lane == 0u && push.counted != 0u) {
-        for (uint r = 0u; r < push.rateCount; ++r) words[kLodSolution + 1u] += totals[r] * push.vertices[r];
+        for (uint r = 0u; r < push.rateCount; ++r) atomicAdd(words[kLodSolution + 1u], totals[r] * push.vertices[r]);
     }
 }

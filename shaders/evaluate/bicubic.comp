@@ -298,11 +298,6 @@ void localInner(uint from, uint i, vec2 v, out vec3 point, out vec3 slope) {
 #endif
 
 #if defined(WIDE) && !defined(LEVELS)
-// Samples of a row that are stored together: what there is room for, and an odd number, so that rows begin in different banks.
-const uint kMostTogether = kVertexFormat == kVertex24 ? 3u : 5u;
-shared uint localNormals[kLanePatch ? 1u : kMaxLanes * kMostTogether * (kNormalWords == 0u ? 1u : kNormalWords)];
-shared uint localRows[kLanePatch ? 1u : kMaxLanes]; // the first surface vertex of each
-
 Row collapseFrom(uint from, vec2 v, uint kind) {
     Row row;
     vec3 first = localCoefficient(from, 0u), corners[4], offsets[4];
@@ -316,71 +311,34 @@ Row collapseFrom(uint from, vec2 v, uint kind) {
     return row;
 }
 
-// A lane a row, in registers; a lane a corner loads before. As coefficients are not needed any more then, positions take
-// their place on their way to be stored by neighbouring lanes side by side.
-void evaluateWide() {
-    if (kLanePatch) {
-        evaluatePatches();
-        return;
-    }
-    const uint kInset = kInterior ? 1u : 0u;
-    uint rate = fixedRate(), side = rate + 1u - 2u * kInset, lane = gl_LocalInvocationID.x;
-    Share share = shareOfGroup();
-    if (share.count == 0u) return;
-    uint rows = share.count * side;
-    for (uint n = lane; n < 4u * share.count; n += gl_WorkGroupSize.x) {
-        uint place = n / 4u;
+const uint kRowParts = 4u; // corners
+void loadRowPart(uint place, const PatchPlace at, uint corner) { loadCorner(place, at, corner); }
+
+// The lane's row.
+Row laneRow;
+PointHalves laneHalves;
+vec3 laneApex;
+void makeRow(uint place, uint j, uint rate) {
+    laneRow = collapseFrom(place * kLocalStride, parameterPair(j, rate), rowKind(j, rate));
+    laneHalves = pointHalves(laneRow);
+    if (kPolar) laneApex = localVector(place * kLocalStride + localSlot(12u));
+}
+void sampleOfRow(Share share, uint place, uint i, uint j, uint rate, out vec3 position, out Frame frame) {
+    bool isInside = j > 0u && j < rate && i > 0u && i < rate;
+    sampleOf(laneRow, laneHalves, parameterPair(i, rate), isInside, position, frame);
+    if (kPolar && j == rate) position = laneApex;
+    if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
         PatchPlace at = PATCH_IN_PLACE(share, place);
-        loadCorner(place, at, n & 3u);
-        for (uint j = n & 3u; j < side; j += 4u) localRows[place * side + j] = at.vertex + j * side;
+        frame = withCornerNormal(frame, i, j, rate, normalSlots(at.record), at.base);
     }
-    barrier();
-    uint place = lane / side, j = lane - place * side + kInset;
-    Row row;
-    PointHalves halves;
-    vec3 apex;
-    bool isInner = j > 0u && j < rate;
-    if (lane < rows) {
-        row = collapseFrom(place * kLocalStride, parameterPair(j, rate), rowKind(j, rate));
-        halves = pointHalves(row);
-        if (kPolar) apex = localVector(place * kLocalStride + localSlot(12u));
-    }
-    uint rounds = (side + kMostTogether - 1u) / kMostTogether, chunk = ((side + rounds - 1u) / rounds) | 1u;
-    for (uint from = 0u; from < side; from += chunk) {
-        barrier();
-        if (lane < rows) {
-            [[unroll]] for (uint c = 0u; c < chunk; ++c) {
-                uint i = from + c + kInset, to = lane * chunk + c;
-                if (from + c >= side) break;
-                vec3 position;
-                Frame frame;
-                sampleOf(row, halves, parameterPair(i, rate), isInner && i > 0u && i < rate, position, frame);
-                if (kPolar && j == rate) position = apex;
-                if (kCornerNormals && !kInterior && (i == 0u || i == rate) && (j == 0u || j == rate)) {
-                    PatchPlace at = PATCH_IN_PLACE(share, place);
-                    frame = withCornerNormal(frame, i, j, rate, normalSlots(at.record), at.base);
-                }
-                if (kTangents) {
-                    PatchPlace at = PATCH_IN_PLACE(share, place);
-                    uint own = (j - kInset) * side + from + c;
-                    storeTangent(at.vertex + own, at.own + own, frame);
-                }
-                localElements[to].xyz = position;
-                uvec3 words = normalWords(frame.normal);
-                for (uint k = 0u; k < kNormalWords; ++k) localNormals[kNormalWords * to + k] = words[k];
-            }
-        }
-        barrier();
-        for (uint n = lane; n < rows * chunk * kVertexStores; n += gl_WorkGroupSize.x) {
-            uint at = n / kVertexStores, slot = at / chunk, c = at - slot * chunk;
-            if (from + c >= side) continue;
-            uint vertex = localRows[slot] + from + c, word = kNormalWords * at;
-            if (n - at * kVertexStores == 0u)
-                storePosition(vertex, localVector(at), kNormalWords == 1u ? localNormals[word] : 0u);
-            else
-                storeNormal(vertex, uvec3(localNormals[word], localNormals[word + 1u], localNormals[word + 2u]));
-        }
-    }
+}
+uint rowRate() { return fixedRate(); }
+const bool kHasRows = !kLanePatch;
+#include "shaders/evaluate/wide_rows.glsl"
+
+void evaluateWide() {
+    if (kLanePatch) evaluatePatches();
+    else evaluateWideRows();
 }
 #endif
 

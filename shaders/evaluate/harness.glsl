@@ -7,7 +7,8 @@
 //   kRecordElements   table elements per patch
 //   kForm             the form of its grids at levels
 //   kParts            wide mapping: parts per patch
-//   OWN_WIDE          a macro, if its own evaluateWide() is faster than the one below
+//   OWN_WIDE          a macro, if its own evaluateWide() is faster than evaluateWideSamples()
+//   CHOOSES_WIDE      a macro, if its own evaluateWide() chooses between that and another way
 // and behind it the functions that are declared here.
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/todays_pool.glsl"
@@ -85,7 +86,7 @@ void evaluateWide();
 void loadPart(uint to, const PatchPlace at, uint part); // a part of a patch into part `to` of the workgroup's memory
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame);
 
-void evaluateWide() {
+void evaluateWideSamples() {
     Share share = shareOfGroup();
     for (uint n = gl_LocalInvocationID.x; n < share.count * kParts; n += gl_WorkGroupSize.x) {
         uint place = n / kParts;
@@ -102,6 +103,9 @@ void evaluateWide() {
         storeSurfaceVertex(at.vertex + index, at.own + index, position, frame);
     }
 }
+#ifndef CHOOSES_WIDE
+void evaluateWide() { evaluateWideSamples(); }
+#endif
 #endif
 
 void main() { evaluateWide(); }

@@ -9,14 +9,18 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 
-layout(set = 0, binding = kLodBinding, std430) writeonly buffer LodTargets { uvec4 lodTargets[]; };
-
 shared uint taken[kMaxRuns * kCapacityCount];
 
 // a = (L - 1) / 2 and 1 / L, as bits.
 uvec2 levelPair(float level) {
     precise float a = (level - 1.0) * 0.5, inverse = 1.0 / level;
     return floatBitsToUint(vec2(a, inverse));
+}
+
+// Through the buffer that places are taken in. With two of one memory, synchronization validation would see groups read here what
+// others write.
+void storeElement(uint to, uvec4 words) {
+    for (uint k = 0u; k < 4u; ++k) lodWords[to + k] = words[k];
 }
 
 void main() {
@@ -84,11 +88,9 @@ void main() {
         for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = ofEdges[k];
     }
     uint samples = formSamples(form, capacityOf(capacity));
-    uint to = kLodRecords / 4u + kLodRecordWords / 4u * (lodWord(bucket) + place);
-    if (to + kLodRecordWords / 4u > uint(lodTargets.length())) return;
-    lodTargets[to] = uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
-                           lodWord(bucket + 1u) + place * samples, capacity);
-    lodTargets[to + 1u] = uvec4(pairs[0], pairs[1]);
-    lodTargets[to + 2u] = uvec4(pairs[2], pairs[3]);
-    lodTargets[to + 3u] = uvec4(pairs[4], pairs[5]);
+    uint to = kLodRecords + kLodRecordWords * (lodWord(bucket) + place);
+    if (to + kLodRecordWords > uint(lodWords.length())) return;
+    storeElement(to, uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
+                           lodWord(bucket + 1u) + place * samples, capacity));
+    for (uint k = 0u; k < 3u; ++k) storeElement(to + 4u * (k + 1u), uvec4(pairs[2u * k], pairs[2u * k + 1u]));
 }

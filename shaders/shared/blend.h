@@ -18,7 +18,7 @@
 //   smooth UVs       of a patch one element a corner, as in its record, but with the element of a chart of texture coordinates:
 //                    five elements a chart, two coefficients an element
 //   patches          one element a corner: (pool index of c_00 | flags, direction, chart samples, crease samples), or, at levels,
-//                    (.., .., 4 / k, 0)
+//                    (.., .., 4 / k, 0). A regular face has kQuarter.. in place of crease samples
 #ifndef SUPPLE_SHARED_BLEND_H
 #define SUPPLE_SHARED_BLEND_H
 
@@ -32,6 +32,11 @@ SUPPLE_SHARED_CONST kStillCorner = 0x40000000u;  // the surface has no derivativ
 SUPPLE_SHARED_CONST kStillEdge = 0x20000000u;    // nor across the edge to the next corner
 SUPPLE_SHARED_CONST kChordCorner = 0x10000000u;  // smooth texture coordinates: the surface's chart at the corner is creased
 SUPPLE_SHARED_CONST kPoolIndexMask = 0x0FFFFFFFu;
+
+// How a corner of a regular face tells its coefficients, along a row of samples and across it, from those of its chart.
+SUPPLE_SHARED_CONST kQuarterSwapped = 1u;
+SUPPLE_SHARED_CONST kQuarterBackAlong = 2u; // odd powers along the row change their sign
+SUPPLE_SHARED_CONST kQuarterBackAcross = 4u;
 
 // With level of detail a normal is taken 1 / kStillSteps of the patch inside where it lies still: half the shortest
 // segment that there is, whatever the level, so that a place has one normal.

@@ -35,7 +35,7 @@ SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 14u;   // matrix rows that workgrou
 SUPPLE_SHARED_CONST kTangentsConstant = 15u; // bool: evaluation writes tangents
 SUPPLE_SHARED_CONST kSectorsConstant = 16u;  // bool: patches are sectors round a centre (P_m)
 
-SUPPLE_SHARED_CONST kSemiSharpConstant = 17u; // bool: smooth texture coordinates of triangles have semi-sharp creases
+SUPPLE_SHARED_CONST kSemiSharpConstant = 18u; // bool: smooth texture coordinates of triangles have semi-sharp creases
 
 SUPPLE_SHARED_END
 

@@ -91,6 +91,7 @@ SUPPLE_SHARED_CONST kCreasedPatch = 13u;
 SUPPLE_SHARED_CONST kLoopRegularPatch = 14u;
 SUPPLE_SHARED_CONST kLoopIrregularPatch = 15u;
 SUPPLE_SHARED_CONST kLoopIrregularSharpPatch = 16u;
+SUPPLE_SHARED_CONST kBlendRegularPatch = 17u;
 
 // Domains; values of SuppleDomain.
 SUPPLE_SHARED_CONST kQuadDomain = 0u;
@@ -193,6 +194,7 @@ SUPPLE_SHARED_CONST kPatchLanes = 32u; // lanes of a workgroup where a lane take
 SUPPLE_SHARED_CONST kMaxLanePatchRate = 16u; // then 32 rows take 9 KiB
 SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch
 SUPPLE_SHARED_CONST kWidePerturbedNetElements = 33u;
+SUPPLE_SHARED_CONST kWideBlendElements = 37u;
 #define SUPPLE_WIDE_ELEMENTS(vertexFormat) ((vertexFormat) == kVertex24 ? 704u : 832u)
 
 // What a dispatch alone knows: its window of instances, its range, and where it writes. What all dispatches of a surface share

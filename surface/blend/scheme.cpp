@@ -68,7 +68,10 @@ private:
         const bool sharp = std::any_of(patch.cageCorners.begin(), patch.cageCorners.begin() + 4, [&](uint32_t c) {
             return mesh_.classOf(mesh_.corners[c].chart).creased() || stillCorner(c) || flatAcross(mesh_, c);
         });
-        return sharp ? PatchClass::blendSharp : PatchClass::blend;
+        const bool regular = std::all_of(patch.cageCorners.begin(), patch.cageCorners.begin() + 4, [&](uint32_t c) {
+            return mesh_.classOf(mesh_.corners[c].chart).turns() == 4;
+        });
+        return sharp ? PatchClass::blendSharp : regular ? PatchClass::blendRegular : PatchClass::blend;
     }
 
     [[nodiscard]] uint32_t poolIndex(uint32_t chart) const { return firstChart_ + kCoefficients * chart; }
@@ -212,13 +215,27 @@ private:
                 rate_ > 0 ? tables.samples : floatBits(4.0 / chartClass.turns()), tables.creaseSamples};
     }
 
+    /// How corner `i` of a regular face sees its chart, of which it has sector h: the face's coordinates there are z,
+    /// or its own two exchanged, and zeta is z turned by h quarters.
+    [[nodiscard]] static uint32_t quarterOf(uint32_t i, uint32_t h) {
+        const bool backX = h == 2 || h == 3, backY = h == 1 || h == 2, alongY = i % 2 == 1;
+        return ((h + i) % 2 == 1 ? shared::kQuarterSwapped : 0u) |
+               ((alongY ? backY : backX) ? shared::kQuarterBackAlong : 0u) |
+               ((alongY ? backX : backY) ? shared::kQuarterBackAcross : 0u);
+    }
+
     void writePatches() {
         for (uint32_t p = 0; p < patches_.size(); ++p) {
             countPatch(patches_[p].info.patchClass, p, writer_, tables_);
             for (uint32_t i = 0; i < 4; ++i) {
                 const uint32_t c = patches_[p].cageCorners[i];
                 const Corner& corner = mesh_.corners[c];
-                writer_.put(recordWords(poolIndex(corner.chart), mesh_.classOf(corner.chart), corner.sector, c, 0u));
+                std::array<uint32_t, 4> words =
+                    recordWords(poolIndex(corner.chart), mesh_.classOf(corner.chart), corner.sector, c, 0u);
+                if (patches_[p].info.patchClass == PatchClass::blendRegular) {
+                    words[3] = quarterOf(i, corner.sector);
+                }
+                writer_.put(words);
             }
             if (edges_ != nullptr) {
                 addSides(patches_[p]);

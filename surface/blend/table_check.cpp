@@ -29,7 +29,7 @@ private:
         const std::span charts(kChartKernels);
         const bool refined = tables_.isolationSteps > 0;
         const auto& all = tables_.constructions;
-        if (!checkClasses(check_, {PatchClass::blend, PatchClass::blendSharp}) ||
+        if (!checkClasses(check_, {PatchClass::blend, PatchClass::blendSharp, PatchClass::blendRegular}) ||
             !checkKernels(
                 check_,
                 {{Stage::vertex, steps}, {Stage::vertex, charts.first(1)}, {Stage::assemble, charts.last(1)}}) ||
@@ -94,8 +94,8 @@ private:
     }
 
     /// A corner of a patch but for where its coefficients are.
-    bool checkCorner(std::span<const uint32_t> corner, bool sharp) {
-        const bool creased = sharp && (corner[0] & kCreasedChart) != 0;
+    bool checkCorner(std::span<const uint32_t> corner, PatchClass patchClass) {
+        const bool creased = patchClass == PatchClass::blendSharp && (corner[0] & kCreasedChart) != 0;
         return check_.elements(corner[1], 1) && (atLevels_ || (check_.elements(corner[2], samples_) &&
                                                                (!creased || check_.elements(corner[3], 2 * samples_))));
     }
@@ -103,10 +103,10 @@ private:
     bool checkPatches() {
         check_.begin("patch records");
         for (const PatchRange& range : tables_.ranges) {
-            const bool sharp = range.patchClass == PatchClass::blendSharp;
             for (uint64_t c = 0; c < uint64_t{4} * range.section.count; ++c) {
                 const std::span<const uint32_t> corner = check_.element(range.section.table + c);
-                if (!check_.pool(corner[0] & kPoolIndexMask, kChartCoefficients) || !checkCorner(corner, sharp)) {
+                if (!check_.pool(corner[0] & kPoolIndexMask, kChartCoefficients) ||
+                    !checkCorner(corner, range.patchClass)) {
                     return false;
                 }
             }
@@ -125,11 +125,10 @@ private:
             if (!check_.elements(range.smoothUvs, corners)) {
                 return false;
             }
-            const bool sharp = range.patchClass == PatchClass::blendSharp;
             for (uint64_t c = 0; c < corners; ++c) {
                 const std::span<const uint32_t> corner = check_.element(range.smoothUvs + c);
                 if (!check_.elements(corner[0] & kPoolIndexMask, (kChartCoefficients + 1) / 2) ||
-                    !checkCorner(corner, sharp)) {
+                    !checkCorner(corner, range.patchClass)) {
                     return false;
                 }
             }

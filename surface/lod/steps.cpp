@@ -91,7 +91,7 @@ void addPatches(ProgramBuilder& builder, uint32_t& argument) {
         const gpu::Kernel kernel = builder.kernel(SetKind::levels, builder.options.backFaces ? own.facing : own.kernel,
                                                   {{shared::kKindConstant, own.kind}}, "supple levels of patches");
         builder.add(builder.program.patchLevels, SetKind::levels, kernel, builder.lanes(count),
-                    pushFor(builder, first, count), argument++, Order::disjoint);
+                    pushFor(builder, first, count), argument++, Order::shared);
     }
 }
 
@@ -103,8 +103,7 @@ void addDepths(ProgramBuilder& builder) {
         return;
     }
     const gpu::Kernel kernel = builder.kernel(SetKind::levels, Kernel::lodDepth, {}, "supple depths of chains");
-    builder.add(program.places, SetKind::levels, kernel, DispatchSize::oneGroup(), pushFor(builder, 0, 1), 0,
-                Order::after);
+    builder.add(program.depths, SetKind::levels, kernel, DispatchSize::oneGroup(), pushFor(builder, 0, 1));
     program.firstDepthDispatch = depthWords(tables) + shared::kDepthDispatches;
     uint32_t depth = 0;
     for (const Construction& c : builder.tables.constructions) {
@@ -134,11 +133,10 @@ void addSteps(ProgramBuilder& builder) {
     }
     addPatches(builder, argument);
     addDepths(builder);
-    // Behind the solver. Between windows places are taken with atomics, but to synchronization validation the view's
-    // words are one resource.
+    // Places are taken with atomics, but to synchronization validation the view's words are one resource.
     const shared::LodPush push = pushFor(builder, 0, tables.patches.count);
     const gpu::Kernel place = builder.kernel(SetKind::levels, Kernel::lodPlace, {}, "supple level places");
-    builder.add(program.places, SetKind::levels, place, builder.lanes(push.count), push, argument, Order::after);
+    builder.add(program.places, SetKind::levels, place, builder.lanes(push.count), push, argument, Order::shared);
 }
 
 } // namespace supple::surface::lod

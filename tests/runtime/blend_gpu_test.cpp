@@ -15,7 +15,7 @@ using surface::blend::CreaseMode;
 using surface::blend::Mesh;
 
 PatchFaces blendPatches(const Mesh& mesh, const GpuSurface& gpu) {
-    return patchFaces(mesh, gpu, [&](uint32_t f) { return isSharpPatch(mesh, f); });
+    return patchFaces(mesh, gpu, [&](uint32_t f) { return blendClass(mesh, f); });
 }
 
 class BlendOnGpu : public testing::TestWithParam<GpuCase> {

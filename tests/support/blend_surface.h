@@ -61,6 +61,19 @@ inline bool isSharpPatch(const surface::blend::Mesh& mesh, uint32_t face) {
     return false;
 }
 
+/// The class that a face is drawn as.
+inline surface::PatchClass blendClass(const surface::blend::Mesh& mesh, uint32_t face) {
+    if (isSharpPatch(mesh, face)) {
+        return surface::PatchClass::blendSharp;
+    }
+    for (uint32_t c = 4 * face; c < 4 * face + 4; ++c) {
+        if (mesh.classOf(mesh.corners[c].chart).turns() != 4) {
+            return surface::PatchClass::blend;
+        }
+    }
+    return surface::PatchClass::blendRegular;
+}
+
 /// The faces that are drawn, in the order of their patches: by class, then material, then face.
 inline std::vector<uint32_t> facesOfPatches(const surface::blend::Mesh& mesh) {
     std::vector<uint32_t> faces;
@@ -70,7 +83,7 @@ inline std::vector<uint32_t> facesOfPatches(const surface::blend::Mesh& mesh) {
         }
     }
     const auto key = [&](uint32_t f) {
-        return std::pair(isSharpPatch(mesh, f),
+        return std::pair(blendClass(mesh, f),
                          mesh.cage.faceMaterials.empty() ? cage::kNone : mesh.cage.faceMaterials[f]);
     };
     std::stable_sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });

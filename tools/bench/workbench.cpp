@@ -168,7 +168,8 @@ Status Workbench::recordWarmUp(SuppleGroup group, VkCommandBuffer commands) {
 }
 
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
-    inside_->group(group).surfaces()[0].recordEvaluate(commands);
+    const runtime::Tessellation& surface = inside_->group(group).surfaces()[0];
+    surface.inRounds(commands, [&](surface::Round& round) { (void)surface.recordEvaluate(round); });
 }
 
 void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
@@ -183,16 +184,16 @@ void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
-    runtime::Group& group = inside_->group(id);
+    const runtime::Tessellation& surface = inside_->group(id).surfaces()[0];
     recordSkin(id, commands);
     computeBarrier(commands);
     for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::assemble}) {
-        if (group.surfaces()[0].has(stage)) {
-            group.surfaces()[0].recordStage(commands, stage);
+        if (surface.has(stage)) {
+            surface.inRounds(commands, [&](surface::Round& round) { (void)surface.recordStage(round, stage); });
             computeBarrier(commands);
         }
     }
-    group.surfaces()[0].recordEvaluate(commands);
+    recordEvaluate(id, commands);
 }
 
 host::GroupOutput Workbench::output(SuppleGroup group) const {

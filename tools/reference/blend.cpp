@@ -184,6 +184,64 @@ typename Evaluator<T>::Blend Evaluator<T>::blend(uint32_t face, const Views& vie
 }
 
 template <class T>
+bool Evaluator<T>::isRegular(uint32_t face) const {
+    for (uint32_t corner = 4 * face; corner < 4 * face + 4; ++corner) {
+        const ChartClass& chartClass = mesh_.classOf(mesh_.corners[corner].chart);
+        const bool isPlain = chartClass.kind == ChartKind::interior || chartClass.kind == ChartKind::boundary;
+        if (!isPlain || chartClass.turns() != 4 || flatAcross(mesh_, corner)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <class T>
+typename Evaluator<T>::Blend Evaluator<T>::regular(uint32_t face, const Along& u, const Along& v) const {
+    const Vec origin = vertex(4 * face);
+    // A corner's coefficients of u^a v^b at 3 a + b, seen from the corner: u and v are its own x and y or, at odd
+    // corners, y and x.
+    std::array<ChartCoefficients<T>, 4> net;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Corner& at = mesh_.corners[4 * face + k];
+        const ChartCoefficients<T>& c = coefficients_[at.chart];
+        // U and V are x and y, turned by quarters.
+        const bool swapped = at.sector % 2 == 1;
+        const T x = at.sector == 2 || at.sector == 3 ? T(-1) : T(1),
+                y = at.sector == 1 || at.sector == 2 ? T(-1) : T(1);
+        for (uint32_t a = 0; a < 3; ++a) {
+            for (uint32_t b = 0; b < 3; ++b) {
+                const T sign = (a == 1 ? x : T(1)) * (b == 1 ? y : T(1));
+                net[k][k % 2 == 0 ? 3 * a + b : 3 * b + a] = sign * c[swapped ? 3 * b + a : 3 * a + b];
+            }
+        }
+        net[k][0] = net[k][0] - origin;
+    }
+    const auto quadratic = [](T t, const Vec& c0, const Vec& c1, const Vec& c2) { return c0 + t * (c1 + t * c2); };
+    const auto slope = [](T t, const Vec& c1, const Vec& c2) { return c1 + T(2) * (t * c2); };
+    // What corners give to a row: quadratics in the distance from its left and its right end, and their slopes by v.
+    std::array<std::array<Vec, 3>, 2> row, across;
+    for (uint32_t right = 0; right < 2; ++right) {
+        const ChartCoefficients<T>&low = net[right == 0 ? 0 : 1], &high = net[right == 0 ? 3 : 2];
+        for (uint32_t a = 0; a < 9; a += 3) {
+            const Vec p = quadratic(v.t, low[a], low[a + 1], low[a + 2]);
+            const Vec q = quadratic(v.back, high[a], high[a + 1], high[a + 2]);
+            row[right][a / 3] = v.eta * p + v.etaBack * q;
+            across[right][a / 3] = v.slope * (p - q) + v.eta * slope(v.t, low[a + 1], low[a + 2]) -
+                                   v.etaBack * slope(v.back, high[a + 1], high[a + 2]);
+        }
+    }
+    const Vec p = quadratic(u.t, row[0][0], row[0][1], row[0][2]),
+              q = quadratic(u.back, row[1][0], row[1][1], row[1][2]);
+    Blend result;
+    result.position = origin + (u.eta * p + u.etaBack * q);
+    result.du =
+        u.slope * (p - q) + u.eta * slope(u.t, row[0][1], row[0][2]) - u.etaBack * slope(u.back, row[1][1], row[1][2]);
+    result.dv = u.eta * quadratic(u.t, across[0][0], across[0][1], across[0][2]) +
+                u.etaBack * quadratic(u.back, across[1][0], across[1][1], across[1][2]);
+    return result;
+}
+
+template <class T>
 bool Evaluator<T>::isTiny(uint32_t face, const Vec& normal) const {
     const Vec diagonal = vertex(4 * face + 2) - vertex(4 * face), other = vertex(4 * face + 3) - vertex(4 * face + 1);
     const T scale = dotProduct(diagonal, diagonal) * dotProduct(other, other);
@@ -228,13 +286,25 @@ glm::vec<3, T> Evaluator<T>::normal(uint32_t face, uint32_t i, uint32_t j, const
 
 template <class T>
 Sample<T> Evaluator<T>::at(uint32_t face, uint32_t i, uint32_t j) const {
-    const Blend sample = blend(face, views(face, i, j));
+    Blend sample = blend(face, views(face, i, j));
+    if (i > 0 && i < rate_ && j > 0 && j < rate_ && isRegular(face)) {
+        const auto along = [&](uint32_t k) -> Along {
+            return {parameters_[k], parameters_[rate_ - k], weights_[k].x, weights_[rate_ - k].x, weights_[k].y};
+        };
+        sample = regular(face, along(i), along(j));
+    }
     return {sample.position, sample.du, sample.dv, normal(face, i, j, sample)};
 }
 
 template <class T>
 Sample<T> Evaluator<T>::at(uint32_t face, const Pair& u, const Pair& v) const {
-    const Blend sample = blend(face, views(face, u, v));
+    Blend sample = blend(face, views(face, u, v));
+    if (u.x > T(0) && u.y > T(0) && v.x > T(0) && v.y > T(0) && isRegular(face)) {
+        const auto along = [](const Pair& pair) -> Along {
+            return {pair.x, pair.y, hermite(pair.x).x, hermite(pair.y).x, hermite(pair.x).y};
+        };
+        sample = regular(face, along(u), along(v));
+    }
     // Distances from the sides u = 0 and v = 0, and from the opposite ones; where the normal is taken.
     const T step = T(1) / T(shared::kStillSteps);
     Pair x = u, y = v;

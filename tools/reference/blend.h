@@ -71,6 +71,13 @@ private:
     [[nodiscard]] ChartPoint<T> tablePoint(uint32_t corner, uint32_t x, uint32_t y) const;
     [[nodiscard]] Local local(uint32_t corner, const ChartPoint<T>& at) const;
     [[nodiscard]] Blend blend(uint32_t face, const Views& views) const;
+    /// A parameter with 1 - t, eta of both, and eta'(t).
+    struct Along {
+        T t = 0, back = 0, eta = 0, etaBack = 0, slope = 0;
+    };
+    /// Inside a regular face, by rows: as blend(), in another order of sums.
+    [[nodiscard]] bool isRegular(uint32_t face) const;
+    [[nodiscard]] Blend regular(uint32_t face, const Along& u, const Along& v) const;
     [[nodiscard]] Vec vertex(uint32_t corner) const;
     [[nodiscard]] bool isTiny(uint32_t face, const Vec& normal) const;
     [[nodiscard]] Vec normal(uint32_t face, uint32_t i, uint32_t j, const Blend& at) const;

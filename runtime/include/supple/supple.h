@@ -1338,9 +1338,10 @@ typedef enum SupplePatchClass {
     SUPPLE_PATCH_IRREGULAR_SHARP = 12, /**< none, CATMULL_CLARK: with sharp edges */
     /** None, CATMULL_CLARK: no corner has a chain of leaves, but a semi-sharp crease passes. */
     SUPPLE_PATCH_CREASED = 13,
-    SUPPLE_PATCH_LOOP_REGULAR = 14,        /**< none, LOOP: a triangle whose corners have valence 6 */
-    SUPPLE_PATCH_LOOP_IRREGULAR = 15,      /**< none, LOOP: a triangle of leaves */
-    SUPPLE_PATCH_LOOP_IRREGULAR_SHARP = 16 /**< none, LOOP: with semi-sharp edges */
+    SUPPLE_PATCH_LOOP_REGULAR = 14,         /**< none, LOOP: a triangle whose corners have valence 6 */
+    SUPPLE_PATCH_LOOP_IRREGULAR = 15,       /**< none, LOOP: a triangle of leaves */
+    SUPPLE_PATCH_LOOP_IRREGULAR_SHARP = 16, /**< none, LOOP: with semi-sharp edges */
+    SUPPLE_PATCH_BLEND_REGULAR = 17 /**< none, BLEND: smooth, with corners of valence 4, or on a boundary 2 or 1 */
 } SupplePatchClass;
 #define SUPPLE_PATCH_STRIDE 32
 #define SUPPLE_MAX_SIDES 5
