@@ -180,11 +180,13 @@ PassCost recordOcclusion(const Frame& frame, Group& group) {
                                             *group.view()->depthPyramid(), group.view()->pyramidGeneration());
 }
 
+bool isShortOfRoom(const Frame& frame, const Group& group) {
+    return group.view() != nullptr && group.leastVertices() > 0 && frame.roomOf(*group.view()) != shared::kRoomForAll;
+}
 /// If even the coarsest surfaces of all instances might not have room, those that are left out are found first.
 PassCost recordSizes(const Frame& frame, Group& group) {
-    if (group.leastVertices() > 0 && frame.roomOf(*group.view()) != shared::kRoomForAll) {
+    if (isShortOfRoom(frame, group)) {
         group.culling()->recordSizes(frame.commands, group.leastVertices());
-        frame.computeBarrier();
     }
     return {};
 }
@@ -279,7 +281,7 @@ bool constructs(Group& group) {
 }
 
 /// What stands behind a pass: who may read what it wrote.
-enum class Behind { nothing, compute, uploads, bounds, arguments, places, readback, directions, scratch };
+enum class Behind { nothing, compute, uploads, bounds, sizes, arguments, places, readback, directions, scratch };
 
 /// What a pass records: for every group, or for every surface of it. Nothing: it stands for the table of cage stages
 /// (runtime/stages/cage_stages.h).
@@ -315,7 +317,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_BOUNDS,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
      recordOcclusion},
-    {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::nothing, false},
+    {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::sizes, false},
     {SUPPLE_PASS_LIST, isInView, recordList, Behind::arguments},
     {SUPPLE_PASS_VERTEX, constructs<Stage::vertex>, recordStage<Stage::vertex>},
     {SUPPLE_PASS_ASSEMBLE, constructs<Stage::assemble>, recordStage<Stage::assemble>},
@@ -358,6 +360,11 @@ void recordBarrier(const Frame& frame, Behind behind) {
     case Behind::bounds:
         barrier({kCompute, kWrite},
                 {kCompute | VK_PIPELINE_STAGE_2_COPY_BIT, kRead | kWrite | VK_ACCESS_2_TRANSFER_READ_BIT});
+        break;
+    case Behind::sizes:
+        if (frame.any([&](const Group& group) { return isShortOfRoom(frame, group); })) {
+            frame.computeBarrier();
+        }
         break;
     case Behind::arguments:
         barrier({kCompute, kWrite}, {kCompute | kIndirect, kRead | kWrite | kIndirectRead});
