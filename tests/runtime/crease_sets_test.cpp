@@ -1,9 +1,11 @@
 // Crease sets under P_m: an instance that gives a set a sharpness has the surface of a file that gives it, in every
 // class of patch; previous positions, capacities, reloads and frames that are cancelled; who is refused.
 #include "tests/support/crowd.h"
+#include "tests/support/drawn_patches.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_gpu.h"
 #include "tests/support/side_by_side.h"
+#include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <gtest/gtest.h>
@@ -292,6 +294,31 @@ TEST_F(CreaseSets, ReachEveryWindow) {
         EXPECT_EQ(device->validation()->messageCount(), 0u);
         wrapped.maxStorageBufferRange = 0;
     }
+}
+
+TEST_F(CreaseSets, ShowAtTheLevelsOfAView) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const auto drawn = [&](const cage::Cage& cage, float first, float second) {
+        TestView view(own, 50000);
+        view.look({0.0f, 2.0f, 6.0f});
+        SuppleGroupDesc of = desc(own.createAsset(cage), 1);
+        of.view = view.handle();
+        of.rate = 0;
+        Crowd crowd(own, of);
+        EXPECT_TRUE(crowd.valid());
+        const SuppleInstance instance = crowd.spawn();
+        if (!cage.creaseSets.empty()) {
+            set(crowd, instance, 0, first);
+            set(crowd, instance, 1, second);
+        }
+        crowd.run();
+        return drawnPatches(crowd);
+    };
+    const DrawnPatches changed = drawn(twoLoops(0.0f, 0.0f), 2.0f, 5.0f);
+    EXPECT_EQ(changed.size(), size_t{kColumns * kRows});
+    EXPECT_TRUE(changed == drawn(withoutSets(twoLoops(2.0f, 5.0f)), 0.0f, 0.0f));
+    EXPECT_FALSE(changed == drawn(withoutSets(twoLoops(0.0f, 0.0f)), 0.0f, 0.0f));
 }
 
 TEST_F(CreaseSets, FollowTheCurvesOfClips) {
