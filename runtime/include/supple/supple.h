@@ -89,17 +89,17 @@ extern "C" {
 /** One number that rises with every version. */
 #define SUPPLE_VERSION (SUPPLE_VERSION_MAJOR * 1000000 + SUPPLE_VERSION_MINOR * 1000 + SUPPLE_VERSION_PATCH)
 
-#define SUPPLE_BIND_POSE 0xFFFFFFFFu    /**< clip index: the cage as modelled, without morph targets */
-#define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
-#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
-#define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
-#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see SuppleTiming.surface */
-#define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
-#define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
-#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
-#define SUPPLE_MAX_TRIM_TILES 1024u     /**< tiles in one trim image */
-#define SUPPLE_MAX_CREASE_SETS 64u      /**< of one character */
-#define SUPPLE_NO_CREASE_SET 0xFFFFFFFFu
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu         /**< clip index: the cage as modelled, without morph targets */
+#define SUPPLE_REST_POSE 0xFFFFFFFEu         /**< clip index: the file's node transforms and morph weights */
+#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu       /**< faces without a material */
+#define SUPPLE_NO_JOINT 0xFFFFFFFFu          /**< the parent of a root joint */
+#define SUPPLE_NO_SURFACE 0xFFFFFFFFu        /**< a pass of a whole group: see SuppleTiming.surface */
+#define SUPPLE_NO_VERTEX 0xFFFFFFFFu         /**< a patch corner that is no vertex of the cage */
+#define SUPPLE_NO_IMAGE 0xFFFFFFFFu          /**< a material without a trim image: see SuppleMaterialInfo */
+#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu      /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
+#define SUPPLE_MAX_TRIM_TILES 1024u          /**< tiles in one trim image */
+#define SUPPLE_MAX_CREASE_SETS 64u           /**< of one character */
+#define SUPPLE_NO_CREASE_SET 0xFFFFFFFFu     /**< a crease in no set: see SuppleCageDesc.creaseSets */
 #define SUPPLE_FILE_SHARPNESS (-1.0f)        /**< suppleSetSharpness: each edge has what the file gives it */
 #define SUPPLE_LEAST_SHARPNESS (-0.5849625f) /**< suppleSetSharpness: P_m's alpha of 1, rounder than smooth */
 #define SUPPLE_MAX_RATE 64u                  /**< see SuppleGroupDesc.rate */
@@ -315,9 +315,9 @@ SUPPLE_API SuppleResult suppleGetMapping(SuppleContext context, SuppleMapping* o
 /* ---------------------------------------------------------------------------------------------------- assets */
 
 /** Crease control for SUPPLE_SCHEME_PM alone. alpha applies to the edge from vertex to toward, at its end `vertex`. It
- * lies in 0..1: 2/3 is smooth, smaller is sharper, larger is rounder. If all are 0, the surface is the polyhedron: less
- * than 1/4096 counts as 1/4096 of an edge, so that there are normals. It replaces what the sharpness of the edge would
- * give there. */
+ * lies in 0..1: 2/3 is smooth, smaller is sharper, larger is rounder. Less than 1/4096 counts as 1/4096, so that there
+ * are normals. If all are 0, the surface is the polyhedron, up to that part of an edge. It replaces what the sharpness
+ * of the edge would give there. */
 typedef struct SuppleCreaseScalar {
     uint32_t vertex;
     uint32_t toward;
