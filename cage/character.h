@@ -25,6 +25,7 @@ struct Crease {
     uint32_t a = 0; ///< cage vertices, in either order
     uint32_t b = 0;
     float sharpness = 0.0f;
+    uint32_t set = kNone; ///< index into Cage::creaseSets: each instance may give the edge another sharpness
 };
 
 /// A sharp vertex of the cage. Surfaces interpolate it where sharpness >= kHardSharpness; less is carried, not used.
@@ -66,6 +67,7 @@ struct Cage {
     std::vector<glm::vec2> cornerFaceUvs;
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
     std::vector<Crease> creases;          ///< at most one an edge
+    std::vector<std::string> creaseSets;  ///< names, each once; kMaxCreaseSets (limits.h) at most
     std::vector<SharpVertex> sharpVertices;
     std::vector<CreaseScalar> creaseScalars;
     /// Vertices that round the border off if they have one face. Elsewhere such a vertex is a corner.
@@ -144,11 +146,18 @@ struct Marker {
     double time = 0.0; ///< seconds, 0..Clip::duration
 };
 
+/// What sharpness a clip gives to a crease set, by name. Of `keys` the node, the path and the targets do not count.
+struct SharpnessCurve {
+    std::string set;
+    Channel keys; ///< one number per value
+};
+
 struct Clip {
     std::string name;
     double duration = 0.0; ///< seconds: the last key of any channel; the clip starts at 0
     std::vector<Channel> channels;
-    std::vector<Marker> markers; ///< by rising time
+    std::vector<Marker> markers;           ///< by rising time
+    std::vector<SharpnessCurve> sharpness; ///< one per set
 };
 
 /// Displacements of cage vertices, added with a weight before skinning. Only vertices that move are listed.

@@ -73,6 +73,7 @@ private:
     void cageFaces(const Cage& cage);
     void cageMarks(const Cage& cage);
     void channel(const Channel& channel, const std::string& name);
+    bool keys(const Channel& channel, const std::string& name);
     bool texture(const Texture& texture);
 
     std::string prefix_;
@@ -135,9 +136,12 @@ void Check::cageFaces(const Cage& cage) {
 
 void Check::cageMarks(const Cage& cage) {
     const uint32_t vertices = cage.vertexCount();
-    const bool creases = std::ranges::all_of(
-        cage.creases, [&](const Crease& c) { return c.a < vertices && c.b < vertices && c.sharpness >= 0.0f; });
-    require(creases, "a crease has no such vertices, or no sharpness of 0 and more");
+    const bool creases = std::ranges::all_of(cage.creases, [&](const Crease& c) {
+        return c.a < vertices && c.b < vertices && c.sharpness >= 0.0f &&
+               (c.set == kNone || c.set < cage.creaseSets.size());
+    });
+    require(creases, "a crease has no such vertices, no sharpness of 0 and more, or no such set");
+    require(cage.creaseSets.size() <= kMaxCreaseSets, "too many crease sets");
     const bool sharp = std::ranges::all_of(
         cage.sharpVertices, [&](const SharpVertex& s) { return s.vertex < vertices && s.sharpness >= 0.0f; });
     require(sharp, "a sharp vertex is none, or has no sharpness of 0 and more");
@@ -220,14 +224,18 @@ void Check::morphs() {
     }
 }
 
-void Check::channel(const Channel& channel, const std::string& name) {
+bool Check::keys(const Channel& channel, const std::string& name) {
     const size_t values = channel.times.size() * (channel.interpolation == Interpolation::cubicSpline ? 3 : 1);
-    require(channel.node < character_.skeleton.nodes.size(), name + "no such node");
     require(isFinite(channel.times) && isFinite(channel.values), name + "not finite");
     require(std::adjacent_find(channel.times.begin(), channel.times.end(), std::greater_equal<>()) ==
                 channel.times.end(),
             name + "times do not rise");
-    if (!require(values > 0 && channel.values.size() % values == 0, name + "not as many values as keys")) {
+    return require(values > 0 && channel.values.size() % values == 0, name + "not as many values as keys");
+}
+
+void Check::channel(const Channel& channel, const std::string& name) {
+    require(channel.node < character_.skeleton.nodes.size(), name + "no such node");
+    if (!keys(channel, name)) {
         return;
     }
     const size_t width = channel.width(), targets = character_.morphs.targets.size();
@@ -244,6 +252,9 @@ void Check::clips() {
         require(std::isfinite(clip.duration) && clip.duration >= 0.0, name + "has no duration");
         for (size_t i = 0; i < clip.channels.size(); ++i) {
             channel(clip.channels[i], name + at("channel", i) + ": ");
+        }
+        for (const SharpnessCurve& curve : clip.sharpness) {
+            keys(curve.keys, name + "sharpness of " + quoted(curve.set) + ": ");
         }
         const bool markers = std::ranges::all_of(clip.markers, [](const Marker& m) { return std::isfinite(m.time); });
         require(markers && std::ranges::is_sorted(clip.markers, {}, &Marker::time),

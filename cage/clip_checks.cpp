@@ -31,6 +31,17 @@ void checkRotations(Channel& channel, const std::string& output) {
     }
 }
 
+/// The time `first` becomes 0.
+void moveKeys(Channel& channel, float first) {
+    for (size_t k = 0; k < channel.times.size(); ++k) {
+        float& time = channel.times[k];
+        time = static_cast<float>(static_cast<double>(time) - static_cast<double>(first));
+        if (k > 0 && !(time > channel.times[k - 1])) { // rounded together
+            time = std::nextafter(channel.times[k - 1], std::numeric_limits<float>::infinity());
+        }
+    }
+}
+
 } // namespace
 
 void checkTimes(const Channel& channel, const std::string& times) {
@@ -63,18 +74,18 @@ float beginAtFirstKey(Clip& clip, const std::string& element, Warnings& warnings
     for (const Channel& channel : clip.channels) {
         first = std::min(first, channel.times.front());
     }
+    for (const SharpnessCurve& curve : clip.sharpness) {
+        first = std::min(first, curve.keys.times.front());
+    }
     if (first == 0.0f) {
         return first;
     }
     warn(warnings, element, "keys before 0; its time begins at its first key, " + shortNumber(first) + " s");
     for (Channel& channel : clip.channels) {
-        for (size_t k = 0; k < channel.times.size(); ++k) {
-            float& time = channel.times[k];
-            time = static_cast<float>(static_cast<double>(time) - static_cast<double>(first));
-            if (k > 0 && !(time > channel.times[k - 1])) { // rounded together
-                time = std::nextafter(channel.times[k - 1], std::numeric_limits<float>::infinity());
-            }
-        }
+        moveKeys(channel, first);
+    }
+    for (SharpnessCurve& curve : clip.sharpness) {
+        moveKeys(curve.keys, first);
     }
     return first;
 }
@@ -83,6 +94,9 @@ double lastKey(const Clip& clip) {
     double last = 0.0;
     for (const Channel& channel : clip.channels) {
         last = std::max(last, static_cast<double>(channel.times.back()));
+    }
+    for (const SharpnessCurve& curve : clip.sharpness) {
+        last = std::max(last, static_cast<double>(curve.keys.times.back()));
     }
     return last;
 }

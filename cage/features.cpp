@@ -74,6 +74,10 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
         }
         float& sharpness = features.edgeSharpness[edge];
         sharpness = std::max(sharpness, atLeastZero(crease.sharpness));
+        if (crease.set != kNone) {
+            features.edgeSets.resize(topology.edges.size(), kNone);
+            features.edgeSets[edge] = crease.set;
+        }
     }
     for (const SharpVertex& sharp : cage.sharpVertices) {
         if (sharp.vertex >= cage.vertexCount()) {
@@ -102,6 +106,19 @@ Features buildFeatures(const Cage& cage, const Topology& topology) {
     }
     features.unused = unused.told();
     return features;
+}
+
+std::vector<std::string> notesOnAlphas(const Cage& cage) {
+    std::vector<std::string> notes;
+    if (!cage.creaseScalars.empty()) {
+        notes.push_back(std::to_string(cage.creaseScalars.size()) +
+                        " crease scalars: not used, they are for P_m alone");
+    }
+    if (!cage.creaseSets.empty()) {
+        notes.push_back(counted(cage.creaseSets.size(), "crease set", "crease sets") +
+                        ": as sharp as the file says, for instances change them under P_m alone");
+    }
+    return notes;
 }
 
 std::string sharpRoundCorners(const Cage& cage) {

@@ -1,7 +1,9 @@
 #include "cage/parts.h"
 
 #include "cage/corner_normals.h"
+#include "cage/limits.h"
 #include "cage/piece.h"
+#include "cage/sharp_features.h"
 #include "cage/triangulation.h"
 
 #include <algorithm>
@@ -49,6 +51,33 @@ void appendShading(const Cage& from, Shading shading, Cage& cage) {
     }
 }
 
+/// Parts may have creases of one set.
+void appendCreases(const Cage& from, uint32_t firstVertex, Cage& cage) {
+    std::vector<uint32_t> sets;
+    for (const std::string& name : from.creaseSets) {
+        sets.push_back(creaseSetOf(name, cage));
+    }
+    for (const Crease& crease : from.creases) {
+        const uint32_t set = crease.set != kNone ? sets[crease.set] : kNone;
+        cage.creases.push_back({firstVertex + crease.a, firstVertex + crease.b, crease.sharpness, set});
+    }
+}
+
+/// Leaves out the sets that are too many; their creases keep what sharpness they have.
+void boundCreaseSets(Character& character) {
+    Cage& cage = character.cage;
+    if (cage.creaseSets.size() <= kMaxCreaseSets) {
+        return;
+    }
+    warn(character.warnings, "crease sets",
+         "the character has " + std::to_string(cage.creaseSets.size()) + ", and " + std::to_string(kMaxCreaseSets) +
+             " are the most; left out from " + cage::quoted(cage.creaseSets[kMaxCreaseSets]) + " on");
+    cage.creaseSets.resize(kMaxCreaseSets);
+    for (Crease& crease : cage.creases) {
+        crease.set = crease.set < kMaxCreaseSets ? crease.set : kNone;
+    }
+}
+
 void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
     const uint32_t vertices = cage.vertexCount(), faces = cage.faceCount(), corners = cage.cornerCount();
     const uint32_t moreFaces = from.faceCount(), moreCorners = from.cornerCount();
@@ -71,9 +100,7 @@ void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
     for (const uint32_t v : from.sourceVertices) {
         cage.sourceVertices.push_back(sourceVertices + v);
     }
-    for (const Crease& crease : from.creases) {
-        cage.creases.push_back({vertices + crease.a, vertices + crease.b, crease.sharpness});
-    }
+    appendCreases(from, vertices, cage);
     for (const SharpVertex& sharp : from.sharpVertices) {
         cage.sharpVertices.push_back({vertices + sharp.vertex, sharp.sharpness});
     }
@@ -361,6 +388,7 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
     for (uint32_t part = 0; part < character.parts.size() && character.parts.size() > 1; ++part) {
         character.cage.faceParts.resize(endFace(character, part), part);
     }
+    boundCreaseSets(character);
     return names;
 }
 

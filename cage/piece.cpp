@@ -51,9 +51,10 @@ void takeFeatures(const Cage& from, std::span<const uint32_t> places, Cage& cage
     const auto isEdge = [&](uint32_t a, uint32_t b) {
         return places[a] != kNone && places[b] != kNone && edges.count(std::minmax(places[a], places[b])) != 0;
     };
+    cage.creaseSets = from.creaseSets; // they keep their numbers
     for (const Crease& crease : from.creases) {
         if (isEdge(crease.a, crease.b)) {
-            cage.creases.push_back({places[crease.a], places[crease.b], crease.sharpness});
+            cage.creases.push_back({places[crease.a], places[crease.b], crease.sharpness, crease.set});
         }
     }
     for (const SharpVertex& sharp : from.sharpVertices) {

@@ -1,6 +1,7 @@
 #include "cage/sew.h"
 
 #include "cage/polygons.h"
+#include "cage/sharp_features.h"
 #include "cage/sound_faces.h"
 #include "cage/weld.h"
 
@@ -213,26 +214,33 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
 
 /// Both parts may have named an edge or a vertex: the sharper counts. Of crease scalars the first counts.
 void mergeFeatures(Cage& cage) {
-    const auto unique = [](auto& list, auto key, auto before) {
+    const auto unique = [](auto& list, auto key, auto before, auto merge) {
         std::stable_sort(list.begin(), list.end(), [&](const auto& x, const auto& y) {
             return key(x) != key(y) ? key(x) < key(y) : before(x, y);
         });
-        list.erase(
-            std::unique(list.begin(), list.end(), [&](const auto& x, const auto& y) { return key(x) == key(y); }),
-            list.end());
+        size_t kept = 0;
+        for (size_t i = 0; i < list.size(); ++i) {
+            if (kept > 0 && key(list[kept - 1]) == key(list[i])) {
+                merge(list[i], list[kept - 1]);
+            } else {
+                list[kept++] = list[i];
+            }
+        }
+        list.resize(kept);
     };
+    const auto leave = [](const auto&, const auto&) {};
     const auto sharper = [](const auto& x, const auto& y) { return x.sharpness > y.sharpness; };
     unique(
         cage.creases,
         [](const Crease& c) {
             return std::minmax({c.a, c.b});
         },
-        sharper);
+        sharper, mergeCrease);
     unique(
-        cage.sharpVertices, [](const SharpVertex& s) { return s.vertex; }, sharper);
+        cage.sharpVertices, [](const SharpVertex& s) { return s.vertex; }, sharper, leave);
     unique(
         cage.creaseScalars, [](const CreaseScalar& s) { return std::pair(s.vertex, s.toward); },
-        [](const CreaseScalar&, const CreaseScalar&) { return false; });
+        [](const CreaseScalar&, const CreaseScalar&) { return false; }, leave);
 }
 
 } // namespace

@@ -5,21 +5,37 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace supple::cage {
+
+/// Adds what is said of an edge once more: the sharper counts, and the first set.
+inline void mergeCrease(const Crease& more, Crease& crease) {
+    crease.sharpness = std::max(crease.sharpness, more.sharpness);
+    crease.set = crease.set != kNone ? crease.set : more.set;
+}
+
+/// The place of a crease set by name, which is added if it is new.
+[[nodiscard]] inline uint32_t creaseSetOf(const std::string& name, Cage& cage) {
+    const auto known = std::find(cage.creaseSets.begin(), cage.creaseSets.end(), name);
+    if (known == cage.creaseSets.end()) {
+        cage.creaseSets.push_back(name);
+        return static_cast<uint32_t>(cage.creaseSets.size() - 1);
+    }
+    return static_cast<uint32_t>(known - cage.creaseSets.begin());
+}
 
 /// Puts edges and vertices into a cage in the order in which they come, each once, with the sharpest of what is said of
 /// them.
 class SharpFeatures {
 public:
-    void addCrease(uint32_t a, uint32_t b, float sharpness, Cage& cage) {
-        const auto [known, isNew] = edges_.try_emplace(std::minmax(a, b), cage.creases.size());
+    void addCrease(const Crease& crease, Cage& cage) {
+        const auto [known, isNew] = edges_.try_emplace(std::minmax(crease.a, crease.b), cage.creases.size());
         if (isNew) {
-            cage.creases.push_back({a, b, sharpness});
+            cage.creases.push_back(crease);
         } else {
-            float& kept = cage.creases[known->second].sharpness;
-            kept = std::max(kept, sharpness);
+            mergeCrease(crease, cage.creases[known->second]);
         }
     }
     void addCorner(uint32_t vertex, float sharpness, Cage& cage) {

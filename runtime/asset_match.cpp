@@ -77,6 +77,7 @@ AssetMatch AssetMatch::of(const cage::Character& before, const cage::Character& 
     match.parts = findNames(partNames(now), partNames(before));
     match.joints = findNames(jointNames(now), jointNames(before));
     match.targets = findNames(targetNames(now), targetNames(before));
+    match.creaseSets = findNames(now.cage.creaseSets, before.cage.creaseSets);
     match.clips = findNames(clipNames(before), clipNames(now));
     match.nodes = findNames(nodeNames(before), nodeNames(now));
     return match;

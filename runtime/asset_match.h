@@ -13,7 +13,7 @@ struct AssetMatch {
     /// Both are the same asset: everything is where it was.
     bool same = true;
     // By number in the new version: the number in the old one, or kNone.
-    std::vector<uint32_t> parts, joints, targets;
+    std::vector<uint32_t> parts, joints, targets, creaseSets;
     // By number in the old version: the number in the new one, or kNone.
     std::vector<uint32_t> clips, nodes;
 

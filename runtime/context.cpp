@@ -313,6 +313,16 @@ bool Context::drawsByRanges(const InstanceSet& instances) const {
     return ranges;
 }
 
+bool Context::draws(const InstanceSet& instances, SuppleScheme scheme) const {
+    bool found = false;
+    groups.forEach([&](const Group& group) {
+        found = found || (&group.instances() == &instances && group.surfaces().any([&](const Tessellation& surface) {
+                    return surface.schemeId() == scheme;
+                }));
+    });
+    return found;
+}
+
 GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     // Instances of one group must not fit another that takes its place: groups' ids differ, and so do generations.
     nextGeneration_ = nextGeneration_ * 1664525u + 1013904223u;

@@ -86,6 +86,8 @@ public:
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
     /// Whether a group draws these instances by indirect commands of ranges: those have a first instance if parts hide.
     [[nodiscard]] bool drawsByRanges(const InstanceSet& instances) const;
+    /// Whether a group draws these instances, or some of their parts, with the scheme.
+    [[nodiscard]] bool draws(const InstanceSet& instances, SuppleScheme scheme) const;
     /// The device's limit for the sides of 2D images.
     [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
 

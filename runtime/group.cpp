@@ -1,5 +1,6 @@
 #include "runtime/group.h"
 
+#include "cage/limits.h"
 #include "surface/grid.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_BLEND == static_cast<int>(SchemeId::blend) &&
               SUPPLE_SCHEME_POLYGONS == static_cast<int>(SchemeId::polygons) &&
               SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark));
+static_assert(SUPPLE_MAX_CREASE_SETS == kMaxCreaseSets && SUPPLE_MAX_CREASE_SETS == cage::kMaxCreaseSets);
 static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
 static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
 
@@ -180,7 +182,9 @@ Status Group::createRest(const GroupShared& shared) {
     status = status ? stages_.createSets(instances_->cages(), listing_) : status;
     status = status ? createVisibility() : status;
     for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
-        status = status ? surfaces_[surface].createSets(stages_.cagesOf(surface), listing_, *visibility_) : status;
+        status = status ? surfaces_[surface].createSets({stages_.cagesOf(surface), instances_->creaseAlphas().buffer()},
+                                                        listing_, *visibility_)
+                        : status;
     }
     if (status) {
         addMembers(shared);

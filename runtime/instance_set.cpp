@@ -10,6 +10,14 @@ namespace {
 // start on such multiples.
 constexpr uint32_t kPosePadding = 16;
 
+constexpr CreaseAlphas::Value ownAlphas() {
+    CreaseAlphas::Value value{};
+    for (float& alpha : value) {
+        alpha = -1.0f;
+    }
+    return value;
+}
+
 } // namespace
 
 Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
@@ -26,6 +34,8 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     }
     set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, static_cast<uint32_t>(desc.asset->parts.size()));
     set->userData_ = UserData(desc.capacity);
+    const bool hasSets = !desc.asset->character.cage.creaseSets.empty();
+    set->creaseAlphas_ = CreaseAlphas(hasSets ? desc.capacity : 0, ownAlphas());
     return set;
 }
 
@@ -48,6 +58,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
         desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity, desc_.framesInFlight});
     addMember(*poses_);
     addMember(userData_);
+    addMember(creaseAlphas_);
     const VkDeviceSize n = desc_.capacity;
     const bool deforms = desc_.source != SUPPLE_POSES_CAGE_BUFFER;
     gpu::BufferPlan device(buffers_), staging(staging_);
@@ -55,7 +66,8 @@ Status InstanceSet::makeBuffers(bool windowed) {
         {"supple poses", deforms ? n * layout_.stride * gpu::kVec4Bytes : 0, kInput, gpu::MemoryPurpose::poses});
     cages_ = device.add({"supple deformed cage", n * cageStride_ * gpu::kVec4Bytes,
                          kInput | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::MemoryPurpose::cages});
-    userData_.plan(device, staging, desc_.framesInFlight);
+    userData_.plan(device, "supple user data", staging, "supple user data staging", desc_.framesInFlight);
+    creaseAlphas_.plan(device, "supple crease alphas", staging, "supple crease alphas staging", desc_.framesInFlight);
     poses_->plan(staging);
     const Status status = device.create(*desc_.device, gpu::MemoryKind::deviceLocal);
     return status ? staging.create(*desc_.device, gpu::MemoryKind::upload) : status;
@@ -70,6 +82,40 @@ void InstanceSet::takeOver(InstanceSet& other, const AssetMatch& match) {
     slots_.takeOver(other.slots_, match.parts);
     poses_->takeOver(*other.poses_, other.slots_.end(), match);
     userData_.takeFrom(other.userData_, other.slots_.end());
+    takeCreaseAlphas(other, match);
+}
+
+void InstanceSet::takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match) {
+    if (creaseAlphas_.values().empty() || other.creaseAlphas_.values().empty()) {
+        return;
+    }
+    if (match.same) {
+        creaseAlphas_.takeFrom(other.creaseAlphas_, other.slots_.end());
+        return;
+    }
+    for (uint32_t slot = 0; slot < other.slots_.end(); ++slot) {
+        CreaseAlphas::Value value = creaseAlphas_.unset();
+        for (size_t set = 0; set < match.creaseSets.size(); ++set) {
+            if (const uint32_t before = match.creaseSets[set]; before != cage::kNone) {
+                value[set] = other.creaseAlphas_.values()[slot][before];
+            }
+        }
+        creaseAlphas_.set(slot, value);
+    }
+}
+
+void InstanceSet::setCreaseAlpha(uint32_t slot, uint32_t set, float alpha) {
+    CreaseAlphas::Value value = creaseAlphas_.values()[slot];
+    value[set] = alpha;
+    creaseAlphas_.set(slot, value);
+}
+
+void InstanceSet::reset(uint32_t slot) {
+    poses_->reset(slot);
+    userData_.reset(slot);
+    if (!creaseAlphas_.values().empty()) {
+        creaseAlphas_.reset(slot);
+    }
 }
 
 void InstanceSet::fill(SuppleGroupInfo& output) const {
@@ -99,6 +145,7 @@ PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame,
     poses_->setOrigin(origin, slots_.end());
     PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
     cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
+    cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame, false, slots_.end());
     return cost;
 }
 

@@ -6,8 +6,8 @@
 #include "runtime/instance_listing.h"
 #include "runtime/instance_slots.h"
 #include "runtime/pose_source.h"
+#include "runtime/slot_values.h"
 #include "runtime/transfers.h"
-#include "runtime/user_data.h"
 #include "skinning/deform_kernels.h"
 
 #include <memory>
@@ -44,6 +44,12 @@ public:
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
     [[nodiscard]] UserData& userData() { return userData_; }
+    /// Without a buffer if the character has no crease sets.
+    [[nodiscard]] const CreaseAlphas& creaseAlphas() const { return creaseAlphas_; }
+    /// What an instance says of a crease set: P_m's alpha, or negative: each edge has its own.
+    void setCreaseAlpha(uint32_t slot, uint32_t set, float alpha);
+    /// A new instance has the slot: it has what nobody has set.
+    void reset(uint32_t slot);
     /// Cage vertices from one instance to the next.
     [[nodiscard]] static uint32_t cageStrideOf(uint32_t cageVertices);
 
@@ -67,6 +73,8 @@ public:
     PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
 
 private:
+    void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
+
     Desc desc_;
     skinning::PoseLayout layout_;
     InstanceSlots slots_;
@@ -76,6 +84,7 @@ private:
     gpu::BufferSet buffers_, staging_;
     gpu::PlannedBuffer palettes_, cages_;
     UserData userData_;
+    CreaseAlphas creaseAlphas_;
 };
 
 } // namespace supple::runtime

@@ -19,6 +19,10 @@ inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, 
 template <>
 inline constexpr size_t kFirstSize<SuppleCageDesc> = offsetof(SuppleCageDesc, faceMaterials);
 template <>
+inline constexpr size_t kFirstSize<SupplePrimitiveDesc> = offsetof(SupplePrimitiveDesc, creaseScalarCount);
+template <>
+inline constexpr size_t kFirstSize<SuppleClipDesc> = offsetof(SuppleClipDesc, sharpnessCurveCount);
+template <>
 inline constexpr size_t kFirstSize<SuppleGroupDesc> = offsetof(SuppleGroupDesc, uvInterpolation);
 template <>
 inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, restTransform);

@@ -124,6 +124,16 @@ void sampleWeights(const Channel& channel, double time, std::span<double> weight
     }
 }
 
+} // namespace
+
+double sampleSharpness(const cage::SharpnessCurve& curve, double time) {
+    double sharpness = 0.0;
+    sampleWeights(curve.keys, time, {&sharpness, 1});
+    return sharpness;
+}
+
+namespace {
+
 void restLocals(const cage::Skeleton& skeleton, std::vector<Transform>& locals) {
     locals.resize(skeleton.nodes.size());
     std::transform(skeleton.nodes.begin(), skeleton.nodes.end(), locals.begin(), restTransform);

@@ -27,6 +27,7 @@ constexpr Row kRows[] = {
     {{Kernel::pmVertex, shared::kFewFan}, "supple P_m vertex"},
     {{Kernel::pmVertex, shared::kManyFan}, "supple P_m vertex, many spokes"},
     {{Kernel::pmVertex, shared::kCreasedFan}, "supple P_m vertex, creased"},
+    {{Kernel::pmVertex, shared::kVariableFan}, "supple P_m vertex, with crease sets"},
     {{Kernel::pmFacet, shared::kPolarPatch}, "supple P_m facet, polar"},
     {{Kernel::pmFacet, shared::kP3Patch}, "supple P_m facet, triangle"},
     {{Kernel::pmFacet, shared::kP4Patch}, "supple P_m facet, quad"},

@@ -46,6 +46,8 @@ constexpr struct {
     {wideStorage(kTableBinding), kInAll},
     {narrowTexels(kTable4TexelBinding), kInAll},
     {narrowTexels(kTable1TexelBinding), kInAll},
+    {wideStorage(kAlphaBinding), in({construct})},
+    {narrowTexels(kAlphaTexelBinding), in({construct})},
     {wideStorage(kCageBinding), in({construct})},
     {narrowTexels(kCageTexelBinding), in({construct})},
     {storage(kPoolBinding), in({construct, levels})},

@@ -220,13 +220,13 @@ Result<RefinedMesh> beginRefinement(const Cage& cage, const SplitRule* rule, std
     mesh.cage.creaseScalars.clear();
     const cage::Features features = cage::buildFeatures(mesh.cage, mesh.topology);
     mesh.cage.creases.clear();
+    mesh.cage.creaseSets.clear();
     mesh.cage.sharpVertices.clear();
     mesh.cage.sourceVertices.clear(); // a child's vertices come from no file
     notes.insert(notes.end(), split->notes.begin(), split->notes.end());
     notes.insert(notes.end(), features.unused.begin(), features.unused.end());
-    if (!cage.creaseScalars.empty()) {
-        notes.push_back(std::to_string(cage.creaseScalars.size()) +
-                        " crease scalars: not used, they are for P_m alone");
+    for (std::string& note : cage::notesOnAlphas(cage)) {
+        notes.push_back(std::move(note));
     }
     for (const float sharpness : features.edgeSharpness) {
         mesh.edgeSharpness.push_back(markedInfinite(sharpness));

@@ -27,6 +27,7 @@ public:
         out_.cage.positions = given_.positions;
         out_.cage.sourceVertices = given_.sourceVertices;
         out_.cage.creases = given_.creases;
+        out_.cage.creaseSets = given_.creaseSets;
         out_.cage.sharpVertices = given_.sharpVertices;
         out_.cage.creaseScalars = given_.creaseScalars;
         out_.cage.roundCorners = given_.roundCorners;

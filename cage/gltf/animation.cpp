@@ -1,6 +1,7 @@
 #include "cage/gltf/animation.h"
 
 #include "cage/clip_checks.h"
+#include "cage/entry_faults.h"
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
@@ -8,6 +9,7 @@
 #include "cage/refusal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -96,6 +98,7 @@ public:
         for (size_t k = 0; k < animation.channels.size(); ++k) {
             refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
         }
+        addCurves(animation, element, clip);
         const float first = beginAtFirstKey(clip, element, warnings_);
         clip.duration = lastKey(clip);
         clip.markers = readMarkers(animation.extras, element, first, clip.duration, warnings_);
@@ -127,7 +130,54 @@ private:
             refuse(element, "animates node " + std::to_string(channel.node) + ", which has a matrix");
         }
         clip.channels.push_back(readChannel(document_, animation, channel, *kind, element));
-        floats_ += clip.channels.back().times.size() + clip.channels.back().values.size();
+        count(clip.channels.back(), element);
+    }
+
+    /// extras.sharpness: what the clip gives to crease sets. Entries that make no sense are left out with a warning.
+    void addCurves(const file::Animation& animation, const std::string& element, Clip& clip) {
+        const Json* entries = animation.extras.isObject() ? member(animation.extras, "sharpness") : nullptr;
+        if (entries == nullptr) {
+            return;
+        }
+        const std::string list = element + " extras sharpness";
+        if (!entries->isArray()) {
+            warn(warnings_, list, "not an array; ignored");
+            return;
+        }
+        EntryFaults faults(list);
+        std::set<std::string> known;
+        for (size_t i = 0; i < entries->size(); ++i) {
+            const Json& entry = (*entries)[i];
+            const Json* set = entry.isObject() ? member(entry, "set") : nullptr;
+            const Json* sampler = entry.isObject() ? member(entry, "sampler") : nullptr;
+            const double number = sampler != nullptr && sampler->isNumber() ? sampler->number() : -1.0;
+            if (set == nullptr || !set->isString() || set->string().empty()) {
+                faults.add(i, "set is not a name");
+            } else if (!(number >= 0.0 && number < static_cast<double>(animation.samplers.size())) ||
+                       std::floor(number) != number) {
+                faults.add(i, "no such sampler");
+            } else if (!known.insert(set->string()).second) {
+                faults.add(i, "a second curve for " + quoted(set->string()));
+            } else {
+                refusals_.gather(
+                    [&] { addCurve(animation, static_cast<int>(number), set->string(), item(list, i), clip); });
+            }
+        }
+        faults.report(warnings_);
+    }
+
+    void addCurve(const file::Animation& animation, int sampler, const std::string& set, const std::string& element,
+                  Clip& clip) {
+        file::AnimationChannel from;
+        from.node = 0;
+        from.sampler = sampler;
+        const Output kind{ChannelPath::weights, file::kScalar, kFloat, 1};
+        clip.sharpness.push_back({set, readChannel(document_, animation, from, kind, element)});
+        count(clip.sharpness.back().keys, element);
+    }
+
+    void count(const Channel& channel, const std::string& element) {
+        floats_ += channel.times.size() + channel.values.size();
         // Accessors may be shared, so a small file can ask for long clips.
         if (floats_ > kMaxClipFloats) {
             refuse(element, "the clips hold more than " + std::to_string(kMaxClipFloats) + " numbers",

@@ -49,6 +49,28 @@ SharpList readSharpList(const Document& document, const CageExtension& extension
     return list;
 }
 
+/// The crease sets as the file has them; each needs a name and a list of creases.
+const Json* findCreaseSets(const Json& object, const CageExtension& extension, size_t accessors) {
+    const Json* sets = arrayMember(object, "creaseSets", extension.element);
+    if (sets == nullptr) {
+        return nullptr;
+    }
+    if (extension.creaseIndices < 0) {
+        refuse(extension.element, "creaseSets without creaseIndices");
+    }
+    for (size_t i = 0; i < sets->size(); ++i) {
+        const std::string element = item(extension.element + " creaseSets", i);
+        if (!(*sets)[i].isObject()) {
+            refuse(element, "not an object");
+        }
+        if (stringMember((*sets)[i], "name", element).empty()) {
+            refuse(element, "no name");
+        }
+        checkIndexMember((*sets)[i], "creases", element, "accessor", accessors, true);
+    }
+    return sets;
+}
+
 } // namespace
 
 std::optional<CageExtension> findCageExtension(const Document& document, const Json& primitive,
@@ -73,6 +95,8 @@ std::optional<CageExtension> findCageExtension(const Document& document, const J
     extension.creaseSharpnesses = accessor("creaseSharpnesses");
     extension.cornerIndices = accessor("cornerIndices");
     extension.cornerSharpnesses = accessor("cornerSharpnesses");
+    extension.creaseScalarIndices = accessor("creaseScalarIndices");
+    extension.creaseScalars = accessor("creaseScalars");
     extension.holeIndices = accessor("holeIndices");
     checkTogether(extension, "faceVertexCounts", extension.faceVertexCounts, "faceVertexIndices",
                   extension.faceVertexIndices);
@@ -80,9 +104,12 @@ std::optional<CageExtension> findCageExtension(const Document& document, const J
                   extension.creaseSharpnesses);
     checkTogether(extension, "cornerIndices", extension.cornerIndices, "cornerSharpnesses",
                   extension.cornerSharpnesses);
+    checkTogether(extension, "creaseScalarIndices", extension.creaseScalarIndices, "creaseScalars",
+                  extension.creaseScalars);
     if (extension.holeIndices >= 0 && extension.faceVertexCounts < 0) {
         refuse(extension.element, "holeIndices without faceVertexCounts");
     }
+    extension.creaseSets = findCreaseSets(*object, extension, document.model.accessors.size());
 
     checkRule(*object, "scheme", {"catmullClark", "loop", "bilinear", "none"}, {}, extension.element, warnings);
     checkRule(*object, "interpolateBoundary", {"edgeAndCorner", "edgeOnly"}, {"none"}, extension.element, warnings);
@@ -114,6 +141,29 @@ SharpList readCreaseList(const Document& document, const CageExtension& extensio
 SharpList readCornerList(const Document& document, const CageExtension& extension) {
     return readSharpList(document, extension, "cornerIndices", extension.cornerIndices, "cornerSharpnesses",
                          extension.cornerSharpnesses, 1);
+}
+
+SharpList readScalarList(const Document& document, const CageExtension& extension) {
+    SharpList list = readSharpList(document, extension, "creaseScalarIndices", extension.creaseScalarIndices,
+                                   "creaseScalars", extension.creaseScalars, 2);
+    for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+        if (list.sharpnesses[i] > 1.0f) {
+            refuse(item(extension.element + " creaseScalars", i), "not a number from 0 to 1");
+        }
+    }
+    return list;
+}
+
+std::vector<split::CreaseSet> readCreaseSets(const Document& document, const CageExtension& extension) {
+    std::vector<split::CreaseSet> sets;
+    for (size_t i = 0; extension.creaseSets != nullptr && i < extension.creaseSets->size(); ++i) {
+        const Json& from = (*extension.creaseSets)[i];
+        const std::string element = item(extension.element + " creaseSets", i);
+        sets.push_back(
+            {stringMember(from, "name", element), readIntegers(document, static_cast<int>(from.at("creases").index()),
+                                                               file::kScalar, kIntegers, element + " creases")});
+    }
+    return sets;
 }
 
 } // namespace supple::cage::gltf

@@ -26,10 +26,13 @@ struct CageExtension {
     int creaseSharpnesses = -1;
     int cornerIndices = -1;
     int cornerSharpnesses = -1;
+    int creaseScalarIndices = -1;
+    int creaseScalars = -1;
     int holeIndices = -1;
-    std::optional<UvMode> uvMode;   ///< faceVaryingLinearInterpolation, if the file says it
-    bool roundCorners = false;      ///< interpolateBoundary: edgeOnly
-    std::optional<MadeFor> madeFor; ///< scheme, if the file says it
+    const Json* creaseSets = nullptr; ///< an array, if the file has it
+    std::optional<UvMode> uvMode;     ///< faceVaryingLinearInterpolation, if the file says it
+    bool roundCorners = false;        ///< interpolateBoundary: edgeOnly
+    std::optional<MadeFor> madeFor;   ///< scheme, if the file says it
 };
 
 /// Warns of rules that surfaces here do not follow.
@@ -40,5 +43,8 @@ struct CageExtension {
 using split::SharpList;
 [[nodiscard]] SharpList readCreaseList(const Document& document, const CageExtension& extension);
 [[nodiscard]] SharpList readCornerList(const Document& document, const CageExtension& extension);
+/// Alphas instead of sharpnesses.
+[[nodiscard]] SharpList readScalarList(const Document& document, const CageExtension& extension);
+[[nodiscard]] std::vector<split::CreaseSet> readCreaseSets(const Document& document, const CageExtension& extension);
 
 } // namespace supple::cage::gltf

@@ -175,11 +175,21 @@ private:
         }
         readCornerAttributes(from, element, primitive);
         readTrimTiles(document_, from, materials_, primitive);
-        if (extension && extension->creaseIndices >= 0) {
-            primitive.creases = readCreaseList(document_, *extension);
+        if (extension) {
+            readSharpness(*extension, primitive);
         }
-        if (extension && extension->cornerIndices >= 0) {
-            primitive.corners = readCornerList(document_, *extension);
+    }
+
+    void readSharpness(const CageExtension& extension, split::Primitive& primitive) const {
+        if (extension.creaseIndices >= 0) {
+            primitive.creases = readCreaseList(document_, extension);
+            primitive.creaseSets = readCreaseSets(document_, extension);
+        }
+        if (extension.creaseScalarIndices >= 0) {
+            primitive.scalars = readScalarList(document_, extension);
+        }
+        if (extension.cornerIndices >= 0) {
+            primitive.corners = readCornerList(document_, extension);
         }
     }
 

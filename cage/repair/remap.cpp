@@ -1,5 +1,6 @@
 #include "cage/repair/remap.h"
 
+#include "cage/sharp_features.h"
 #include "cage/triangulation.h"
 
 #include <algorithm>
@@ -286,15 +287,13 @@ private:
     void mapCreases() {
         cage_.creases.insert(cage_.creases.end(), draft_.creases.begin(), draft_.creases.end());
         const auto ends = [](const Crease& crease) { return Ends(std::minmax(crease.a, crease.b)); };
-        const auto sharpest = [](Crease& kept, const Crease& crease) {
-            kept.sharpness = std::max(kept.sharpness, crease.sharpness);
-        };
-        const std::vector<Crease> given = once(cage_.creases, ends, sharpest);
+        const auto merge = [](Crease& kept, const Crease& crease) { mergeCrease(crease, kept); };
+        const std::vector<Crease> given = once(cage_.creases, ends, merge);
         cage_.creases.clear();
         for (const Crease& crease : given) {
             forEachEdge(crease.a, crease.b, [&](uint32_t a, uint32_t b) {
                 if (a != kNone && b != kNone) {
-                    cage_.creases.push_back({a, b, crease.sharpness});
+                    cage_.creases.push_back({a, b, crease.sharpness, crease.set});
                 }
             });
         }

@@ -1,5 +1,7 @@
 #include "cage/repair/t_corners.h"
 
+#include "cage/sharp_features.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -240,7 +242,8 @@ private:
                 return false;
             }
             for (const SplitSide::Link& link : found->second->chain) {
-                pieces.push_back({draft_.vertices[link.begin], draft_.vertices[link.end], crease.sharpness});
+                pieces.push_back(
+                    {draft_.vertices[link.begin], draft_.vertices[link.end], crease.sharpness, crease.set});
             }
             return true;
         });
@@ -256,8 +259,7 @@ private:
             if (isNew) {
                 cage_.creases.push_back(piece);
             } else {
-                float& sharpness = cage_.creases[place->second].sharpness;
-                sharpness = std::max(sharpness, piece.sharpness);
+                mergeCrease(piece, cage_.creases[place->second]);
             }
         }
     }

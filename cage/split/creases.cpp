@@ -26,6 +26,7 @@ public:
 
     void addCreasesOf(const Primitive& primitive) {
         const SharpList& list = *primitive.creases;
+        const std::vector<uint32_t> sets = setsOf(primitive);
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
             const uint32_t a = vertexOf(primitive, list, 2 * i);
@@ -35,7 +36,7 @@ public:
             } else if (a == b) {
                 refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
             } else {
-                features_.addCrease(a, b, list.sharpnesses[i], cage_);
+                features_.addCrease({a, b, list.sharpnesses[i], sets[i]}, cage_);
             }
         }
         faults.report(warnings_);
@@ -55,7 +56,43 @@ public:
         faults.report(warnings_);
     }
 
+    void addScalarsOf(const Primitive& primitive) {
+        const SharpList& list = *primitive.scalars;
+        EntryFaults faults(list.element);
+        for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
+            const uint32_t vertex = vertexOf(primitive, list, 2 * i);
+            const uint32_t toward = vertexOf(primitive, list, 2 * i + 1);
+            if (vertex == kNone || toward == kNone) {
+                faults.add(2 * i, "a crease scalar at a vertex without a face");
+            } else if (vertex == toward) {
+                refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
+            } else {
+                cage_.creaseScalars.push_back({vertex, toward, list.sharpnesses[i]});
+            }
+        }
+        faults.report(warnings_);
+    }
+
 private:
+    /// The set of each of a primitive's creases.
+    std::vector<uint32_t> setsOf(const Primitive& primitive) {
+        std::vector<uint32_t> sets(primitive.creases->sharpnesses.size(), kNone);
+        for (const CreaseSet& set : primitive.creaseSets) {
+            const uint32_t number = creaseSetOf(set.name, cage_);
+            for (const uint32_t crease : set.creases) {
+                if (crease >= sets.size() || sets[crease] != kNone) {
+                    refuse(primitive.element + " crease set " + quoted(set.name),
+                           "crease " + std::to_string(crease) +
+                               (crease >= sets.size()
+                                    ? " is out of range: the primitive has " + std::to_string(sets.size())
+                                    : " is in a set already"));
+                }
+                sets[crease] = number;
+            }
+        }
+        return sets;
+    }
+
     /// kNone for a vertex without a face.
     uint32_t vertexOf(const Primitive& primitive, const SharpList& list, size_t index) const {
         const uint32_t number = list.vertices[index];
@@ -96,7 +133,7 @@ void addLoose(const LooseSharpList& list, std::span<const uint32_t> cageVertices
         } else if (a == b) {
             faults.add(entry.index, "both ends are one vertex of the cage");
         } else {
-            features.addCrease(a, b, entry.sharpness, cage);
+            features.addCrease({a, b, entry.sharpness, kNone}, cage);
         }
     }
     faults.report(warnings);
@@ -116,6 +153,9 @@ void addCreases(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& 
         if (primitive.corners) {
             lists.addCornersOf(primitive);
             corners = true;
+        }
+        if (primitive.scalars) {
+            lists.addScalarsOf(primitive);
         }
     }
     if (mesh.creases && !creases) {

@@ -10,7 +10,8 @@
 
 namespace supple::cage::split {
 
-/// Fills the cage's creases and sharp vertices: of each kind those of the primitives, or else of the mesh. Throws
+/// Fills the cage's creases, their sets, sharp vertices and crease scalars: of creases and sharp vertices those of the
+/// primitives, or else of the mesh. Throws
 /// Refusal if a primitive names what is not there; of the mesh's own lists there are warnings alone. `cageVertices`
 /// gives the cage vertex of each of the mesh's vertices, kNone where it is left out.
 void addCreases(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings);

@@ -32,6 +32,12 @@ struct SharpList {
     std::vector<float> sharpnesses;
 };
 
+/// Some of a primitive's creases under a name.
+struct CreaseSet {
+    std::string name;
+    std::vector<uint32_t> creases; ///< places in the primitive's list
+};
+
 /// One primitive.
 struct Primitive {
     std::string element;
@@ -47,7 +53,9 @@ struct Primitive {
     std::vector<glm::vec4> tangents; ///< one per vertex, or empty; zero: none
     std::vector<uint32_t> trimTiles; ///< per vertex: kNone for no tile; or empty
     std::optional<SharpList> creases, corners;
-    bool roundCorners = false; ///< vertices that have one face round the boundary off
+    std::vector<CreaseSet> creaseSets; ///< a crease is in one at most
+    std::optional<SharpList> scalars;  ///< vertex and the other end of the edge; alphas instead of sharpnesses
+    bool roundCorners = false;         ///< vertices that have one face round the boundary off
     std::optional<UvMode> uvMode;
     std::optional<MadeFor> madeFor;
 };

@@ -4,6 +4,7 @@
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
 #include "runtime/cooked/file.h"
+#include "skinning/pose.h"
 
 #include <cstddef>
 #include <cstring>
@@ -268,6 +269,56 @@ SuppleResult suppleGetJointInfo(SuppleContext handle, SuppleAsset asset, uint32_
                                 std::memcpy(info.restTransform, &frames.rest[joint], sizeof(info.restTransform));
                                 std::memcpy(info.bindTransform, &frames.bind[joint], sizeof(info.bindTransform));
                             });
+    });
+}
+
+SuppleResult suppleGetCreaseSets(SuppleContext handle, SuppleAsset asset, const char** out, uint32_t* count) {
+    constexpr const char* kHere = "suppleGetCreaseSets";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (count == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "count is null");
+        }
+        const std::vector<std::string>& names = found.character.cage.creaseSets;
+        const auto total = static_cast<uint32_t>(names.size());
+        const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
+        for (uint32_t set = 0; set < n; ++set) {
+            out[set] = names[set].c_str();
+        }
+        *count = total;
+        return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetClipSharpness(SuppleContext handle, SuppleAsset asset, uint32_t clip, uint32_t set, double time,
+                                    float* out) {
+    constexpr const char* kHere = "suppleGetClipSharpness";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (out == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "out is null");
+        }
+        const cage::Character& character = found.character;
+        const auto check = [&](const char* what, uint32_t index, size_t count) {
+            return index < count ? std::nullopt
+                                 : std::optional(refuse(context, ErrorCode::range, kHere,
+                                                        character.name + ": " + what + " " + std::to_string(index) +
+                                                            " of " + std::to_string(count)));
+        };
+        if (const auto fault = check("clip", clip, character.clips.size())) {
+            return *fault;
+        }
+        if (const auto fault = check("crease set", set, character.cage.creaseSets.size())) {
+            return *fault;
+        }
+        if (!std::isfinite(time)) {
+            return refuse(context, ErrorCode::notFinite, kHere, "time is not finite");
+        }
+        *out = SUPPLE_FILE_SHARPNESS;
+        for (const cage::SharpnessCurve& curve : character.clips[clip].sharpness) {
+            if (curve.set == character.cage.creaseSets[set]) {
+                *out = std::max(static_cast<float>(skinning::sampleSharpness(curve, time)), SUPPLE_LEAST_SHARPNESS);
+            }
+        }
+        return SUPPLE_OK;
     });
 }
 

@@ -1,5 +1,6 @@
 // supple.h, instance.
 #include "runtime/api/entry.h"
+#include "surface/pm/mesh.h"
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -20,8 +21,7 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
             return refuse(context, found, ErrorCode::limit, kHere,
                           "the group is full: its capacity is " + std::to_string(found.slots().capacity()));
         }
-        found.poses().reset(*slot);
-        found.instances().userData().set(*slot, {});
+        found.instances().reset(*slot);
         *out = {group, *slot, found.slots().generation(*slot)};
         return SUPPLE_OK;
     });
@@ -67,6 +67,30 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
     return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
         found.slots().forget(instance.slot);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetSharpness(SuppleContext handle, SuppleInstance instance, uint32_t set, float sharpness) {
+    constexpr const char* kHere = "suppleSetSharpness";
+    return withInstance(handle, instance, kHere, [&](Context& context, Group& found) {
+        const size_t sets = found.asset().character.cage.creaseSets.size();
+        if (set >= sets) {
+            return refuse(context, found, ErrorCode::range, kHere,
+                          "crease set " + std::to_string(set) + " of " + std::to_string(sets));
+        }
+        const bool own = sharpness == SUPPLE_FILE_SHARPNESS;
+        if (!own && !(sharpness >= SUPPLE_LEAST_SHARPNESS)) {
+            return refuse(context, found, std::isnan(sharpness) ? ErrorCode::notFinite : ErrorCode::range, kHere,
+                          "sharpness is below SUPPLE_LEAST_SHARPNESS");
+        }
+        if (!context.draws(found.instances(), SUPPLE_SCHEME_PM)) {
+            return refuse(context, found, ErrorCode::argument, kHere,
+                          "no group draws the instance with SUPPLE_SCHEME_PM, and the tables of other schemes hold the "
+                          "sharpness of the file");
+        }
+        const double alpha = surface::pm::alphaOfSharpness(sharpness);
+        found.instances().setCreaseAlpha(instance.slot, set, own ? -1.0f : static_cast<float>(alpha));
         return SUPPLE_OK;
     });
 }

@@ -16,7 +16,7 @@ using cage::Found;
 using cage::kNone;
 using std::to_string;
 
-static_assert(SUPPLE_NO_TRIM_TILE == kNone && SUPPLE_NO_MATERIAL == kNone);
+static_assert(SUPPLE_NO_TRIM_TILE == kNone && SUPPLE_NO_MATERIAL == kNone && SUPPLE_NO_CREASE_SET == kNone);
 
 /// Gathers what is wrong with the arrays, one line for each kind of fault.
 class CageCheck {
@@ -63,6 +63,7 @@ private:
                                desc_.cornerSharpnesses) &&
                fine;
         fine = faults_.present(desc_.creaseScalarCount, "creaseScalars", desc_.creaseScalars) && fine;
+        fine = faults_.present(desc_.creaseSetCount, "creaseSetNames", desc_.creaseSetNames) && fine;
         fine = faults_.present(desc_.roundCornerCount, "roundCorners", desc_.roundCorners) && fine;
         return faults_.present(desc_.holeCount, "holes", desc_.holes) && fine;
     }
@@ -200,12 +201,13 @@ private:
         for (uint32_t i = 0; i < desc_.creaseScalarCount; ++i) {
             const SuppleCreaseScalar& scalar = desc_.creaseScalars[i];
             if (!isVertex(scalar.vertex) || !isVertex(scalar.toward) ||
-                !(scalar.alpha > 0.0f && scalar.alpha <= 1.0f)) {
+                !(scalar.alpha >= 0.0f && scalar.alpha <= 1.0f)) {
                 scalars.add([&] { return "crease scalar " + to_string(i); });
             }
         }
-        faults_.add(scalars, "crease scalar has no such vertices, or an alpha that is not in (0, 1]",
-                    "crease scalars have no such vertices, or an alpha that is not in (0, 1]");
+        faults_.add(scalars, "crease scalar has no such vertices, or an alpha that is not in [0, 1]",
+                    "crease scalars have no such vertices, or an alpha that is not in [0, 1]");
+        (void)checkCreaseSets(desc_.creaseSetCount, desc_.creaseSetNames, desc_.creaseCount, desc_.creaseSets, faults_);
     }
 
     void checkLists() {
@@ -361,7 +363,10 @@ private:
             const uint32_t a = places_[desc_.creaseVertices[2 * size_t{i}]],
                            b = places_[desc_.creaseVertices[2 * size_t{i} + 1]];
             if (a != kNone && b != kNone) {
-                features.addCrease(a, b, desc_.creaseSharpnesses[i], cage_);
+                const bool inSet = desc_.creaseSets != nullptr && desc_.creaseSets[i] != SUPPLE_NO_CREASE_SET;
+                const uint32_t set =
+                    inSet ? cage::creaseSetOf(desc_.creaseSetNames[desc_.creaseSets[i]], cage_) : kNone;
+                features.addCrease({a, b, desc_.creaseSharpnesses[i], set}, cage_);
             }
         }
         for (uint32_t i = 0; i < desc_.cornerCount; ++i) {
@@ -397,6 +402,27 @@ private:
 };
 
 } // namespace
+
+bool checkCreaseSets(uint32_t setCount, const char* const* names, uint32_t creaseCount, const uint32_t* sets,
+                     Faults& faults) {
+    Found nameless, wrong;
+    for (uint32_t set = 0; set < setCount; ++set) {
+        if (names[set] == nullptr || names[set][0] == '\0') {
+            nameless.add([&] { return "crease set " + to_string(set); });
+        }
+    }
+    for (uint32_t crease = 0; sets != nullptr && crease < creaseCount; ++crease) {
+        if (sets[crease] != SUPPLE_NO_CREASE_SET && sets[crease] >= setCount) {
+            wrong.add([&] {
+                return "set " + to_string(sets[crease]) + " of " + to_string(setCount) + ", of crease " +
+                       to_string(crease);
+            });
+        }
+    }
+    faults.add(nameless, "crease set has no name", "crease sets have no names");
+    faults.add(wrong, "crease is in no such set", "creases are in no such sets");
+    return nameless.count == 0 && wrong.count == 0;
+}
 
 void readCageArrays(const SuppleCageDesc& desc, std::span<const cage::Material> materials, cage::PartCage& part,
                     Faults& faults) {

@@ -16,4 +16,9 @@ namespace supple::runtime {
 void readCageArrays(const SuppleCageDesc& desc, std::span<const cage::Material> materials, cage::PartCage& part,
                     Faults& faults);
 
+/// Checks the crease sets of a description: that all have names, and that every crease is in one of them or in none.
+/// `sets`: per crease, or null. Returns whether that is so. The names are there.
+bool checkCreaseSets(uint32_t setCount, const char* const* names, uint32_t creaseCount, const uint32_t* sets,
+                     Faults& faults);
+
 } // namespace supple::runtime

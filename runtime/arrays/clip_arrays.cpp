@@ -57,6 +57,7 @@ public:
                        cage::counted(ignored, "channel", "channels") +
                            " of weights of nodes without morph targets ignored");
         }
+        readCurves(desc, clip, faults);
         const float first = cage::beginAtFirstKey(clip, faults.element(), warnings_);
         readDuration(desc, first, clip, faults);
         readMarkers(desc, first, clip, faults);
@@ -106,6 +107,46 @@ private:
         channel.values.assign(desc.values, desc.values + desc.valueCount);
         faults.gather([&] { cage::checkTimes(channel, "times"); });
         faults.gather([&] { cage::checkValues(channel, 1, "values"); });
+        count(channel, faults);
+    }
+
+    void readCurves(const SuppleClipDesc& desc, cage::Clip& clip, Faults& faults) {
+        if (!faults.present(desc.sharpnessCurveCount, "sharpnessCurves", desc.sharpnessCurves)) {
+            return;
+        }
+        std::set<std::string> known;
+        for (uint32_t c = 0; c < desc.sharpnessCurveCount; ++c) {
+            const SuppleSharpnessCurveDesc& from = desc.sharpnessCurves[c];
+            Faults own(refusals_, (faults.element() + " ").append(cage::at("sharpness curve", c)));
+            if (rawValue(from.interpolation) > SUPPLE_KEYS_CUBICSPLINE) {
+                own.add("no such interpolation");
+                continue;
+            }
+            if (orEmpty(from.set).empty() || !known.insert(from.set).second) {
+                own.add("set is no name, or has a curve already");
+                continue;
+            }
+            const size_t perKey = from.interpolation == SUPPLE_KEYS_CUBICSPLINE ? 3 : 1;
+            if (from.keyCount == 0) {
+                own.add("no keys");
+                continue;
+            }
+            if (!own.present(from.keyCount, "times or values", from.times, from.values)) {
+                continue;
+            }
+            cage::SharpnessCurve& curve = clip.sharpness.emplace_back();
+            curve.set = from.set;
+            curve.keys.path = cage::ChannelPath::weights;
+            curve.keys.interpolation = interpolationOf(from.interpolation);
+            curve.keys.times.assign(from.times, from.times + from.keyCount);
+            curve.keys.values.assign(from.values, from.values + perKey * from.keyCount);
+            own.gather([&] { cage::checkTimes(curve.keys, "times"); });
+            own.gather([&] { cage::checkValues(curve.keys, 1, "values"); });
+            count(curve.keys, own);
+        }
+    }
+
+    void count(const cage::Channel& channel, Faults& faults) {
         floats_ += channel.times.size() + channel.values.size();
         if (floats_ > cage::kMaxClipFloats) {
             faults.add("the clips hold more than " + std::to_string(cage::kMaxClipFloats) + " numbers",

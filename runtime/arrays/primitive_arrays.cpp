@@ -3,6 +3,7 @@
 #include "cage/corner_normals.h"
 #include "cage/split/cage.h"
 #include "cage/trim.h"
+#include "runtime/arrays/cage_arrays.h"
 #include "runtime/arrays/vertex_arrays.h"
 
 #include <algorithm>
@@ -259,6 +260,40 @@ private:
         };
         to.creases = read(desc.creaseCount, desc.creaseVertices, desc.creaseSharpnesses, 2, "creases");
         to.corners = read(desc.cornerCount, desc.cornerVertices, desc.cornerSharpnesses, 1, "corners");
+        if (faults.present(desc.creaseSetCount, "creaseSetNames", desc.creaseSetNames) &&
+            checkCreaseSets(desc.creaseSetCount, desc.creaseSetNames, desc.creaseCount, desc.creaseSets, faults)) {
+            readCreaseSets(desc, to);
+        }
+        if (desc.creaseScalarCount > 0 && faults.present(desc.creaseScalarCount, "creaseScalars", desc.creaseScalars)) {
+            readScalars(desc, to, faults);
+        }
+    }
+
+    static void readCreaseSets(const SupplePrimitiveDesc& desc, cage::split::Primitive& to) {
+        for (uint32_t set = 0; set < desc.creaseSetCount; ++set) {
+            to.creaseSets.push_back({desc.creaseSetNames[set], {}});
+        }
+        for (uint32_t crease = 0; desc.creaseSets != nullptr && crease < desc.creaseCount; ++crease) {
+            if (desc.creaseSets[crease] != SUPPLE_NO_CREASE_SET) {
+                to.creaseSets[desc.creaseSets[crease]].creases.push_back(crease);
+            }
+        }
+    }
+
+    static void readScalars(const SupplePrimitiveDesc& desc, cage::split::Primitive& to, Faults& faults) {
+        cage::split::SharpList list{faults.element() + " crease scalars", {}, {}};
+        Found found;
+        for (uint32_t i = 0; i < desc.creaseScalarCount; ++i) {
+            const SuppleCreaseScalar& scalar = desc.creaseScalars[i];
+            if (!(scalar.alpha >= 0.0f && scalar.alpha <= 1.0f)) {
+                found.add([&] { return "crease scalar " + std::to_string(i); });
+            }
+            list.vertices.insert(list.vertices.end(), {scalar.vertex, scalar.toward});
+            list.sharpnesses.push_back(scalar.alpha);
+        }
+        faults.add(found, "crease scalar has an alpha that is not in [0, 1]",
+                   "crease scalars have an alpha that is not in [0, 1]");
+        to.scalars = std::move(list);
     }
 
     const SupplePartDesc& part_;

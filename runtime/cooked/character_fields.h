@@ -37,8 +37,8 @@ template <class A, Is<Cage> T>
 void fields(A& a, T& cage) {
     a(cage.positions, cage.faceStarts, cage.faceVertices, cage.cornerUvs, cage.cornerUvs1, cage.cornerColors,
       cage.cornerNormals, cage.cornerTangents, cage.faceTriangles, cage.faceMaterials, cage.faceParts,
-      cage.faceTrimTiles, cage.cornerFaceUvs, cage.sourceVertices, cage.creases, cage.sharpVertices, cage.creaseScalars,
-      cage.roundCorners, cage.holes);
+      cage.faceTrimTiles, cage.cornerFaceUvs, cage.sourceVertices, cage.creases, cage.creaseSets, cage.sharpVertices,
+      cage.creaseScalars, cage.roundCorners, cage.holes);
 }
 template <class A, Is<Node> T>
 void fields(A& a, T& node) {
@@ -54,7 +54,11 @@ void fields(A& a, T& marker) {
 }
 template <class A, Is<Clip> T>
 void fields(A& a, T& clip) {
-    a(clip.name, clip.duration, clip.channels, clip.markers);
+    a(clip.name, clip.duration, clip.channels, clip.markers, clip.sharpness);
+}
+template <class A, Is<SharpnessCurve> T>
+void fields(A& a, T& curve) {
+    a(curve.set, curve.keys);
 }
 template <class A, Is<MorphTarget> T>
 void fields(A& a, T& target) {
@@ -122,7 +126,7 @@ template <>
 inline constexpr bool kIsPlain<cage::SharpVertex> = true;
 template <>
 inline constexpr bool kIsPlain<cage::CreaseScalar> = true;
-static_assert(sizeof(cage::Influence) == 8 && sizeof(cage::Crease) == 12 && sizeof(cage::SharpVertex) == 8 &&
+static_assert(sizeof(cage::Influence) == 8 && sizeof(cage::Crease) == 16 && sizeof(cage::SharpVertex) == 8 &&
               sizeof(cage::CreaseScalar) == 12);
 
 } // namespace supple::runtime

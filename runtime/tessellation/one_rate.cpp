@@ -61,11 +61,10 @@ Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
     return status;
 }
 
-Status OneRate::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
-                           const Visibility& visibility) {
+Status OneRate::createSets(const SurfaceInput& input, const InstanceListing& listing, const Visibility& visibility) {
     const Status made = createIndices(std::exchange(indexData_, {}));
     rates_.front().instances = visibility.list().slots();
-    return made ? OwnVertices::createSets(cages, listing, visibility) : made;
+    return made ? OwnVertices::createSets(input, listing, visibility) : made;
 }
 
 void OneRate::fillGrid(SuppleGridOutput& output) const {

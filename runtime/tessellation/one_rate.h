@@ -29,7 +29,7 @@ class OneRate : public OwnVertices {
 public:
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) override;
-    [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+    [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;

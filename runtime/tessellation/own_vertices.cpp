@@ -125,12 +125,12 @@ void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
     }
 }
 
-Status OwnVertices::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+Status OwnVertices::createSets(const SurfaceInput& input, const InstanceListing& listing,
                                const Visibility& visibility) {
     addMember(*indices_.buffers);
     addMember(indices_.release);
     addMember(attributes_);
-    return Tessellation::createSets(cages, listing, visibility);
+    return Tessellation::createSets(input, listing, visibility);
 }
 
 VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {

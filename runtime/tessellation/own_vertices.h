@@ -35,7 +35,7 @@ public:
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
-    [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+    [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     [[nodiscard]] bool attributesDue() const override { return attributes_.due(); }

@@ -28,7 +28,7 @@ public:
     void setLadder(Ladder ladder) override;
     [[nodiscard]] Status join(const InstanceWindows& windows) override;
     [[nodiscard]] Culling::Surface culledSurface() const override;
-    [[nodiscard]] Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+    [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
@@ -186,10 +186,9 @@ Culling::Surface Rates::culledSurface() const {
     return surface;
 }
 
-Status Rates::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
-                         const Visibility& visibility) {
+Status Rates::createSets(const SurfaceInput& input, const InstanceListing& listing, const Visibility& visibility) {
     Status status = createIndices(std::exchange(indexData_, {}));
-    status = status ? OwnVertices::createSets(cages, listing, visibility) : status;
+    status = status ? OwnVertices::createSets(input, listing, visibility) : status;
     for (Rate& rate : own_) {
         addMember(rate.scheme->buffers);
         status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;

@@ -48,8 +48,8 @@ void SurfaceMemory::plan(const Desc& desc, gpu::BufferPlan& device) {
         {"supple scratch", n * desc.scratchStride * gpu::kVec4Bytes, kScratch | sizes, gpu::MemoryPurpose::scratch});
 }
 
-void SurfaceMemory::attach(const gpu::PlannedBuffer& cages, const InstanceListing& listing, const InstanceList& list) {
-    cages_ = cages;
+void SurfaceMemory::attach(const SurfaceInput& input, const InstanceListing& listing, const InstanceList& list) {
+    input_ = input;
     listing_ = &listing;
     list_ = list;
     for (const gpu::PlannedBuffer& pool : pools_) {
@@ -89,7 +89,12 @@ void SurfaceMemory::bindInput(const SurfaceSets::Which& which, const gpu::Static
     const bool today = which.previous && desc_.inView;
     bind(kTodaysPoolBinding, kTodaysPoolTexelBinding, pools_[today ? 1 - which.pool : which.pool], poolStride,
          "supple pool");
-    bind(kCageBinding, kCageTexelBinding, cages_, desc_.cageStride, "supple deformed cage");
+    bind(kCageBinding, kCageTexelBinding, input_.cages, desc_.cageStride, "supple deformed cage");
+    if (input_.creaseAlphas.size() > 0) {
+        bind(kAlphaBinding, kAlphaTexelBinding, input_.creaseAlphas, kCreaseSetElements, "supple crease alphas");
+    } else { // some kernels name it but never read it
+        bind(kAlphaBinding, kAlphaTexelBinding, input_.cages, desc_.cageStride, "supple deformed cage");
+    }
     if (scratch_.size() > 0) {
         bind(kScratchBinding, kScratchTexelBinding, scratch_, desc_.scratchStride, "supple scratch");
     } else { // some kernels name it but never read it

@@ -15,6 +15,12 @@
 
 namespace supple::runtime {
 
+/// What surfaces are made from, of every instance.
+struct SurfaceInput {
+    gpu::PlannedBuffer cages;        ///< deformed, of all parts or of the piece
+    gpu::PlannedBuffer creaseAlphas; ///< null if the character has no crease sets
+};
+
 class SurfaceMemory {
 public:
     /// All pointers must outlive it.
@@ -32,8 +38,8 @@ public:
         bool sizesInScratch = false;             ///< of dispatches
     };
     void plan(const Desc& desc, gpu::BufferPlan& device);
-    /// When the plan is carried out. `cages`: the deformed cages. The list must outlive it.
-    void attach(const gpu::PlannedBuffer& cages, const InstanceListing& listing, const InstanceList& list);
+    /// When the plan is carried out. The list must outlive it.
+    void attach(const SurfaceInput& input, const InstanceListing& listing, const InstanceList& list);
 
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
     using BindOutput = std::function<void(const SurfaceSets::Which&, SetContents&)>;
@@ -52,7 +58,7 @@ private:
     void bindInput(const SurfaceSets::Which& which, const gpu::StaticBuffers& tables, SetContents& contents) const;
 
     Desc desc_;
-    gpu::PlannedBuffer cages_; ///< the group's
+    SurfaceInput input_; ///< the group's
     const InstanceListing* listing_ = nullptr;
     InstanceList list_;
     std::array<gpu::PlannedBuffer, 2> pools_;

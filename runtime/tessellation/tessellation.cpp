@@ -111,11 +111,11 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     memory_.plan(desc, device);
 }
 
-Status Tessellation::createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+Status Tessellation::createSets(const SurfaceInput& input, const InstanceListing& listing,
                                 const Visibility& visibility) {
     listing_ = &listing;
     visibility_ = &visibility;
-    memory_.attach(cages, listing, visibility.list());
+    memory_.attach(input, listing, visibility.list());
     addMember(memory_.clear());
     addMember(built_.scheme->buffers);
     return makeSets(sets_, *built_.scheme, program_);

@@ -82,9 +82,8 @@ public:
     /// Groups of a view.
     [[nodiscard]] virtual Culling::Surface culledSurface() const { return {}; }
     virtual void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
-    /// When the plans are carried out. `cages`: the deformed cages of all parts, or of the piece. `visibility` is the
-    /// group's Culling if it belongs to a view.
-    [[nodiscard]] virtual Status createSets(const gpu::PlannedBuffer& cages, const InstanceListing& listing,
+    /// When the plans are carried out. `visibility` is the group's Culling if it belongs to a view.
+    [[nodiscard]] virtual Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                             const Visibility& visibility);
 
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers

@@ -10,10 +10,17 @@
 #include "shaders/surface/store.glsl"
 #include "shaders/pm/pm.glsl"
 #include "shaders/pm/record.glsl"
+#include "shaders/pm/alphas.glsl"
 
-void polarFacet(uint record, uint base) {
+void polarFacet(uint record, uint base, uint instance) {
     uvec4 points = tableElement(record), spokes = tableElement(record + 1u);
-    vec4 w = uintBitsToFloat(tableElement(spokes.w));
+    uvec4 apex = tableElement(spokes.w);
+    vec4 w = uintBitsToFloat(apex);
+    if (apex.w != 0u) {
+        float alpha = alphaOfSet(instance, apex.w & kAlphaSetMask), back = alphaOfSet(instance, apex.w >> kBackSetShift);
+        if (alpha >= 0.0) w.y = 1.5 * alpha;
+        if (back >= 0.0) w.z = 1.5 * back;
+    }
     uint tangents = base + header.tangents, target = base + points.w;
     vec3 h02 = poolVector(tangents + SUPPLE_SPOKE(spokes.z)), h32 = poolVector(tangents + SUPPLE_NEXT_SPOKE(spokes.z));
     precise float scale = 1.0 / (2.0 + w.x);
@@ -97,7 +104,7 @@ void innerFacet(uint record, uint base) {
 }
 
 void main() {
-    uint item = itemOfLane(), facet = elementOf(item), base = instanceOf(item) * header.poolStride;
-    if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base);
+    uint item = itemOfLane(), facet = elementOf(item), instance = instanceOf(item), base = instance * header.poolStride;
+    if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base, instance);
     else innerFacet(push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * facet, base);
 }

@@ -16,7 +16,10 @@
 //   creased weights  (facets | kOpenSector | .. | kOwnEndsSector, limit scale, tangent scale, 0), then one element a slot: (alpha,
 //                    cosine, sine, rim); with kOwnEndsSector then one for either end: (1 + slot of the other edge of a smooth
 //                    curve or 0, factors of the own edge and of that edge, 0); one a sector
-//   apex classes     (c, 3/2 alpha of h02, 3/2 alpha of h32, 0); polar patches have the element as their fourth spoke
+//   variable weights as creased ones, but for the rim, which the kernel finds: in its place the edge's crease set + 1 or 0, and
+//                    kGivenAlpha
+//   apex classes     (c, 3/2 alpha of h02, 3/2 alpha of h32, their crease sets + 1 or 0: of h32 from kBackSetShift on); polar
+//                    patches have the element as their fourth spoke
 //   edge classes     two elements (20): (chi0 / 4 mu, (2 mu - chi1) / 8 mu, factor of f - f_across at v_0, same at v_1), (chi1 /
 //                    4 mu, (2 mu - chi0) / 8 mu, 0, 0)
 //   P_m patches      m - 1 elements, words as the macros below say: of every corner its limit point and its spoke, as in the
@@ -38,6 +41,11 @@ SUPPLE_SHARED_CONST kPinnedSector = 0x20000000u; // moved so that v is the verte
 SUPPLE_SHARED_CONST kStraightSector = 0x10000000u; // v is the vertex, and the two ends are one smooth curve
 SUPPLE_SHARED_CONST kOwnEndsSector = 0x08000000u; // the tangents at its ends have factors of their own
 SUPPLE_SHARED_CONST kSectorFacets = 0x07FFFFFFu;
+
+// Edges of variable sectors.
+SUPPLE_SHARED_CONST kAlphaSetMask = 0xFFu;
+SUPPLE_SHARED_CONST kGivenAlpha = 0x100u; // the cage gives the alpha, not a sharpness: it is smooth at rims
+SUPPLE_SHARED_CONST kBackSetShift = 16u;
 
 // Words of P_m patches.
 SUPPLE_SHARED_CONST kEndsBehind = 1u << kPointBits;

@@ -128,12 +128,20 @@ SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
 SUPPLE_SHARED_CONST kPointBits = kSpokeBits - 1u;
 #define SUPPLE_POINT(word) ((word) & ((1u << kPointBits) - 1u))
 
-// Kinds of fans: specialization of the vertex stage. Creased ones are P_m's alone.
+// Kinds of fans: specialization of the vertex stage. Creased and variable ones are P_m's alone.
 SUPPLE_SHARED_CONST kRegularFan = 0u; // closed, four facets, no crease
 SUPPLE_SHARED_CONST kFewFan = 1u;     // up to kFewSpokes spokes
 SUPPLE_SHARED_CONST kManyFan = 2u;
 SUPPLE_SHARED_CONST kCreasedFan = 3u;
+SUPPLE_SHARED_CONST kVariableFan = 4u; // creased, with edges of crease sets
 SUPPLE_SHARED_CONST kFewSpokes = 6u;
+
+// Crease sets: what instances say of their edges, kCreaseSetElements an instance. A number is P_m's alpha, or negative: the
+// edge has its own.
+SUPPLE_SHARED_CONST kAlphaBinding = 25u;
+SUPPLE_SHARED_CONST kAlphaTexelBinding = 26u;
+SUPPLE_SHARED_CONST kMaxCreaseSets = 64u;
+SUPPLE_SHARED_CONST kCreaseSetElements = kMaxCreaseSets / 4u; // 256 bytes, as descriptors may begin there
 
 // Words of the ring.
 SUPPLE_SHARED_CONST kRingPlaceBits = 8u;

@@ -8,10 +8,9 @@ namespace supple::surface::pm {
 
 /// By kind of fan.
 inline constexpr KindOfKernel kVertexKernels[] = {
-    {Kernel::pmVertex, shared::kRegularFan},
-    {Kernel::pmVertex, shared::kFewFan},
-    {Kernel::pmVertex, shared::kManyFan},
-    {Kernel::pmVertex, shared::kCreasedFan},
+    {Kernel::pmVertex, shared::kRegularFan},  {Kernel::pmVertex, shared::kFewFan},
+    {Kernel::pmVertex, shared::kManyFan},     {Kernel::pmVertex, shared::kCreasedFan},
+    {Kernel::pmVertex, shared::kVariableFan},
 };
 /// By class of patches, from polar on.
 inline constexpr KindOfKernel kFacetKernels[] = {

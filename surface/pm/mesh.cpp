@@ -1,6 +1,7 @@
 #include "surface/pm/mesh.h"
 
 #include "base/within_memory.h"
+#include "cage/message.h"
 #include "surface/pm/corners.h"
 #include "surface/split.h"
 
@@ -67,8 +68,12 @@ private:
             const bool end = !fan.closed() && (j == 0 || j == facets);
             const double alpha = end ? kSmoothAlpha : alphaOf(spoke);
             fan.creased = fan.creased || alpha != kSmoothAlpha;
+            const uint32_t set = end ? cage::kNone : setOf(spoke);
+            fan.variable = fan.variable || set != cage::kNone;
             mesh_.slotSpokes.push_back(base_ + spoke);
             mesh_.slotAlphas.push_back(alpha);
+            mesh_.slotSets.push_back(set);
+            mesh_.slotGivens.push_back(mesh_.features.spokeAlphas[base_ + spoke] >= 0.0f ? 1 : 0);
         }
         for (uint32_t j = 0; j < facets; ++j) {
             const uint32_t slot = fan.firstSlot;
@@ -93,8 +98,7 @@ private:
     [[nodiscard]] double sharpness(const Fan& fan, uint32_t j) const {
         const uint32_t slot = fan.firstSlot + j;
         const bool end = !fan.closed() && (j == 0 || j == fan.facets);
-        const bool given = mesh_.features.spokeAlphas[mesh_.slotSpokes[slot]] >= 0.0f;
-        return end || given ? 0.0 : 1.0 - mesh_.slotAlphas[slot] / kSmoothAlpha;
+        return end || mesh_.slotGivens[slot] != 0 ? 0.0 : 1.0 - mesh_.slotAlphas[slot] / kSmoothAlpha;
     }
 
     void addRims(const Fan& fan) {
@@ -112,10 +116,17 @@ private:
     [[nodiscard]] double alphaOf(uint32_t spoke) const {
         const float given = mesh_.features.spokeAlphas[base_ + spoke];
         if (given >= 0.0f) {
-            return given == static_cast<float>(kSmoothAlpha) ? kSmoothAlpha : given;
+            return given == static_cast<float>(kSmoothAlpha) ? kSmoothAlpha : std::max<double>(given, kLeastAlpha);
         }
         const uint32_t edge = edgeOf(spoke);
         return mesh_.features.hard(edge) ? kSmoothAlpha : alphaOfSharpness(mesh_.features.edgeSharpness[edge]);
+    }
+
+    /// Hard edges are cut, whatever instances say.
+    [[nodiscard]] uint32_t setOf(uint32_t spoke) const {
+        const uint32_t edge = edgeOf(spoke);
+        return mesh_.features.edgeSets.empty() || mesh_.features.hard(edge) ? cage::kNone
+                                                                            : mesh_.features.edgeSets[edge];
     }
 
     Mesh& mesh_;
@@ -187,11 +198,39 @@ void classify(Mesh& mesh) {
     }
 }
 
+/// Edges of crease sets that instances cannot change.
+std::vector<std::string> hardInSets(const Mesh& mesh) {
+    const std::vector<uint32_t>& sets = mesh.features.edgeSets;
+    std::vector<cage::Found> found(mesh.cage.creaseSets.size());
+    for (uint32_t e = 0; e < sets.size(); ++e) {
+        if (sets[e] != cage::kNone && mesh.features.hard(e)) {
+            const uint32_t corner = mesh.topology.edges[e].corner;
+            const uint32_t next = cage::nextCorner(mesh.cage, mesh.topology.cornerFaces[corner], corner);
+            found[sets[e]].add([&] {
+                return "edge (" + std::to_string(mesh.cage.faceVertices[corner]) + ", " +
+                       std::to_string(mesh.cage.faceVertices[next]) + ")";
+            });
+        }
+    }
+    std::vector<std::string> notes;
+    for (size_t set = 0; set < found.size(); ++set) {
+        if (found[set].count > 0) {
+            notes.push_back("crease set " + cage::quoted(mesh.cage.creaseSets[set]) + ": " +
+                            found[set].told("edge is hard or a boundary", "edges are hard or boundaries") +
+                            ", which no instance can change");
+        }
+    }
+    return notes;
+}
+
 void fill(Mesh& mesh) {
     mesh.features = cage::buildFeatures(mesh.cage, mesh.topology);
     mesh.notes.insert(mesh.notes.end(), mesh.features.unused.begin(), mesh.features.unused.end());
     if (const std::string corners = cage::sharpRoundCorners(mesh.cage); !corners.empty()) {
         mesh.notes.push_back(corners);
+    }
+    for (std::string& note : hardInSets(mesh)) {
+        mesh.notes.push_back(std::move(note));
     }
     FanBuilder fans(mesh);
     for (uint32_t v = 0; v < mesh.cage.vertexCount(); ++v) {
@@ -239,7 +278,7 @@ Result<Mesh> build(const Cage& cage) {
 } // namespace
 
 double alphaOfSharpness(double sharpness) {
-    return kSmoothAlpha * std::exp2(-sharpness);
+    return std::clamp(kSmoothAlpha * std::exp2(-sharpness), kLeastAlpha, 1.0);
 }
 
 FacetAngle Fan::angle() const {

@@ -19,7 +19,12 @@ namespace supple::surface::pm {
 
 inline constexpr double kSmoothAlpha = 2.0 / 3.0;
 
-/// alpha = (2/3) 2^-s for 0 <= s < cage::kHardSharpness. Harder edges are cut and have no alpha.
+/// With an alpha of 0 at both ends of an edge, or at all edges of a vertex, first derivatives vanish there, and there
+/// is no normal. So smaller alphas count as this one. The surface of a cage whose alphas are all 0 is the polyhedron up
+/// to this part of its edges.
+inline constexpr double kLeastAlpha = 1.0 / 4096.0;
+
+/// alpha = (2/3) 2^-s, between kLeastAlpha and 1. Edges that are hard in the cage are cut and have no alpha.
 [[nodiscard]] double alphaOfSharpness(double sharpness);
 
 enum class FanKind : uint8_t {
@@ -60,7 +65,8 @@ struct Fan {
     uint32_t firstSlot = 0;
     uint32_t facets = 0; ///< q
     FanKind kind = FanKind::interior;
-    bool creased = false; ///< an edge inside the fan has an alpha other than 2/3
+    bool creased = false;  ///< an edge inside the fan has an alpha other than 2/3
+    bool variable = false; ///< an edge inside the fan is in a crease set: instances may give it another alpha
     /// The fan is closed and its vertex p is sharp (cage::SharpVertex). Its v, t and f are moved by p - v, so that
     /// the surface passes through the vertex. An open fan becomes a corner instead.
     bool pinned = false;
@@ -99,6 +105,8 @@ struct Mesh {
     /// Per slot: the weight of (X - p) + (Y - p) that f_j has beside (14); 0 unless facet j is alone on its side of a
     /// semi-sharp crease.
     std::vector<double> slotRims;
+    std::vector<uint32_t> slotSets;   ///< per slot: crease set of edge j, kNone for none and where an open fan ends
+    std::vector<uint8_t> slotGivens;  ///< per slot: 1 where the cage gives the alpha, which counts as smooth at rims
     std::vector<FacetCorner> corners; ///< per corner of `cage`
     std::vector<PatchClass> classes;  ///< per facet: regular, polar, p3, p4 or p5
     /// Per facet: the corner (0..sides-1) that is corner 0 of its patch; patch corner i is facet corner (first + i) %

@@ -21,6 +21,9 @@ namespace supple::surface::pm {
 namespace {
 
 uint32_t fanKind(const Fan& fan) {
+    if (fan.variable) {
+        return shared::kVariableFan;
+    }
     if (fan.creased || fan.pinned || !fan.plainEnds()) {
         return shared::kCreasedFan;
     }
@@ -136,6 +139,12 @@ private:
         tables_.ring = ring.write();
     }
 
+    /// Of an edge of a variable fan.
+    [[nodiscard]] uint32_t setWord(uint32_t slot) const {
+        const uint32_t set = mesh_.slotSets[slot];
+        return (set == cage::kNone ? 0u : set + 1) | (mesh_.slotGivens[slot] != 0 ? shared::kGivenAlpha : 0u);
+    }
+
     uint32_t writeCreasedWeights(const Fan& fan) {
         const FanScales scales = fanScales(fan.kind, fan.facets);
         const uint32_t element = writer_.element();
@@ -146,7 +155,9 @@ private:
                      floatBits(scales.limit), floatBits(scales.tangent), 0u});
         for (uint32_t j = 0; j < fan.edges(); ++j) {
             const auto [cosine, sine] = tangentTurn(fan, j);
-            writer_.putFloats({mesh_.slotAlphas[fan.firstSlot + j], cosine, sine, mesh_.slotRims[fan.firstSlot + j]});
+            const uint32_t slot = fan.firstSlot + j;
+            const uint32_t last = fan.variable ? setWord(slot) : floatBits(mesh_.slotRims[slot]);
+            writer_.put({floatBits(mesh_.slotAlphas[slot]), floatBits(cosine), floatBits(sine), last});
         }
         for (size_t end = 0; !fan.plainEnds() && end < 2; ++end) {
             const FanEnd& at = fan.ends[end];
@@ -161,7 +172,7 @@ private:
         std::map<std::tuple<FanKind, uint32_t, uint32_t>, uint32_t> smooth;
         for (uint32_t s = 0; s < weights.size(); ++s) {
             const Fan& fan = mesh_.fans[s];
-            if (fanKind(fan) == shared::kCreasedFan) {
+            if (fanKind(fan) == shared::kCreasedFan || fan.variable) {
                 weights[s] = writeCreasedWeights(fan);
             } else if (fanKind(fan) != shared::kRegularFan) {
                 const auto [known, isNew] = smooth.try_emplace({fan.kind, fan.facets, fan.width}, 0u);
@@ -230,18 +241,20 @@ private:
     }
 
     void writePatches() {
-        std::map<std::array<uint32_t, 3>, uint32_t> apexes;
-        const auto apexWeights = [&](const DraftPatch& patch) -> std::array<uint32_t, 3> {
+        std::map<std::array<uint32_t, 4>, uint32_t> apexes;
+        const auto apexWeights = [&](const DraftPatch& patch) -> std::array<uint32_t, 4> {
             const FacetCorner& apex = corner(patch, 2);
             const double c = turn(1, mesh_.fans[apex.fan].facets).first;
+            const auto set = [&](uint32_t slot) { return setWord(slot) & shared::kAlphaSetMask; };
             return {floatBits(c), floatBits(1.5 * mesh_.slotAlphas[apex.slot]),
-                    floatBits(1.5 * mesh_.slotAlphas[apex.slotBack])};
+                    floatBits(1.5 * mesh_.slotAlphas[apex.slotBack]),
+                    set(apex.slot) | set(apex.slotBack) << shared::kBackSetShift};
         };
         for (const DraftPatch& patch : patches_) {
             if (patch.info.patchClass == PatchClass::polar) {
-                const std::array<uint32_t, 3> weights = apexWeights(patch);
+                const std::array<uint32_t, 4> weights = apexWeights(patch);
                 if (apexes.try_emplace(weights, writer_.element()).second) {
-                    writer_.put({weights[0], weights[1], weights[2], 0u});
+                    writer_.put(weights);
                 }
             }
         }

@@ -12,8 +12,12 @@ namespace {
 
 using namespace shared;
 
-/// How many spokes a creased sector has; 0 if its weights do not fit. `slots`: of all sectors.
-uint64_t checkCreasedWeights(TableCheck& check, uint32_t element, uint64_t slots) {
+bool checkSet(TableCheck& check, uint32_t set) {
+    return check.require(set <= kMaxCreaseSets, "a spoke of a crease set that there is not");
+}
+
+/// How many spokes a creased or variable sector has; 0 if its weights do not fit. `slots`: of all sectors.
+uint64_t checkCreasedWeights(TableCheck& check, uint32_t element, uint64_t slots, bool variable) {
     if (!check.elements(element, 1)) {
         return 0;
     }
@@ -23,6 +27,11 @@ uint64_t checkCreasedWeights(TableCheck& check, uint32_t element, uint64_t slots
     if (!check.require(facets > 0, "a sector without facets") ||
         !check.elements(element, 1 + spokes + (ownEnds ? 2 : 0))) {
         return 0;
+    }
+    for (uint64_t spoke = 0; variable && spoke < spokes; ++spoke) {
+        if (!checkSet(check, check.element(element + 1 + spoke)[3] & kAlphaSetMask)) {
+            return 0;
+        }
     }
     for (uint64_t end = 0; ownEnds && end < 2; ++end) {
         const uint32_t other = check.element(element + 1 + spokes + end)[0]; // 1 + slot, or 0
@@ -39,13 +48,14 @@ bool checkSectors(TableCheck& check, const Construction& construction, FanSlots&
     if (!check.words(first, 3 * count)) {
         return false;
     }
-    const bool creased = construction.kernel.kind == kCreasedFan;
+    const bool variable = construction.kernel.kind == kVariableFan;
+    const bool creased = construction.kernel.kind == kCreasedFan || variable;
     uint32_t known = 0; // weights, which neighbours have in common
     uint64_t spokes = 0;
     for (uint64_t word = first; word < first + 3 * count; word += 3) {
         const uint32_t weights = check.word(word + 1);
         if (creased || spokes == 0 || weights != known) {
-            spokes = creased ? checkCreasedWeights(check, weights, slots.count())
+            spokes = creased ? checkCreasedWeights(check, weights, slots.count(), variable)
                              : checkFanWeights(check, weights, kOpenSector);
             known = weights;
         }

@@ -1,3 +1,4 @@
+#include "cage/features.h"
 #include "cage/tangents.h"
 #include "cage/triangulation.h"
 #include "shaders/shared/polygons.h"
@@ -262,7 +263,11 @@ Result<Tables> build(const Recipe& recipe, const cage::Cage& cage, PatchEdges* /
         return Error{ErrorCode::limit, std::to_string(cage.cornerCount()) + " corners: polygons takes " +
                                            std::to_string(std::numeric_limits<uint32_t>::max() / 32)};
     }
-    return Builder(cage, makeFrames(cage), recipe).build();
+    Result<Tables> tables = Builder(cage, makeFrames(cage), recipe).build();
+    if (tables) {
+        tables->notes = cage::notesOnAlphas(cage);
+    }
+    return tables;
 }
 
 } // namespace supple::surface::polygons

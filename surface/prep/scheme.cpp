@@ -1,4 +1,5 @@
 // p-rep as a scheme: the tables of shaders/shared/{surface,prep}.h.
+#include "cage/features.h"
 #include "cage/message.h"
 #include "shaders/shared/prep.h"
 #include "surface/build.h"
@@ -288,7 +289,7 @@ std::vector<std::string> notesOn(const cage::Cage& cage) {
             vertices.add([&] { return "vertex " + std::to_string(sharp.vertex); });
         }
     }
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = cage::notesOnAlphas(cage);
     if (creases.count > 0) {
         notes.push_back("p-rep has no creases: " + creases.told("crease is drawn smooth", "creases are drawn smooth"));
     }

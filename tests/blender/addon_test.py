@@ -230,6 +230,26 @@ class Import(Case):
         self.assertEqual(np.float32(changed[(0, 1)]), exact)
         self.assertAlmostEqual(changed[(5, 8)], 6.4, places=5)
 
+    def test_crease_scalars_and_sets_come_back(self):
+        box = add_box()
+        subdivided(box)
+        mesh = box.data
+        edge_of(mesh, 0, 1).crease = 1.0
+        values = np.full(len(mesh.loops), -1, np.float32)
+        values[:3] = (0.0, 0.3, 1.0)  # of the face 0 1 3 2: at 0 towards 1, at 1 towards 3, at 3 towards 2
+        mesh.attributes.new("supple_alpha", "FLOAT", "CORNER").data.foreach_set("value", values)
+        for name, edges in (("brow", ((0, 1), (5, 8))), ("lid", ((2, 3),))):
+            marked = np.zeros(len(mesh.edges), bool)
+            marked[[edge_of(mesh, a, b).index for a, b in edges]] = True
+            mesh.attributes.new("supple_set:" + name, "BOOLEAN", "EDGE").data.foreach_set("value", marked)
+        for step in ("scalars", "scalars_again"):
+            cage = exported(step)["box"]
+            self.assertEqual(cage.scalars, {(0, 1): 0.0, (1, 3): float(np.float32(0.3)), (3, 2): 1.0})
+            self.assertEqual(cage.crease_sets, {"brow": {(0, 1), (5, 8)}, "lid": {(2, 3)}})
+            self.assertEqual(cage.creases, {(0, 1): 10, (5, 8): 0, (2, 3): 0})
+            support.start()
+            support.import_glb(path_of(step))
+
     def test_holes_stay_holes(self):
         box = add_box()
         subdivided(box)

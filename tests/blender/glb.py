@@ -69,7 +69,7 @@ class Cage:
         self.joint_names = [glb.json["nodes"][j].get("name", str(j)) for j in joints]
         primitives = [p for p in mesh["primitives"] if "SUPPLE_mesh_cage" in p.get("extensions", {})]
         self.complete = len(primitives) == len(mesh["primitives"])
-        self.intent = {k: v for k, v in primitives[0]["extensions"]["SUPPLE_mesh_cage"].items() if not isinstance(v, int) or
+        self.intent = {k: v for k, v in primitives[0]["extensions"]["SUPPLE_mesh_cage"].items() if not isinstance(v, (int, list)) or
                        k in ("levels", "limitSurface")} if primitives else {}
         numbers = [glb.values(p["extensions"]["SUPPLE_mesh_cage"]["cageVertices"]).ravel() for p in primitives]
         self.numbers = np.unique(np.concatenate(numbers))
@@ -78,6 +78,7 @@ class Cage:
         self.weights = [{} for _ in self.numbers]
         self.targets = [np.zeros((len(self.numbers), 3), np.float32) for _ in primitives[0].get("targets", [])]
         self.creases, self.corners, self.sharp_edges = {}, {}, set()
+        self.crease_sets, self.scalars = {}, {}
         for primitive, own in zip(primitives, numbers):
             self._add(primitive, np.searchsorted(self.numbers, own))
 
@@ -105,6 +106,14 @@ class Cage:
                 ends = self._ranks(members[key + "Indices"], 2 if key == "crease" else 1)
                 for pair, sharpness in zip(ends, values(members[key + "Sharpnesses"]).ravel()):
                     into[pair] = max(into.get(pair, 0), float(sharpness))
+        for crease_set in members.get("creaseSets", []):
+            ends = self._ranks(members["creaseIndices"], 2)
+            chosen = values(crease_set["creases"]).ravel().astype(int)
+            self.crease_sets.setdefault(crease_set["name"], set()).update(ends[c] for c in chosen)
+        if "creaseScalarIndices" in members:
+            ends = np.searchsorted(self.numbers, values(members["creaseScalarIndices"]).ravel()).reshape(-1, 2)
+            for pair, alpha in zip(ends.tolist(), values(members["creaseScalars"]).ravel()):
+                self.scalars[tuple(pair)] = float(alpha)
         if "sharpEdgeIndices" in members:
             self.sharp_edges |= set(self._ranks(members["sharpEdgeIndices"], 2))
 

@@ -68,6 +68,17 @@ TEST(Features, sharpVertices) {
     EXPECT_EQ(built.features.vertexSharpness, (std::vector<float>{0, 0, 0, 11.0f, 0, 0, 0, 0}));
 }
 
+TEST(Features, edgesHaveTheSetOfTheirCrease) {
+    Cage cage = test::cube();
+    EXPECT_TRUE(build(cage).features.edgeSets.empty());
+    cage.creaseSets = {"a", "b"};
+    cage.creases = {{0, 1, 1.0f, 1}, {0, 2, 3.0f, kNone}};
+    const Built built = build(cage);
+    for (uint32_t e = 0; e < built.topology.edges.size(); ++e) {
+        EXPECT_EQ(built.features.edgeSets[e], e == findEdge(cage, built.topology, 1, 0) ? 1 : kNone);
+    }
+}
+
 TEST(Features, creaseScalarsStandAtTheirEndOfTheEdge) {
     // Every end of every edge, inside and on the boundary.
     for (Cage cage : {test::cube(), test::grid(3, 2), test::fan(3, 2, 2.0, false)}) {

@@ -307,6 +307,9 @@ private:
         call("suppleSetPose", [&] { return suppleSetPose(handle(), instance, &desc); });
         call("suppleSetClipPose", [&] { return suppleSetClipPose(handle(), instance, 0, 0.75); });
         call("suppleSetUserData", [&] { return suppleSetUserData(handle(), instance, data); });
+        call(
+            "suppleSetSharpness", [&] { return suppleSetSharpness(handle(), instance, 0, 1.0f); },
+            SUPPLE_ERROR_ARGUMENT);
         call("suppleSetVisible", [&] { return suppleSetVisible(handle(), instance, 1); });
         call("suppleSetPartVisible", [&] { return suppleSetPartVisible(handle(), instance, 0, 1); });
         call("suppleTeleport", [&] { return suppleTeleport(handle(), instance); });
@@ -345,6 +348,11 @@ private:
         float socket[16];
         call("suppleGetJointTransform", [&] { return suppleGetJointTransform(handle(), instances_[0][0], 1, socket); });
         uint32_t count = 0;
+        call("suppleGetCreaseSets", [&] { return suppleGetCreaseSets(handle(), tube_, nullptr, &count); });
+        float sharpness = 0.0f;
+        call(
+            "suppleGetClipSharpness", [&] { return suppleGetClipSharpness(handle(), tube_, 0, 0, 0.0, &sharpness); },
+            SUPPLE_ERROR_ARGUMENT);
         call("suppleGetClipMarkers", [&] { return suppleGetClipMarkers(handle(), tube_, 0, nullptr, &count); });
         call(
             "suppleGetTimings", [&] { return suppleGetTimings(handle(), sizeof(SuppleTiming), nullptr, &count); },

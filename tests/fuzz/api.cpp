@@ -348,6 +348,7 @@ private:
             break;
         case 6:
             check(suppleSetUserData(context_, instance, matrix));
+            check(suppleSetSharpness(context_, instance, choose.below(2), matrix[0]));
             break;
         default:
             check(suppleDestroyInstance(context_, instance)); // its handle stays: others meet a stale one

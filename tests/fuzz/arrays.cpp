@@ -70,6 +70,7 @@ struct Arrays {
     std::vector<SuppleNodeDesc> nodes;
     std::deque<SuppleCageDesc> cages;
     std::deque<SuppleSkinDesc> skins;
+    std::deque<SuppleCreaseScalar> scalars;
     std::deque<std::vector<SuppleMorphTargetDesc>> targets;
     std::deque<std::vector<SuppleDisplacements>> displacements;
     std::deque<std::vector<SupplePrimitiveDesc>> primitives;
@@ -172,6 +173,14 @@ struct Arrays {
         cage.holes = in.indices(cage.holeCount, cage.faceCount);
         cage.roundCornerCount = in.byte() % 2;
         cage.roundCorners = in.indices(cage.roundCornerCount, cage.vertexCount);
+        static const char* const kSets[] = {"a", "b", ""};
+        cage.creaseSetCount = in.byte() % 4;
+        cage.creaseSetNames = kSets;
+        cage.creaseSets = in.optionalIndices(cage.creaseCount, cage.creaseSetCount);
+        cage.creaseScalarCount = in.byte() % 2;
+        auto& scalar = scalars.emplace_back();
+        scalar = {in.index(cage.vertexCount), in.index(cage.vertexCount), static_cast<float>(in.byte()) / 128.0f};
+        cage.creaseScalars = &scalar;
         part.cage = &cage;
         part.influences = influences(part, cage.vertexCount);
         part.displacements = displacementsOf(part, cage.vertexCount);
@@ -205,6 +214,14 @@ struct Arrays {
             primitive.creaseCount = in.byte() % 2;
             primitive.creaseVertices = in.indices(size_t{2} * primitive.creaseCount, primitive.vertexCount);
             primitive.creaseSharpnesses = in.numbers(primitive.creaseCount);
+            primitive.creaseScalarCount = in.byte() % 2;
+            auto& scalar = scalars.emplace_back();
+            scalar = {in.index(primitive.vertexCount), in.index(primitive.vertexCount), 0.25f};
+            primitive.creaseScalars = &scalar;
+            static const char* const kSet[] = {"a"};
+            primitive.creaseSetCount = in.byte() % 2;
+            primitive.creaseSetNames = kSet;
+            primitive.creaseSets = in.optionalIndices(primitive.creaseCount, primitive.creaseSetCount);
             list.push_back(primitive);
         }
         part.primitives = list.data();

@@ -819,6 +819,7 @@ void createAsset(Rows& r) {
     });
     null("corners null", [](Cage& d) { d.cornerCount = 1; });
     null("creaseScalars null", [](Cage& d) { d.creaseScalarCount = 1; });
+    null("creaseSetNames null", [](Cage& d) { d.creaseSetCount = 1; });
     null("holes null", [](Cage& d) { d.holeCount = 1; });
     malformed("no vertices", [](Cage& d) { d.vertexCount = 0; });
     malformed("no faces", [](Cage& d) { d.faceCount = 0; });
@@ -835,7 +836,42 @@ void createAsset(Rows& r) {
         d.creaseScalarCount = 1;
         d.creaseScalars = &kScalar;
     });
+    static const char* const kNameless[] = {""};
+    static const uint32_t kOutOfSet[] = {1}, kEdge[] = {1, 4};
+    static const float kSharpness[] = {2.0f};
+    malformed("crease set without a name", [](Cage& d) {
+        d.creaseSetCount = 1;
+        d.creaseSetNames = kNameless;
+    });
+    malformed("no such crease set", [](Cage& d) {
+        d.creaseCount = 1;
+        d.creaseVertices = kEdge;
+        d.creaseSharpnesses = kSharpness;
+        d.creaseSets = kOutOfSet;
+    });
     createCharacter(r, create);
+}
+
+void creaseSets(Rows& r) {
+    constexpr const char* kSets = "suppleGetCreaseSets";
+    r.assets(kSets, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetCreaseSets(c, a, w.plain<const char*>(), w.number(1));
+    });
+    r.refuse(kSets, "count null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetCreaseSets(w.handle(), w.mine.asset, w.plain<const char*>(), nullptr); });
+    constexpr const char* kClip = "suppleGetClipSharpness";
+    const auto clip = [](World& w, SuppleAsset asset, uint32_t number) {
+        return suppleGetClipSharpness(w.handle(), asset, number, 0, 0.0, w.plain<float>());
+    };
+    r.assets(kClip, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetClipSharpness(c, a, 0, 0, 0.0, w.plain<float>());
+    });
+    r.refuse(kClip, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleGetClipSharpness(w.handle(), w.mine.asset, 0, 0, 0.0, nullptr); });
+    r.refuse(kClip, "no such clip", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return clip(w, w.mine.asset, kClips); });
+    r.refuse(kClip, "no such crease set", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return clip(w, w.mine.asset, 0); });
 }
 
 void markers(Rows& r) {
@@ -924,6 +960,7 @@ void assetGetters(Rows& r) {
         });
     }
     markers(r);
+    creaseSets(r);
 
     constexpr const char* kMask = "suppleFillJointMask";
     r.assets(kMask, [](World& w, SuppleContext c, SuppleAsset a) {
@@ -1493,6 +1530,11 @@ void instances(Rows& r) {
         kUserData, [](World&, SuppleContext c, SuppleInstance i) { return suppleSetUserData(c, i, kIdentity); }, false);
     r.refuse(kUserData, "null", SUPPLE_MESSAGE_NULL_POINTER,
              [](World& w) { return suppleSetUserData(w.handle(), w.spare.instances[0], nullptr); });
+    constexpr const char* kSharp = "suppleSetSharpness";
+    r.instancesRefused(kSharp,
+                       [](World&, SuppleContext c, SuppleInstance i) { return suppleSetSharpness(c, i, 0, 1.0f); });
+    r.refuse(kSharp, "no such crease set", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleSetSharpness(w.handle(), w.spare.instances[0], 0, 1.0f); });
     constexpr const char* kRead = "suppleReadInstanceBounds";
     const auto read = [](World& w, SuppleContext c, SuppleInstance i) {
         return suppleReadInstanceBounds(c, i, w.plain<SuppleBounds>(), w.plain<uint64_t>());

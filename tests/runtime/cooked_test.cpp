@@ -96,6 +96,42 @@ TEST(Cooked, FilesKeepWhatWasPrepared) {
     }
 }
 
+TEST(Cooked, FilesKeepCreaseSetsAndTheirCurves) {
+    Result<cage::Character> character = cage::readGltfFile(test::kPip);
+    ASSERT_TRUE(character.ok());
+    const std::vector<uint32_t> face(character->cage.faceVertices.begin(), character->cage.faceVertices.begin() + 3);
+    character->cage.creaseSets = {"a", "b"};
+    character->cage.creases = {{face[0], face[1], 0.0f, 1}};
+    character->cage.creaseScalars = {{face[1], face[2], 0.0f}};
+    cage::Channel keys;
+    keys.path = cage::ChannelPath::weights;
+    keys.times = {0.0f, 1.0f};
+    keys.values = {0.5f, 3.0f};
+    character->clips[0].sharpness = {{"b", keys}};
+    const std::shared_ptr<Prepared> prepared = Prepared::of(std::move(*character));
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 4;
+    ASSERT_TRUE(prepareFor(*prepared, {desc, std::nullopt}, false).ok());
+    const std::vector<std::byte> file = writeCooked(*prepared, "");
+    const Result<std::shared_ptr<Prepared>> read = readCooked(file, prepared->character.name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_TRUE(writeCooked(**read, "") == file);
+    EXPECT_EQ((*read)->character.cage.creaseSets, prepared->character.cage.creaseSets);
+    EXPECT_EQ((*read)->character.cage.creases[0].set, 1u);
+    EXPECT_EQ((*read)->character.clips[0].sharpness.at(0).keys.values, keys.values);
+
+    prepared->character.cage.creases[0].set = 2;
+    EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("or no such set"), std::string::npos);
+    prepared->character.cage.creases[0].set = 0;
+    prepared->character.cage.creaseSets.resize(65, "c");
+    EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("too many crease sets"), std::string::npos);
+    prepared->character.cage.creaseSets.resize(2);
+    prepared->character.clips[0].sharpness[0].keys.times = {1.0f, 0.0f};
+    EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("sharpness of \"b\""), std::string::npos);
+}
+
 TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     const std::shared_ptr<Prepared> prepared = prepareAll(test::kPip);
     const std::vector<std::byte> file = writeCooked(*prepared, "supple cook pip.glb -o pip.supple");
@@ -104,7 +140,7 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     std::vector<std::byte> other = file;
     other[kVersionAt] = std::byte{9};
     EXPECT_EQ(refusalOf(other),
-              "hero.supple: a cooked file of version 9, and this is version 3: make it anew: supple cook "
+              "hero.supple: a cooked file of version 9, and this is version 4: make it anew: supple cook "
               "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
-std::vector<std::byte> bytesOf(const std::string& path) {
+std::vector<std::byte> preparedBytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     std::vector<std::byte> copy(chars.size());
@@ -25,7 +25,7 @@ std::vector<std::byte> bytesOf(const std::string& path) {
 
 /// Wren has ten parts, which AUTO draws by several schemes.
 const std::vector<std::byte>& wrenFile() {
-    static const std::vector<std::byte> bytes = bytesOf(kWren);
+    static const std::vector<std::byte> bytes = preparedBytes(kWren);
     return bytes;
 }
 
@@ -235,7 +235,7 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServeWhereTheyMakeTheSame) {
     const ValidationGuard guard;
     constexpr uint32_t kMesh =
         SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION | SUPPLE_GROUP_INDEXED_MESH;
-    const std::vector<std::byte> pip = bytesOf(kPipQuads);
+    const std::vector<std::byte> pip = preparedBytes(kPipQuads);
     std::vector<Plan> high;
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
         for (const uint32_t flags : {uint32_t{0}, kMesh}) {

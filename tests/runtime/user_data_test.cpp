@@ -1,6 +1,6 @@
 // The host's own four floats per instance: what the device has of them, when they are uploaded, and that frames in
 // flight keep theirs.
-#include "runtime/user_data.h"
+#include "runtime/slot_values.h"
 #include "tests/support/crowd.h"
 
 #include <array>

@@ -90,7 +90,11 @@ private:
             if (places_[crease.a] != kNone && places_[crease.b] != kNone) {
                 out_.creaseVertices.insert(out_.creaseVertices.end(), {places_[crease.a], places_[crease.b]});
                 out_.creaseSharpnesses.push_back(crease.sharpness);
+                out_.creaseSets.push_back(crease.set);
             }
+        }
+        for (const std::string& name : cage_.creaseSets) {
+            out_.creaseSetNames.push_back(name.c_str());
         }
         for (const cage::SharpVertex& sharp : cage_.sharpVertices) {
             if (places_[sharp.vertex] != kNone) {
@@ -184,6 +188,9 @@ private:
         desc.holes = out_.holes.data();
         desc.roundCornerCount = countOf(out_.roundCorners);
         desc.roundCorners = out_.roundCorners.data();
+        desc.creaseSetCount = countOf(out_.creaseSetNames);
+        desc.creaseSetNames = out_.creaseSetNames.data();
+        desc.creaseSets = out_.creaseSets.data();
     }
 
     const cage::Character& character_;
@@ -293,7 +300,13 @@ void CharacterArrays::addClips(const cage::Character& character) {
         for (const cage::Marker& marker : clip.markers) {
             arrays.markers.push_back({marker.name.c_str(), marker.time});
         }
+        for (const cage::SharpnessCurve& curve : clip.sharpness) {
+            arrays.curves.push_back({curve.set.c_str(), interpolationOf(curve.keys.interpolation),
+                                     countOf(curve.keys.times), curve.keys.times.data(), curve.keys.values.data()});
+        }
         auto to = sizedStruct<SuppleClipDesc>();
+        to.sharpnessCurveCount = countOf(arrays.curves);
+        to.sharpnessCurves = arrays.curves.data();
         to.name = clip.name.c_str();
         to.channelCount = countOf(arrays.channels);
         to.channels = arrays.channels.data();

@@ -23,6 +23,8 @@ struct CharacterArrays {
         std::vector<uint32_t> creaseVertices, cornerVertices, roundCorners, holes;
         std::vector<float> creaseSharpnesses, cornerSharpnesses;
         std::vector<SuppleCreaseScalar> creaseScalars;
+        std::vector<const char*> creaseSetNames;
+        std::vector<uint32_t> creaseSets;
         std::vector<uint32_t> joints, starts, influenceJoints;
         std::vector<float> inverseBinds, influenceWeights;
         std::vector<SuppleMorphTargetDesc> targets;
@@ -34,6 +36,7 @@ struct CharacterArrays {
     struct Clip {
         std::vector<SuppleChannelDesc> channels;
         std::vector<SuppleMarkerDesc> markers;
+        std::vector<SuppleSharpnessCurveDesc> curves;
     };
 
     std::vector<SuppleNodeDesc> nodes;

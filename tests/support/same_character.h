@@ -64,6 +64,7 @@ private:
         compare("cage.faceTrimTiles", a.faceTrimTiles, b.faceTrimTiles);
         compare("cage.cornerFaceUvs", a.cornerFaceUvs, b.cornerFaceUvs);
         compare("cage.creases", a.creases, b.creases);
+        compareAll("cage.creaseSets", a.creaseSets, b.creaseSets, &CharacterDifferences::compareTexts);
         compare("cage.sharpVertices", a.sharpVertices, b.sharpVertices);
         compare("cage.creaseScalars", a.creaseScalars, b.creaseScalars);
         compare("cage.roundCorners", a.roundCorners, b.roundCorners);
@@ -113,11 +114,18 @@ private:
         compare(at + ".name", a.name, b.name);
         compare(at + ".time", a.time, b.time);
     }
+    void compareCurves(const std::string& at, const cage::SharpnessCurve& a, const cage::SharpnessCurve& b) {
+        compare(at + ".set", a.set, b.set);
+        compare(at + ".times", a.keys.times, b.keys.times);
+        compare(at + ".values", a.keys.values, b.keys.values);
+        check(at + ".interpolation", a.keys.interpolation == b.keys.interpolation);
+    }
     void compareClips(const std::string& at, const cage::Clip& a, const cage::Clip& b) {
         compare(at + ".name", a.name, b.name);
         compare(at + ".duration", a.duration, b.duration);
         compareAll(at + ".channels", a.channels, b.channels, &CharacterDifferences::compareChannels);
         compareAll(at + ".markers", a.markers, b.markers, &CharacterDifferences::compareMarkers);
+        compareAll(at + ".sharpness", a.sharpness, b.sharpness, &CharacterDifferences::compareCurves);
     }
     void compareTextures(const std::string& at, const cage::Texture& a, const cage::Texture& b) {
         compare(at + ".image", a.image, b.image);

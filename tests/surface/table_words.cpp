@@ -150,7 +150,7 @@ private:
         case Kernel::pmVertex: {
             const size_t each = construction.kernel.kernel == Kernel::pmVertex ? 3 : 2;
             for (size_t r = 0; kind != kRegularFan && r < count; ++r) {
-                addFan(first + each * r, each, kind == kCreasedFan);
+                addFan(first + each * r, each, kind == kCreasedFan || kind == kVariableFan);
             }
             break;
         }

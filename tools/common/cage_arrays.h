@@ -4,6 +4,7 @@
 #include "cage/character.h"
 
 #include <cstdint>
+#include <string>
 #include <supple/supple.h>
 #include <vector>
 
@@ -26,7 +27,14 @@ struct CageArrays {
         for (const cage::Crease& crease : cage.creases) {
             creaseVertices.insert(creaseVertices.end(), {crease.a, crease.b});
             creaseSharpnesses.push_back(crease.sharpness);
+            creaseSets.push_back(crease.set);
         }
+        for (const std::string& name : cage.creaseSets) {
+            creaseSetNames.push_back(name.c_str());
+        }
+        desc.creaseSetCount = static_cast<uint32_t>(creaseSetNames.size());
+        desc.creaseSetNames = creaseSetNames.data();
+        desc.creaseSets = creaseSets.data();
         desc.creaseCount = static_cast<uint32_t>(creaseSharpnesses.size());
         desc.creaseVertices = creaseVertices.data();
         desc.creaseSharpnesses = creaseSharpnesses.data();
@@ -49,7 +57,8 @@ struct CageArrays {
     CageArrays(const CageArrays&) = delete;
     CageArrays& operator=(const CageArrays&) = delete;
 
-    std::vector<uint32_t> faceVertexCounts, creaseVertices, cornerVertices;
+    std::vector<uint32_t> faceVertexCounts, creaseVertices, creaseSets, cornerVertices;
+    std::vector<const char*> creaseSetNames;
     std::vector<float> creaseSharpnesses, cornerSharpnesses;
     std::vector<SuppleCreaseScalar> creaseScalars;
     SuppleCageDesc desc{};

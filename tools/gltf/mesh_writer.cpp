@@ -145,7 +145,8 @@ class MeshWriter {
 public:
     MeshWriter(const Character& character, bool skinned, std::span<const glm::vec3> normals, Packer& packer)
         : character_(character), cage_(character.cage), packer_(packer), values_(cornerValues(character, normals)),
-          creaseWritten_(cage_.creases.size(), 0), sharpWritten_(cage_.sharpVertices.size(), 0) {
+          creaseWritten_(cage_.creases.size(), 0), sharpWritten_(cage_.sharpVertices.size(), 0),
+          scalarWritten_(cage_.creaseScalars.size(), 0) {
         const Part& part = character.parts[0];
         jointCount_ = part.joints.empty() ? character.skin.joints.size() : part.joints.size();
         jointPlaces_.resize(character.skin.joints.size());
@@ -334,6 +335,53 @@ private:
         }
     }
 
+    static bool has(const WrittenPrimitive& part, uint32_t vertex) {
+        return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);
+    }
+
+    void writeCreases(const WrittenPrimitive& part, json& extension) {
+        std::vector<uint32_t> vertices;
+        std::vector<float> sharpnesses;
+        std::map<uint32_t, std::vector<uint32_t>> sets;
+        for (size_t i = 0; i < cage_.creases.size(); ++i) {
+            const Crease& crease = cage_.creases[i];
+            if (creaseWritten_[i] != 0 || !has(part, crease.a) || !has(part, crease.b)) {
+                continue;
+            }
+            creaseWritten_[i] = 1;
+            if (crease.set != kNone) {
+                sets[crease.set].push_back(static_cast<uint32_t>(sharpnesses.size()));
+            }
+            vertices.insert(vertices.end(), {crease.a, crease.b});
+            sharpnesses.push_back(crease.sharpness);
+        }
+        if (sharpnesses.empty()) {
+            return;
+        }
+        extension["creaseIndices"] = addList(vertices);
+        extension["creaseSharpnesses"] = packer_.addFloats("SCALAR", sharpnesses, Target::none);
+        for (const auto& [set, creases] : sets) {
+            extension["creaseSets"].push_back({{"name", cage_.creaseSets[set]}, {"creases", addList(creases)}});
+        }
+    }
+
+    void writeScalars(const WrittenPrimitive& part, json& extension) {
+        std::vector<uint32_t> vertices;
+        std::vector<float> alphas;
+        for (size_t i = 0; i < cage_.creaseScalars.size(); ++i) {
+            const CreaseScalar& scalar = cage_.creaseScalars[i];
+            if (scalarWritten_[i] == 0 && has(part, scalar.vertex) && has(part, scalar.toward)) {
+                scalarWritten_[i] = 1;
+                vertices.insert(vertices.end(), {scalar.vertex, scalar.toward});
+                alphas.push_back(scalar.alpha);
+            }
+        }
+        if (!alphas.empty()) {
+            extension["creaseScalarIndices"] = addList(vertices);
+            extension["creaseScalars"] = packer_.addFloats("SCALAR", alphas, Target::none);
+        }
+    }
+
     json writeExtension(const WrittenPrimitive& part) {
         std::vector<uint32_t> counts;
         for (const uint32_t face : part.faces) {
@@ -345,28 +393,13 @@ private:
         extension["cageVertices"] = addList(part.cageVertices);
         writeRules(extension);
 
-        const auto has = [&](uint32_t vertex) {
-            return std::binary_search(part.cageVertices.begin(), part.cageVertices.end(), vertex);
-        };
+        writeCreases(part, extension);
+        writeScalars(part, extension);
         std::vector<uint32_t> vertices;
         std::vector<float> sharpnesses;
-        for (size_t i = 0; i < cage_.creases.size(); ++i) {
-            const Crease& crease = cage_.creases[i];
-            if (creaseWritten_[i] == 0 && has(crease.a) && has(crease.b)) {
-                creaseWritten_[i] = 1;
-                vertices.insert(vertices.end(), {crease.a, crease.b});
-                sharpnesses.push_back(crease.sharpness);
-            }
-        }
-        if (!sharpnesses.empty()) {
-            extension["creaseIndices"] = addList(vertices);
-            extension["creaseSharpnesses"] = packer_.addFloats("SCALAR", sharpnesses, Target::none);
-        }
-        vertices.clear();
-        sharpnesses.clear();
         for (size_t i = 0; i < cage_.sharpVertices.size(); ++i) {
             const SharpVertex& sharp = cage_.sharpVertices[i];
-            if (sharpWritten_[i] == 0 && has(sharp.vertex)) {
+            if (sharpWritten_[i] == 0 && has(part, sharp.vertex)) {
                 sharpWritten_[i] = 1;
                 vertices.push_back(sharp.vertex);
                 sharpnesses.push_back(sharp.sharpness);
@@ -397,6 +430,7 @@ private:
     std::vector<uint32_t> jointPlaces_; ///< per entry of the palette: its place in the part's skin
     std::vector<uint8_t> creaseWritten_;
     std::vector<uint8_t> sharpWritten_;
+    std::vector<uint8_t> scalarWritten_;
 };
 
 } // namespace

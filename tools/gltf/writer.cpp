@@ -179,7 +179,15 @@ public:
                 }
                 samplers.push_back(writeSampler(clip, channel));
             }
+            json curves = json::array();
+            for (const SharpnessCurve& curve : clip.sharpness) {
+                curves.push_back({{"set", curve.set}, {"sampler", samplers.size()}});
+                samplers.push_back(writeSampler(clip, curve.keys));
+            }
             animations.push_back({{"name", clip.name}, {"channels", channels}, {"samplers", samplers}});
+            if (!curves.empty()) {
+                animations.back()["extras"]["sharpness"] = std::move(curves);
+            }
             for (const Marker& marker : clip.markers) {
                 animations.back()["extras"]["markers"].push_back({{"name", marker.name}, {"time", marker.time}});
             }
@@ -264,7 +272,9 @@ private:
 void reportFeatures(const Cage& cage, Warnings& warnings) {
     std::set<std::pair<uint32_t, uint32_t>> edges;
     std::set<uint32_t> vertices;
-    for (uint32_t f = 0; f < cage.faceCount() && !(cage.creases.empty() && cage.sharpVertices.empty()); ++f) {
+    for (uint32_t f = 0;
+         f < cage.faceCount() && !(cage.creases.empty() && cage.sharpVertices.empty() && cage.creaseScalars.empty());
+         ++f) {
         for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
             const uint32_t next = c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f];
             edges.insert(std::minmax(cage.faceVertices[c], cage.faceVertices[next]));
@@ -281,10 +291,13 @@ void reportFeatures(const Cage& cage, Warnings& warnings) {
              counted(strays, "crease or sharp vertex is", "creases or sharp vertices are") +
                  " not on a face of the cage; left out");
     }
-    if (!cage.creaseScalars.empty()) {
+    const auto strayScalars = static_cast<size_t>(
+        std::count_if(cage.creaseScalars.begin(), cage.creaseScalars.end(), [&](const CreaseScalar& scalar) {
+            return edges.count(std::minmax(scalar.vertex, scalar.toward)) == 0;
+        }));
+    if (strayScalars > 0) {
         warn(warnings, "creases",
-             counted(cage.creaseScalars.size(), "crease scalar", "crease scalars") +
-                 " of P_m left out: SUPPLE_mesh_cage has no place for them");
+             counted(strayScalars, "crease scalar is", "crease scalars are") + " not on a face of the cage; left out");
     }
 }
 

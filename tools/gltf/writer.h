@@ -19,7 +19,7 @@ struct GlbFile {
     std::vector<std::string> warnings; ///< what was left out or repaired, one line each
 };
 
-/// Everything a Character holds but P_m's crease scalars, as one GLB; the same bytes for the same character.
+/// Everything a Character holds, as one GLB; the same bytes for the same character.
 ///
 /// A part has one primitive per material, in the order of their first faces; faces keep their order in it. Polygons,
 /// creases, sharp vertices and holes go into SUPPLE_mesh_cage (docs/SUPPLE_mesh_cage.md), and the triangles

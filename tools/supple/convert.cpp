@@ -77,7 +77,10 @@ void report(const ConvertOptions& options, const cage::Character& character, con
     });
     line("creases", std::to_string(cage.creases.size()) + " edges, " + std::to_string(hard) + " of them hard; " +
                         std::to_string(cage.sharpVertices.size()) + " sharp vertices; " +
-                        std::to_string(cage.holes.size()) + " holes");
+                        std::to_string(cage.holes.size()) + " holes" +
+                        (cage.creaseScalars.empty()
+                             ? ""
+                             : "; " + std::to_string(cage.creaseScalars.size()) + " crease scalars of P_m"));
     line("joints", std::to_string(character.skin.joints.size()));
     line("clips", std::to_string(character.clips.size()));
     line("morph targets", std::to_string(character.morphs.targets.size()));

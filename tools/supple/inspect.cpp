@@ -1,5 +1,6 @@
 // supple inspect: what a character file holds, and which schemes take it. Needs no device; --compare, which evaluates
 // every scheme's surface, and --memory do.
+#include "cage/message.h"
 #include "cage/topology.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
@@ -12,11 +13,15 @@
 #include "tools/supple/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace supple::tools {
 namespace {
@@ -42,6 +47,17 @@ struct SchemeVerdict {
     std::vector<std::string> notes;
     Folds folds; ///< P_m
 };
+
+/// The crease sets by name, and how many creases each has.
+std::vector<std::pair<std::string, size_t>> creaseSetSizes(const cage::Cage& cage) {
+    std::vector<std::pair<std::string, size_t>> sizes;
+    for (uint32_t set = 0; set < cage.creaseSets.size(); ++set) {
+        sizes.emplace_back(cage.creaseSets[set],
+                           std::count_if(cage.creases.begin(), cage.creases.end(),
+                                         [&](const cage::Crease& crease) { return crease.set == set; }));
+    }
+    return sizes;
+}
 
 /// What is not stored in the character itself but counted from it.
 struct Findings {
@@ -245,6 +261,11 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["seamVertices"] = character.seamVertexCount;
     json["uvSets"] = (cage.cornerUvs.empty() ? 0 : 1) + (cage.cornerUvs1.empty() ? 0 : 1);
     json["creases"] = cage.creases.size();
+    json["creaseSets"] = Json::array();
+    for (const auto& [name, edges] : creaseSetSizes(cage)) {
+        json["creaseSets"].push_back({{"name", name}, {"edges", edges}});
+    }
+    json["creaseScalars"] = cage.creaseScalars.size();
     json["sharpVertices"] = cage.sharpVertices.size();
     json["holes"] = cage.holes.size();
     json["morphTargets"] = Json::array();
@@ -386,9 +407,14 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     } else {
         printLine("topology", "not a manifold: " + findings.topologyFault);
     }
-    printLine("creases", std::to_string(cage.creases.size()) + ", sharp vertices " +
-                             std::to_string(cage.sharpVertices.size()) + ", holes " +
-                             std::to_string(cage.holes.size()));
+    printLine(
+        "creases",
+        std::to_string(cage.creases.size()) + ", sharp vertices " + std::to_string(cage.sharpVertices.size()) +
+            ", holes " + std::to_string(cage.holes.size()) +
+            (cage.creaseScalars.empty() ? "" : ", crease scalars of P_m " + std::to_string(cage.creaseScalars.size())));
+    for (const auto& [name, edges] : creaseSetSizes(cage)) {
+        printLine("", "set " + cage::quoted(name) + ": " + std::to_string(edges) + (edges == 1 ? " edge" : " edges"));
+    }
     printLine("morph targets", std::to_string(character.morphs.targets.size()));
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");

@@ -89,19 +89,23 @@ extern "C" {
 /** One number that rises with every version. */
 #define SUPPLE_VERSION (SUPPLE_VERSION_MAJOR * 1000000 + SUPPLE_VERSION_MINOR * 1000 + SUPPLE_VERSION_PATCH)
 
-#define SUPPLE_BIND_POSE 0xFFFFFFFFu    /**< clip index: the cage as modelled, without morph targets */
-#define SUPPLE_REST_POSE 0xFFFFFFFEu    /**< clip index: the file's node transforms and morph weights */
-#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu  /**< faces without a material */
-#define SUPPLE_NO_JOINT 0xFFFFFFFFu     /**< the parent of a root joint */
-#define SUPPLE_NO_SURFACE 0xFFFFFFFFu   /**< a pass of a whole group: see SuppleTiming.surface */
-#define SUPPLE_NO_VERTEX 0xFFFFFFFFu    /**< a patch corner that is no vertex of the cage */
-#define SUPPLE_NO_IMAGE 0xFFFFFFFFu     /**< a material without a trim image: see SuppleMaterialInfo */
-#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
-#define SUPPLE_MAX_TRIM_TILES 1024u     /**< tiles in one trim image */
-#define SUPPLE_MAX_RATE 64u             /**< see SuppleGroupDesc.rate */
-#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u  /**< see suppleBeginFrame */
-#define SUPPLE_MAX_COORDINATE 1e9f      /**< see SuppleAssetDesc */
-#define SUPPLE_MAX_TIMINGS 4096u        /**< entries per frame. Further entries are not timed */
+#define SUPPLE_BIND_POSE 0xFFFFFFFFu         /**< clip index: the cage as modelled, without morph targets */
+#define SUPPLE_REST_POSE 0xFFFFFFFEu         /**< clip index: the file's node transforms and morph weights */
+#define SUPPLE_NO_MATERIAL 0xFFFFFFFFu       /**< faces without a material */
+#define SUPPLE_NO_JOINT 0xFFFFFFFFu          /**< the parent of a root joint */
+#define SUPPLE_NO_SURFACE 0xFFFFFFFFu        /**< a pass of a whole group: see SuppleTiming.surface */
+#define SUPPLE_NO_VERTEX 0xFFFFFFFFu         /**< a patch corner that is no vertex of the cage */
+#define SUPPLE_NO_IMAGE 0xFFFFFFFFu          /**< a material without a trim image: see SuppleMaterialInfo */
+#define SUPPLE_NO_TRIM_TILE 0xFFFFFFFFu      /**< a face that is not trimmed: see SuppleCageDesc.faceTrimTiles */
+#define SUPPLE_MAX_TRIM_TILES 1024u          /**< tiles in one trim image */
+#define SUPPLE_MAX_CREASE_SETS 64u           /**< of one character */
+#define SUPPLE_NO_CREASE_SET 0xFFFFFFFFu     /**< a crease in no set: see SuppleCageDesc.creaseSets */
+#define SUPPLE_FILE_SHARPNESS (-1.0f)        /**< suppleSetSharpness: each edge has what the file gives it */
+#define SUPPLE_LEAST_SHARPNESS (-0.5849625f) /**< suppleSetSharpness: P_m's alpha of 1, rounder than smooth */
+#define SUPPLE_MAX_RATE 64u                  /**< see SuppleGroupDesc.rate */
+#define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u       /**< see suppleBeginFrame */
+#define SUPPLE_MAX_COORDINATE 1e9f           /**< see SuppleAssetDesc */
+#define SUPPLE_MAX_TIMINGS 4096u             /**< entries per frame. Further entries are not timed */
 
 /** A context borrows the host's device. Assets, groups and views belong to one context. */
 typedef struct SuppleContext_T* SuppleContext;
@@ -311,7 +315,9 @@ SUPPLE_API SuppleResult suppleGetMapping(SuppleContext context, SuppleMapping* o
 /* ---------------------------------------------------------------------------------------------------- assets */
 
 /** Crease control for SUPPLE_SCHEME_PM alone. alpha applies to the edge from vertex to toward, at its end `vertex`. It
- * lies in (0, 1]: 2/3 is smooth, smaller is sharper. It replaces what the sharpness of the edge would give there. */
+ * lies in 0..1: 2/3 is smooth, smaller is sharper, larger is rounder. Less than 1/4096 counts as 1/4096, so that there
+ * are normals. If all are 0, the surface is the polyhedron, up to that part of an edge. It replaces what the sharpness
+ * of the edge would give there. */
 typedef struct SuppleCreaseScalar {
     uint32_t vertex;
     uint32_t toward;
@@ -355,6 +361,10 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceTriangles;
     uint32_t roundCornerCount;
     const uint32_t* roundCorners; /**< vertices that round the boundary off if they have one face; rising */
+    /** Names of crease sets (suppleSetSharpness), none empty. Sets of one name in several parts are one set. */
+    uint32_t creaseSetCount;
+    const char* const* creaseSetNames;
+    const uint32_t* creaseSets; /**< optional: per crease a name or SUPPLE_NO_CREASE_SET */
 } SuppleCageDesc;
 
 /** A whole character as arrays: supple_character.h. */
@@ -653,8 +663,8 @@ SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAss
 /** Loads an asset anew in its place (hot reload). desc is as for suppleCreateAsset. The handles of the asset, of its
  * groups and of their instances stay valid. Instances keep their slots, transforms, visibility, user data and poses.
  * What they have of the old version is found in the new one by name: joints, morph targets, hidden parts, clips and
- * masks that play, schemes of parts. Joints and morph targets that are new are in the rest pose. A layer of
- * suppleSetPlayback whose clip is gone is left out. Numbers of clips, joints, parts, morph targets and materials may
+ * masks that play, schemes of parts, crease sets. Joints and morph targets that are new are in the rest pose. A layer
+ * of suppleSetPlayback whose clip is gone is left out. Numbers of clips, joints, parts, morph targets and materials may
  * change: look them up by name again. What is not given again is gone: pass the same clipFiles.
  * With SUPPLE_POSES_SET an instance keeps the joint matrices of its pose, so a clip or a bone that was edited shows
  * when the pose is set again.
@@ -693,6 +703,11 @@ SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset as
 /** Fills out. Errors: target is not below morphTargetCount. */
 SUPPLE_API SuppleResult suppleGetMorphTargetInfo(SuppleContext context, SuppleAsset asset, uint32_t target,
                                                  SuppleMorphTargetInfo* out);
+/** Names the crease sets of an asset, at most SUPPLE_MAX_CREASE_SETS, for suppleSetSharpness. `out` has room for *count
+ * names, which live as long as the asset, or is null. *count becomes the number of sets. SUPPLE_INCOMPLETE: there are
+ * more than fit. */
+SUPPLE_API SuppleResult suppleGetCreaseSets(SuppleContext context, SuppleAsset asset, const char** out,
+                                            uint32_t* count);
 /** Fills out. Materials have the order of the file. Errors: material is not below materialCount. */
 SUPPLE_API SuppleResult suppleGetMaterialInfo(SuppleContext context, SuppleAsset asset, uint32_t material,
                                               SuppleMaterialInfo* out);
@@ -934,6 +949,16 @@ SUPPLE_API SuppleResult suppleSetPosition(SuppleContext context, SuppleInstance 
  * (SuppleGroupInfo.userData, suppleUserData in supple_surface.glsl). Supple does not look at them. They are 0 in new
  * instances, and stay until they are set again. The next suppleRecord uploads those that have changed. */
 SUPPLE_API SuppleResult suppleSetUserData(SuppleContext context, SuppleInstance instance, const float* data);
+/** Gives an instance its own sharpness of a crease set: all edges of the set have it, whatever the file gives them. It
+ * may change in every frame. sharpness is as in files: 0 is smooth, and every 1 more halves P_m's alpha, (2/3)
+ * 2^-sharpness. It may be infinite. Below 0 the surface is rounder than smooth, down to SUPPLE_LEAST_SHARPNESS. With
+ * SUPPLE_FILE_SHARPNESS, which new instances have, each edge has what the file gives it. Edges that are hard in the
+ * file (10 and more) are cut and stay so, as boundaries do. Surfaces of SUPPLE_SCHEME_PM alone follow it (docs/pm.md);
+ * texture coordinates stay where they are. Vertices move then, and motion vectors have that movement. A reloaded asset
+ * keeps it by the set's name. Errors: set is not below the count of suppleGetCreaseSets, sharpness is out of range or
+ * not a number, or no group draws the instance with SUPPLE_SCHEME_PM (SUPPLE_ERROR_ARGUMENT). */
+SUPPLE_API SuppleResult suppleSetSharpness(SuppleContext context, SuppleInstance instance, uint32_t set,
+                                           float sharpness);
 
 /* ---------------------------------------------------------------------------------------------------- poses */
 

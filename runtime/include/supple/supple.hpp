@@ -348,6 +348,14 @@ public:
                                                   SuppleClipMarker* out, uint32_t& count) const {
         return suppleGetClipMarkersBetween(context_, handle_, clip, from, to, flags, out, &count);
     }
+    /// Of a crease set.
+    [[nodiscard]] SuppleResult clipSharpness(uint32_t clip, uint32_t set, double time, float& out) const {
+        return suppleGetClipSharpness(context_, handle_, clip, set, time, &out);
+    }
+    /// The same of the names of crease sets.
+    [[nodiscard]] SuppleResult creaseSets(const char** out, uint32_t& count) const {
+        return suppleGetCreaseSets(context_, handle_, out, &count);
+    }
     [[nodiscard]] SuppleResult jointInfo(uint32_t joint, SuppleJointInfo& out) const {
         out = sized<SuppleJointInfo>();
         return suppleGetJointInfo(context_, handle_, joint, &out);
@@ -531,6 +539,10 @@ public:
     /// What its shaders read by slot.
     [[nodiscard]] SuppleResult setUserData(const std::array<float, 4>& data) const {
         return suppleSetUserData(context_, handle_, data.data());
+    }
+    /// Of a crease set.
+    [[nodiscard]] SuppleResult setSharpness(uint32_t set, float sharpness) const {
+        return suppleSetSharpness(context_, handle_, set, sharpness);
     }
     /// `frame` may be null.
     [[nodiscard]] SuppleResult readBounds(SuppleBounds& out, uint64_t* frame = nullptr) const {

@@ -130,6 +130,11 @@ typedef struct SupplePrimitiveDesc {
     uint32_t cornerCount;
     const uint32_t* cornerVertices;
     const float* cornerSharpnesses;
+    uint32_t creaseScalarCount; /**< as of SuppleCageDesc, with vertices as of creases */
+    uint32_t creaseSetCount;
+    const SuppleCreaseScalar* creaseScalars;
+    const char* const* creaseSetNames;
+    const uint32_t* creaseSets;
 } SupplePrimitiveDesc;
 
 /** A part: what one node carries as its mesh. Vertices of a part with a skin are given where the inverse bind matrices
@@ -191,6 +196,15 @@ typedef struct SuppleMarkerDesc {
     double time; /**< seconds, within the clip; markers may have any order */
 } SuppleMarkerDesc;
 
+/** The sharpness that a clip gives to a crease set while it runs: suppleGetClipSharpness. */
+typedef struct SuppleSharpnessCurveDesc {
+    const char* set; /**< the name of a crease set; a clip has one curve of it at most */
+    SuppleKeyInterpolation interpolation;
+    uint32_t keyCount;   /**< 1 or more */
+    const float* times;  /**< keyCount seconds, each later than the one before */
+    const float* values; /**< keyCount sharpnesses; three times as many with CUBICSPLINE */
+} SuppleSharpnessCurveDesc;
+
 /** An animation clip. If keys lie before 0, its time begins at the first of them, with a warning. */
 typedef struct SuppleClipDesc {
     uint32_t structSize;
@@ -200,6 +214,8 @@ typedef struct SuppleClipDesc {
     uint32_t markerCount;
     const SuppleMarkerDesc* markers;
     double duration; /**< seconds; 0 or less than the last key: the last key */
+    uint32_t sharpnessCurveCount;
+    const SuppleSharpnessCurveDesc* sharpnessCurves;
 } SuppleClipDesc;
 
 /** A character. Whatever no part, clip or material refers to stays part of it as well. */

@@ -106,6 +106,12 @@ private:
     const uint32_t* keep(Integers values) {
         return values.empty() ? nullptr : integers_.emplace_back(std::move(values)).data();
     }
+    const SuppleCreaseScalar* keep(std::vector<SuppleCreaseScalar> values) {
+        return values.empty() ? nullptr : scalars_.emplace_back(std::move(values)).data();
+    }
+    const char* const* keep(std::vector<const char*> values) {
+        return values.empty() ? nullptr : names_.emplace_back(std::move(values)).data();
+    }
 
     // ---- accessors
 
@@ -914,6 +920,8 @@ private:
             to.cornerVertices = integers("cornerIndices", to.cornerCount, 1);
             to.cornerSharpnesses = sharpnesses("cornerSharpnesses", to.cornerCount);
         }
+        readCreaseSets(cage, to, element);
+        readCreaseScalars(cage, to, element);
         numberLists(to);
         part.roundCorners = part.roundCorners != 0 || textIn(cage, "interpolateBoundary") == "edgeOnly" ? 1 : 0;
         const char* const modes[] = {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
@@ -931,6 +939,49 @@ private:
         }
     }
 
+    void readCreaseSets(const Value& cage, SupplePrimitiveDesc& to, const std::string& element) {
+        const Value* sets = member(cage, "creaseSets");
+        if (sets == nullptr || !sets->IsArray()) {
+            return;
+        }
+        Integers ofCrease(to.creaseCount, SUPPLE_NO_CREASE_SET);
+        std::vector<const char*> names;
+        for (std::size_t s = 0; s < sets->ArrayLen(); ++s) {
+            const Value& set = sets->Get(static_cast<int>(s));
+            const std::string at = element + " creaseSets[" + std::to_string(s) + "]";
+            for (const uint32_t crease : integersOf(indexIn(set, "creases"), 1, at + " creases")) {
+                if (crease >= ofCrease.size() || ofCrease[crease] != SUPPLE_NO_CREASE_SET) {
+                    fail(at, "crease " + std::to_string(crease) + " is none, or in a set already");
+                    return;
+                }
+                ofCrease[crease] = static_cast<uint32_t>(s);
+            }
+            names.push_back(texts_.emplace_back(textIn(set, "name")).c_str());
+        }
+        to.creaseSetCount = countOf(names);
+        to.creaseSetNames = keep(std::move(names));
+        to.creaseSets = keep(std::move(ofCrease));
+    }
+
+    void readCreaseScalars(const Value& cage, SupplePrimitiveDesc& to, const std::string& element) {
+        if (member(cage, "creaseScalarIndices") == nullptr) {
+            return;
+        }
+        const Integers ends = integersOf(indexIn(cage, "creaseScalarIndices"), 1, element + " creaseScalarIndices");
+        const Floats alphas = floatsOf(indexIn(cage, "creaseScalars"), 1, element + " creaseScalars");
+        if (ends.size() != 2 * alphas.size()) {
+            fail(element, std::to_string(alphas.size()) + " creaseScalars for " + std::to_string(ends.size()) +
+                              " creaseScalarIndices");
+            return;
+        }
+        std::vector<SuppleCreaseScalar> scalars;
+        for (std::size_t i = 0; i < alphas.size(); ++i) {
+            scalars.push_back({ends[2 * i], ends[2 * i + 1], alphas[i]});
+        }
+        to.creaseScalarCount = countOf(scalars);
+        to.creaseScalars = keep(std::move(scalars));
+    }
+
     /// Lists name vertices of the primitive, unless the extension numbers vertices; Supple takes the numbers, if there
     /// are any.
     void numberLists(SupplePrimitiveDesc& to) {
@@ -946,6 +997,12 @@ private:
         };
         to.creaseVertices = number(to.creaseVertices, 2 * to.creaseCount);
         to.cornerVertices = number(to.cornerVertices, to.cornerCount);
+        std::vector<SuppleCreaseScalar> scalars(to.creaseScalars, to.creaseScalars + to.creaseScalarCount);
+        for (SuppleCreaseScalar& scalar : scalars) {
+            scalar.vertex = number(&scalar.vertex, 1)[0];
+            scalar.toward = number(&scalar.toward, 1)[0];
+        }
+        to.creaseScalars = keep(std::move(scalars));
     }
 
     /// extras.creases, [vertex, vertex, sharpness], and extras.corners, [vertex, sharpness]: vertices of the mesh.
@@ -1029,6 +1086,7 @@ private:
             clip.channelCount = countOf(channels);
             clip.channels = channels.data();
             readMarkers(from, at("animation", a) + " extras markers", clip);
+            readCurves(from, at("animation", a) + " extras sharpness", clip);
             clips_.push_back(clip);
         }
     }
@@ -1053,9 +1111,7 @@ private:
         SuppleChannelDesc channel = sized<SuppleChannelDesc>();
         channel.node = static_cast<uint32_t>(from.target_node);
         channel.path = static_cast<SuppleChannelPath>(path);
-        channel.interpolation = sampler.interpolation == "STEP"          ? SUPPLE_KEYS_STEP
-                                : sampler.interpolation == "CUBICSPLINE" ? SUPPLE_KEYS_CUBICSPLINE
-                                                                         : SUPPLE_KEYS_LINEAR;
+        channel.interpolation = interpolationOf(sampler);
         channel.keyCount = countOf(times);
         channel.valueCount = countOf(values);
         channel.times = keep(std::move(times));
@@ -1083,6 +1139,47 @@ private:
         clip.markers = markers.data();
     }
 
+    void readCurves(const tinygltf::Animation& animation, const std::string& element, SuppleClipDesc& clip) {
+        const Value* list = member(animation.extras, "sharpness");
+        if (list == nullptr) {
+            return;
+        }
+        std::vector<SuppleSharpnessCurveDesc>& curves = curves_.emplace_back();
+        for (std::size_t c = 0; c < list->ArrayLen(); ++c) {
+            const Value& entry = list->Get(static_cast<int>(c));
+            const std::string set = textIn(entry, "set");
+            const Value* number = member(entry, "sampler");
+            const int at = number != nullptr && number->IsNumber() ? number->GetNumberAsInt() : -1;
+            if (set.empty() || at < 0 || static_cast<std::size_t>(at) >= animation.samplers.size()) {
+                warn(element, "entry " + std::to_string(c) + " has no set or no sampler; left out");
+                continue;
+            }
+            const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(at)];
+            const std::string entryName = element + " " + std::to_string(c);
+            Floats times = floatsOf(sampler.input, 1, entryName), values = floatsOf(sampler.output, 1, entryName);
+            SuppleSharpnessCurveDesc curve{};
+            curve.set = texts_.emplace_back(set).c_str();
+            curve.interpolation = interpolationOf(sampler);
+            curve.keyCount = countOf(times);
+            if (values.size() != times.size() * (curve.interpolation == SUPPLE_KEYS_CUBICSPLINE ? 3 : 1)) {
+                fail(entryName,
+                     std::to_string(values.size()) + " values for " + std::to_string(times.size()) + " keys");
+                continue;
+            }
+            curve.times = keep(std::move(times));
+            curve.values = keep(std::move(values));
+            curves.push_back(curve);
+        }
+        clip.sharpnessCurveCount = countOf(curves);
+        clip.sharpnessCurves = curves.data();
+    }
+
+    static SuppleKeyInterpolation interpolationOf(const tinygltf::AnimationSampler& sampler) {
+        return sampler.interpolation == "STEP"          ? SUPPLE_KEYS_STEP
+               : sampler.interpolation == "CUBICSPLINE" ? SUPPLE_KEYS_CUBICSPLINE
+                                                        : SUPPLE_KEYS_LINEAR;
+    }
+
     const tinygltf::Model* model_ = nullptr;
     std::string mesh_; ///< at work
     bool sound_ = true;
@@ -1090,6 +1187,9 @@ private:
     std::vector<std::string> messages_;
     std::deque<Floats> floats_;
     std::deque<Integers> integers_;
+    std::deque<std::vector<SuppleCreaseScalar>> scalars_;
+    std::deque<std::vector<const char*>> names_;
+    std::deque<std::string> texts_;
     std::vector<SuppleNodeDesc> nodes_;
     std::vector<SuppleImageInfo> images_;
     std::vector<SuppleMaterialInfo> materials_;
@@ -1100,6 +1200,7 @@ private:
     std::vector<SupplePartDesc> parts_;
     std::deque<std::vector<SuppleChannelDesc>> channels_;
     std::deque<std::vector<SuppleMarkerDesc>> markers_;
+    std::deque<std::vector<SuppleSharpnessCurveDesc>> curves_;
     std::vector<SuppleClipDesc> clips_;
     SuppleCharacterDesc desc_{};
 };

@@ -284,6 +284,50 @@ TEST(GltfPolygons, CreaseRefusals) {
                  "mesh 0 primitive 0 SUPPLE_mesh_cage cornerIndices[0]: a vertex without a face; left out"}));
 }
 
+TEST(GltfPolygons, CreaseScalarsAndSets) {
+    Patch patch;
+    const std::string counts = patch.list("faceVertexCounts", kCounts);
+    const std::string corners = patch.list("faceVertexIndices", kCorners);
+    const std::string edges = patch.list("creaseIndices", {4, 1, 4, 3, 1, 4});
+    const std::string sharpnesses = patch.floats("creaseSharpnesses", {1, 2.5f, 3});
+    const auto set = [&](const std::string& name, const std::vector<uint32_t>& creases) {
+        return R"({"name":")" + name + R"(",)" + patch.list("creases", creases) + "}";
+    };
+    const std::string scalars = patch.list("creaseScalarIndices", {4, 3, 3, 4});
+    const std::string alphas = patch.floats("creaseScalars", {0, 1});
+    const Character c =
+        readWell(patch.with(cageExtension({counts, corners, edges, sharpnesses, scalars, alphas,
+                                           R"("creaseSets":[)" + set("a", {1}) + "," + set("b", {2}) + "]"})));
+    EXPECT_EQ(c.warnings, Strings());
+    EXPECT_EQ(c.cage.creaseSets, (Strings{"a", "b"}));
+    ASSERT_EQ(c.cage.creases.size(), 2u);
+    EXPECT_EQ(c.cage.creases[0].sharpness, 3.0f) << "of one edge the sharper counts, and the first set";
+    EXPECT_EQ(c.cage.creases[0].set, 1u);
+    EXPECT_EQ(c.cage.creases[1].set, 0u);
+    ASSERT_EQ(c.cage.creaseScalars.size(), 2u);
+    EXPECT_EQ(c.cage.creaseScalars[0].vertex, 4u);
+    EXPECT_EQ(c.cage.creaseScalars[0].toward, 3u);
+    EXPECT_EQ(c.cage.creaseScalars[0].alpha, 0.0f);
+    EXPECT_EQ(c.cage.creaseScalars[1].alpha, 1.0f);
+
+    const std::string name = "t.glb: mesh 0 primitive 0 SUPPLE_mesh_cage";
+    const auto refusal = [&](const Strings& more) {
+        Strings members = {counts, corners, edges, sharpnesses};
+        members.insert(members.end(), more.begin(), more.end());
+        return messageOf(patch.with(cageExtension(members)));
+    };
+    EXPECT_EQ(refusal({scalars}), name + ": creaseScalarIndices without creaseScalars");
+    EXPECT_EQ(refusal({scalars, patch.floats("creaseScalars", {0.5f, 1.25f})}),
+              name + " creaseScalars[1]: not a number from 0 to 1");
+    EXPECT_EQ(refusal({R"("creaseSets":[{"creases":0}])"}), name + " creaseSets[0]: no name");
+    EXPECT_EQ(refusal({R"("creaseSets":[)" + set("a", {3}) + "]"}),
+              "t.glb: mesh 0 primitive 0 crease set \"a\": crease 3 is out of range: the primitive has 3");
+    EXPECT_EQ(refusal({R"("creaseSets":[)" + set("a", {1}) + "," + set("b", {1}) + "]"}),
+              "t.glb: mesh 0 primitive 0 crease set \"b\": crease 1 is in a set already");
+    EXPECT_EQ(messageOf(patch.with(cageExtension({counts, corners, R"("creaseSets":[)" + set("a", {1}) + "]"}))),
+              name + ": creaseSets without creaseIndices");
+}
+
 // ---- EXT_mesh_polygon -----------------------------------------------------------------------------------------------
 
 std::string meshPolygon(Patch& patch, int componentType, const std::vector<uint32_t>& loops,

@@ -59,14 +59,16 @@ Bytes cageFile() {
     const std::string sparseValues = std::to_string(b.addFloats("VEC3", {1, 0, 0.5f, 0, 1, 0.5f}));
     const std::string keys = std::to_string(b.addFloats("SCALAR", {0, 1, 0.5f, 0.25f, 1, 0}));
     const std::string sharpness = std::to_string(b.addFloats("SCALAR", {2.5f}));
+    const std::string alpha = std::to_string(b.addFloats("SCALAR", {0.75f}));
     b.meshes = R"([{"weights":[0.5,0],"extras":{"targetNames":["a","b"],"creases":[[0,1,2]],"corners":[[3,10]]},)"
                R"("primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2,"TEXCOORD_0":8,"TEXCOORD_1":8},)"
                R"("indices":3,"targets":[{"POSITION":)" +
                deltas + R"(},{"POSITION":)" + std::to_string(sparse) + R"(}],"extensions":{"SUPPLE_mesh_cage":{)" +
                R"("faceVertexCounts":)" + list({4}) + R"(,"faceVertexIndices":)" + list({0, 1, 2, 3}) +
                R"(,"cageVertices":)" + list({5, 6, 7, 9}) + R"(,"creaseIndices":)" + list({5, 9}) +
-               R"(,"creaseSharpnesses":)" + sharpness + R"(,"holeIndices":)" + list({0}) +
-               R"(,"scheme":"catmullClark"}}}]}])";
+               R"(,"creaseSharpnesses":)" + sharpness + R"(,"creaseSets":[{"name":"s","creases":)" + list({0}) +
+               R"(}],"creaseScalarIndices":)" + list({6, 5}) + R"(,"creaseScalars":)" + alpha + R"(,"holeIndices":)" +
+               list({0}) + R"(,"scheme":"catmullClark"}}}]}])";
     b.more += R"(,"extensionsUsed":["SUPPLE_mesh_cage"])";
     std::string json = b.json();
     const std::string clip = R"("animations":[)";

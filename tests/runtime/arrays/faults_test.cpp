@@ -161,6 +161,18 @@ TEST(ArrayFaults, OfCages) {
              cageOf(a).creaseVertices = kEdge;
              cageOf(a).creaseSharpnesses = &kSharpness;
          }},
+        {"part 0: 1 crease set has no name: crease set 1",
+         [](Arrays& a) {
+             static const char* const kNames[] = {"a", nullptr};
+             cageOf(a).creaseSetCount = 2;
+             cageOf(a).creaseSetNames = kNames;
+         }},
+        {"part 0: 1 crease scalar has no such vertices, or an alpha that is not in [0, 1]: crease scalar 0",
+         [](Arrays& a) {
+             static const SuppleCreaseScalar kScalar{0, 1, -0.1f};
+             cageOf(a).creaseScalarCount = 1;
+             cageOf(a).creaseScalars = &kScalar;
+         }},
     });
 }
 

@@ -105,8 +105,10 @@ TEST(PrimitiveArrays, BecomePolygons) {
 }
 
 TEST(PrimitiveArrays, SayWhichVerticesAreOne) {
-    static const uint32_t kCrease[] = {1, 2}, kHole = 0;
+    static const uint32_t kCrease[] = {1, 2}, kHole = 0, kSet = 1;
     static const float kSharpness = 3.0f;
+    static const char* const kNames[] = {"unused", "seam"};
+    static const SuppleCreaseScalar kScalar{2, 1, 0.0f};
     const Result<cage::Character> read = readQuads([](TwoQuads& q) {
         for (size_t p = 0; p < 2; ++p) {
             SupplePrimitiveDesc& primitive = q.primitives[p];
@@ -119,6 +121,11 @@ TEST(PrimitiveArrays, SayWhichVerticesAreOne) {
         q.primitives[1].creaseCount = 1;
         q.primitives[1].creaseVertices = kCrease; // numbers
         q.primitives[1].creaseSharpnesses = &kSharpness;
+        q.primitives[1].creaseSetCount = 2;
+        q.primitives[1].creaseSetNames = kNames;
+        q.primitives[1].creaseSets = &kSet;
+        q.primitives[0].creaseScalarCount = 1;
+        q.primitives[0].creaseScalars = &kScalar;
         q.primitives[1].holeCount = 1;
         q.primitives[1].holes = &kHole;
         q.part.roundCorners = 1;
@@ -128,6 +135,10 @@ TEST(PrimitiveArrays, SayWhichVerticesAreOne) {
     ASSERT_EQ(read->cage.creases.size(), 1u);
     EXPECT_EQ(read->cage.creases[0].a, 1u);
     EXPECT_EQ(read->cage.creases[0].b, 2u);
+    EXPECT_EQ(read->cage.creaseSets.at(read->cage.creases[0].set), "seam");
+    ASSERT_EQ(read->cage.creaseScalars.size(), 1u);
+    EXPECT_EQ(read->cage.creaseScalars[0].vertex, 2u);
+    EXPECT_EQ(read->cage.creaseScalars[0].toward, 1u);
     EXPECT_EQ(read->cage.holes, std::vector<uint32_t>{1});
     EXPECT_EQ(read->cage.roundCorners, (std::vector<uint32_t>{0, 3, 4, 5}));
 }
@@ -194,6 +205,21 @@ TEST(PrimitiveArrays, AreRefusedByName) {
              q.primitives[1].creaseCount = 1;
              q.primitives[1].creaseVertices = kCrease;
              q.primitives[1].creaseSharpnesses = &kSharpness;
+         }},
+        {"part 0 primitive 1: 1 crease scalar has an alpha that is not in [0, 1]: crease scalar 0",
+         [](TwoQuads& q) {
+             static const SuppleCreaseScalar kScalar{0, 1, 1.5f};
+             q.primitives[1].creaseScalarCount = 1;
+             q.primitives[1].creaseScalars = &kScalar;
+         }},
+        {"part 0 primitive 1: 1 crease is in no such set: set 1 of 0, of crease 0",
+         [](TwoQuads& q) {
+             static const uint32_t kCrease[] = {0, 1}, kSet = 1;
+             static const float kSharpness = 1.0f;
+             q.primitives[1].creaseCount = 1;
+             q.primitives[1].creaseVertices = kCrease;
+             q.primitives[1].creaseSharpnesses = &kSharpness;
+             q.primitives[1].creaseSets = &kSet;
          }},
     };
     for (const auto& fault : faults) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -39,6 +40,9 @@ TEST(PmMesh, alphaOfSharpness) {
     EXPECT_EQ(alphaOfSharpness(0.0), kSmoothAlpha);
     EXPECT_DOUBLE_EQ(alphaOfSharpness(1.0), 1.0 / 3.0);
     EXPECT_DOUBLE_EQ(alphaOfSharpness(3.5), 2.0 / 3.0 / std::pow(2.0, 3.5));
+    EXPECT_EQ(alphaOfSharpness(std::numeric_limits<double>::infinity()), kLeastAlpha);
+    EXPECT_EQ(static_cast<float>(alphaOfSharpness(-0.5849625f)), 1.0f);
+    EXPECT_EQ(alphaOfSharpness(-2.0), 1.0);
 }
 
 /// Everything mesh.h promises of slots, fans and corners, against the topology.
@@ -171,6 +175,33 @@ TEST(PmMesh, alphas) {
     EXPECT_EQ(alpha(5, 10), alphaOfSharpness(9.5));
     EXPECT_EQ(alpha(15, 10), kSmoothAlpha); // a dart's tip
     EXPECT_EQ(alpha(10, 15), 0.125);        // the other, where a scalar is given
+}
+
+TEST(PmMesh, creaseSets) {
+    cage::Cage cage = test::torus(6, 5);
+    cage.creaseSets = {"a", "b"};
+    cage.creases = {{0, 5, 0.0f, 0}, {5, 10, 10.0f, 0}, {10, 15, 10.0f, cage::kNone}, {15, 20, 2.0f, 1}};
+    cage.creaseScalars = {{0, 5, 0.0f}};
+    const Mesh mesh = pmMesh(cage);
+    EXPECT_EQ(mesh.notes,
+              (std::vector<std::string>{"crease set \"a\": 1 edge is hard or a boundary: edge (5, 10), which "
+                                        "no instance can change"}));
+    std::map<uint32_t, uint32_t> variable; // vertex -> how many of its slots are in a set
+    for (const Fan& fan : mesh.fans) {
+        uint32_t slots = 0;
+        for (uint32_t j = 0; j < fan.edges(); ++j) {
+            slots += mesh.slotSets[fan.firstSlot + j] != cage::kNone ? 1 : 0;
+        }
+        EXPECT_EQ(fan.variable, slots > 0);
+        variable[fan.vertex] += slots;
+    }
+    EXPECT_EQ(variable[0], 1u);
+    EXPECT_EQ(variable[5], 1u);
+    EXPECT_EQ(variable[10], 0u) << "hard edges are none of the set";
+    EXPECT_EQ(variable[20], 1u);
+    const auto given = std::count(mesh.slotGivens.begin(), mesh.slotGivens.end(), uint8_t{1});
+    EXPECT_EQ(given, 1);
+    EXPECT_EQ(*std::min_element(mesh.slotAlphas.begin(), mesh.slotAlphas.end()), kLeastAlpha) << "of 0";
 }
 
 TEST(PmMesh, classes) {

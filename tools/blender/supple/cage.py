@@ -6,6 +6,10 @@ EXTENSION = "SUPPLE_mesh_cage"
 
 # Edge attribute: sharpnesses that Blender's crease cannot hold exactly (3.4 keeps a crease in a byte).
 EXACT_SHARPNESS = "supple_sharpness"
+# Face-corner attribute: P_m's crease scalar at the corner's vertex, of the edge to the face's next vertex; negative: none.
+ALPHA = "supple_alpha"
+# Edge attributes of this prefix: the edges of the crease set that the rest of the name names.
+CREASE_SET = "supple_set:"
 # Face attribute: faces that shape their neighbours and are not drawn.
 HOLE = "supple_hole"
 
@@ -88,6 +92,32 @@ def edge_sharpnesses(mesh):
     return sharpnesses
 
 
+def corner_alphas(mesh):
+    """Per loop; negative where there is none."""
+    values = _attribute_values(mesh, (ALPHA,), "CORNER", len(mesh.loops))
+    return np.full(len(mesh.loops), -1, np.float32) if values is None else np.minimum(values, np.float32(1))
+
+
+def next_vertices(mesh):
+    """Per loop: the next vertex of its face."""
+    vertices = column(mesh.loops, "vertex_index", 1, np.int32)
+    following = np.roll(vertices, -1)
+    starts = column(mesh.polygons, "loop_start", 1, np.int32)
+    following[starts + column(mesh.polygons, "loop_total", 1, np.int32) - 1] = vertices[starts]
+    return following
+
+
+def crease_sets(mesh):
+    """The names of the crease sets, and per edge its set, -1 for none. An edge is in the first that has it."""
+    names = sorted(a.name for a in mesh.attributes if a.name.startswith(CREASE_SET) and a.domain == "EDGE")
+    of_edge = np.full(len(mesh.edges), -1, np.int32)
+    for number, name in enumerate(names):
+        values = _attribute_values(mesh, (name,), "EDGE", len(mesh.edges))
+        if values is not None:
+            of_edge[(of_edge < 0) & (values > 0)] = number
+    return [name[len(CREASE_SET):] for name in names], of_edge
+
+
 def vertex_sharpnesses(mesh):
     return sharpness_of(_vertex_creases(mesh))
 
@@ -129,6 +159,19 @@ def _add_vertex_creases(mesh):
     edit.verts.layers.crease.verify()
     edit.to_mesh(mesh)
     edit.free()
+
+
+def set_corner_alphas(mesh, alphas):
+    """`alphas`: by (vertex, next vertex)."""
+    vertices = column(mesh.loops, "vertex_index", 1, np.int32)
+    values = [alphas.get(ends, -1) for ends in zip(vertices.tolist(), next_vertices(mesh).tolist())]
+    mesh.attributes.new(ALPHA, "FLOAT", "CORNER").data.foreach_set("value", np.array(values, np.float32))
+
+
+def set_crease_set(mesh, name, edges):
+    marked = np.zeros(len(mesh.edges), bool)
+    marked[edges] = True
+    mesh.attributes.new(CREASE_SET + name, "BOOLEAN", "EDGE").data.foreach_set("value", marked)
 
 
 def set_holes(mesh, indices):

@@ -70,7 +70,8 @@ def _vertices_of_loops(mesh, primitive, loops):
 
 
 class _Features:
-    """Creases, sharp vertices and sharp edges, each written in the first primitive that has all its vertices."""
+    """Creases with their sets, crease scalars, sharp vertices and sharp edges, each written in the first primitive that has
+    all its vertices."""
 
     def __init__(self, mesh):
         edges = cage.column(mesh.edges, "vertices", 2, np.int32)
@@ -80,7 +81,12 @@ class _Features:
         used = np.unique(cage.column(mesh.loops, "edge_index", 1, np.int32))
         has_face = np.zeros(len(mesh.edges), bool)
         has_face[used] = True
-        self.creases = [(edges[e], creases[e]) for e in np.flatnonzero((creases > 0) & has_face)]
+        self.sets, of_edge = cage.crease_sets(mesh)
+        is_crease = ((creases > 0) | (of_edge >= 0)) & has_face
+        self.creases = [(edges[e], creases[e], of_edge[e]) for e in np.flatnonzero(is_crease)]
+        alphas = cage.corner_alphas(mesh)
+        ends = np.stack([cage.column(mesh.loops, "vertex_index", 1, np.int32), cage.next_vertices(mesh)], axis=1)
+        self.scalars = [(ends[c], alphas[c]) for c in np.flatnonzero(alphas >= 0)]
         self.corners = [((v,), corners[v]) for v in np.flatnonzero(corners > 0)]
         self.marked = [(edges[e], 0) for e in np.flatnonzero(marked & has_face)]
 
@@ -93,6 +99,7 @@ class _Features:
     def write(self, vertices, members):
         for entries, indices, values in (
             (self.creases, "creaseIndices", "creaseSharpnesses"),
+            (self.scalars, "creaseScalarIndices", "creaseScalars"),
             (self.corners, "cornerIndices", "cornerSharpnesses"),
             (self.marked, "sharpEdgeIndices", None),
         ):
@@ -101,6 +108,17 @@ class _Features:
                 members[indices] = gltf_io.integer_accessor([v for entry in taken for v in entry[0]])
                 if values:
                     members[values] = gltf_io.float_accessor([entry[1] for entry in taken])
+                if entries is self.creases:
+                    self._write_sets([entry[2] for entry in taken], members)
+
+    def _write_sets(self, set_numbers, members):
+        sets = []
+        for number, name in enumerate(self.sets):
+            creases = np.flatnonzero(np.array(set_numbers) == number)
+            if len(creases) > 0 and name:
+                sets.append({"name": name, "creases": gltf_io.integer_accessor(creases)})
+        if sets:
+            members["creaseSets"] = sets
 
 
 def members_of(mesh, primitives):
@@ -184,5 +202,5 @@ class ExportHooks:
                 return
             members.update(intent)
             if modifier is not None and not modifier.use_creases:
-                for name in ("creaseIndices", "creaseSharpnesses", "cornerIndices", "cornerSharpnesses"):
+                for name in ("creaseIndices", "creaseSharpnesses", "creaseSets", "cornerIndices", "cornerSharpnesses"):
                     members.pop(name, None)

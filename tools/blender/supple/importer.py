@@ -143,11 +143,19 @@ def _mark_features(gltf, mesh, primitives, numbering):
     creases = np.zeros(len(mesh.edges), np.float32)
     marked = np.zeros(len(mesh.edges), bool)
     corners = np.zeros(len(mesh.vertices), np.float32)
+    sets, alphas = {}, {}
     for i, primitive in enumerate(primitives):
+        edges = []  # of this primitive's creases
         for ends, sharpness in primitive.pairs(gltf, "creaseIndices", "creaseSharpnesses", 2):
             edge = edge_numbers.get(tuple(sorted(numbering.find(ends, i, primitives))))
+            edges.append(edge)
             if edge is not None:  # else it has no effect, as the extension says
                 creases[edge] = max(creases[edge], sharpness)
+        for crease_set in primitive.members.get("creaseSets", []):
+            chosen = gltf_io.read_values(gltf, crease_set["creases"]).ravel().astype(int)
+            sets.setdefault(crease_set["name"], []).extend(edges[c] for c in chosen if edges[c] is not None)
+        for ends, alpha in primitive.pairs(gltf, "creaseScalarIndices", "creaseScalars", 2):
+            alphas[tuple(numbering.find(ends, i, primitives))] = float(alpha)
         for vertex, sharpness in primitive.pairs(gltf, "cornerIndices", "cornerSharpnesses", 1):
             number = numbering.find(vertex, i, primitives)[0]
             corners[number] = max(corners[number], sharpness)
@@ -159,6 +167,10 @@ def _mark_features(gltf, mesh, primitives, numbering):
         cage.set_vertex_sharpnesses(mesh, corners)
     if creases.any():
         cage.set_edge_sharpnesses(mesh, creases)
+    if alphas:
+        cage.set_corner_alphas(mesh, alphas)
+    for name, chosen in sets.items():
+        cage.set_crease_set(mesh, name, chosen)
     return marked
 
 

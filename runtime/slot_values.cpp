@@ -1,19 +1,22 @@
-#include "runtime/user_data.h"
+#include "runtime/slot_values.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace supple::runtime {
 
-void UserData::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight) {
+template <size_t kFloats>
+void SlotValues<kFloats>::plan(gpu::BufferPlan& device, const char* name, gpu::BufferPlan& staging,
+                               const char* stagingName, uint32_t framesInFlight) {
     const VkDeviceSize bytes = values_.size() * sizeof(Value);
-    buffer_ = device.add({"supple user data", bytes,
+    buffer_ = device.add({name, bytes,
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    staging_.plan(staging, "supple user data staging", bytes, framesInFlight);
+    staging_.plan(staging, stagingName, bytes, framesInFlight);
 }
 
-void UserData::set(uint32_t slot, const Value& value) {
+template <size_t kFloats>
+void SlotValues<kFloats>::set(uint32_t slot, const Value& value) {
     // By bits: a NaN that stays is no change, and -0 is one.
     if (std::memcmp(&values_[slot], &value, sizeof(Value)) == 0) {
         return;
@@ -24,24 +27,28 @@ void UserData::set(uint32_t slot, const Value& value) {
     endChanged_ = none ? slot + 1 : std::max(endChanged_, slot + 1);
 }
 
-void UserData::takeFrom(const UserData& other, uint32_t count) {
+template <size_t kFloats>
+void SlotValues<kFloats>::takeFrom(const SlotValues& other, uint32_t count) {
     std::copy_n(other.values_.begin(), count, values_.begin());
     markAll();
 }
 
-void UserData::markAll() {
+template <size_t kFloats>
+void SlotValues<kFloats>::markAll() {
     firstChanged_ = 0;
     endChanged_ = static_cast<uint32_t>(values_.size());
 }
 
-void UserData::cancelFrame(uint64_t frame) {
+template <size_t kFloats>
+void SlotValues<kFloats>::cancelFrame(uint64_t frame) {
     if (frame_ == frame) {
         markAll();
     }
 }
 
-VkDeviceSize UserData::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame, bool all,
-                                    uint32_t slots) {
+template <size_t kFloats>
+VkDeviceSize SlotValues<kFloats>::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame,
+                                               bool all, uint32_t slots) {
     const uint32_t first = all ? 0 : firstChanged_, end = all ? std::max(slots, endChanged_) : endChanged_;
     firstChanged_ = endChanged_ = 0;
     if (first == end) {
@@ -52,5 +59,8 @@ VkDeviceSize UserData::recordUpload(const gpu::Device& device, VkCommandBuffer c
     std::memcpy(staging_.next() + at, values_.data() + first, bytes);
     return staging_.recordCopy(device, commandBuffer, at, buffer_.buffer(), at, bytes);
 }
+
+template class SlotValues<4>;
+template class SlotValues<shared::kMaxCreaseSets>;
 
 } // namespace supple::runtime
