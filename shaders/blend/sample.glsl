@@ -49,8 +49,10 @@ bool liesStill(Corner corners[4], uint i, uint j) {
 
 // Where even the face has a longer normal, that.
 Frame checkedFrame(Corner corners[4], Frame f) {
-    vec3 n = f.normal, diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
-    if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other))))
+    vec3 diagonal = corners[2].c[0] - corners[0].c[0], other = corners[3].c[0] - corners[1].c[0];
+    vec3 a = diagonal * evenScale(diagonal), b = other * evenScale(other);
+    vec3 n = (f.normal * evenScale(diagonal)) * evenScale(other);
+    if (!(dot(n, n) > kTinyNormal * (dot(a, a) * dot(b, b))))
         f = withNormal(f, cross(diagonal, other));
     return f;
 }
