@@ -32,6 +32,9 @@ glm::dmat4 mirror() {
     return glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0));
 }
 
+/// Spaces that are looked at for one that is the same: no character has as many.
+constexpr size_t kMostKnown = 64;
+
 /// What of a part is taken to one place.
 struct Group {
     glm::dmat4 place{1.0};
@@ -120,16 +123,23 @@ std::vector<uint32_t> byWeight(const PartCage& part, size_t jointCount) {
     return order;
 }
 
-/// Whether two matrices take a part to one place, but for the rounding of inverse bind matrices.
-bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b, const PartCage& part) {
-    constexpr double kRounding = 1e-4; // of the extent
-    glm::dvec3 low(part.cage.positions.front()), high = low;
-    for (const glm::vec3& p : part.cage.positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
+struct Extent {
+    glm::dvec3 low, high;
+
+    explicit Extent(const std::vector<glm::vec3>& positions) : low(positions.front()), high(low) {
+        for (const glm::vec3& p : positions) {
+            low = glm::min(low, glm::dvec3(p));
+            high = glm::max(high, glm::dvec3(p));
+        }
     }
-    const auto extentBy = [&](const glm::dmat4& m) { return glm::length(glm::dmat3(m) * (high - low)); };
-    const double most = kRounding * std::max(extentBy(a), extentBy(b));
+};
+
+/// Whether two matrices take what has this extent to one place, but for the rounding of inverse bind matrices.
+bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b, const Extent& extent) {
+    constexpr double kRounding = 1e-4; // of the extent
+    const glm::dvec3 &low = extent.low, &high = extent.high;
+    const auto sizeBy = [&](const glm::dmat4& m) { return glm::length(glm::dmat3(m) * (high - low)); };
+    const double most = kRounding * std::max(sizeBy(a), sizeBy(b));
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 p((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
                            (corner & 4) != 0 ? high.z : low.z, 1.0);
@@ -228,26 +238,29 @@ glm::dmat4 BindSpace::spaceOf(const MeshBinding& mesh, const PartCage& part) {
     if (joints_.empty()) {
         space = isUsable(moved(order[0])) && isMirrored(moved(order[0])) ? mirror() : glm::dmat4(1.0);
     }
-    for (const uint32_t j : order) {
-        const auto joint = joints_.find(mesh.skin.joints[j]);
-        if (!space && joint != joints_.end()) {
-            space = joint->second.place * glm::dmat4(mesh.skin.inverseBinds[j]);
+    for (size_t i = 0; i < order.size() && !space; ++i) {
+        const auto joint = joints_.find(mesh.skin.joints[order[i]]);
+        if (joint != joints_.end()) {
+            space = joint->second.place * glm::dmat4(mesh.skin.inverseBinds[order[i]]);
         }
     }
-    for (const auto& [node, joint] : joints_) { // as both rest
-        if (!space && isUsable(rest_[node]) && isUsable(moved(order[0]))) {
-            space = joint.place * glm::inverse(rest_[node]) * moved(order[0]);
+    for (auto joint = joints_.begin(); joint != joints_.end() && !space; ++joint) { // as both rest
+        if (isUsable(rest_[joint->first]) && isUsable(moved(order[0]))) {
+            space = joint->second.place * glm::inverse(rest_[joint->first]) * moved(order[0]);
         }
     }
     if (!space || !isUsable(*space)) {
         return glm::dmat4(1.0);
     }
+    const Extent extent(part.cage.positions);
     const auto known =
-        std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return isSamePlace(k, *space, part); });
+        std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return isSamePlace(k, *space, extent); });
     if (known != known_.end()) {
         return *known;
     }
-    known_.push_back(*space);
+    if (known_.size() < kMostKnown) {
+        known_.push_back(*space);
+    }
     return *space;
 }
 

@@ -23,7 +23,17 @@ using Expectation = nlohmann::json;
 const fs::path kFolder = fs::path(SUPPLE_SHARED_DIR) / "cases" / "reports";
 
 /// Files that do not come out right yet, and why. A file that does come out right must not be here.
-const std::map<std::string, std::string> kNotRightYet = {};
+const std::map<std::string, std::string> kNotRightYet = {
+    {"01_bridged_hole.obj", "a face that passes a vertex twice is cut there, so that the hole is filled"},
+    {"05a_hidden_required.glb", "refused by name: KHR_node_visibility is not read"},
+    {"05b_hidden_optional.glb", "KHR_node_visibility is not read, and nothing is said of it"},
+    {"06_vrm0_target_names.glb", "names of targets in a primitive's extras are not read"},
+    {"15_unwelded.obj", "vertices of OBJ files are not welded, and nothing is said of it"},
+    {"16_objects.obj", "objects of OBJ files are not kept apart"},
+    {"24_pointer_translation.glb", "refused by name: KHR_animation_pointer is not read"},
+    {"25_specular_glossiness.glb", "KHR_materials_pbrSpecularGlossiness is not read"},
+    {"29_colours_and_mtl.obj", "colors and MTL files of OBJ files are not read"},
+};
 
 /// How much positions may be off: the expected ones have five decimals.
 constexpr float kTolerance = 2e-5f;
@@ -162,7 +172,7 @@ std::string ReportedFiles::faultOfNormals() {
 /// The picture is that of the cube of 1 unit.
 std::string ReportedFiles::faultOfPicture() {
     writeText(file("one.obj"), kCubeObj);
-    const std::string options = "--size 96 --scheme catmull-clark --view solid -o ";
+    const std::string options = "--size 96x96 --scheme catmull-clark -o ";
     const Outcome tiny = runOn("render", options + "tiny.png");
     const Outcome one = runOnDevice("render one.obj " + options + "one.png");
     if (tiny.exitCode != 0 || one.exitCode != 0) {
@@ -235,17 +245,51 @@ std::string ReportedFiles::faultOf(const std::string& name, const Expectation& e
         const auto said = nlohmann::json::parse(runOn("inspect", "--json").out);
         return said["morphTargets"].size() == targets.get<size_t>() ? "" : "other targets";
     });
-    check("parts", [&](const Expectation&) { return runOn("bake", options + " -o p.obj").err; });
+    check("parts", [&](const Expectation& parts) {
+        const auto said = nlohmann::json::parse(runOn("inspect", "--json").out);
+        return said["parts"].size() == parts.size() ? "" : "other parts";
+    });
     check("wanted", [&](const Expectation&) {
         const Outcome inspected = runOn("inspect");
-        return (inspected.out + inspected.err).find("warning") != std::string::npos ? "" : "nothing is said";
+        return inspected.err.find("warning") != std::string::npos ? "" : "nothing is said";
     });
     return fault;
 }
 
+/// A cube of any size has the surface of a cube of 1, and its normals to the bit: what is scaled is scaled by powers of
+/// two.
+TEST_F(ReportedFiles, SurfacesMayBeOfAnySize) {
+    const auto cube = [](float size) {
+        std::string text;
+        for (int v = 0; v < 8; ++v) {
+            char line[80];
+            std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", double{size * static_cast<float>(v & 1)},
+                          double{size * static_cast<float>(v >> 1 & 1)}, double{size * static_cast<float>(v >> 2)});
+            text += line;
+        }
+        return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    };
+    const float tiny = std::ldexp(1.0f, -40); // 9e-13
+    writeText(file("one.obj"), cube(1.0f));
+    writeText(file("tiny.obj"), cube(tiny));
+    for (const std::string scheme : {"prep", "pm", "catmull-clark", "loop", "blend", "fragments", "polygons"}) {
+        SCOPED_TRACE(scheme);
+        for (const std::string name : {"one", "tiny"}) {
+            const Outcome baked = runOnDevice("bake " + name + ".obj -o " + name + ".ply --rate 2 --scheme " + scheme);
+            ASSERT_EQ(baked.exitCode, 0) << baked.err;
+        }
+        const Ply one = readPly(file("one.ply")), small = readPly(file("tiny.ply"));
+        ASSERT_EQ(one.positions.size(), small.positions.size());
+        for (size_t v = 0; v < one.positions.size(); ++v) {
+            ASSERT_EQ(small.positions[v], tiny * one.positions[v]) << v;
+            ASSERT_EQ(small.normals[v], one.normals[v]) << v;
+        }
+    }
+}
+
 TEST_F(ReportedFiles, ComeOutRight) {
     if (!fs::exists(kFolder / "expected.json")) {
-        GTEST_SKIP() << "25 reported files left out: " << kFolder << " is not present";
+        GTEST_SKIP() << "all reported files left out: " << kFolder << " is not present";
     }
     const Expectation all = Expectation::parse(std::ifstream(kFolder / "expected.json"));
     size_t right = 0;
