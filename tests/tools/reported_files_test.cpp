@@ -83,6 +83,9 @@ private:
     Outcome runOn(const std::string& command, const std::string& more = "") {
         return runOnDevice(command + " '" + (kFolder / file_).string() + "' " + more);
     }
+    Outcome inspect(const std::string& more = "") {
+        return run("inspect '" + (kFolder / file_).string() + "' " + more);
+    }
     std::string bakeCage(const std::string& options, Obj& obj) {
         const Outcome baked = runOn("bake", "-o cage.obj --scheme cage " + options);
         said_ += baked.err;
@@ -242,15 +245,15 @@ std::string ReportedFiles::faultOf(const std::string& name, const Expectation& e
           [&](const Expectation&) { return expected.contains("render") ? faultOfNormals() : std::string(); });
     check("render", [&](const Expectation&) { return faultOfPicture(); });
     check("targets", [&](const Expectation& targets) {
-        const auto said = nlohmann::json::parse(runOn("inspect", "--json").out);
+        const auto said = nlohmann::json::parse(inspect("--json").out);
         return said["morphTargets"].size() == targets.get<size_t>() ? "" : "other targets";
     });
     check("parts", [&](const Expectation& parts) {
-        const auto said = nlohmann::json::parse(runOn("inspect", "--json").out);
+        const auto said = nlohmann::json::parse(inspect("--json").out);
         return said["parts"].size() == parts.size() ? "" : "other parts";
     });
     check("wanted", [&](const Expectation&) {
-        const Outcome inspected = runOn("inspect");
+        const Outcome inspected = inspect();
         return inspected.err.find("warning") != std::string::npos ? "" : "nothing is said";
     });
     return fault;
