@@ -34,6 +34,8 @@ glm::dmat4 mirror() {
 
 /// Spaces that are looked at for one that is the same: no character has as many.
 constexpr size_t kMostKnown = 64;
+/// Joints that are looked at for one below or above another, so that no file can make this quadratic.
+constexpr size_t kMostTried = 64;
 
 /// What of a part is taken to one place.
 struct Group {
@@ -210,18 +212,32 @@ MeshBinding bindToNode(uint32_t node) {
 
 BindSpace::BindSpace(const Skeleton& skeleton, std::span<const MeshBinding> meshes, std::span<const PartCage> parts,
                      bool alone)
-    : skeleton_(skeleton), rest_(restPlaces(skeleton)), alone_(alone) {
-    for (size_t i = 0; i < meshes.size(); ++i) {
-        const MeshBinding& mesh = meshes[i];
-        spaces_.push_back(mesh.skinned ? spaceOf(mesh, parts[i]) : glm::dmat4(1.0));
-        for (size_t j = 0; mesh.skinned && j < mesh.skinJoints(); ++j) {
-            const glm::dmat4 bind(mesh.skin.inverseBinds[j]);
-            if (isUsable(bind)) {
-                const bool own = spaces_.back() == glm::dmat4(1.0);
-                joints_.emplace(mesh.skin.joints[j],
-                                Joint{own ? glm::inverse(bind) : spaces_.back() * glm::inverse(bind),
-                                      own ? mesh.skin.inverseBinds[j] : asBind(bind * glm::inverse(spaces_.back()))});
-            }
+    : skeleton_(skeleton), rest_(restPlaces(skeleton)), alone_(alone), spaces_(meshes.size(), glm::dmat4(1.0)) {
+    std::vector<size_t> order(meshes.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::erase_if(order, [&](size_t i) { return !meshes[i].skinned; });
+    const std::vector<size_t> asGiven = order;
+    // The one with most joints says most of where those of the others stand.
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return meshes[a].skinJoints() > meshes[b].skinJoints(); });
+    for (const size_t i : order) {
+        spaces_[i] = spaceOf(meshes[i], parts[i]);
+        addJoints(meshes[i], spaces_[i]);
+    }
+    joints_.clear();
+    for (const size_t i : asGiven) {
+        addJoints(meshes[i], spaces_[i]);
+    }
+}
+
+void BindSpace::addJoints(const MeshBinding& mesh, const glm::dmat4& space) {
+    const bool isOwn = space == glm::dmat4(1.0);
+    for (size_t j = 0; j < mesh.skinJoints(); ++j) {
+        const glm::dmat4 bind(mesh.skin.inverseBinds[j]);
+        if (isUsable(bind)) {
+            joints_.emplace(mesh.skin.joints[j],
+                            Joint{isOwn ? glm::inverse(bind) : space * glm::inverse(bind),
+                                  isOwn ? mesh.skin.inverseBinds[j] : asBind(bind * glm::inverse(space))});
         }
     }
 }
@@ -233,10 +249,10 @@ glm::dmat4 BindSpace::spaceOf(const MeshBinding& mesh, const PartCage& part) {
     if (order.empty()) {
         return glm::dmat4(1.0);
     }
-    const auto moved = [&](uint32_t j) { return rest_[mesh.skin.joints[j]] * glm::dmat4(mesh.skin.inverseBinds[j]); };
     std::optional<glm::dmat4> space;
     if (joints_.empty()) {
-        space = isUsable(moved(order[0])) && isMirrored(moved(order[0])) ? mirror() : glm::dmat4(1.0);
+        const glm::dmat4 moved = rest_[mesh.skin.joints[order[0]]] * glm::dmat4(mesh.skin.inverseBinds[order[0]]);
+        space = isUsable(moved) && isMirrored(moved) ? mirror() : glm::dmat4(1.0);
     }
     for (size_t i = 0; i < order.size() && !space; ++i) {
         const auto joint = joints_.find(mesh.skin.joints[order[i]]);
@@ -244,10 +260,8 @@ glm::dmat4 BindSpace::spaceOf(const MeshBinding& mesh, const PartCage& part) {
             space = joint->second.place * glm::dmat4(mesh.skin.inverseBinds[order[i]]);
         }
     }
-    for (auto joint = joints_.begin(); joint != joints_.end() && !space; ++joint) { // as both rest
-        if (isUsable(rest_[joint->first]) && isUsable(moved(order[0]))) {
-            space = joint->second.place * glm::inverse(rest_[joint->first]) * moved(order[0]);
-        }
+    if (!space) {
+        space = spaceBesideJoints(mesh, order);
     }
     if (!space || !isUsable(*space)) {
         return glm::dmat4(1.0);
@@ -262,6 +276,39 @@ glm::dmat4 BindSpace::spaceOf(const MeshBinding& mesh, const PartCage& part) {
         known_.push_back(*space);
     }
     return *space;
+}
+
+std::optional<glm::dmat4> BindSpace::spaceBesideJoints(const MeshBinding& mesh, std::span<const uint32_t> order) const {
+    const auto from = [&](uint32_t known, uint32_t j) -> std::optional<glm::dmat4> {
+        const glm::dmat4 place = joints_.at(known).place * glm::inverse(rest_[known]) * rest_[mesh.skin.joints[j]];
+        return isUsable(rest_[known]) && isUsable(place) ? std::optional(place * glm::dmat4(mesh.skin.inverseBinds[j]))
+                                                         : std::nullopt;
+    };
+    // Between a joint and one below it nothing but what lies between them counts, so these come first.
+    for (size_t i = 0; i < std::min(order.size(), kMostTried); ++i) {
+        uint32_t node = mesh.skin.joints[order[i]];
+        while (node != kNone && !joints_.contains(node)) {
+            node = skeleton_.nodes[node].parent;
+        }
+        if (node != kNone && from(node, order[i])) {
+            return from(node, order[i]);
+        }
+    }
+    std::map<uint32_t, uint32_t> own;
+    for (const uint32_t j : order) {
+        own.emplace(mesh.skin.joints[j], j);
+    }
+    size_t tried = 0;
+    for (auto joint = joints_.begin(); joint != joints_.end() && tried < kMostTried; ++joint, ++tried) {
+        uint32_t node = joint->first;
+        while (node != kNone && !own.contains(node)) {
+            node = skeleton_.nodes[node].parent;
+        }
+        if (node != kNone && from(joint->first, own.at(node))) {
+            return from(joint->first, own.at(node));
+        }
+    }
+    return from(joints_.begin()->first, order[0]);
 }
 
 glm::dmat4 BindSpace::placeOf(uint32_t node) const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +30,12 @@ struct MeshBinding {
 
 /// Where meshes stand in the bind pose: side by side, in one space, and seen from outside.
 ///
-/// A skinned mesh is given in a space of its own, from which its inverse bind matrices lead to the joints. The first
-/// one tells what the space of the character is. The others are taken to where the joints stand there that both have,
-/// those with most of their weights first; if there are none, to where the rest pose has them. So meshes that were
-/// quantised on grids of their own fit together again. If a mesh is mirrored as the skeleton rests, the bind pose shows
-/// its mirror image: faces are seen from outside in poses then. The same holds for a piece of it whose joints mirror.
+/// A skinned mesh is given in a space of its own, from which its inverse bind matrices lead to the joints. The one with
+/// most joints, the first if there are several, tells what the space of the character is. The others are taken to where
+/// the joints stand there that both have, those with most of their weights first; if there are none, to where the rest
+/// pose has their joints beside those. So meshes that were quantised on grids of their own fit together again. If a
+/// mesh is mirrored as the skeleton rests, the bind pose shows its mirror image: faces are seen from outside in poses
+/// then. The same holds for a piece of it whose joints mirror.
 ///
 /// A mesh without a skin is given in the space of its node, and is taken to where the node stands in the bind pose,
 /// under the nearest joint above it, or else at rest. Vertices of a skinned mesh's follower are, too.
@@ -50,14 +52,18 @@ public:
     [[nodiscard]] bool place(size_t number, PartCage& part, MeshBinding& mesh) const;
 
 private:
-    /// A joint as the first mesh has it that has it.
+    /// A joint as the first mesh has it that names it.
     struct Joint {
         glm::dmat4 place;      ///< to the space of the character
         glm::mat4 inverseBind; ///< from there
     };
 
     [[nodiscard]] glm::dmat4 placeOf(uint32_t node) const;
+    void addJoints(const MeshBinding& mesh, const glm::dmat4& space);
     [[nodiscard]] glm::dmat4 spaceOf(const MeshBinding& mesh, const PartCage& part);
+    /// Of a mesh that shares no joint with those before: as the rest pose has its joints beside theirs.
+    [[nodiscard]] std::optional<glm::dmat4> spaceBesideJoints(const MeshBinding& mesh,
+                                                              std::span<const uint32_t> order) const;
     [[nodiscard]] bool placeSkinned(const glm::dmat4& space, PartCage& part, MeshBinding& mesh) const;
     [[nodiscard]] glm::mat4 bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space) const;
 
