@@ -13,14 +13,18 @@ namespace {
 /// Keys are floats, and the times of markers need not be: what rounding alone moves out of the clip is in it.
 constexpr double kTimeRounding = 1e-6;
 
+double lengthOf(const float* q) {
+    return std::sqrt(static_cast<double>(q[0]) * q[0] + static_cast<double>(q[1]) * q[1] +
+                     static_cast<double>(q[2]) * q[2] + static_cast<double>(q[3]) * q[3]);
+}
+
 /// Key rotations are unit quaternions but for rounding, which 8-bit outputs make coarse. Tangents are left alone.
 void checkRotations(Channel& channel, const std::string& output) {
     const size_t perKey = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
     for (size_t k = perKey / 2; 4 * k < channel.values.size(); k += perKey) {
         float* q = &channel.values[4 * k];
-        const double length = std::sqrt(static_cast<double>(q[0]) * q[0] + static_cast<double>(q[1]) * q[1] +
-                                        static_cast<double>(q[2]) * q[2] + static_cast<double>(q[3]) * q[3]);
-        if (!(length > 1e-6)) {
+        const double length = lengthOf(q);
+        if (isZeroRotation(q)) {
             refuse(item(output, k), "zero quaternion");
         }
         if (std::abs(length - 1.0) > 1e-5 && channel.interpolation != Interpolation::cubicSpline) {
@@ -44,6 +48,10 @@ void moveKeys(Channel& channel, float first) {
 
 } // namespace
 
+bool isZeroRotation(const float* q) {
+    return !(lengthOf(q) > 1e-6);
+}
+
 void checkTimes(const Channel& channel, const std::string& times) {
     for (size_t k = 0; k < channel.times.size(); ++k) {
         if (!std::isfinite(channel.times[k])) {
@@ -53,6 +61,10 @@ void checkTimes(const Channel& channel, const std::string& times) {
             refuse(item(times, k), "not later than the key before it");
         }
     }
+    checkKeyCount(channel, times);
+}
+
+void checkKeyCount(const Channel& channel, const std::string& times) {
     if (channel.interpolation == Interpolation::cubicSpline && channel.times.size() < 2) {
         refuse(times, "CUBICSPLINE needs at least two keys");
     }

@@ -3,6 +3,7 @@
 #include "cage/message.h"
 #include "cage/node_match.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,32 +59,6 @@ private:
     std::set<std::string> taken_;
     std::map<std::string, uint32_t> numbers_; ///< how many were tried
 };
-
-/// Makes the node of a matrix one of translation, rotation and scale. False: the matrix is not made of these.
-bool decompose(Node& node) {
-    const glm::mat3 linear(node.matrix);
-    glm::vec3 scale(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
-    if (!(scale.x > 0.0f && scale.y > 0.0f && scale.z > 0.0f)) {
-        return false;
-    }
-    if (glm::determinant(linear) < 0.0f) {
-        scale.x = -scale.x;
-    }
-    const glm::quat rotation =
-        glm::normalize(glm::quat_cast(glm::mat3(linear[0] / scale.x, linear[1] / scale.y, linear[2] / scale.z)));
-    const glm::mat3 turned = glm::mat3_cast(rotation);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(glm::length(turned[axis] * scale[axis] - linear[axis]) <= 1e-4f * std::abs(scale[axis]))) {
-            return false;
-        }
-    }
-    node.translation = glm::vec3(node.matrix[3]);
-    node.rotation = rotation;
-    node.scale = scale;
-    node.matrix = glm::mat4(1.0f);
-    node.hasMatrix = false;
-    return true;
-}
 
 /// Per target of a part: the number of the clip's target that moves it, or kNone.
 using TargetMatch = std::vector<uint32_t>;

@@ -1,6 +1,7 @@
 // Entries of a list that make no sense: left out with one warning.
 #pragma once
 
+#include "cage/leniency.h"
 #include "cage/message.h"
 
 #include <cstddef>
@@ -22,12 +23,21 @@ public:
     }
     void report(Warnings& warnings) const {
         if (count_ > 0) {
-            warn(warnings, first_,
-                 reason_ + "; left out" + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : ""));
+            warn(warnings, first_, reason_ + "; " + mended("left out"));
+        }
+    }
+    /// As faults of the file, mended so.
+    void report(Leniency& leniency, const std::string& how) const {
+        if (count_ > 0) {
+            leniency.mend(first_, reason_, mended(how));
         }
     }
 
 private:
+    [[nodiscard]] std::string mended(const std::string& how) const {
+        return how + (count_ > 1 ? ", as are " + std::to_string(count_ - 1) + " more" : "");
+    }
+
     std::string list_;
     std::string first_;
     std::string reason_;

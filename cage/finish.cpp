@@ -11,9 +11,13 @@
 namespace supple::cage {
 
 void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, Character& character) {
+    std::vector<float> gridSteps;
+    for (const PartCage& part : parts) {
+        gridSteps.push_back(part.gridStep);
+    }
     const CageNames names = joinParts(std::move(parts), character);
     if (options.sewParts) {
-        sewParts(character);
+        sewParts(character, gridSteps);
     }
     if (const Status repaired =
             repairCage(character.cage, character.weights, character.morphs, names, character.damages);

@@ -271,10 +271,12 @@ std::vector<uint32_t> PaletteBuilder::add(const Skin& skin) {
     return places;
 }
 
-void reverseFaces(Cage& cage) {
+void reverseFaces(Cage& cage, std::span<const uint8_t> turned) {
     const auto reverse = [&](auto& values) {
         for (uint32_t f = 0; f < cage.faceCount() && !values.empty(); ++f) {
-            std::reverse(values.begin() + cage.faceStarts[f] + 1, values.begin() + cage.faceStarts[f + 1]);
+            if (turned[f] != 0) {
+                std::reverse(values.begin() + cage.faceStarts[f] + 1, values.begin() + cage.faceStarts[f + 1]);
+            }
         }
     };
     reverse(cage.faceVertices);
@@ -287,11 +289,13 @@ void reverseFaces(Cage& cage) {
     for (uint32_t f = 0; f < cage.faceCount() && !cage.faceTriangles.empty(); ++f) {
         const uint32_t start = cage.faceStarts[f];
         for (uint32_t t = 2; t < cage.sides(f); ++t, triangle += 3) {
-            for (size_t k = 0; k < 3; ++k) {
+            for (size_t k = 0; k < 3 && turned[f] != 0; ++k) {
                 uint32_t& corner = cage.faceTriangles[triangle + k];
                 corner = corner == start ? start : start + cage.faceStarts[f + 1] - corner;
             }
-            std::swap(cage.faceTriangles[triangle + 1], cage.faceTriangles[triangle + 2]);
+            if (turned[f] != 0) {
+                std::swap(cage.faceTriangles[triangle + 1], cage.faceTriangles[triangle + 2]);
+            }
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ struct PartCage {
     std::string element;        ///< what messages call it: "mesh 0"
     bool namesBySource = false; ///< messages about its cage call vertices by their numbers in the source
     std::string whyEmpty;       ///< why the cage has no faces
+    float gridStep = 0.0f;      ///< of the grid that the positions were rounded to; 0: none
 };
 
 /// The palette of a character as skins are added. An entry is a node and an inverse bind matrix; skins share entries
@@ -41,8 +43,8 @@ private:
     std::map<Key, std::vector<uint32_t>> known_; ///< its places
 };
 
-/// Turns the faces inside out, with all that belongs to their corners.
-void reverseFaces(Cage& cage);
+/// Turns faces inside out, with all that belongs to their corners. `turned`: by face, 1 for those.
+void reverseFaces(Cage& cage, std::span<const uint8_t> turned);
 
 /// For each of `parts` parts, the first part that it is sewn to, directly or by others: they share vertices of the
 /// cage. A part that is sewn to none has itself. O(corners).

@@ -1,12 +1,17 @@
 #include "cage/sew.h"
 
+#include "cage/message.h"
 #include "cage/polygons.h"
 #include "cage/sharp_features.h"
 #include "cage/sound_faces.h"
 #include "cage/weld.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -82,11 +87,11 @@ struct Displacements {
 /// An order of vertices in which those that agree in position, skin and morph targets are equal. -0 is 0.
 class Agreement {
 public:
-    explicit Agreement(const Character& character) : character_(&character), displacements_(character) {}
+    Agreement(const Character& character, std::span<const glm::vec3> positions)
+        : character_(&character), positions_(positions), displacements_(character) {}
 
     [[nodiscard]] int compare(uint32_t a, uint32_t b) const {
-        const auto& positions = character_->cage.positions;
-        if (const int order = compareVectors(positions[a], positions[b]); order != 0) {
+        if (const int order = compareVectors(positions_[a], positions_[b]); order != 0) {
             return order;
         }
         const auto skinOf = [&](uint32_t v) {
@@ -127,13 +132,77 @@ private:
     }
 
     const Character* character_;
+    std::span<const glm::vec3> positions_;
     Displacements displacements_;
 };
 
+/// Positions on boundaries, with those replaced that are an earlier part's but for rounding to grids.
+class Alignment {
+public:
+    Alignment(std::span<const glm::vec3> positions, std::span<const uint32_t> parts, std::span<const float> gridSteps)
+        : positions_(positions), parts_(parts), gridSteps_(gridSteps),
+          cell_(gridSteps.empty() ? 0.0f : 1.01f * *std::max_element(gridSteps.begin(), gridSteps.end())) {}
+
+    [[nodiscard]] std::vector<glm::vec3> aligned(std::span<const uint8_t> boundary) {
+        std::vector<glm::vec3> aligned(positions_.begin(), positions_.end());
+        for (uint32_t v = 0; v < boundary.size() && cell_ > 0.0f; ++v) {
+            if (boundary[v] == 0) {
+                continue;
+            }
+            const uint32_t other = nearest(v);
+            if (other != kNone) {
+                aligned[v] = positions_[other];
+                continue;
+            }
+            std::vector<uint32_t>& there = cells_[cellOf(positions_[v], 0, 0, 0)];
+            if (there.size() < kMostInCell) {
+                there.push_back(v);
+            }
+        }
+        return aligned;
+    }
+
+private:
+    using Cell = std::array<double, 3>;
+    static constexpr size_t kMostInCell = 8; // that no file can make this quadratic
+
+    [[nodiscard]] Cell cellOf(const glm::vec3& p, int x, int y, int z) const {
+        return {std::floor(double{p.x} / cell_) + x, std::floor(double{p.y} / cell_) + y,
+                std::floor(double{p.z} / cell_) + z};
+    }
+
+    /// The nearest vertex of another part whose rounding and that of this one may explain how far apart they are.
+    [[nodiscard]] uint32_t nearest(uint32_t v) const {
+        uint32_t found = kNone;
+        float best = std::numeric_limits<float>::infinity();
+        for (int i = 0; i < 27; ++i) {
+            const auto cell = cells_.find(cellOf(positions_[v], i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+            for (size_t k = 0; cell != cells_.end() && k < cell->second.size(); ++k) {
+                const uint32_t other = cell->second[k];
+                const glm::vec3 apart = glm::abs(positions_[v] - positions_[other]);
+                const float distance = std::max({apart.x, apart.y, apart.z});
+                // Half a step each, and what floats round.
+                const float most = 0.501f * (gridSteps_[parts_[v]] + gridSteps_[parts_[other]]);
+                if (parts_[other] != parts_[v] && distance <= most && distance < best) {
+                    best = distance;
+                    found = other;
+                }
+            }
+        }
+        return found;
+    }
+
+    std::span<const glm::vec3> positions_;
+    std::span<const uint32_t> parts_;
+    std::span<const float> gridSteps_;
+    float cell_;
+    std::map<Cell, std::vector<uint32_t>> cells_;
+};
+
 /// Numbers the sets of vertices that may become one: on boundaries. Every other vertex is a set of its own.
-std::vector<uint32_t> candidatesOf(const Character& character, const Polygons& faces) {
-    const std::vector<uint8_t> boundary = boundaryVertices(faces, character.cage.vertexCount());
-    const Agreement agreement(character);
+std::vector<uint32_t> candidatesOf(const Character& character, std::span<const uint8_t> boundary,
+                                   std::span<const glm::vec3> positions) {
+    const Agreement agreement(character, positions);
     std::vector<uint32_t> order;
     for (uint32_t v = 0; v < boundary.size(); ++v) {
         if (boundary[v] != 0) {
@@ -245,7 +314,7 @@ void mergeFeatures(Cage& cage) {
 
 } // namespace
 
-uint32_t sewParts(Character& character) {
+uint32_t sewParts(Character& character, std::span<const float> gridSteps) {
     if (character.parts.size() < 2) {
         return 0;
     }
@@ -255,11 +324,23 @@ uint32_t sewParts(Character& character) {
     const auto mayJoin = [&](uint32_t face, uint32_t other) {
         return partOf(face) != partOf(other) && !lieBackToBack(character.cage.positions, faces, face, other);
     };
-    Welding welding = weld(candidatesOf(character, faces), faces, mayJoin);
+    const std::vector<uint8_t> boundary = boundaryVertices(faces, character.cage.vertexCount());
+    const std::vector<glm::vec3> aligned = Alignment(character.cage.positions, parts, gridSteps).aligned(boundary);
+    Welding welding = weld(candidatesOf(character, boundary, aligned), faces, mayJoin);
     unweldDefects(faces, welding);
     uint32_t merged = 0;
+    Found rounded;
     for (uint32_t v = 0; v < welding.roots.size(); ++v) {
         merged += welding.roots[v] != v ? 1 : 0;
+        if (aligned[v] != character.cage.positions[v] && welding.roots[v] != v) {
+            rounded.add([&] { return at("part", parts[v]); });
+        }
+    }
+    if (rounded.count > 0) {
+        warn(character.warnings, "parts",
+             rounded.told("vertex is another part's but for the rounding of its grid",
+                          "vertices are other parts' but for the rounding of their grids") +
+                 "; sewn");
     }
     if (merged > 0) {
         mergeVertices(welding.roots, character);

@@ -3,6 +3,9 @@
 #include "cage/message.h"
 #include "cage/refusal.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -35,15 +38,77 @@ struct Children {
 
 } // namespace
 
-void makeAffine(glm::mat4& matrix, const std::string& element) {
-    const glm::vec4 last(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+namespace {
+
+constexpr const char* kNotAffine = "last row is not 0 0 0 1";
+
+/// Tells whether the last row was 0 0 0 1 but for rounding.
+bool setLastRow(glm::mat4& matrix) {
     const glm::vec4 wanted(0.0f, 0.0f, 0.0f, 1.0f);
+    bool was = true;
     for (int k = 0; k < 4; ++k) {
-        if (!(std::abs(last[k] - wanted[k]) <= 1e-4f)) {
-            refuse(element, "last row is not 0 0 0 1");
-        }
+        was = std::abs(matrix[k][3] - wanted[k]) <= 1e-4f && was;
         matrix[k][3] = wanted[k];
     }
+    return was;
+}
+
+} // namespace
+
+void makeAffine(glm::mat4& matrix, const std::string& element) {
+    if (!setLastRow(matrix)) {
+        refuse(element, kNotAffine);
+    }
+}
+
+void makeAffine(glm::mat4& matrix, const std::string& element, Leniency& leniency) {
+    if (!setLastRow(matrix)) {
+        leniency.mend(element, kNotAffine, "read as if it were");
+    }
+}
+
+glm::dmat4 localMatrix(const Node& node) {
+    if (node.hasMatrix) {
+        return glm::dmat4(node.matrix);
+    }
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(node.translation)) *
+           glm::mat4_cast(glm::normalize(glm::dquat(node.rotation))) *
+           glm::scale(glm::dmat4(1.0), glm::dvec3(node.scale));
+}
+
+std::vector<glm::dmat4> restPlaces(const Skeleton& skeleton) {
+    std::vector<glm::dmat4> places(skeleton.nodes.size());
+    for (const uint32_t node : skeleton.parentsFirst) {
+        const glm::dmat4 local = localMatrix(skeleton.nodes[node]);
+        const uint32_t parent = skeleton.nodes[node].parent;
+        places[node] = parent == kNone ? local : places[parent] * local;
+    }
+    return places;
+}
+
+bool decompose(Node& node) {
+    const glm::mat3 linear(node.matrix);
+    glm::vec3 scale(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
+    if (!(scale.x > 0.0f && scale.y > 0.0f && scale.z > 0.0f)) {
+        return false;
+    }
+    if (glm::determinant(linear) < 0.0f) {
+        scale.x = -scale.x;
+    }
+    const glm::quat rotation =
+        glm::normalize(glm::quat_cast(glm::mat3(linear[0] / scale.x, linear[1] / scale.y, linear[2] / scale.z)));
+    const glm::mat3 turned = glm::mat3_cast(rotation);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(glm::length(turned[axis] * scale[axis] - linear[axis]) <= 1e-4f * std::abs(scale[axis]))) {
+            return false;
+        }
+    }
+    node.translation = glm::vec3(node.matrix[3]);
+    node.rotation = rotation;
+    node.scale = scale;
+    node.matrix = glm::mat4(1.0f);
+    node.hasMatrix = false;
+    return true;
 }
 
 glm::quat unitRotation(const std::array<double, 4>& q, const std::string& element) {

@@ -11,9 +11,9 @@ constexpr double kFloatRounding = 1.0 / (1u << 24);
 
 } // namespace
 
-void VertexWeights::appendUnskinned(size_t count) {
+void VertexWeights::appendUnskinned(size_t count, uint32_t joint) {
     for (size_t v = 0; v < count; ++v) {
-        influences_.push_back({0, 1.0f});
+        influences_.push_back({joint, 1.0f});
         closeVertex();
     }
 }

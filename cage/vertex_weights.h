@@ -15,8 +15,8 @@ namespace supple::cage {
 /// The influences of vertices that are appended one after the other: by joint, normalised, at least one a vertex.
 class VertexWeights {
 public:
-    /// Vertices of a mesh without a skin: bound to joint 0.
-    void appendUnskinned(size_t count);
+    /// Vertices that follow one joint.
+    void appendUnskinned(size_t count, uint32_t joint = 0);
     /// One vertex. `own`: its influences of more than zero, in any order; a joint may be there several times. If there
     /// are none, it is bound to `fallback`. `rounding`: how far each weight may be off because of its format.
     void append(std::span<const Influence> own, uint32_t fallback, double rounding = 0.0);

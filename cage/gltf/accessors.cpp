@@ -38,23 +38,55 @@ std::string componentName(const Accessor& accessor) {
     return accessor.normalized ? "normalized " + name : name;
 }
 
-uint32_t componentBit(const Accessor& accessor) {
-    switch (accessor.componentType) {
+uint32_t componentBit(int componentType, bool normalized) {
+    switch (componentType) {
     case file::kByte:
-        return accessor.normalized ? kNormalizedS8 : kS8;
+        return normalized ? kNormalizedS8 : kS8;
     case file::kUnsignedByte:
-        return accessor.normalized ? kNormalizedU8 : kU8;
+        return normalized ? kNormalizedU8 : kU8;
     case file::kShort:
-        return accessor.normalized ? kNormalizedS16 : kS16;
+        return normalized ? kNormalizedS16 : kS16;
     case file::kUnsignedShort:
-        return accessor.normalized ? kNormalizedU16 : kU16;
+        return normalized ? kNormalizedU16 : kU16;
     case file::kUnsignedInt:
-        return accessor.normalized ? 0u : kU32;
+        return normalized ? 0u : kU32;
     case file::kFloat:
-        return accessor.normalized ? 0u : kFloat;
+        return normalized ? 0u : kFloat;
     default:
         return 0;
     }
+}
+
+/// Whether the components are normalized: as the accessor says, unless that is not allowed and the opposite is.
+bool readsNormalized(const Document& document, const Accessor& accessor, uint32_t allowed, uint32_t quantized,
+                     const std::string& element) {
+    const uint32_t own = componentBit(accessor.componentType, accessor.normalized);
+    const bool isDeclared = isUsed(document, "KHR_mesh_quantization");
+    if ((own & (isDeclared ? allowed | quantized : allowed)) != 0) {
+        return accessor.normalized;
+    }
+    const std::string what = componentName(accessor) + " components ";
+    if ((componentBit(accessor.componentType, !accessor.normalized) & allowed) != 0) {
+        document.leniency->mend(
+            element, accessor.normalized ? what + "are not allowed here" : what + "without \"normalized\": true",
+            accessor.normalized ? "read as if they were not normalized" : "read as if they were normalized");
+        return !accessor.normalized;
+    }
+    if ((own & quantized) == 0) {
+        refuse(element, what + "are not allowed here");
+    }
+    document.leniency->mend(element, what + "need KHR_mesh_quantization, which the file does not declare",
+                            "read as if it did");
+    return accessor.normalized;
+}
+
+/// An accessor that can be read.
+const Accessor& soundAccessor(const Document& document, int index, const std::string& element) {
+    const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    if (accessor.broken) {
+        refuse(element, at("accessor", static_cast<size_t>(index)) + " cannot be read");
+    }
+    return accessor;
 }
 
 template <class T>
@@ -80,6 +112,9 @@ uint32_t loadInteger(const std::byte* from, int componentType) {
 std::span<const std::byte> viewBytes(const Document& document, int view, uint64_t offset, uint64_t count,
                                      uint64_t elementSize, uint64_t& stride, const std::string& element) {
     const auto& bufferView = document.model.bufferViews[static_cast<size_t>(view)];
+    if (bufferView.broken) {
+        refuse(element, at("bufferView", static_cast<size_t>(view)) + " cannot be read");
+    }
     if (stride == 0) {
         stride = bufferView.byteStride != 0 ? bufferView.byteStride : elementSize;
     }
@@ -114,30 +149,47 @@ void substitute(const Document& document, const Accessor& accessor, uint64_t ele
     const auto valueBytes = viewBytes(document, values.bufferView, values.byteOffset, sparseCount, elementSize,
                                       valueStride, element + " sparse values");
     uint64_t previous = 0;
+    bool rises = true;
     for (uint64_t i = 0; i < sparseCount; ++i) {
         const uint64_t target = loadInteger(indexBytes.data() + i * indexSize, indices.componentType);
         if (target >= count) {
             refuse(element + " sparse indices", std::to_string(target) + " is out of range: the accessor has " +
                                                     std::to_string(count) + " elements");
         }
-        if (i > 0 && target <= previous) {
-            refuse(element + " sparse indices", "not strictly increasing");
-        }
+        rises = rises && (i == 0 || target > previous);
         previous = target;
         std::memcpy(bytes.data() + target * elementSize, valueBytes.data() + i * elementSize, elementSize);
     }
+    if (!rises) {
+        document.leniency->mend(element + " sparse indices", "not strictly increasing", "the last value counts");
+    }
 }
 
-/// All elements, packed.
-std::vector<std::byte> packed(const Document& document, int index, int type, uint32_t allowed,
-                              const std::string& element, Sparse sparse) {
-    const Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+/// What normalized integers are divided by.
+float largestOf(int componentType) {
+    switch (componentType) {
+    case file::kByte:
+        return 127.0f;
+    case file::kUnsignedByte:
+        return 255.0f;
+    case file::kShort:
+        return 32767.0f;
+    case file::kUnsignedShort:
+        return 65535.0f;
+    default:
+        return 1.0f;
+    }
+}
+
+void checkType(const Accessor& accessor, int type, const std::string& element) {
     if (accessor.type != type) {
         refuse(element, std::string(file::kTypeNames[accessor.type]) + " instead of " + file::kTypeNames[type]);
     }
-    if ((componentBit(accessor) & allowed) == 0) {
-        refuse(element, componentName(accessor) + " components are not allowed here");
-    }
+}
+
+/// All elements, packed. The accessor is sound.
+std::vector<std::byte> packed(const Document& document, const Accessor& accessor, const std::string& element,
+                              Sparse sparse) {
     const uint64_t elementSize =
         uint64_t{file::componentSize(accessor.componentType)} * file::componentsOf(accessor.type);
     const uint64_t count = accessor.count;
@@ -171,32 +223,30 @@ std::vector<std::byte> packed(const Document& document, int index, int type, uin
 
 } // namespace
 
-std::vector<float> readFloats(const Document& document, int accessor, int type, uint32_t allowed,
-                              const std::string& element) {
-    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, Sparse::applied);
-    const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
-    const bool normalized = document.model.accessors[static_cast<size_t>(accessor)].normalized;
+std::vector<float> readFloats(const Document& document, int index, int type, uint32_t allowed,
+                              const std::string& element, uint32_t quantized) {
+    const Accessor& accessor = soundAccessor(document, index, element);
+    checkType(accessor, type, element);
+    const bool normalized = readsNormalized(document, accessor, allowed, quantized, element);
+    const std::vector<std::byte> bytes = packed(document, accessor, element, Sparse::applied);
+    const int componentType = accessor.componentType;
     const size_t size = file::componentSize(componentType);
+    const float largest = largestOf(componentType);
     std::vector<float> values(bytes.size() / size);
     for (size_t i = 0; i < values.size(); ++i) {
         const std::byte* from = bytes.data() + i * size;
-        float largest = 1.0f;
         switch (componentType) {
         case file::kByte:
             values[i] = load<int8_t>(from);
-            largest = 127.0f;
             break;
         case file::kUnsignedByte:
             values[i] = load<uint8_t>(from);
-            largest = 255.0f;
             break;
         case file::kShort:
             values[i] = load<int16_t>(from);
-            largest = 32767.0f;
             break;
         case file::kUnsignedShort:
             values[i] = load<uint16_t>(from);
-            largest = 65535.0f;
             break;
         default:
             values[i] = load<float>(from);
@@ -209,10 +259,13 @@ std::vector<float> readFloats(const Document& document, int accessor, int type, 
     return values;
 }
 
-std::vector<uint32_t> readIntegers(const Document& document, int accessor, int type, uint32_t allowed,
+std::vector<uint32_t> readIntegers(const Document& document, int index, int type, uint32_t allowed,
                                    const std::string& element, Sparse sparse) {
-    const std::vector<std::byte> bytes = packed(document, accessor, type, allowed, element, sparse);
-    const int componentType = document.model.accessors[static_cast<size_t>(accessor)].componentType;
+    const Accessor& accessor = soundAccessor(document, index, element);
+    checkType(accessor, type, element);
+    (void)readsNormalized(document, accessor, allowed, 0, element); // they are read as they are
+    const std::vector<std::byte> bytes = packed(document, accessor, element, sparse);
+    const int componentType = accessor.componentType;
     const size_t size = file::componentSize(componentType);
     std::vector<uint32_t> values(bytes.size() / size);
     for (size_t i = 0; i < values.size(); ++i) {
@@ -226,12 +279,17 @@ uint32_t restartIndex(const Document& document, int accessor) {
     return type == file::kUnsignedByte ? 0xFFu : type == file::kUnsignedShort ? 0xFFFFu : 0xFFFFFFFFu;
 }
 
+float integerStep(const Document& document, int accessor) {
+    const Accessor& of = document.model.accessors[static_cast<size_t>(accessor)];
+    return of.componentType == file::kFloat ? 0.0f : of.normalized ? 1.0f / largestOf(of.componentType) : 1.0f;
+}
+
 size_t accessorCount(const Document& document, int accessor) {
     return static_cast<size_t>(document.model.accessors[static_cast<size_t>(accessor)].count);
 }
 
 void checkVertexCount(const Document& document, int accessor, size_t vertexCount, const std::string& element) {
-    const size_t count = accessorCount(document, accessor);
+    const auto count = static_cast<size_t>(soundAccessor(document, accessor, element).count);
     if (count != vertexCount) {
         refuse(element, counted(count, "element", "elements") + " for " + counted(vertexCount, "vertex", "vertices"));
     }

@@ -36,8 +36,10 @@ inline constexpr uint32_t kQuantized = kQuantizedSigned | kNormalizedU8 | kNorma
 /// Elements of `type` (file::ElementType) as floats, element after element; normalized integers are divided by their
 /// largest value, others are taken as they are. Throws Refusal that names `element` when type or component type are not
 /// allowed there or the data is out of range.
+/// `quantized`: component types that are allowed besides in files with KHR_mesh_quantization. Integers that lack the
+/// flag `normalized`, and those of an extension that the file forgot to name, are mended.
 [[nodiscard]] std::vector<float> readFloats(const Document& document, int accessor, int type, uint32_t allowed,
-                                            const std::string& element);
+                                            const std::string& element, uint32_t quantized = 0);
 
 /// Whether a sparse accessor's values take the place of those below them.
 enum class Sparse { applied, ignored };
@@ -49,7 +51,10 @@ enum class Sparse { applied, ignored };
 /// The largest number of the accessor's component type: no index, but the mark between strips and loops.
 [[nodiscard]] uint32_t restartIndex(const Document& document, int accessor);
 
-/// Number of elements.
+/// How far apart the numbers are that an accessor of integers can hold, as readFloats() reads them; 0: it has floats.
+[[nodiscard]] float integerStep(const Document& document, int accessor);
+
+/// Number of elements; none of an accessor that cannot be read.
 [[nodiscard]] size_t accessorCount(const Document& document, int accessor);
 
 /// Refuses an attribute that does not have one element a vertex.

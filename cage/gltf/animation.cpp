@@ -3,10 +3,12 @@
 #include "cage/clip_checks.h"
 #include "cage/entry_faults.h"
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/keys.h"
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,13 +53,16 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
     channel.node = static_cast<uint32_t>(from.node);
     channel.path = kind.path;
     const auto& sampler = animation.samplers[static_cast<size_t>(from.sampler)];
+    if (sampler.broken) {
+        refuse(element, at("sampler", static_cast<size_t>(from.sampler)) + " cannot be read");
+    }
     channel.interpolation = sampler.interpolation == "STEP"          ? Interpolation::step
                             : sampler.interpolation == "CUBICSPLINE" ? Interpolation::cubicSpline
                                                                      : Interpolation::linear;
 
     const std::string input = element + " input";
     channel.times = readFloats(document, sampler.input, file::kScalar, kFloat, input);
-    checkTimes(channel, input);
+    checkKeyCount(channel, input);
     const bool cubic = channel.interpolation == Interpolation::cubicSpline;
 
     const std::string output = element + " output";
@@ -75,6 +80,8 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
                                 : "") +
                            (cubic ? " of CUBICSPLINE" : ""));
     }
+    mendKeys(input, output, channel.values.size() / elements, *document.leniency, channel);
+    checkTimes(channel, input);
     checkValues(channel, channel.values.size() / elements, output);
     return channel;
 }
@@ -82,10 +89,8 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
 /// Reads clips one after the other, and bounds what they hold together.
 class ClipReader {
 public:
-    ClipReader(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
-               Refusals& refusals, Warnings& warnings)
-        : document_(document), skeleton_(skeleton), targetCounts_(targetCounts), refusals_(refusals),
-          warnings_(warnings) {}
+    ClipReader(const Document& document, Skeleton& skeleton, std::span<const size_t> targetCounts, Warnings& warnings)
+        : document_(document), skeleton_(skeleton), targetCounts_(targetCounts), warnings_(warnings) {}
 
     Clip read(size_t index) {
         const auto& animation = document_.model.animations[index];
@@ -96,7 +101,9 @@ public:
         targets_.clear();
         document_.memory->take(animation.channels.size(), 4 * sizeof(Channel), element);
         for (size_t k = 0; k < animation.channels.size(); ++k) {
-            refusals_.gather([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
+            if (!animation.channels[k].broken) {
+                document_.leniency->leaveOut([&] { addChannel(animation, k, element + " " + at("channel", k), clip); });
+            }
         }
         addCurves(animation, element, clip);
         const float first = beginAtFirstKey(clip, element, warnings_);
@@ -126,8 +133,8 @@ private:
         if (!targets_.emplace(channel.node, path).second) {
             refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.node));
         }
-        if (kind->path != ChannelPath::weights && skeleton_.nodes[static_cast<size_t>(channel.node)].hasMatrix) {
-            refuse(element, "animates node " + std::to_string(channel.node) + ", which has a matrix");
+        if (kind->path != ChannelPath::weights) {
+            takeMatrixApart(static_cast<uint32_t>(channel.node), element);
         }
         clip.channels.push_back(readChannel(document_, animation, channel, *kind, element));
         count(clip.channels.back(), element);
@@ -185,10 +192,24 @@ private:
         }
     }
 
+    /// A matrix cannot be animated in parts.
+    void takeMatrixApart(uint32_t number, const std::string& element) {
+        Node& node = skeleton_.nodes[number];
+        if (!node.hasMatrix) {
+            return;
+        }
+        const std::string reason = "animates node " + std::to_string(number) + ", which has a matrix";
+        Node parts = node;
+        if (!decompose(parts)) {
+            refuse(element, reason);
+        }
+        document_.leniency->mend(element, reason, "the matrix is taken apart");
+        node = parts;
+    }
+
     const Document& document_;
-    const Skeleton& skeleton_;
+    Skeleton& skeleton_;
     const std::span<const size_t> targetCounts_;
-    Refusals& refusals_;
     Warnings& warnings_;
     uint64_t floats_ = 0;
     std::map<std::string, size_t> ignored_;         ///< of the clip: path -> channels
@@ -197,9 +218,9 @@ private:
 
 } // namespace
 
-std::vector<Clip> readClips(const Document& document, const Skeleton& skeleton, std::span<const size_t> targetCounts,
-                            Refusals& refusals, Warnings& warnings) {
-    ClipReader reader(document, skeleton, targetCounts, refusals, warnings);
+std::vector<Clip> readClips(const Document& document, Skeleton& skeleton, std::span<const size_t> targetCounts,
+                            Warnings& warnings) {
+    ClipReader reader(document, skeleton, targetCounts, warnings);
     std::vector<Clip> clips;
     for (size_t i = 0; i < document.model.animations.size(); ++i) {
         clips.push_back(reader.read(i));
@@ -212,20 +233,27 @@ ClipSet readMotion(const Document& document, const std::string& name) {
     ClipSet set;
     set.name = name;
     set.skeleton = readSkeleton(document);
-    Warnings ofMeshes; // which are not read
+    Warnings ofMeshes;                 // which are not read
+    std::vector<size_t> targetsOfMesh; // a mesh may have no primitives that can be read
     for (size_t m = 0; m < meshes.size(); ++m) {
+        size_t targets = 0;
+        for (const file::Primitive& primitive : meshes[m].primitives) {
+            targets = std::max(targets, primitive.targets.size());
+        }
+        targetsOfMesh.push_back(targets);
         set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes));
     }
     std::vector<size_t> targetCounts;
     for (const auto& node : document.model.nodes) {
         set.meshes.push_back(node.mesh < 0 ? kNone : static_cast<uint32_t>(node.mesh));
-        const size_t targets =
-            node.mesh < 0 ? 0 : meshes[static_cast<size_t>(node.mesh)].primitives.front().targets.size();
+        const size_t targets = node.mesh < 0 ? 0 : targetsOfMesh[static_cast<size_t>(node.mesh)];
         targetCounts.push_back(targets > 0 ? targets : kFromKeys);
     }
-    Refusals refusals;
-    set.clips = readClips(document, set.skeleton, targetCounts, refusals, set.warnings);
-    refusals.raise();
+    set.clips = readClips(document, set.skeleton, targetCounts, set.warnings);
+    document.leniency->raise();
+    for (const Damage& damage : document.leniency->takeDamages()) {
+        set.warnings.push_back(damage.found + "; " + damage.repair);
+    }
     const auto& animations = document.model.animations;
     for (size_t i = 0; i < animations.size(); ++i) {
         if (animations[i].name.empty()) {

@@ -17,8 +17,34 @@ std::string_view textOf(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Whether a chunk may begin there: it is one that glTF knows, and all of it is there.
+bool isChunk(std::span<const std::byte> bytes, size_t offset) {
+    if (offset > bytes.size() || bytes.size() - offset < 8) {
+        return false;
+    }
+    const uint32_t type = readU32(bytes, offset + 4);
+    return (type == kGlbJson || type == kGlbBinary) && readU32(bytes, offset) <= bytes.size() - offset - 8;
+}
+
+/// Where the chunk behind one that ends at `end` begins. Chunks are padded to multiples of four, and their lengths
+/// count the padding. Some writers do not count it, others have none.
+size_t nextChunk(std::span<const std::byte> bytes, size_t end, size_t chunk, Leniency& leniency) {
+    const size_t padded = (end + 3) / 4 * 4;
+    if (padded == end) {
+        return end;
+    }
+    const bool unpadded = !isChunk(bytes, padded) && isChunk(bytes, end);
+    if (unpadded || padded + 8 <= bytes.size()) { // the last one may end as it likes
+        leniency.mend(at("GLB chunk", chunk),
+                      unpadded ? "not padded: the next chunk does not begin on a multiple of 4"
+                               : "its length is no multiple of 4",
+                      "the next chunk is read where it begins");
+    }
+    return unpadded ? end : std::min(padded, bytes.size());
+}
+
 /// The chunks of a file with the magic of a GLB.
-Container openGlb(std::span<const std::byte> bytes) {
+Container openGlb(std::span<const std::byte> bytes, Leniency& leniency) {
     Container container;
     container.isBinary = true;
     if (bytes.size() < 12) {
@@ -59,8 +85,7 @@ Container openGlb(std::span<const std::byte> bytes) {
             seenBinary = true;
             container.binary = bytes.subspan(offset, chunkLength);
         }
-        // Chunks start on multiples of four; the last one may lack its padding.
-        offset = std::min<size_t>(offset + (static_cast<size_t>(chunkLength) + 3) / 4 * 4, length);
+        offset = nextChunk(bytes.first(length), offset + chunkLength, chunk, leniency);
     }
     if (!seenJson) {
         refuse("GLB", "no JSON chunk");
@@ -78,12 +103,12 @@ uint32_t readU32(std::span<const std::byte> bytes, size_t offset) {
     return value;
 }
 
-Container openContainer(std::span<const std::byte> bytes) {
+Container openContainer(std::span<const std::byte> bytes, Leniency& leniency) {
     if (bytes.empty()) {
         refuse("file", "empty");
     }
     if (bytes.size() >= 4 && readU32(bytes, 0) == kGlbMagic) {
-        return openGlb(bytes);
+        return openGlb(bytes, leniency);
     }
     Container container;
     container.text = textOf(bytes);

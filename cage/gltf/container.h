@@ -1,6 +1,8 @@
 // What wraps a glTF file's JSON: GLB chunks, or nothing. Private to cage/gltf/.
 #pragma once
 
+#include "cage/leniency.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,7 +18,7 @@ struct Container {
 };
 
 /// Throws Refusal.
-[[nodiscard]] Container openContainer(std::span<const std::byte> bytes);
+[[nodiscard]] Container openContainer(std::span<const std::byte> bytes, Leniency& leniency);
 
 /// Four bytes, little-endian.
 [[nodiscard]] uint32_t readU32(std::span<const std::byte> bytes, size_t offset);

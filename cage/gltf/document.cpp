@@ -7,6 +7,7 @@
 #include "cage/gltf/structure.h"
 #include "cage/gltf/texture.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace supple::cage::gltf {
@@ -30,6 +31,15 @@ void takeTables(const Json& root, MemoryBudget& memory) {
     }
 }
 
+/// A view may say that it is longer than what is left of its buffer.
+void endViewsWithBuffers(Document& document) {
+    for (file::BufferView& view : document.model.bufferViews) {
+        if (!view.broken) {
+            view.byteLength = std::min(view.byteLength, document.buffers[view.buffer].size() - view.byteOffset);
+        }
+    }
+}
+
 } // namespace
 
 bool isUsed(const Document& document, const char* extension) {
@@ -40,10 +50,11 @@ bool isRequired(const Document& document, const char* extension) {
     return document.model.extensionsRequired.contains(extension);
 }
 
-Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
+Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit, bool strict,
                       Content content) {
-    const Container container = openContainer(bytes);
     Document document;
+    document.leniency = std::make_unique<Leniency>(strict);
+    const Container container = openContainer(bytes, *document.leniency);
     document.memory = std::make_unique<MemoryBudget>(memoryLimit);
     document.memory->addFile(bytes.size());
     document.json = parseJson(container.text, *document.memory);
@@ -52,12 +63,13 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
     Resources resources(readFile, document);
     loadBuffers(table(root, "buffers"), findPlaceholders(root), container, resources, document);
     decodeMeshopt(root, document);
-    checkStructure(root, document.buffers, document.decodedInto);
+    const Broken broken = checkStructure(root, document.buffers, document.decodedInto, *document.leniency);
     takeTables(root, *document.memory);
-    document.model = file::toModel(root, document.decodedInto);
+    document.model = file::toModel(root, document.decodedInto, broken);
+    endViewsWithBuffers(document);
     if (content == Content::all) {
         loadImages(table(root, "images"), resources, document);
-        document.textures = readTextures(root, document.warnings);
+        document.textures = readTextures(root, *document.leniency, document.warnings);
         nameUnreadLook(root, document.warnings);
         document.materials = table(root, "materials");
     }

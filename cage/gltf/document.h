@@ -6,6 +6,7 @@
 #include "cage/gltf/json.h"
 #include "cage/gltf/model.h"
 #include "cage/gltf/reader.h"
+#include "cage/leniency.h"
 #include "cage/memory_budget.h"
 
 #include <cstddef>
@@ -34,6 +35,7 @@ struct Document {
 
     std::vector<SharedBytes> owned; ///< behind the buffers that are not in the caller's bytes
     std::unique_ptr<MemoryBudget> memory;
+    std::unique_ptr<Leniency> leniency; ///< takes the faults of the file
 };
 
 /// Whether the file names an extension among those it uses or requires.
@@ -41,8 +43,8 @@ struct Document {
 /// Whether the file names an extension among those it requires.
 [[nodiscard]] bool isRequired(const Document& document, const char* extension);
 
-/// Throws Refusal. The document refers to `bytes`. `memoryLimit`: as GltfOptions has it.
+/// Throws Refusal. The document refers to `bytes`. `memoryLimit` and `strict`: as GltfOptions has them.
 [[nodiscard]] Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFile, uint64_t memoryLimit,
-                                    Content content = Content::all);
+                                    bool strict, Content content = Content::all);
 
 } // namespace supple::cage::gltf

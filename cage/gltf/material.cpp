@@ -34,7 +34,7 @@ public:
         : document_(document), from_(document.materials[index]), element_(at("material", index)), warnings_(warnings) {}
 
     Material read() {
-        material_.name = stringMember(from_, "name", element_);
+        material_.name = text("name");
         material_.doubleSided = readFlag("doubleSided");
         readAlpha();
         if (const Json* pbr = objectMember(from_, "pbrMetallicRoughness", element_)) {
@@ -58,8 +58,28 @@ public:
     }
 
 private:
+    /// What a material says wrongly is as if it had not said it: its shape is that of its mesh.
+    template <class Read>
+    void leaveOut(Read&& read) {
+        document_.leniency->leaveOut(read);
+    }
+
+    /// Empty where it is absent or no string.
+    std::string text(const char* key) {
+        std::string read;
+        leaveOut([&] { read = stringMember(from_, key, element_); });
+        return read;
+    }
+
+    /// Null where it is absent or no object.
+    const Json* part(const Json& object, const char* key) {
+        const Json* found = nullptr;
+        leaveOut([&] { found = objectMember(object, key, element_); });
+        return found;
+    }
+
     void readAlpha() {
-        const std::string mode = stringMember(from_, "alphaMode", element_);
+        const std::string mode = text("alphaMode");
         if (mode == "MASK") {
             material_.alphaMode = AlphaMode::mask;
         } else if (mode == "BLEND") {
@@ -77,16 +97,18 @@ private:
         if (!hasExtension(from_, kName)) {
             return;
         }
-        if (const Json* extension = objectMember(from_.at("extensions"), kName, element_)) {
+        if (const Json* extension = part(from_.at("extensions"), kName)) {
             material_.emissiveStrength = readNumber(*extension, "emissiveStrength", 1.0f, {0.0f, kUnbounded});
         }
     }
 
     bool readFlag(const char* key) {
         const Json* value = member(from_, key);
-        if (value != nullptr && !value->isBoolean()) {
-            refuse(within(element_, key), "not a boolean");
-        }
+        leaveOut([&] {
+            if (value != nullptr && !value->isBoolean()) {
+                refuse(within(element_, key), "not a boolean");
+            }
+        });
         return value != nullptr && value->boolean();
     }
 
@@ -96,30 +118,37 @@ private:
             return fallback;
         }
         const std::string place = within(element_ + part, key);
-        if (!value->isNumber() || !isFiniteFloat(*value)) {
-            refuse(place, "not a finite number");
-        }
-        return clamped(value->real(), range, place, warnings_);
+        float read = fallback;
+        leaveOut([&] {
+            if (!value->isNumber() || !isFiniteFloat(*value)) {
+                refuse(place, "not a finite number");
+            }
+            read = clamped(value->real(), range, place, warnings_);
+        });
+        return read;
     }
 
     template <class Color>
     void readColor(const Json& object, const char* key, Color& color) {
-        checkNumbers(object, key, element_, static_cast<size_t>(Color::length()));
-        if (const Json* values = member(object, key)) {
-            for (int k = 0; k < Color::length(); ++k) {
-                const auto channel = static_cast<size_t>(k);
-                color[k] = clamped((*values)[channel].real(), {}, item(within(element_, key), channel), warnings_);
+        leaveOut([&] {
+            checkNumbers(object, key, element_, static_cast<size_t>(Color::length()));
+            if (const Json* values = member(object, key)) {
+                for (int k = 0; k < Color::length(); ++k) {
+                    const auto channel = static_cast<size_t>(k);
+                    color[k] = clamped((*values)[channel].real(), {}, item(within(element_, key), channel), warnings_);
+                }
             }
-        }
+        });
     }
 
     Texture readTexture(const Json& object, const char* key) {
-        const Json* info = objectMember(object, key, element_);
-        if (info == nullptr) {
+        const Json* info = part(object, key);
+        const std::string place = within(element_, key);
+        Texture texture;
+        if (info == nullptr ||
+            !document_.leniency->leaveOut([&] { texture = readTextureInfo(document_, *info, place); })) {
             return {};
         }
-        const std::string place = within(element_, key);
-        Texture texture = readTextureInfo(document_, *info, place);
         if (texture.uvSet > 1) {
             warn(warnings_, place,
                  "texCoord " + std::to_string(texture.uvSet) + ": only TEXCOORD_0 and TEXCOORD_1 are read; left out");
@@ -142,13 +171,11 @@ private:
 
 } // namespace
 
-std::vector<Material> readMaterials(const Document& document, Refusals& refusals, Warnings& warnings) {
+std::vector<Material> readMaterials(const Document& document, Warnings& warnings) {
     std::vector<Material> materials(document.materials.size());
     for (size_t i = 0; i < materials.size(); ++i) {
-        refusals.gather([&] {
-            materials[i] = MaterialReader(document, i, warnings).read();
-            materials[i].trim = readTrim(document, i, warnings);
-        });
+        materials[i] = MaterialReader(document, i, warnings).read();
+        document.leniency->gather([&] { materials[i].trim = readTrim(document, i, warnings); });
     }
     return materials;
 }

@@ -33,22 +33,86 @@ constexpr uint64_t kMaxAttributeFloats = 1u << 27;
 constexpr uint64_t kVertexBytes = 128;
 constexpr uint64_t kCornerBytes = 160;
 
+std::string nameOfNoTriangles(const file::Mesh& mesh) {
+    const auto any = [&](int first, int last) {
+        return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                           [&](const Primitive& p) { return !p.broken && p.mode >= first && p.mode <= last; });
+    };
+    const bool points = any(file::kPoints, file::kPoints);
+    const bool lines = any(file::kLines, file::kLineStrip);
+    return std::string("nothing but ") +
+           (points && lines ? "points and lines"
+            : points        ? "points"
+                            : "lines") +
+           ": no primitive of TRIANGLES, so there is no surface";
+}
+
+/// Why nothing is drawn of any primitive of a mesh; empty if a warning says it.
+std::string whyNothingIsDrawn(const file::Mesh& mesh, const std::string& element) {
+    if (mesh.primitives.empty()) {
+        return "";
+    }
+    for (size_t k = 0; k < mesh.primitives.size(); ++k) {
+        const Primitive& primitive = mesh.primitives[k];
+        if (primitive.broken) {
+            return ""; // a warning says so
+        }
+        if (hasTriangles(primitive.mode)) {
+            return element + " " + at("primitive", k) + ": no POSITION";
+        }
+    }
+    return element + ": " + nameOfNoTriangles(mesh);
+}
+
 class MeshReader {
 public:
-    MeshReader(const Document& document, size_t jointCount, std::span<const Material> materials, Warnings& warnings)
-        : document_(document), model_(document.model), jointCount_(jointCount), materials_(materials),
-          quantized_(isUsed(document, "KHR_mesh_quantization")), warnings_(warnings) {}
+    MeshReader(const Document& document, const MeshBinding& binding, std::span<const Material> materials,
+               Warnings& warnings)
+        : document_(document), model_(document.model), binding_(binding), materials_(materials), warnings_(warnings) {}
 
-    std::optional<Mesh> read(uint32_t meshNode) && {
-        const auto meshIndex = static_cast<size_t>(model_.nodes[meshNode].mesh);
+    std::optional<Mesh> read(std::string& whyEmpty) && {
+        const auto meshIndex = static_cast<size_t>(model_.nodes[binding_.node].mesh);
         const auto& mesh = model_.meshes[meshIndex];
         out_.element = at("mesh", meshIndex);
-        skinned_ = model_.nodes[meshNode].skin >= 0;
+        const std::vector<size_t> numbers = findDrawn(mesh);
+        if (out_.primitives.empty()) {
+            whyEmpty = whyNothingIsDrawn(mesh, out_.element);
+            return std::nullopt;
+        }
+        findCageNumbers(mesh, numbers);
+        positionAccessors_.assign(numbers.size(), -1);
+        std::vector<uint8_t> isRead(numbers.size(), 0);
+        for (size_t i = 0; i < numbers.size(); ++i) {
+            isRead[i] =
+                document_.leniency->leaveOut([&] { readPrimitive(mesh.primitives[numbers[i]], out_.primitives[i]); });
+        }
+        keepRead(isRead);
+        if (out_.primitives.empty()) {
+            return std::nullopt;
+        }
+        if (out_.cageNumbers.empty()) {
+            document_.leniency->leaveOut(
+                [&] { out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_); });
+        }
+        readExtrasCreases(document_.meshes[meshIndex], out_, warnings_);
+        out_.weights.report(out_.element + " WEIGHTS", warnings_);
+        return std::move(out_);
+    }
+
+private:
+    /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
+    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
+
+    /// Makes an entry of each primitive that has triangles. Returns their numbers.
+    std::vector<size_t> findDrawn(const file::Mesh& mesh) {
         std::vector<size_t> numbers;
         for (size_t k = 0; k < mesh.primitives.size(); ++k) {
             const Primitive& from = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
-            if (hasTriangles(from.mode)) {
+            if (from.broken) {
+                continue; // a warning says so
+            }
+            if (isDrawn(from)) {
                 split::Primitive& primitive = out_.primitives.emplace_back();
                 primitive.element = element;
                 extensions_.push_back(findCageExtension(document_, from.json, element, warnings_));
@@ -62,33 +126,34 @@ public:
             }
             const bool polygons = hasExtension(from.json, "EXT_mesh_polygon");
             const std::string reason =
-                std::string(modeName(from.mode)) + " instead of TRIANGLES" +
-                (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
+                hasTriangles(from.mode)
+                    ? "no POSITION"
+                    : std::string(modeName(from.mode)) + " instead of TRIANGLES" +
+                          (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
             if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
                 refuse(element, reason);
             }
             warn(warnings_, element, reason + "; left out");
         }
-        if (out_.primitives.empty()) {
-            return std::nullopt;
-        }
-        findCageNumbers(mesh, numbers);
-        Refusals refusals;
-        for (size_t i = 0; i < numbers.size(); ++i) {
-            refusals.gather([&] { readPrimitive(mesh.primitives[numbers[i]], out_.primitives[i]); });
-        }
-        refusals.raise();
-        if (out_.cageNumbers.empty()) {
-            out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_);
-        }
-        readExtrasCreases(document_.meshes[meshIndex], out_, warnings_);
-        out_.weights.report(out_.element + " WEIGHTS", warnings_);
-        return std::move(out_);
+        return numbers;
     }
 
-private:
-    /// Accessors of position, cage numbers, joints, weights and morph targets: what makes a vertex.
-    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>>;
+    /// Takes the primitives out that could not be read. Vertices that they have read are unused.
+    void keepRead(std::span<const uint8_t> isRead) {
+        size_t kept = 0;
+        for (size_t i = 0; i < isRead.size(); ++i) {
+            if (isRead[i] == 0) {
+                continue;
+            }
+            if (kept != i) {
+                out_.primitives[kept] = std::move(out_.primitives[i]);
+                positionAccessors_[kept] = positionAccessors_[i];
+            }
+            ++kept;
+        }
+        out_.primitives.resize(kept);
+        positionAccessors_.resize(kept);
+    }
 
     /// Which accessors number the cage's vertices: all primitives' or none.
     void findCageNumbers(const file::Mesh& mesh, const std::vector<size_t>& numbers) {
@@ -128,9 +193,6 @@ private:
         primitive.material = from.material;
 
         const auto position = from.attributes.find("POSITION");
-        if (position == from.attributes.end()) {
-            refuse(element, "no POSITION");
-        }
         if (hasExtension(from.json, "KHR_draco_mesh_compression") &&
             model_.accessors[static_cast<size_t>(position->second)].bufferView < 0) {
             refuse(element, "compressed with KHR_draco_mesh_compression; export the mesh uncompressed");
@@ -138,32 +200,31 @@ private:
 
         // Primitives over the same accessors share their vertices.
         SkinSets sets;
-        if (skinned_) {
-            sets = findSkinSets(from, element);
+        if (binding_.skinned) {
+            sets = findSkinSets(document_, from, element);
         }
-        const std::vector<int> targets = findMorphTargets(from);
+        const std::vector<int> targets = morphReader_.targetsOf(document_, from, element);
         const auto number = static_cast<size_t>(&primitive - out_.primitives.data());
         const int cageNumbers = cageNumbers_[number];
         const std::optional<CageExtension>& extension = extensions_[number];
         const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets};
-        const auto [known, isNew] = streams_.try_emplace(stream, static_cast<uint32_t>(out_.positions.size()));
-        primitive.firstVertex = known->second;
+        const auto known = streams_.find(stream);
+        primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);
         takeCorners(from, extension, element, count);
-        if (isNew) {
+        if (known == streams_.end()) {
             document_.memory->take(count, kVertexBytes, element);
-            readVertices(position->second, sets, count, element);
-            morphReader_.append(document_, targets, count, element, out_.morphs);
-            if (cageNumbers >= 0) {
-                readCageNumbers(cageNumbers, count, element);
-            }
+            readVertices(stream, sets, count, element);
+            streams_.emplace(stream, primitive.firstVertex);
         }
-        positionAccessors_.push_back(position->second);
+        positionAccessors_[number] = position->second;
         primitive.vertexCount = static_cast<uint32_t>(count);
 
         primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
-        primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
-                                       primitive.vertexCount, element, warnings_);
+        document_.leniency->leaveOut([&] {
+            primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
+                                           primitive.vertexCount, element, warnings_);
+        });
         for (std::vector<uint32_t>* vertices : {&primitive.triangles, &primitive.faces.polygons.vertices}) {
             for (uint32_t& vertex : *vertices) {
                 vertex += primitive.firstVertex;
@@ -205,44 +266,61 @@ private:
     }
 
     /// Blender's exporter has no integer attributes: its numbers are floats.
-    void readCageNumbers(int accessor, size_t count, const std::string& element) {
+    std::vector<uint32_t> readCageNumbers(int accessor, size_t count, const std::string& element) {
         const bool ofExtension = out_.numberSource == WeldSource::cageExtension;
         const std::string name = element + (ofExtension ? " SUPPLE_mesh_cage cageVertices" : " _CAGE_VERTEX");
         checkVertexCount(document_, accessor, count, name);
         const bool isFloat = model_.accessors[static_cast<size_t>(accessor)].componentType == file::kFloat;
         if (ofExtension || !isFloat) {
-            const auto values = readIntegers(document_, accessor, file::kScalar, kU8 | kU16 | kU32, name);
-            out_.cageNumbers.insert(out_.cageNumbers.end(), values.begin(), values.end());
-            return;
+            return readIntegers(document_, accessor, file::kScalar, kU8 | kU16 | kU32, name);
         }
         const auto values = readFloats(document_, accessor, file::kScalar, kFloat, name);
+        std::vector<uint32_t> numbers;
         for (size_t v = 0; v < values.size(); ++v) {
             // Beyond 2^24 not every number is a float; written so that a NaN is refused too.
             if (!(values[v] >= 0.0f && values[v] <= 16777216.0f) || std::floor(values[v]) != values[v]) {
                 refuse(item(name, v), "not a number of a vertex");
             }
-            out_.cageNumbers.push_back(static_cast<uint32_t>(values[v]));
+            numbers.push_back(static_cast<uint32_t>(values[v]));
         }
+        return numbers;
     }
 
-    /// Without sets, a mesh without a skin.
-    void readVertices(int position, const SkinSets& sets, size_t count, const std::string& element) {
+    std::vector<glm::vec3> readPositions(int accessor, size_t count, const std::string& element) {
         if (out_.positions.size() + count > kMaxVertices) {
             refuse(element, "more than " + std::to_string(kMaxVertices) + " vertices", ErrorCode::limit);
         }
-        const auto values = readFloats(document_, position, file::kVec3, quantized_ ? kFloat | kQuantized : kFloat,
-                                       element + " POSITION");
+        const auto values = readFloats(document_, accessor, file::kVec3, kFloat, element + " POSITION", kQuantized);
+        out_.gridStep = std::max(out_.gridStep, integerStep(document_, accessor));
+        std::vector<glm::vec3> positions;
+        positions.reserve(count);
         for (size_t v = 0; v < count; ++v) {
             if (const char* fault = faultOfCoordinates(&values[3 * v], 3)) {
                 refuse(item(element + " POSITION", v), fault);
             }
-            out_.positions.emplace_back(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+            positions.emplace_back(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+        }
+        return positions;
+    }
+
+    /// All of the vertices or, if it throws, none.
+    void readVertices(const Stream& stream, const SkinSets& sets, size_t count, const std::string& element) {
+        const auto& [position, cageNumbers, joints, weights, targets] = stream;
+        const std::vector<glm::vec3> positions = readPositions(position, count, element);
+        const Displacements displacements = morphReader_.read(document_, targets, count, element);
+        std::vector<uint32_t> numbers;
+        if (cageNumbers >= 0) {
+            numbers = readCageNumbers(cageNumbers, count, element);
         }
         if (sets.joints.empty()) {
-            out_.weights.appendUnskinned(count);
+            const size_t joint = binding_.hasFollower ? binding_.skinJoints() : 0;
+            out_.weights.appendUnskinned(count, static_cast<uint32_t>(joint));
         } else {
-            appendWeights(document_, sets, count, jointCount_, element, out_.weights);
+            appendWeights(document_, sets, count, binding_.skinJoints(), element, out_.weights);
         }
+        out_.positions.insert(out_.positions.end(), positions.begin(), positions.end());
+        out_.morphs.append(count, displacements);
+        out_.cageNumbers.insert(out_.cageNumbers.end(), numbers.begin(), numbers.end());
     }
 
     void countAttributeFloats(size_t count, const std::string& name) {
@@ -254,65 +332,74 @@ private:
         }
     }
 
-    /// Reads TEXCOORD_0, TEXCOORD_1, NORMAL and COLOR_0. What is not finite becomes 0: it spoils a texture, not the
-    /// shape.
+    /// A texture, a color or a normal that cannot be read is left out: it does not shape anything.
     void readCornerAttributes(const Primitive& from, const std::string& element, split::Primitive& primitive) {
-        const auto read = [&](const char* attribute, int type, uint32_t allowed) {
-            std::vector<float> values;
-            const auto found = from.attributes.find(attribute);
-            if (found == from.attributes.end()) {
-                return values;
-            }
-            const std::string name = element + " " + attribute;
-            values = readFloats(document_, found->second, type, allowed, name);
-            checkVertexCount(document_, found->second, primitive.vertexCount, name);
-            countAttributeFloats(values.size(), name);
-            size_t repaired = 0;
-            for (float& value : values) {
-                if (!std::isfinite(value)) {
-                    value = 0.0f;
-                    ++repaired;
-                }
-            }
-            if (repaired > 0) {
-                warn(warnings_, name, counted(repaired, "value is", "values are") + " not finite; 0 instead");
-            }
-            return values;
-        };
         constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
-        primitive.uvs = read("TEXCOORD_0", file::kVec2, quantized_ ? kCore | kQuantized : kCore);
-        primitive.uvs1 = read("TEXCOORD_1", file::kVec2, quantized_ ? kCore | kQuantized : kCore);
-        primitive.normals = readNormals(document_, from, primitive.vertexCount, element, warnings_);
+        Leniency& leniency = *document_.leniency;
+        leniency.leaveOut(
+            [&] { primitive.uvs = readAttribute(from, "TEXCOORD_0", file::kVec2, kCore, kQuantized, primitive); });
+        leniency.leaveOut(
+            [&] { primitive.uvs1 = readAttribute(from, "TEXCOORD_1", file::kVec2, kCore, kQuantized, primitive); });
+        leniency.leaveOut(
+            [&] { primitive.normals = readNormals(document_, from, primitive.vertexCount, element, warnings_); });
         countAttributeFloats(3 * primitive.normals.size(), element + " NORMAL");
-        primitive.tangents = readTangents(document_, from, primitive.vertexCount, element, warnings_);
+        leniency.leaveOut(
+            [&] { primitive.tangents = readTangents(document_, from, primitive.vertexCount, element, warnings_); });
         countAttributeFloats(4 * primitive.tangents.size(), element + " TANGENT");
         if (from.attributes.count("TEXCOORD_2") != 0) {
             warn(warnings_, element, "only TEXCOORD_0 and TEXCOORD_1 are read");
         }
+        leniency.leaveOut([&] { readColors(from, primitive); });
+    }
+
+    void readColors(const Primitive& from, split::Primitive& primitive) {
+        constexpr uint32_t kCore = kFloat | kNormalizedU8 | kNormalizedU16;
         const auto color = from.attributes.find("COLOR_0");
         if (color == from.attributes.end()) {
             return;
         }
         if (model_.accessors[static_cast<size_t>(color->second)].type != file::kVec3) {
-            primitive.colors = read("COLOR_0", file::kVec4, kCore);
+            primitive.colors = readAttribute(from, "COLOR_0", file::kVec4, kCore, 0, primitive);
             return;
         }
-        const auto rgb = read("COLOR_0", file::kVec3, kCore);
+        const auto rgb = readAttribute(from, "COLOR_0", file::kVec3, kCore, 0, primitive);
         primitive.colors.resize(rgb.size() / 3 * 4, 1.0f);
         for (size_t i = 0; i < rgb.size(); ++i) {
             primitive.colors[i / 3 * 4 + i % 3] = rgb[i];
         }
     }
 
+    /// What is not finite becomes 0: it spoils a texture, not the shape.
+    std::vector<float> readAttribute(const Primitive& from, const char* attribute, int type, uint32_t allowed,
+                                     uint32_t quantized, const split::Primitive& primitive) {
+        const auto found = from.attributes.find(attribute);
+        if (found == from.attributes.end()) {
+            return {};
+        }
+        const std::string name = primitive.element + " " + attribute;
+        std::vector<float> values = readFloats(document_, found->second, type, allowed, name, quantized);
+        checkVertexCount(document_, found->second, primitive.vertexCount, name);
+        countAttributeFloats(values.size(), name);
+        size_t repaired = 0;
+        for (float& value : values) {
+            if (!std::isfinite(value)) {
+                value = 0.0f;
+                ++repaired;
+            }
+        }
+        if (repaired > 0) {
+            warn(warnings_, name, counted(repaired, "value is", "values are") + " not finite; 0 instead");
+        }
+        return values;
+    }
+
     const Document& document_;
     const Model& model_;
-    const size_t jointCount_;
+    const MeshBinding& binding_;
     const std::span<const Material> materials_;
-    const bool quantized_;
     Warnings& warnings_;
 
     Mesh out_;
-    bool skinned_ = false;
     std::vector<std::optional<CageExtension>> extensions_; ///< by primitive
     std::vector<int> positionAccessors_;                   ///< by primitive
     MorphReader morphReader_;
@@ -324,26 +411,17 @@ private:
 
 } // namespace
 
-std::string nameOfNoTriangles(const file::Mesh& mesh) {
-    const auto any = [&](int first, int last) {
-        return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
-                           [&](const Primitive& p) { return p.mode >= first && p.mode <= last; });
-    };
-    const bool points = any(file::kPoints, file::kPoints);
-    const bool lines = any(file::kLines, file::kLineStrip);
-    if (mesh.primitives.empty()) {
-        return "empty: no primitives, so there is no surface";
-    }
-    return std::string("nothing but ") +
-           (points && lines ? "points and lines"
-            : points        ? "points"
-                            : "lines") +
-           ": no primitive of TRIANGLES, so there is no surface";
+bool followsNode(const Document& document, uint32_t meshNode) {
+    const file::Node& node = document.model.nodes[meshNode];
+    const auto& primitives = document.model.meshes[static_cast<size_t>(node.mesh)].primitives;
+    return node.skin >= 0 && std::any_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
+               return isDrawn(primitive) && !hasSkinSets(primitive);
+           });
 }
 
-std::optional<Mesh> readMesh(const Document& document, uint32_t meshNode, size_t jointCount,
-                             std::span<const Material> materials, Warnings& warnings) {
-    return MeshReader(document, jointCount, materials, warnings).read(meshNode);
+std::optional<Mesh> readMesh(const Document& document, const MeshBinding& binding, std::span<const Material> materials,
+                             std::string& whyEmpty, Warnings& warnings) {
+    return MeshReader(document, binding, materials, warnings).read(whyEmpty);
 }
 
 } // namespace supple::cage::gltf

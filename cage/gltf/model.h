@@ -1,6 +1,7 @@
 // The tables of a glTF file as structs. Private to cage/gltf/.
 #pragma once
 
+#include "cage/gltf/broken.h"
 #include "cage/gltf/json.h"
 
 #include <cstddef>
@@ -31,7 +32,9 @@ enum Mode : int { kPoints = 0, kLines = 1, kLineStrip = 3, kTriangles = 4, kTria
 /// The names of all element types that glTF has.
 inline constexpr const char* kTypeNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 
+/// Of the structs below, one that is broken has nothing else: what uses it is left out.
 struct BufferView {
+    bool broken = false;
     size_t buffer = 0;
     uint64_t byteOffset = 0;
     uint64_t byteLength = 0;
@@ -46,6 +49,7 @@ struct SparsePart {
 };
 
 struct Accessor {
+    bool broken = false;
     int bufferView = -1; ///< -1: zeros
     uint64_t byteOffset = 0;
     int componentType = 0;
@@ -60,6 +64,7 @@ struct Accessor {
 using Attributes = std::map<std::string, int, std::less<>>;
 
 struct Primitive {
+    bool broken = false;
     Attributes attributes;
     std::vector<Attributes> targets;
     int indices = -1;
@@ -70,7 +75,7 @@ struct Primitive {
 
 struct Mesh {
     std::string name;
-    std::vector<Primitive> primitives; ///< one or more
+    std::vector<Primitive> primitives; ///< none: the mesh is broken
     std::vector<double> weights;
 };
 
@@ -84,17 +89,19 @@ struct Node {
 };
 
 struct Skin {
-    std::vector<int> joints;
+    std::vector<int> joints; ///< none: the skin is broken. No node has it then
     int inverseBindMatrices = -1;
 };
 
 struct AnimationSampler {
+    bool broken = false;
     int input = -1;
     int output = -1;
     std::string interpolation; ///< empty: LINEAR
 };
 
 struct AnimationChannel {
+    bool broken = false;
     int sampler = -1;
     int node = 0;
     std::string path; ///< "pointer" where an extension says what moves
@@ -125,9 +132,9 @@ struct Model {
     int defaultScene = -1;
 };
 
-/// The model of a document that checkStructure() has passed. Where decodedInto[view] is not -1, that buffer takes the
-/// place of what the bufferView names.
-[[nodiscard]] Model toModel(const Json& root, const std::vector<int>& decodedInto);
+/// The model of a document that checkStructure() has passed, without what it found broken. Where decodedInto[view] is
+/// not -1, that buffer takes the place of what the bufferView names.
+[[nodiscard]] Model toModel(const Json& root, const std::vector<int>& decodedInto, const Broken& broken);
 
 [[nodiscard]] size_t componentSize(int componentType);
 [[nodiscard]] size_t componentsOf(int type);

@@ -15,9 +15,38 @@ namespace {
 // Accessors may be shared, and need no bytes where they are sparse, so a small file can ask for many.
 constexpr uint64_t kMaxMorphElements = 1u << 26;
 
+/// Puts the displacements of one target behind those of the targets before it.
+void readTarget(const Document& document, int accessor, uint32_t target, size_t count, const std::string& name,
+                Displacements& read) {
+    checkVertexCount(document, accessor, count, name);
+    const auto values = readFloats(document, accessor, file::kVec3, kFloat, name, kQuantizedSigned);
+    const size_t before = read.size();
+    for (uint32_t v = 0; v < count; ++v) {
+        const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
+        if (const char* fault = faultOfCoordinates(&values[3 * size_t{v}], 3)) {
+            read.resize(before);
+            refuse(item(name, v), fault);
+        }
+        if (delta != glm::vec3(0.0f)) {
+            read.push_back({v, {target, delta}});
+        }
+    }
+}
+
 } // namespace
 
-std::vector<int> findMorphTargets(const file::Primitive& primitive) {
+std::vector<int> MorphReader::targetsOf(const Document& document, const file::Primitive& primitive,
+                                        const std::string& element) {
+    const size_t own = primitive.targets.size();
+    if (!firstCount_) {
+        firstCount_ = own;
+    }
+    if (own != *firstCount_) {
+        document.leniency->mend(element,
+                                counted(own, "morph target", "morph targets") + ", but primitives before it have " +
+                                    std::to_string(*firstCount_),
+                                "it is moved by its own alone");
+    }
     std::vector<int> accessors;
     for (const auto& target : primitive.targets) {
         const auto position = target.find("POSITION");
@@ -26,15 +55,8 @@ std::vector<int> findMorphTargets(const file::Primitive& primitive) {
     return accessors;
 }
 
-void MorphReader::append(const Document& document, const std::vector<int>& targets, size_t count,
-                         const std::string& element, VertexMorphs& morphs) {
-    if (morphs.empty()) {
-        targetCount_ = targets.size();
-    } else if (targets.size() != targetCount_) {
-        refuse(element, counted(targets.size(), "morph target", "morph targets") + ", but primitives before it have " +
-                            std::to_string(targetCount_));
-    }
-
+Displacements MorphReader::read(const Document& document, const std::vector<int>& targets, size_t count,
+                                const std::string& element) {
     for (const int target : targets) {
         elementsRead_ += target < 0 ? 0 : count;
     }
@@ -42,38 +64,26 @@ void MorphReader::append(const Document& document, const std::vector<int>& targe
         refuse(element, "the morph targets hold more than " + std::to_string(kMaxMorphElements) + " displacements",
                ErrorCode::limit);
     }
-
-    const uint32_t allowed = isUsed(document, "KHR_mesh_quantization") ? kFloat | kQuantizedSigned : kFloat;
     // Target by target as the file has them, then by vertex.
-    std::vector<std::pair<uint32_t, MorphDelta>> read;
-    for (size_t t = 0; t < targets.size(); ++t) {
-        if (targets[t] < 0) {
-            continue;
-        }
-        const std::string name = element + " " + at("target", t) + " POSITION";
-        checkVertexCount(document, targets[t], count, name);
-        const auto values = readFloats(document, targets[t], file::kVec3, allowed, name);
-        for (uint32_t v = 0; v < count; ++v) {
-            const glm::vec3 delta(values[3 * size_t{v}], values[3 * size_t{v} + 1], values[3 * size_t{v} + 2]);
-            if (const char* fault = faultOfCoordinates(&values[3 * size_t{v}], 3)) {
-                refuse(item(name, v), fault);
-            }
-            if (delta != glm::vec3(0.0f)) {
-                read.push_back({v, {static_cast<uint32_t>(t), delta}});
-            }
+    Displacements read;
+    for (uint32_t t = 0; t < targets.size(); ++t) {
+        if (targets[t] >= 0) {
+            document.leniency->leaveOut([&] {
+                readTarget(document, targets[t], t, count, element + " " + at("target", t) + " POSITION", read);
+            });
         }
     }
-    morphs.append(count, read);
+    return read;
 }
 
-size_t targetCountOf(const Document& document, uint32_t meshNode) {
-    const auto& primitives = document.model.meshes[static_cast<size_t>(document.model.nodes[meshNode].mesh)].primitives;
-    for (const file::Primitive& primitive : primitives) {
-        if (hasTriangles(primitive.mode)) {
-            return primitive.targets.size();
+size_t targetCountOf(const file::Mesh& mesh) {
+    size_t count = 0;
+    for (const file::Primitive& primitive : mesh.primitives) {
+        if (isDrawn(primitive)) {
+            count = std::max(count, primitive.targets.size());
         }
     }
-    return 0;
+    return count;
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.
@@ -124,15 +134,16 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
         const std::string reason = counted(weights.size(), "weight", "weights") + " for " +
                                    counted(targetCount, "morph target", "morph targets");
         if (targetCount > 0) {
-            refuse(element + " weights", reason);
+            document.leniency->mend(element + " weights", reason, "as far as they go");
+        } else {
+            warn(warnings, element + " weights", reason + "; ignored");
         }
-        warn(warnings, element + " weights", reason + "; ignored");
     }
     if (targetCount == 0) {
         return morphs;
     }
     const auto& weights = ofNode ? node.weights : meshWeights;
-    for (size_t i = 0; i < weights.size(); ++i) {
+    for (size_t i = 0; i < std::min(weights.size(), targetCount); ++i) {
         morphs.weights[i] = static_cast<float>(weights[i]);
     }
     const std::string element = at("mesh", meshIndex);

@@ -8,26 +8,32 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace supple::cage::gltf {
 
-/// Per morph target the accessor of its displacements, -1 where it moves no positions.
-[[nodiscard]] std::vector<int> findMorphTargets(const file::Primitive& primitive);
-
 using split::MorphDelta;
 using split::VertexMorphs;
 
-/// Appends the displacements of the vertices of primitives, one after the other.
+/// Vertices, counted from 0, and their displacements that are not zero, target by target.
+using Displacements = std::vector<std::pair<uint32_t, MorphDelta>>;
+
+/// Reads the displacements of the primitives of one mesh, one after the other.
 class MorphReader {
 public:
-    /// Vertices whose displacements are in `targets`, of findMorphTargets(). All must have the same number of targets.
-    void append(const Document& document, const std::vector<int>& targets, size_t count, const std::string& element,
-                VertexMorphs& morphs);
+    /// Per morph target the accessor of its displacements, -1 where it moves no positions. If a primitive has other
+    /// targets than the first one, that is a fault: it counts as not moved by the others.
+    [[nodiscard]] std::vector<int> targetsOf(const Document& document, const file::Primitive& primitive,
+                                             const std::string& element);
+    /// The displacements that are in `targets`, of targetsOf(), of a primitive with `count` vertices.
+    [[nodiscard]] Displacements read(const Document& document, const std::vector<int>& targets, size_t count,
+                                     const std::string& element);
 
 private:
-    size_t targetCount_ = 0;
+    std::optional<size_t> firstCount_; ///< targets of the first primitive
     uint64_t elementsRead_ = 0;
 };
 
@@ -35,8 +41,8 @@ private:
 [[nodiscard]] std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element,
                                                        MemoryBudget& memory, Warnings& warnings);
 
-/// How many morph targets the mesh of a node has.
-[[nodiscard]] size_t targetCountOf(const Document& document, uint32_t meshNode);
+/// How many morph targets a mesh has: as many as the primitive with most of them.
+[[nodiscard]] size_t targetCountOf(const file::Mesh& mesh);
 
 /// Names and weights of the mesh's targets; their displacements are for who has the cage's vertices.
 [[nodiscard]] Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings);

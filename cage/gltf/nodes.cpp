@@ -65,7 +65,7 @@ Skeleton readSkeleton(const Document& document) {
                 node.matrix[k / 4][k % 4] = static_cast<float>(from.matrix[static_cast<size_t>(k)]);
             }
             checkPlacing({&node.matrix[0][0], 16}, at("node", i) + " matrix");
-            makeAffine(node.matrix, at("node", i) + " matrix");
+            makeAffine(node.matrix, at("node", i) + " matrix", *document.leniency);
             continue;
         }
         for (int k = 0; k < 3; ++k) {
@@ -80,7 +80,9 @@ Skeleton readSkeleton(const Document& document) {
         checkPlacing({&node.scale[0], 3}, at("node", i) + " scale");
         if (!from.rotation.empty()) {
             const auto& q = from.rotation;
-            node.rotation = unitRotation({q[0], q[1], q[2], q[3]}, at("node", i) + " rotation");
+            document.leniency->leaveOut([&] {
+                node.rotation = unitRotation({q[0], q[1], q[2], q[3]}, at("node", i) + " rotation");
+            });
         }
     }
     orderParentsFirst(skeleton);
@@ -90,7 +92,7 @@ Skeleton readSkeleton(const Document& document) {
 std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
     const Model& model = document.model;
     if (model.meshes.empty()) {
-        refuse("meshes", "none" + insteadOfMeshes(model));
+        document.leniency->refuseAll({"meshes: none" + insteadOfMeshes(model)});
     }
     if (scene && *scene >= model.scenes.size()) {
         refuse(at("scene", *scene), "the file has " + counted(model.scenes.size(), "scene", "scenes"));
@@ -100,7 +102,7 @@ std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint
     std::iota(all.begin(), all.end(), 0u);
     std::erase_if(all, hasNoMesh);
     if (all.empty()) {
-        refuse("nodes", "none has a mesh" + insteadOfMeshes(model));
+        document.leniency->refuseAll({"nodes: none has a mesh" + insteadOfMeshes(model)});
     }
     if (model.scenes.empty()) {
         return all;

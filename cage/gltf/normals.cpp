@@ -14,10 +14,8 @@ std::vector<float> readDirections(const Document& document, const file::Primitiv
     if (found == primitive.attributes.end()) {
         return {};
     }
-    const uint32_t allowed =
-        isUsed(document, "KHR_mesh_quantization") ? kFloat | kNormalizedS8 | kNormalizedS16 : uint32_t{kFloat};
     checkVertexCount(document, found->second, vertexCount, name);
-    return readFloats(document, found->second, type, allowed, name);
+    return readFloats(document, found->second, type, kFloat, name, kNormalizedS8 | kNormalizedS16);
 }
 
 } // namespace

@@ -15,6 +15,7 @@
 #include "cage/part_amount.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 #include "cage/split/cage.h"
 
 #include <exception>
@@ -22,6 +23,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace supple::cage {
@@ -32,23 +34,23 @@ namespace {
 constexpr uint64_t kPartBytes = 2048;
 
 /// The mesh that a node carries, as it is before it joins the other parts. Its cage is empty if it has no faces: then a
-/// warning says why.
-PartCage readPart(const Document& document, uint32_t node, const Skin& skin, const GltfOptions& options,
+/// warning says why, or part.whyEmpty does.
+PartCage readPart(const Document& document, const MeshBinding& binding, const GltfOptions& options,
                   const Character& character, Warnings& warnings) {
+    const uint32_t node = binding.node;
     const auto& from = document.model.nodes[node];
+    const auto& fromMesh = document.model.meshes[static_cast<size_t>(from.mesh)];
     PartCage part;
-    const size_t nameBytes = from.name.size() + document.model.meshes[static_cast<size_t>(from.mesh)].name.size();
-    document.memory->take(kPartBytes + 4 * nameBytes, at("node", node));
-    part.part.name = from.name.empty() ? document.model.meshes[static_cast<size_t>(from.mesh)].name : from.name;
+    document.memory->take(kPartBytes + 4 * (from.name.size() + fromMesh.name.size()), at("node", node));
+    part.part.name = from.name.empty() ? fromMesh.name : from.name;
     part.part.node = node;
-    const std::optional<split::Mesh> mesh = readMesh(document, node, skin.joints.size(), character.materials, warnings);
+    const std::optional<Mesh> mesh = readMesh(document, binding, character.materials, part.whyEmpty, warnings);
     if (!mesh) {
-        const auto index = static_cast<size_t>(from.mesh);
-        part.whyEmpty = at("mesh", index) + ": " + nameOfNoTriangles(document.model.meshes[index]);
         return part;
     }
     part.element = mesh->element;
-    part.morphs = readMorphs(document, node, targetCountOf(document, node), warnings);
+    part.gridStep = mesh->gridStep;
+    part.morphs = readMorphs(document, node, targetCountOf(fromMesh), warnings);
     split::buildCage(*mesh, options.pairing, part, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
@@ -56,67 +58,105 @@ PartCage readPart(const Document& document, uint32_t node, const Skin& skin, con
     return part;
 }
 
-std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character,
-                                Refusals& refusals) {
-    const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
-    std::vector<MeshBinding> meshes;
+/// What the meshes of nodes are bound to. One whose skin cannot be read is bound to its node, as one without a skin.
+std::vector<MeshBinding> readBindings(const Document& document, std::span<const uint32_t> nodes,
+                                      std::span<const glm::dmat4> restPlaces) {
+    std::vector<MeshBinding> bindings;
     for (const uint32_t node : nodes) {
-        refusals.gather([&] {
-            meshes.push_back({node, document.model.nodes[node].skin >= 0, readSkin(document, node)});
+        MeshBinding binding = bindToNode(node);
+        document.leniency->leaveOut([&] {
+            binding.skin = readSkin(document, restPlaces, node);
+            binding.skinned = document.model.nodes[node].skin >= 0;
         });
-    }
-    refusals.raise();
-    const BindSpace bindSpace(character.skeleton, meshes);
-    PaletteBuilder palette(character.skin);
-    PartAmount amount;
-    std::vector<PartCage> parts;
-    std::set<std::string> said; // nodes may share a mesh
-    std::set<std::string> whyEmpty;
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        Warnings warnings;
-        PartCage part;
-        if (!refusals.gather([&] {
-                part = readPart(document, nodes[i], meshes[i].skin, options, character, warnings);
-                amount.add(part, at("node", nodes[i]));
-            })) {
-            continue;
+        if (binding.skinned && followsNode(document, node)) {
+            binding.addFollower();
         }
+        bindings.push_back(std::move(binding));
+    }
+    return bindings;
+}
+
+/// Warnings and damages of meshes, which nodes may share.
+class SaidOnce {
+public:
+    void take(Warnings& warnings, PartCage& part, Character& character) {
         for (std::string& warning : warnings) {
-            if (said.insert(warning).second) {
+            if (said_.insert(warning).second) {
                 character.warnings.push_back(std::move(warning));
             }
         }
         for (Damage& damage : part.damages) {
-            if (said.insert(damage.found).second) {
+            if (said_.insert(damage.found).second) {
                 character.damages.push_back(std::move(damage));
             }
         }
-        if (part.cage.faceCount() == 0) {
-            whyEmpty.insert(part.whyEmpty);
+    }
+
+private:
+    std::set<std::string> said_;
+};
+
+/// The meshes that have faces, with what they are bound to, in the space of their own.
+std::vector<PartCage> readUnplaced(const Document& document, const GltfOptions& options,
+                                   std::vector<MeshBinding>& meshes, Character& character) {
+    Leniency& leniency = *document.leniency;
+    PartAmount amount;
+    std::vector<PartCage> parts;
+    std::vector<MeshBinding> withFaces;
+    SaidOnce said;
+    std::set<std::string> whyEmpty;
+    for (MeshBinding& mesh : meshes) {
+        Warnings warnings;
+        PartCage part;
+        if (!leniency.leaveOut([&] {
+                part = readPart(document, mesh, options, character, warnings);
+                amount.add(part, at("node", mesh.node));
+            })) {
             continue;
         }
-        if (!bindSpace.place(part, meshes[i])) {
-            warn(character.warnings, at("node", nodes[i]),
-                 "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
+        said.take(warnings, part, character);
+        if (part.cage.faceCount() > 0) {
+            parts.push_back(std::move(part));
+            withFaces.push_back(std::move(mesh));
+        } else if (!part.whyEmpty.empty()) {
+            whyEmpty.insert(part.whyEmpty);
         }
-        part.part.joints = palette.add(meshes[i].skin);
-        parts.push_back(std::move(part));
     }
-    if (parts.empty() && refusals.none()) {
-        throw Refusal{ErrorCode::asset, {whyEmpty.begin(), whyEmpty.end()}};
+    if (parts.empty() && !leniency.mustRefuse()) {
+        leniency.refuseAll(whyEmpty);
     }
     for (const std::string& reason : whyEmpty) {
         character.warnings.push_back(reason + "; left out");
+    }
+    meshes = std::move(withFaces);
+    return parts;
+}
+
+std::vector<PartCage> readParts(const Document& document, const GltfOptions& options, Character& character) {
+    const std::vector<uint32_t> nodes = findMeshNodes(document, options.scene, character.warnings);
+    const std::vector<glm::dmat4> rest = restPlaces(character.skeleton);
+    std::vector<MeshBinding> meshes = readBindings(document, nodes, rest);
+    document.leniency->raise();
+    const bool isAlone = meshes.size() == 1;
+    std::vector<PartCage> parts = readUnplaced(document, options, meshes, character);
+    const BindSpace bindSpace(character.skeleton, meshes, parts, isAlone);
+    PaletteBuilder palette(character.skin);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (!bindSpace.place(i, parts[i], meshes[i])) {
+            warn(character.warnings, at("node", meshes[i].node),
+                 "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
+        }
+        parts[i].part.joints = palette.add(meshes[i].skin);
     }
     return parts;
 }
 
 /// Clips of a file take the file's name if they have none.
-ClipSet readClipSet(const ClipFile& file, uint64_t memoryLimit) {
+ClipSet readClipSet(const ClipFile& file, const GltfOptions& options) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return readBelow(file.baseDirectory, path); };
-        const Document document =
-            loadDocument(file.bytes, file.readFile ? file.readFile : readFolder, memoryLimit, Content::motion);
+        const Document document = loadDocument(file.bytes, file.readFile ? file.readFile : readFolder,
+                                               options.memoryLimit, options.strict, Content::motion);
         return readMotion(document, file.name);
     } catch (const Refusal& refusal) {
         Refusal named{refusal.code, {}};
@@ -134,9 +174,9 @@ std::vector<PartCage> readInto(const Document& document, const GltfOptions& opti
     character.copyright = document.model.copyright;
     character.skeleton = readSkeleton(document);
     character.images = document.images;
-    Refusals refusals;
-    character.materials = readMaterials(document, refusals, warnings);
-    std::vector<PartCage> parts = readParts(document, options, character, refusals);
+    Leniency& leniency = *document.leniency;
+    character.materials = readMaterials(document, warnings);
+    std::vector<PartCage> parts = readParts(document, options, character);
     if (options.pairing == Pairing::whereClean) {
         warnOfPairs(parts, warnings);
     }
@@ -144,11 +184,14 @@ std::vector<PartCage> readInto(const Document& document, const GltfOptions& opti
     for (const PartCage& part : parts) {
         targetCounts[part.part.node] = part.morphs.targets.size();
     }
-    character.clips = readClips(document, character.skeleton, targetCounts, refusals, warnings);
+    character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
-        refusals.gather([&] { takeClips(readClipSet(file, options.memoryLimit), parts, character); });
+        leniency.gather([&] { takeClips(readClipSet(file, options), parts, character); });
     }
-    refusals.raise();
+    leniency.raise();
+    for (Damage& damage : leniency.takeDamages()) {
+        character.damages.push_back(std::move(damage));
+    }
     return parts;
 }
 
@@ -167,8 +210,8 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
                            const GltfOptions& options) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
-        const gltf::Document document =
-            gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder, options.memoryLimit);
+        const gltf::Document document = gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder,
+                                                           options.memoryLimit, options.strict);
         Character character;
         character.name = name;
         std::vector<PartCage> parts = gltf::readInto(document, options, character);

@@ -37,7 +37,8 @@ struct GltfOptions {
     Pairing pairing = Pairing::whereClean;
     /// Make edges with split normals infinitely sharp (cage/normal_creases.h).
     bool creasesFromNormals = false;
-    /// Refuse a damaged cage instead of repairing it (cage/repair.h). The error has one line for each kind of damage.
+    /// Refuse a file with faults (cage/leniency.h), and a damaged cage (cage/repair.h), instead of mending them. The error
+    /// has one line for each fault and each kind of damage.
     bool strict = false;
     /// Most bytes that reading a file may take; 0: kBaseMemory, and kMemoryPerByte for each of its own
     /// (cage/memory_budget.h).
@@ -58,12 +59,13 @@ struct GltfOptions {
 /// vertices are those of SUPPLE_mesh_cage, or else of mesh.extras.creases, [vertex, vertex, sharpness], and
 /// mesh.extras.corners, [vertex, sharpness], whose vertices are counted in the same order.
 ///
-/// Repaired or left out with a line in Character::warnings: weights that do not sum to 1 beyond rounding (normalised),
-/// vertices whose weights are all zero (bound to the first joint they name, as three.js does), primitives that are not
-/// triangles, unused vertices, degenerate triangles, missing or unreadable images, entries of extras that make no
-/// sense, channels other than translation, rotation and scale, and weights of nodes without morph targets. Joint
-/// numbers of zero weights are not looked at. Everything else that glTF 2.0 forbids and that could change the shape or
-/// its motion is an error, and so is an extension named here whose data is malformed.
+/// Mended or left out with a line in Character::warnings: whatever of the file is broken, as little of it as can be
+/// (cage/leniency.h), weights that do not sum to 1 beyond rounding (normalised), vertices whose weights are all zero
+/// (bound to the first joint they name, as three.js does), primitives that are not triangles, unused vertices,
+/// degenerate triangles, missing or unreadable images, entries of extras that make no sense, channels other than
+/// translation, rotation and scale, and weights of nodes without morph targets. Joint numbers of zero weights are not
+/// looked at. With options.strict, everything that glTF 2.0 forbids and that could change the shape or its motion is an
+/// error, and so is an extension named here whose data is malformed.
 ///
 /// `name` begins every error and becomes Character::name; warnings are without it. External buffers and images are
 /// looked up below `baseDirectory` (no "..", no absolute paths, no URL schemes but data:); an empty baseDirectory

@@ -44,8 +44,11 @@ std::span<const std::byte> loadBuffer(const Json& buffer, size_t index, const Co
         bytes = document.owned[index];
     }
     if (bytes.size() < length) {
-        refuse(element, "truncated: byteLength is " + std::to_string(length) + ", " + std::to_string(bytes.size()) +
-                            " bytes present");
+        document.leniency->mend(element,
+                                "truncated: byteLength is " + std::to_string(length) + ", " +
+                                    std::to_string(bytes.size()) + " bytes present",
+                                "it ends there"); // what lies beyond has a fault of its own
+        return bytes;
     }
     return bytes.first(static_cast<size_t>(length));
 }
@@ -60,6 +63,16 @@ struct ViewBytes {
 ViewBytes viewBytes(const file::BufferView& view, size_t image) {
     return {view.buffer, static_cast<size_t>(view.byteOffset), static_cast<size_t>(view.byteOffset + view.byteLength),
             image};
+}
+
+ViewBytes viewOfImage(const Document& document, const Json& image, size_t index) {
+    const std::string element = at("image", index);
+    checkIndexMember(image, "bufferView", element, "bufferView", document.model.bufferViews.size());
+    const size_t view = image.at("bufferView").index();
+    if (document.model.bufferViews[view].broken) {
+        refuse(element, at("bufferView", view) + " cannot be read");
+    }
+    return viewBytes(document.model.bufferViews[view], index);
 }
 
 /// Copies what the images lie on once, however many lie there: the character outlives the file.
@@ -112,13 +125,13 @@ void loadBuffers(const Json& buffers, std::span<const uint8_t> placeholder, cons
                  Resources& resources, Document& document) {
     document.owned.resize(buffers.size());
     document.buffers.resize(buffers.size());
-    Refusals refusals;
     for (size_t i = 0; i < buffers.size(); ++i) {
         if (placeholder[i] == 0) {
-            refusals.gather([&] { document.buffers[i] = loadBuffer(buffers[i], i, container, resources, document); });
+            document.leniency->gather(
+                [&] { document.buffers[i] = loadBuffer(buffers[i], i, container, resources, document); });
         }
     }
-    refusals.raise();
+    document.leniency->raise();
 }
 
 /// A character without its texture is still a character: whatever is wrong with an image is a warning.
@@ -127,14 +140,16 @@ void loadImages(const Json& images, Resources& resources, Document& document) {
     for (size_t i = 0; i < images.size(); ++i) {
         const std::string element = at("image", i);
         Image& image = document.images.emplace_back();
-        image.name = stringMember(images[i], "name", element);
-        image.mimeType = stringMember(images[i], "mimeType", element);
+        document.leniency->leaveOut([&] { image.name = stringMember(images[i], "name", element); });
+        document.leniency->leaveOut([&] { image.mimeType = stringMember(images[i], "mimeType", element); });
         if (member(images[i], "bufferView") != nullptr) {
-            checkIndexMember(images[i], "bufferView", element, "bufferView", document.model.bufferViews.size());
-            views.push_back(viewBytes(document.model.bufferViews[images[i].at("bufferView").index()], i));
+            document.leniency->leaveOut([&] { views.push_back(viewOfImage(document, images[i], i)); });
             continue;
         }
-        const std::string uri = stringMember(images[i], "uri", element);
+        std::string uri;
+        if (!document.leniency->leaveOut([&] { uri = stringMember(images[i], "uri", element); })) {
+            continue;
+        }
         Result<Resources::Found> read = resources.fetch(uri);
         if (!read) {
             warn(document.warnings, within(element, "uri"), read.error().message + "; left out");

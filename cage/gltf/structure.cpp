@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace supple::cage::gltf {
@@ -73,7 +74,7 @@ void checkExtensions(const Json& root) {
 }
 
 /// Child lists make the node tree; it must be a forest before anybody walks it. Recursion-free.
-void checkNodeTree(const Json& nodes) {
+void checkNodeTree(const Json& nodes, const Broken& broken, Leniency& leniency) {
     const size_t count = nodes.size();
     std::vector<size_t> parents(count, count);
     for (size_t parent = 0; parent < count; ++parent) {
@@ -82,12 +83,17 @@ void checkNodeTree(const Json& nodes) {
             continue;
         }
         for (const Json& entry : *children) {
+            if (broken.contains(*children) || broken.contains(entry)) {
+                continue;
+            }
             const auto child = entry.index();
             if (child == parent) {
                 refuse(at("node", child), "is its own child");
             }
             if (parents[child] == parent) {
-                refuse(at("node", child), "listed twice by its parent, node " + std::to_string(parent));
+                leniency.mend(at("node", child), "listed twice by its parent, node " + std::to_string(parent),
+                              "once is enough");
+                continue;
             }
             if (parents[child] != count) {
                 refuse(at("node", child),
@@ -117,9 +123,94 @@ void checkNodeTree(const Json& nodes) {
     }
 }
 
+class StructureCheck {
+public:
+    StructureCheck(const Json& root, Leniency& leniency)
+        : leniency_(leniency), accessors_(table(root, "accessors")), materials_(table(root, "materials")),
+          meshes_(table(root, "meshes")), nodes_(table(root, "nodes")), skins_(table(root, "skins")),
+          views_(table(root, "bufferViews")), scenes_(table(root, "scenes")) {}
+
+    Broken check(const Json& root, std::span<const std::span<const std::byte>> buffers,
+                 const std::vector<int>& decodedInto) && {
+        for (size_t i = 0; i < views_.size(); ++i) {
+            orBroken(views_[i], [&] { checkBufferView(views_[i], at("bufferView", i), buffers, decodedInto[i]); });
+        }
+        for (size_t i = 0; i < accessors_.size(); ++i) {
+            orBroken(accessors_[i], [&] { checkAccessor(accessors_[i], at("accessor", i)); });
+        }
+        for (size_t i = 0; i < nodes_.size(); ++i) {
+            leniency_.gather([&] { checkNode(nodes_[i], at("node", i)); });
+        }
+        for (size_t i = 0; i < scenes_.size(); ++i) {
+            checkIndices(scenes_[i], "nodes", at("scene", i), "node", nodes_.size());
+        }
+        checkMember(root, "scene", [&] { checkIndexMember(root, "scene", "JSON", "scene", scenes_.size()); });
+        for (size_t i = 0; i < skins_.size(); ++i) {
+            orBroken(skins_[i], [&] { checkSkin(skins_[i], at("skin", i)); });
+        }
+        for (size_t i = 0; i < meshes_.size(); ++i) {
+            orBroken(meshes_[i], [&] { checkMesh(meshes_[i], at("mesh", i)); });
+        }
+        const Json animations = table(root, "animations");
+        for (size_t i = 0; i < animations.size(); ++i) {
+            orBroken(animations[i], [&] { checkAnimation(animations[i], at("animation", i)); });
+        }
+        leniency_.raise();
+        checkNodeTree(nodes_, broken_, leniency_);
+        return std::move(broken_);
+    }
+
+private:
+    /// Calls check(); if it refuses, the value counts as not there.
+    template <class Check>
+    void orBroken(const Json& value, Check&& check) {
+        if (!leniency_.leaveOut(check)) {
+            broken_.add(value);
+        }
+    }
+    /// The same for a member, if it is there.
+    template <class Check>
+    void checkMember(const Json& object, const char* key, Check&& check) {
+        if (const Json* value = member(object, key)) {
+            orBroken(*value, check);
+        } else {
+            check();
+        }
+    }
+    /// Each of an array's indices counts for itself.
+    void checkIndices(const Json& object, const char* key, const std::string& element, const char* what, size_t count) {
+        checkMember(object, key, [&] { (void)arrayMember(object, key, element); });
+        const Json* values = member(object, key);
+        for (size_t i = 0; values != nullptr && i < values->size(); ++i) {
+            const Json& value = (*values)[i];
+            orBroken(value, [&] { checkIndex(value, item(element + " " + key, i), what, count); });
+        }
+    }
+    void checkName(const Json& object, const std::string& element) {
+        checkMember(object, "name", [&] { checkString(object, "name", element); });
+    }
+
+    void checkBufferView(const Json& view, const std::string& element,
+                         std::span<const std::span<const std::byte>> buffers, int decodedInto);
+    void checkAccessor(const Json& accessor, const std::string& element);
+    void checkSparse(const Json& accessor, const std::string& element);
+    void checkTargets(const Json& primitive, const std::string& element);
+    void checkPrimitive(const Json& primitive, const std::string& element);
+    void checkMesh(const Json& mesh, const std::string& element);
+    void checkNode(const Json& node, const std::string& element);
+    void checkSkin(const Json& skin, const std::string& element);
+    void checkSampler(const Json& sampler, const std::string& element);
+    void checkChannel(const Json& channel, const std::string& element, size_t samplerCount);
+    void checkAnimation(const Json& animation, const std::string& element);
+
+    Leniency& leniency_;
+    const Json accessors_, materials_, meshes_, nodes_, skins_, views_, scenes_;
+    Broken broken_;
+};
+
 /// `decodedInto`: the buffer that takes the place of what the view names, or -1.
-void checkBufferView(const Json& view, const std::string& element, std::span<const std::span<const std::byte>> buffers,
-                     int decodedInto) {
+void StructureCheck::checkBufferView(const Json& view, const std::string& element,
+                                     std::span<const std::span<const std::byte>> buffers, int decodedInto) {
     checkIndexMember(view, "buffer", element, "buffer", buffers.size(), true);
     const bool decoded = decodedInto >= 0;
     const size_t available = buffers[decoded ? static_cast<size_t>(decodedInto) : view.at("buffer").index()].size();
@@ -129,8 +220,12 @@ void checkBufferView(const Json& view, const std::string& element, std::span<con
         refuse(element + " byteLength", "zero");
     }
     if (offset > available || length > available - offset) {
-        refuse(element, "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
-                            " are out of range: the buffer has " + std::to_string(available));
+        const std::string reason = "bytes " + std::to_string(offset) + " + " + std::to_string(length) +
+                                   " are out of range: the buffer has " + std::to_string(available);
+        if (offset >= available) {
+            refuse(element, reason);
+        }
+        leniency_.mend(element, reason, "it ends there"); // an accessor beyond them has a fault of its own
     }
     const Json* stride = member(view, "byteStride");
     if (stride != nullptr) {
@@ -139,7 +234,7 @@ void checkBufferView(const Json& view, const std::string& element, std::span<con
             refuse(element + " byteStride", std::to_string(value) + " is not a multiple of 4 in 4..252");
         }
     }
-    checkString(view, "name", element);
+    checkName(view, element);
 }
 
 void checkComponentType(const Json& object, const std::string& element, bool indicesOnly) {
@@ -150,16 +245,21 @@ void checkComponentType(const Json& object, const std::string& element, bool ind
     }
 }
 
-void checkSparse(const Json& accessor, const std::string& element, size_t viewCount) {
+void StructureCheck::checkSparse(const Json& accessor, const std::string& element) {
     const Json* sparse = objectMember(accessor, "sparse", element);
     if (sparse == nullptr) {
         return;
     }
     const std::string place = element + " sparse";
     const uint64_t count = unsignedMember(*sparse, "count", place, std::nullopt);
-    if (count == 0 || count > accessor.at("count").unsignedInteger()) {
-        refuse(place + " count",
-               std::to_string(count) + " is not in 1.." + std::to_string(accessor.at("count").unsignedInteger()));
+    const std::string most = std::to_string(accessor.at("count").unsignedInteger());
+    if (count == 0) {
+        leniency_.mend(place + " count", "0 is not in 1.." + most, "nothing is replaced");
+        broken_.add(*sparse);
+        return;
+    }
+    if (count > accessor.at("count").unsignedInteger()) {
+        refuse(place + " count", std::to_string(count) + " is not in 1.." + most);
     }
     for (const char* part : {"indices", "values"}) {
         const Json* object = objectMember(*sparse, part, place);
@@ -167,14 +267,14 @@ void checkSparse(const Json& accessor, const std::string& element, size_t viewCo
         if (object == nullptr) {
             refuse(partPlace, "missing");
         }
-        checkIndexMember(*object, "bufferView", partPlace, "bufferView", viewCount, true);
+        checkIndexMember(*object, "bufferView", partPlace, "bufferView", views_.size(), true);
         unsignedMember(*object, "byteOffset", partPlace, 0);
     }
     checkComponentType(sparse->at("indices"), place + " indices", true);
 }
 
-void checkAccessor(const Json& accessor, const std::string& element, size_t viewCount) {
-    checkIndexMember(accessor, "bufferView", element, "bufferView", viewCount);
+void StructureCheck::checkAccessor(const Json& accessor, const std::string& element) {
+    checkIndexMember(accessor, "bufferView", element, "bufferView", views_.size());
     unsignedMember(accessor, "byteOffset", element, 0);
     checkComponentType(accessor, element, false);
     if (unsignedMember(accessor, "count", element, std::nullopt) == 0) {
@@ -188,10 +288,10 @@ void checkAccessor(const Json& accessor, const std::string& element, size_t view
     if (normalized != nullptr && !normalized->isBoolean()) {
         refuse(element + " normalized", "not a boolean");
     }
-    checkSparse(accessor, element, viewCount);
+    checkSparse(accessor, element);
 }
 
-void checkTargets(const Json& primitive, const std::string& element, size_t accessorCount) {
+void StructureCheck::checkTargets(const Json& primitive, const std::string& element) {
     const Json* targets = arrayMember(primitive, "targets", element);
     for (size_t i = 0; targets != nullptr && i < targets->size(); ++i) {
         const std::string place = element + " " + at("target", i);
@@ -199,84 +299,84 @@ void checkTargets(const Json& primitive, const std::string& element, size_t acce
             refuse(place, "not an object");
         }
         for (const auto& [name, value] : (*targets)[i].members()) {
-            checkIndex(value, within(place, std::string(name)), "accessor", accessorCount);
+            const std::string whole = within(place, std::string(name));
+            const Json& accessor = value;
+            orBroken(value, [&] { checkIndex(accessor, whole, "accessor", accessors_.size()); });
         }
     }
 }
 
-/// What others name by number. (table() looks at all elements, so it is not called for each of them.)
-struct Named {
-    Json accessors, materials, meshes, nodes, skins;
-};
-
-void checkPrimitive(const Named& named, const Json& primitive, const std::string& element) {
+void StructureCheck::checkPrimitive(const Json& primitive, const std::string& element) {
     if (!primitive.isObject()) {
         refuse(element, "not an object");
     }
-    const Json& accessors = named.accessors;
     const Json* attributes = objectMember(primitive, "attributes", element);
     if (attributes == nullptr) {
         refuse(element, "no attributes");
     }
-    for (const auto& [name, value] : attributes->members()) {
-        checkIndex(value, within(element, std::string(name)), "accessor", accessors.size());
+    for (const JsonMember& attribute : attributes->members()) {
+        const std::string place = within(element, std::string(attribute.name));
+        const auto check = [&] { checkIndex(attribute.value, place, "accessor", accessors_.size()); };
+        attribute.name == "POSITION" ? check() : orBroken(attribute.value, check);
     }
-    checkIndexMember(primitive, "indices", element, "accessor", accessors.size());
+    checkIndexMember(primitive, "indices", element, "accessor", accessors_.size());
     const Json* indices = member(primitive, "indices");
-    if (indices != nullptr && member(accessors[indices->index()], "bufferView") == nullptr) {
+    if (indices != nullptr && !broken_.contains(accessors_[indices->index()]) &&
+        member(accessors_[indices->index()], "bufferView") == nullptr) {
         refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
                                          ? "compressed with KHR_draco_mesh_compression; export the mesh uncompressed"
                                          : at("accessor", indices->index()) + " has no bufferView");
     }
-    checkIndexMember(primitive, "material", element, "material", named.materials.size());
+    checkMember(primitive, "material",
+                [&] { checkIndexMember(primitive, "material", element, "material", materials_.size()); });
     if (unsignedMember(primitive, "mode", element, 4) > 6) {
         refuse(element + " mode", "not in 0..6");
     }
     objectMember(primitive, "extensions", element);
-    checkTargets(primitive, element, accessors.size());
+    checkTargets(primitive, element);
 }
 
-void checkMesh(const Named& named, const Json& mesh, const std::string& element, Refusals& refusals) {
-    checkString(mesh, "name", element);
-    checkNumbers(mesh, "weights", element, std::nullopt);
+void StructureCheck::checkMesh(const Json& mesh, const std::string& element) {
+    checkName(mesh, element);
+    checkMember(mesh, "weights", [&] { checkNumbers(mesh, "weights", element, std::nullopt); });
     const Json* primitives = arrayMember(mesh, "primitives", element);
     if (primitives == nullptr || primitives->empty()) {
         refuse(element, "no primitives");
     }
     for (size_t k = 0; k < primitives->size(); ++k) {
-        refusals.gather([&] { checkPrimitive(named, (*primitives)[k], element + " " + at("primitive", k)); });
+        orBroken((*primitives)[k], [&] { checkPrimitive((*primitives)[k], element + " " + at("primitive", k)); });
     }
 }
 
-void checkNode(const Named& named, const Json& node, const std::string& element) {
-    checkString(node, "name", element);
-    checkIndexMember(node, "mesh", element, "mesh", named.meshes.size());
-    checkIndexMember(node, "skin", element, "skin", named.skins.size());
-    checkIndexArray(node, "children", element, "node", named.nodes.size());
+/// Without its mesh a node is a node still, but where it stands must be known: others stand on it.
+void StructureCheck::checkNode(const Json& node, const std::string& element) {
+    checkName(node, element);
+    checkMember(node, "mesh", [&] { checkIndexMember(node, "mesh", element, "mesh", meshes_.size()); });
+    checkMember(node, "skin", [&] { checkIndexMember(node, "skin", element, "skin", skins_.size()); });
+    checkIndices(node, "children", element, "node", nodes_.size());
     checkNumbers(node, "matrix", element, 16);
     checkNumbers(node, "translation", element, 3);
     checkNumbers(node, "rotation", element, 4);
     checkNumbers(node, "scale", element, 3);
-    checkNumbers(node, "weights", element, std::nullopt);
+    checkMember(node, "weights", [&] { checkNumbers(node, "weights", element, std::nullopt); });
 }
 
-void checkSkin(const Named& named, const Json& skin, const std::string& element) {
-    const size_t nodeCount = named.nodes.size();
+void StructureCheck::checkSkin(const Json& skin, const std::string& element) {
     const Json* joints = arrayMember(skin, "joints", element);
     if (joints == nullptr || joints->empty()) {
         refuse(element, "no joints");
     }
-    checkIndexArray(skin, "joints", element, "node", nodeCount);
-    checkIndexMember(skin, "skeleton", element, "node", nodeCount);
-    checkIndexMember(skin, "inverseBindMatrices", element, "accessor", named.accessors.size());
+    checkIndexArray(skin, "joints", element, "node", nodes_.size());
+    checkMember(skin, "skeleton", [&] { checkIndexMember(skin, "skeleton", element, "node", nodes_.size()); });
+    checkIndexMember(skin, "inverseBindMatrices", element, "accessor", accessors_.size());
 }
 
-void checkSampler(const Json& sampler, const std::string& element, size_t accessorCount) {
+void StructureCheck::checkSampler(const Json& sampler, const std::string& element) {
     if (!sampler.isObject()) {
         refuse(element, "not an object");
     }
-    checkIndexMember(sampler, "input", element, "accessor", accessorCount, true);
-    checkIndexMember(sampler, "output", element, "accessor", accessorCount, true);
+    checkIndexMember(sampler, "input", element, "accessor", accessors_.size(), true);
+    checkIndexMember(sampler, "output", element, "accessor", accessors_.size(), true);
     const std::string interpolation = stringMember(sampler, "interpolation", element);
     if (!interpolation.empty() && interpolation != "STEP" && interpolation != "LINEAR" &&
         interpolation != "CUBICSPLINE") {
@@ -285,7 +385,7 @@ void checkSampler(const Json& sampler, const std::string& element, size_t access
 }
 
 /// A channel may lack a target node: an extension may define what moves.
-void checkChannel(const Json& channel, const std::string& element, size_t samplerCount, size_t nodeCount) {
+void StructureCheck::checkChannel(const Json& channel, const std::string& element, size_t samplerCount) {
     if (!channel.isObject()) {
         refuse(element, "not an object");
     }
@@ -294,32 +394,22 @@ void checkChannel(const Json& channel, const std::string& element, size_t sample
     if (target == nullptr || member(*target, "node") == nullptr) {
         return;
     }
-    checkIndexMember(*target, "node", element + " target", "node", nodeCount, true);
+    checkIndexMember(*target, "node", element + " target", "node", nodes_.size(), true);
     if (stringMember(*target, "path", element).empty()) {
         refuse(element, "path is missing");
     }
 }
 
-void checkAnimation(const Named& named, const Json& animation, const std::string& element, Refusals& refusals) {
-    checkString(animation, "name", element);
+void StructureCheck::checkAnimation(const Json& animation, const std::string& element) {
+    checkName(animation, element);
     const Json* samplers = arrayMember(animation, "samplers", element);
     const size_t samplerCount = samplers == nullptr ? 0 : samplers->size();
     for (size_t k = 0; k < samplerCount; ++k) {
-        refusals.gather(
-            [&] { checkSampler((*samplers)[k], element + " " + at("sampler", k), named.accessors.size()); });
+        orBroken((*samplers)[k], [&] { checkSampler((*samplers)[k], element + " " + at("sampler", k)); });
     }
     const Json* channels = arrayMember(animation, "channels", element);
     for (size_t k = 0; channels != nullptr && k < channels->size(); ++k) {
-        refusals.gather(
-            [&] { checkChannel((*channels)[k], element + " " + at("channel", k), samplerCount, named.nodes.size()); });
-    }
-}
-
-/// Calls check(element, name) for each of a table.
-template <class Check>
-void checkEach(const Json& elements, const char* what, Refusals& refusals, Check&& check) {
-    for (size_t i = 0; i < elements.size(); ++i) {
-        refusals.gather([&] { check(elements[i], at(what, i)); });
+        orBroken((*channels)[k], [&] { checkChannel((*channels)[k], element + " " + at("channel", k), samplerCount); });
     }
 }
 
@@ -330,30 +420,9 @@ void checkHeader(const Json& root) {
     checkExtensions(root);
 }
 
-void checkStructure(const Json& root, std::span<const std::span<const std::byte>> buffers,
-                    const std::vector<int>& decodedInto) {
-    const Named named{table(root, "accessors"), table(root, "materials"), table(root, "meshes"), table(root, "nodes"),
-                      table(root, "skins")};
-    const Json views = table(root, "bufferViews");
-    const Json scenes = table(root, "scenes");
-    using Name = const std::string&;
-    Refusals refusals;
-    for (size_t i = 0; i < views.size(); ++i) {
-        refusals.gather([&] { checkBufferView(views[i], at("bufferView", i), buffers, decodedInto[i]); });
-    }
-    checkEach(named.accessors, "accessor", refusals,
-              [&](const Json& accessor, Name name) { checkAccessor(accessor, name, views.size()); });
-    checkEach(named.nodes, "node", refusals, [&](const Json& node, Name name) { checkNode(named, node, name); });
-    checkEach(scenes, "scene", refusals,
-              [&](const Json& scene, Name name) { checkIndexArray(scene, "nodes", name, "node", named.nodes.size()); });
-    refusals.gather([&] { checkIndexMember(root, "scene", "JSON", "scene", scenes.size()); });
-    checkEach(named.skins, "skin", refusals, [&](const Json& skin, Name name) { checkSkin(named, skin, name); });
-    checkEach(named.meshes, "mesh", refusals,
-              [&](const Json& mesh, Name name) { checkMesh(named, mesh, name, refusals); });
-    checkEach(table(root, "animations"), "animation", refusals,
-              [&](const Json& animation, Name name) { checkAnimation(named, animation, name, refusals); });
-    refusals.raise();
-    checkNodeTree(named.nodes);
+Broken checkStructure(const Json& root, std::span<const std::span<const std::byte>> buffers,
+                      const std::vector<int>& decodedInto, Leniency& leniency) {
+    return StructureCheck(root, leniency).check(root, buffers, decodedInto);
 }
 
 } // namespace supple::cage::gltf

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace supple::cage::gltf {
 namespace {
@@ -81,6 +82,20 @@ void readTransform(const Json& transform, const std::string& element, Texture& t
     }
 }
 
+Texture readTexture(const Json& from, const std::string& element, std::span<const Texture> sampled, size_t imageCount) {
+    checkIndexMember(from, "sampler", element, "sampler", sampled.size());
+    const Json* sampler = member(from, "sampler");
+    Texture texture = sampler == nullptr ? Texture{} : sampled[sampler->index()];
+    texture.image = readSource(from, element, imageCount);
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+        const Json* extension = extensionOf(from, name, element);
+        if (extension != nullptr && texture.alternateImage == kNone) {
+            texture.alternateImage = readSource(*extension, within(element, name), imageCount);
+        }
+    }
+    return texture;
+}
+
 uint32_t readTexCoord(const Json& object, const std::string& element, uint32_t fallback) {
     const uint64_t value = unsignedMember(object, "texCoord", element, fallback);
     return static_cast<uint32_t>(std::min<uint64_t>(value, std::numeric_limits<uint32_t>::max()));
@@ -88,27 +103,19 @@ uint32_t readTexCoord(const Json& object, const std::string& element, uint32_t f
 
 } // namespace
 
-std::vector<Texture> readTextures(const Json& root, Warnings& warnings) {
+std::vector<Texture> readTextures(const Json& root, Leniency& leniency, Warnings& warnings) {
     const Json images = table(root, "images");
     const Json samplers = table(root, "samplers");
     const Json textures = table(root, "textures");
     std::vector<Texture> sampled;
     for (size_t i = 0; i < samplers.size(); ++i) {
-        sampled.push_back(readSampler(samplers[i], at("sampler", i), warnings));
+        sampled.emplace_back();
+        leniency.leaveOut([&] { sampled.back() = readSampler(samplers[i], at("sampler", i), warnings); });
     }
     std::vector<Texture> read;
     for (size_t i = 0; i < textures.size(); ++i) {
-        const std::string element = at("texture", i);
-        checkIndexMember(textures[i], "sampler", element, "sampler", samplers.size());
-        const Json* sampler = member(textures[i], "sampler");
-        Texture& texture = read.emplace_back(sampler == nullptr ? Texture{} : sampled[sampler->index()]);
-        texture.image = readSource(textures[i], element, images.size());
-        for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
-            const Json* extension = extensionOf(textures[i], name, element);
-            if (extension != nullptr && texture.alternateImage == kNone) {
-                texture.alternateImage = readSource(*extension, within(element, name), images.size());
-            }
-        }
+        read.emplace_back();
+        leniency.leaveOut([&] { read.back() = readTexture(textures[i], at("texture", i), sampled, images.size()); });
     }
     return read;
 }

@@ -26,10 +26,14 @@ void addFan(std::span<const uint32_t> run, std::vector<uint32_t>& triangles) {
 }
 
 /// The triangles of one strip or fan.
-void addRun(int mode, std::span<const uint32_t> run, const std::string& name, std::vector<uint32_t>& triangles) {
+void addRun(int mode, std::span<const uint32_t> run, const std::string& name, Leniency& leniency,
+            std::vector<uint32_t>& triangles) {
     if (run.size() < 3) {
-        refuse(name, std::string("a ") + modeName(mode) + " of " + counted(run.size(), "vertex", "vertices") +
-                         ", at least 3 are needed");
+        leniency.mend(name,
+                      std::string("a ") + modeName(mode) + " of " + counted(run.size(), "vertex", "vertices") +
+                          ", at least 3 are needed",
+                      "left out");
+        return;
     }
     mode == file::kTriangleStrip ? addStrip(run, triangles) : addFan(run, triangles);
 }
@@ -38,6 +42,10 @@ void addRun(int mode, std::span<const uint32_t> run, const std::string& name, st
 
 bool hasTriangles(int mode) {
     return mode == file::kTriangles || mode == file::kTriangleStrip || mode == file::kTriangleFan;
+}
+
+bool isDrawn(const file::Primitive& primitive) {
+    return !primitive.broken && hasTriangles(primitive.mode) && primitive.attributes.contains("POSITION");
 }
 
 const char* modeName(int mode) {
@@ -59,8 +67,12 @@ std::vector<uint32_t> readTriangles(const Document& document, const file::Primit
         std::iota(indices.begin(), indices.end(), 0u);
     }
     if (mode == file::kTriangles && indices.size() % 3 != 0) {
-        refuse(name, indexed ? std::to_string(indices.size()) + ", not a multiple of 3"
-                             : counted(vertexCount, "vertex", "vertices") + " without indices, not a multiple of 3");
+        document.leniency->mend(name,
+                                indexed ? std::to_string(indices.size()) + ", not a multiple of 3"
+                                        : counted(vertexCount, "vertex", "vertices") +
+                                              " without indices, not a multiple of 3",
+                                "what is over is left out");
+        indices.resize(indices.size() / 3 * 3);
     }
     const uint32_t restart = indexed ? restartIndex(document, primitive.indices) : kNone;
     const bool mayRestart = mode != file::kTriangles && (isUsed(document, "KHR_mesh_primitive_restart") ||
@@ -69,7 +81,7 @@ std::vector<uint32_t> readTriangles(const Document& document, const file::Primit
     size_t first = 0; // of the strip or fan at work
     for (size_t i = 0; i < indices.size() && indexed; ++i) {
         if (indices[i] == restart && mayRestart) {
-            addRun(mode, std::span(indices).subspan(first, i - first), name, triangles);
+            addRun(mode, std::span(indices).subspan(first, i - first), name, *document.leniency, triangles);
             first = i + 1;
         } else if (indices[i] == restart) {
             refuse(item(name, i), std::to_string(restart) + " is the restart value, which glTF 2.0 forbids");
@@ -81,7 +93,7 @@ std::vector<uint32_t> readTriangles(const Document& document, const file::Primit
     if (mode == file::kTriangles) {
         return indices;
     }
-    addRun(mode, std::span(indices).subspan(first), name, triangles);
+    addRun(mode, std::span(indices).subspan(first), name, *document.leniency, triangles);
     return triangles;
 }
 

@@ -11,6 +11,8 @@ namespace supple::cage::gltf {
 
 /// TRIANGLES, TRIANGLE_STRIP or TRIANGLE_FAN.
 [[nodiscard]] bool hasTriangles(int mode);
+/// Whether something is drawn of a primitive. glTF allows one without positions, and it is skipped.
+[[nodiscard]] bool isDrawn(const file::Primitive& primitive);
 /// As glTF writes a mode that it knows.
 [[nodiscard]] const char* modeName(int mode);
 

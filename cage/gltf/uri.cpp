@@ -102,7 +102,13 @@ Result<DataUri> decodeDataUri(std::string_view uri) {
     const std::string_view payload = uri.substr(comma + 1);
     constexpr std::string_view base64 = ";base64";
     DataUri result;
-    if (header.size() < base64.size() || header.substr(header.size() - base64.size()) != base64) {
+    // RFC 2397: names are the same in capitals.
+    const bool isBase64 =
+        header.size() >= base64.size() &&
+        std::equal(base64.begin(), base64.end(), header.end() - base64.size(), [](char wanted, char c) {
+            return wanted == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        });
+    if (!isBase64) {
         result.mimeType = std::string(header.substr(0, header.find(';')));
         const std::string text = percentDecode(payload);
         result.bytes.resize(text.size());

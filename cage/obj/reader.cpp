@@ -2,6 +2,7 @@
 
 #include "cage/corner_normals.h"
 #include "cage/finish.h"
+#include "cage/leniency.h"
 #include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
@@ -66,14 +67,13 @@ public:
 private:
     static bool continues(std::string_view line) { return !line.empty() && line.back() == '\\'; }
 
+    /// Lines end in LF, CR LF or, on old machines, CR.
     std::string_view takeLine() {
         ++physical_;
-        const size_t end = std::min(rest_.find('\n'), rest_.size());
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        if (!line.empty() && line.back() == '\r') {
-            line.remove_suffix(1);
-        }
+        const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+        const std::string_view line = rest_.substr(0, end);
+        const bool isPair = rest_.substr(end).starts_with("\r\n");
+        rest_.remove_prefix(std::min(end + (isPair ? 2 : 1), rest_.size()));
         return line;
     }
 
@@ -164,7 +164,7 @@ struct Corner {
 
 class ObjParser {
 public:
-    ObjParser(PartCage& part, Character& out) : part_(part), out_(out) {}
+    ObjParser(PartCage& part, bool strict, Character& out) : part_(part), out_(out), leniency_(strict) {}
 
     void parse(std::string_view text) {
         if (text.starts_with("\xEF\xBB\xBF")) {
@@ -172,19 +172,25 @@ public:
         }
         for (Lines lines(text); lines.next();) {
             line_ = lines.number();
-            refusals_.gather([&] { parseLine(lines.line()); });
+            parseLine(lines.line());
         }
-        refusals_.raise();
+        leniency_.raise();
         if (faceLines_.empty()) {
-            refuse("file", nameOfNoFaces());
+            leniency_.refuseAll({"file: " + nameOfNoFaces()});
         }
         checkCorners();
         checkTags();
-        refusals_.raise();
+        leniency_.raise();
         buildFaces();
         buildTags();
+        if (part_.cage.faceCount() == 0) {
+            leniency_.refuseAll({});
+        }
         compactVertices();
         reportIgnored();
+        for (Damage& damage : leniency_.takeDamages()) {
+            out_.damages.push_back(std::move(damage));
+        }
     }
 
 private:
@@ -192,7 +198,7 @@ private:
         Words words(line);
         const std::string_view keyword = words.next();
         if (keyword == "v") {
-            parsePosition(words);
+            leniency_.gather([&] { parsePosition(words); }); // all that follows counts on it
         } else if (keyword == "vt") {
             parseUv(words);
         } else if (keyword == "vn") {
@@ -208,7 +214,7 @@ private:
         } else if (keyword == "usemtl") {
             parseMaterial(words);
         } else if (keyword == "t") {
-            parseTag(words);
+            leniency_.leaveOut([&] { parseTag(words); });
         } else if (!keyword.empty() && keyword != "vp" && keyword != "g" && keyword != "o" && keyword != "s") {
             ignore(std::string(keyword.substr(0, kMaxQuotedText)));
         }
@@ -239,10 +245,14 @@ private:
         if (uvs_.size() == kMaxCorners) {
             refuse(element, "more than " + std::to_string(kMaxCorners) + " texture coordinates", ErrorCode::limit);
         }
-        const float u = toFloat(words.next(), element + ": texture coordinate");
-        const std::string_view second = words.next();
-        const float v = second.empty() ? 0.0f : toFloat(second, element + ": texture coordinate");
-        uvs_.emplace_back(u, 1.0f - v);
+        glm::vec2 uv(0.0f, 1.0f);
+        leniency_.leaveOut([&] {
+            const float u = toFloat(words.next(), element + ": texture coordinate");
+            const std::string_view second = words.next();
+            const float v = second.empty() ? 0.0f : toFloat(second, element + ": texture coordinate");
+            uv = {u, 1.0f - v};
+        });
+        uvs_.push_back(uv); // also a faulty one: the others keep their numbers
     }
 
     void addFaultyNormal(size_t line) {
@@ -275,8 +285,20 @@ private:
         return static_cast<uint32_t>(fromZero);
     }
 
+    /// A face that is left out has no corners, so that the others keep their numbers.
     void parseFace(Words& words) {
         const size_t first = corners_.size();
+        const bool isWhole = leniency_.leaveOut([&] { parseCorners(words, first); });
+        if (!isWhole) {
+            corners_.resize(first);
+        }
+        faceIsWhole_.push_back(isWhole ? 1 : 0);
+        faceStarts_.push_back(static_cast<uint32_t>(corners_.size()));
+        faceMaterials_.push_back(material_);
+        faceLines_.push_back(line_);
+    }
+
+    void parseCorners(Words& words, size_t first) {
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             const std::string element = cornerName(line_, corners_.size() - first);
             if (corners_.size() == kMaxCorners) {
@@ -296,9 +318,6 @@ private:
             }
             corners_.push_back(corner);
         }
-        faceStarts_.push_back(static_cast<uint32_t>(corners_.size()));
-        faceMaterials_.push_back(material_);
-        faceLines_.push_back(line_);
     }
 
     void parseMaterial(Words& words) {
@@ -369,55 +388,70 @@ private:
         }
     }
 
-    /// Tells of the first corner that is out of range, of each kind, and how many more there are.
+    /// Tells of the first corner that is out of range, of each kind, and how many more there are. A face without a
+    /// vertex is left out, a texture coordinate or a normal alone.
     void checkCorners() {
         Found vertices;
         Found uvs;
         for (size_t f = 0; f < faceLines_.size(); ++f) {
-            const auto check = [&](uint32_t corner, const char* what, uint32_t index, size_t count, Found& found) {
-                if (index != kNone && index >= count) {
-                    found.add([&] {
-                        return cornerName(faceLines_[f], corner - faceStarts_[f]) + ": " + what + " " +
-                               std::to_string(index + 1) + " of " + std::to_string(count);
-                    });
+            const auto isMissing = [&](uint32_t corner, const char* what, uint32_t index, size_t count, Found& found) {
+                if (index == kNone || index < count) {
+                    return false;
                 }
+                found.add([&] {
+                    return cornerName(faceLines_[f], corner - faceStarts_[f]) + ": " + what + " " +
+                           std::to_string(index + 1) + " of " + std::to_string(count);
+                });
+                return true;
             };
             for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
-                check(c, "vertex", corners_[c].vertex, positions_.size(), vertices);
-                check(c, "texture coordinate", corners_[c].uv, uvs_.size(), uvs);
+                if (isMissing(c, "vertex", corners_[c].vertex, positions_.size(), vertices)) {
+                    faceIsWhole_[f] = 0;
+                }
+                if (isMissing(c, "texture coordinate", corners_[c].uv, uvs_.size(), uvs)) {
+                    corners_[c].uv = kNone;
+                }
                 if (corners_[c].normal != kNone && corners_[c].normal >= normals_.size()) {
                     addFaultyNormal(faceLines_[f]);
                     corners_[c].normal = kNone;
                 }
             }
         }
-        for (const Found& found : {vertices, uvs}) {
-            if (found.count > 0) {
-                const std::string more =
-                    found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : "";
-                refusals_.keep({ErrorCode::asset, {found.first + more}});
-            }
+        leaveOutFound(vertices);
+        leaveOutFound(uvs);
+    }
+
+    void leaveOutFound(const Found& found) {
+        if (found.count > 0) {
+            leniency_.leaveOut(
+                {ErrorCode::asset,
+                 {found.first +
+                  (found.count > 1 ? ", and " + std::to_string(found.count - 1) + " more like it" : "")}});
         }
     }
 
+    /// Leaves out the tags of vertices and faces that are not there.
     void checkTags() {
-        const auto check = [&](int64_t index, size_t count, const char* tag, const char* what, size_t line) {
-            if (index < 0 || index >= static_cast<int64_t>(count)) {
-                refusals_.keep({ErrorCode::asset,
+        const auto isMissing = [&](int64_t index, size_t count, const char* tag, const char* what, size_t line) {
+            if (index >= 0 && index < static_cast<int64_t>(count)) {
+                return false;
+            }
+            leniency_.leaveOut({ErrorCode::asset,
                                 {lineName(line) + ": t " + tag + ": " + what + " " + std::to_string(index) + " of " +
                                  std::to_string(count)}});
-            }
+            return true;
         };
-        for (const TaggedCrease& tag : creases_) {
-            check(tag.a, positions_.size(), "crease", "vertex", tag.line);
-            check(tag.b, positions_.size(), "crease", "vertex", tag.line);
-        }
-        for (const TaggedCorner& tag : sharpVertices_) {
-            check(tag.vertex, positions_.size(), "corner", "vertex", tag.line);
-        }
-        for (const TaggedHole& tag : holes_) {
-            check(tag.face, faceLines_.size(), "hole", "face", tag.line);
-        }
+        std::erase_if(creases_, [&](const TaggedCrease& tag) {
+            const bool a = isMissing(tag.a, positions_.size(), "crease", "vertex", tag.line);
+            const bool b = isMissing(tag.b, positions_.size(), "crease", "vertex", tag.line);
+            return a || b;
+        });
+        std::erase_if(sharpVertices_, [&](const TaggedCorner& tag) {
+            return isMissing(tag.vertex, positions_.size(), "corner", "vertex", tag.line);
+        });
+        std::erase_if(holes_, [&](const TaggedHole& tag) {
+            return isMissing(tag.face, faceLines_.size(), "hole", "face", tag.line);
+        });
     }
 
     void buildFaces() {
@@ -425,16 +459,24 @@ private:
         const bool uvs = std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv != kNone; });
         const bool normals =
             std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.normal != kNone; });
-        cage.faceStarts = faceStarts_;
-        cage.faceMaterials = faceMaterials_;
-        for (const Corner& corner : corners_) {
-            cage.faceVertices.push_back(corner.vertex);
-            if (uvs) {
-                cage.cornerUvs.push_back(corner.uv == kNone ? glm::vec2(0.0f) : uvs_[corner.uv]);
+        cage.faceStarts = {0};
+        for (size_t f = 0; f < faceLines_.size(); ++f) {
+            places_.push_back(faceIsWhole_[f] != 0 ? cage.faceCount() : kNone);
+            if (faceIsWhole_[f] == 0) {
+                continue;
             }
-            if (normals) {
-                cage.cornerNormals.push_back(corner.normal == kNone ? glm::vec3(0.0f) : normals_[corner.normal]);
+            for (uint32_t c = faceStarts_[f]; c < faceStarts_[f + 1]; ++c) {
+                const Corner& corner = corners_[c];
+                cage.faceVertices.push_back(corner.vertex);
+                if (uvs) {
+                    cage.cornerUvs.push_back(corner.uv == kNone ? glm::vec2(0.0f) : uvs_[corner.uv]);
+                }
+                if (normals) {
+                    cage.cornerNormals.push_back(corner.normal == kNone ? glm::vec3(0.0f) : normals_[corner.normal]);
+                }
             }
+            cage.faceStarts.push_back(cage.cornerCount());
+            cage.faceMaterials.push_back(faceMaterials_[f]);
         }
     }
 
@@ -486,7 +528,9 @@ private:
         }
 
         for (const TaggedHole& tag : holes_) {
-            cage.holes.push_back(static_cast<uint32_t>(tag.face));
+            if (const uint32_t place = places_[static_cast<size_t>(tag.face)]; place != kNone) {
+                cage.holes.push_back(place);
+            }
         }
         std::sort(cage.holes.begin(), cage.holes.end());
         cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
@@ -593,10 +637,12 @@ private:
     std::vector<uint32_t> faceStarts_{0};
     std::vector<uint32_t> faceMaterials_;
     std::vector<size_t> faceLines_;
+    std::vector<uint8_t> faceIsWhole_; ///< else it is left out
+    std::vector<uint32_t> places_;     ///< by face: which of the cage's it is, or kNone
     std::vector<TaggedCrease> creases_;
     std::vector<TaggedCorner> sharpVertices_;
     std::vector<TaggedHole> holes_;
-    Refusals refusals_;
+    Leniency leniency_;
 };
 
 } // namespace
@@ -612,7 +658,7 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         PartCage& part = parts.front();
         part.element = "file";
         part.part.polygonSource = PolygonSource::obj;
-        ObjParser(part, character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        ObjParser(part, options.strict, character).parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         bindToOneJoint(part, character, std::filesystem::path(name).stem().string());
         finishCharacter(std::move(parts), options, character);
         return character;

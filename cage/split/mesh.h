@@ -76,6 +76,7 @@ struct LooseSharpList {
 struct Mesh {
     std::string element;
     std::vector<glm::vec3> positions;
+    float gridStep = 0.0f; ///< of the coarsest grid that positions were rounded to; 0: none
     VertexWeights weights;
     VertexMorphs morphs;
     std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty

@@ -57,11 +57,11 @@ ReadParts readParts(const SuppleCharacterDesc& desc, cage::Pairing pairing, cage
 
 /// The palette, and parts without a skin at their places.
 void bindParts(ReadParts& read, cage::Character& character) {
-    const cage::BindSpace bindSpace(character.skeleton, read.bindings);
+    const cage::BindSpace bindSpace(character.skeleton, read.bindings, read.parts, read.parts.size() == 1);
     cage::PaletteBuilder palette(character.skin);
     for (size_t p = 0; p < read.parts.size(); ++p) {
         cage::PartCage& part = read.parts[p];
-        if (!bindSpace.place(part, read.bindings[p])) {
+        if (!bindSpace.place(p, part, read.bindings[p])) {
             cage::warn(character.warnings, part.element,
                        "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
         }

@@ -49,8 +49,9 @@ bool liesStill(Corner corners[4], uint i, uint j) {
 
 // Where even the face has a longer normal, that. `diagonal`, `other`: those of the face.
 Frame checkedFrame(vec3 diagonal, vec3 other, Frame f) {
-    vec3 n = f.normal;
-    if (!(dot(n, n) > kTinyNormal * (dot(diagonal, diagonal) * dot(other, other))))
+    vec3 a = diagonal * evenScale(diagonal), b = other * evenScale(other);
+    vec3 n = (f.normal * evenScale(diagonal)) * evenScale(other);
+    if (!(dot(n, n) > kTinyNormal * (dot(a, a) * dot(b, b))))
         f = withNormal(f, cross(diagonal, other));
     return f;
 }

@@ -61,7 +61,7 @@ void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
         surfaceVectors[vertex] = past;
     } else if (kVertexFormat == kVertex24) {
         surfaceVectors[2u * vertex] = position;
-        surfaceVectors[2u * vertex + 1u] = normal * inversesqrt(max(dot(normal, normal), kTiny));
+        surfaceVectors[2u * vertex + 1u] = unitNormal(normal);
     } else {
         surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
@@ -79,7 +79,7 @@ const uint kNormalWords = kVertexFormat == kVertex16 ? 1u : kVertexFormat == kVe
 const uint kVertexStores = kVertexFormat == kVertex24 ? 2u : 1u;
 uvec3 normalWords(vec3 normal) {
     if (kVertexFormat == kVertex16) return uvec3(encodeOctahedral(normal), 0u, 0u);
-    return floatBitsToUint(normal * inversesqrt(max(dot(normal, normal), kTiny)));
+    return floatBitsToUint(unitNormal(normal));
 }
 void storePosition(uint vertex, vec3 position, uint word) {
     if (kVertexFormat == kVertex16) surface16[vertex] = uvec4(floatBitsToUint(position), word);

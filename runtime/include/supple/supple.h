@@ -376,8 +376,9 @@ typedef enum SuppleAssetFlags {
      * normals, UVs and colors along it, and face the same side. Without this flag, they are paired if nearly all of a
      * mesh make good quads, and a warning says so. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
-    /** Refuse a damaged cage instead of repairing it. The message has one line for each kind of damage, which counts it
-     * and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
+    /** Refuse a damaged cage instead of repairing it, and a file with faults instead of mending them or leaving out what
+     * is broken (docs/gltf.md). The message has one line for each fault, and one for each kind of damage, which counts
+     * it and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
     /** Parts of a glTF file or of a character from arrays stay apart. Without this flag, parts are sewn together where
      * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
@@ -655,9 +656,9 @@ typedef struct SuppleImageInfo {
     size_t byteCount;
 } SuppleImageInfo;
 
-/** Fails if the file or the arrays are malformed; the message has one line for each kind of fault. A cage that is only
- * damaged (three faces on an edge, flipped faces) is repaired, with a warning in the log for each kind, or refused with
- * SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
+/** Fails if the arrays are malformed, or if nothing can be read of the file; the message has one line for each kind of
+ * fault. Single faults of a file are mended, or what is broken is left out, and a cage that is damaged (three faces on
+ * an edge, flipped faces) is repaired: with a warning in the log for each kind, or refused with SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
  * so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /** Loads an asset anew in its place (hot reload). desc is as for suppleCreateAsset. The handles of the asset, of its

@@ -31,7 +31,7 @@ Character readWith(const GltfBuilder& character, const std::vector<Bytes>& files
 }
 
 std::string refusalWith(const Bytes& file, ErrorCode code = ErrorCode::asset) {
-    return messageOf(skinnedQuad().glb(), code, {.clipFiles = {clipFile(file)}});
+    return messageOf(skinnedQuad().glb(), code, {.strict = true, .clipFiles = {clipFile(file)}});
 }
 
 /// A channel of the sampler of the same number.

@@ -49,7 +49,8 @@ TEST(GltfCompression, QuantizedPositions) {
                   c.positions);
     }
     EXPECT_EQ(messageOf(quantizedTriangle(5122, {0, 0, 0, 1, 0, 0, 0, 1, 0}, false, "").glb()),
-              "t.glb: mesh 0 primitive 0 POSITION: SHORT components are not allowed here");
+              "t.glb: mesh 0 primitive 0 POSITION: SHORT components need KHR_mesh_quantization, which the file does "
+              "not declare");
     EXPECT_EQ(messageOf(quantizedTriangle(5125, {0, 0, 0, 1, 0, 0, 0, 1, 0}, false).glb()),
               "t.glb: mesh 0 primitive 0 POSITION: UNSIGNED_INT components are not allowed here");
 }

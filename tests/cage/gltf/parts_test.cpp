@@ -127,10 +127,14 @@ TEST(GltfParts, PartsWithoutTrianglesAreNamed) {
               "t.glb: mesh 1: nothing but points: no primitive of TRIANGLES, so there is no surface");
 }
 
-TEST(GltfParts, AFaultInAnyPartIsTheFiles) {
+TEST(GltfParts, AFaultInAnyPartIsTheFilesIfItIsReadStrictly) {
     GltfBuilder b = fourParts();
-    b.meshes = replaced(b.meshes, R"({"attributes":{"POSITION":0},"indices":3})", R"({"attributes":{},"indices":3})");
-    EXPECT_EQ(messageOf(b.glb()), "t.glb: mesh 1 primitive 0: no POSITION");
+    b.meshes = replaced(b.meshes, R"({"attributes":{"POSITION":0},"indices":3})",
+                        R"({"attributes":{"POSITION":99},"indices":3})");
+    const std::string fault = "mesh 1 primitive 0 POSITION: accessor 99 is out of range: the file has ";
+    EXPECT_TRUE(messageOf(b.glb()).starts_with("t.glb: " + fault)) << messageOf(b.glb());
+    EXPECT_TRUE(saidOf(b.glb()).starts_with(fault)) << "the others are read";
+    EXPECT_EQ(readWell(b.glb()).parts.size(), 2u);
 }
 
 TEST(GltfParts, ManyNodesWithOneMeshAreBounded) {

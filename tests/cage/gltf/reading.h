@@ -27,17 +27,19 @@ inline cage::Character readWell(const GltfBuilder& b, const cage::GltfOptions& o
     return readWell(b.glb(), options);
 }
 
-/// Why a wrong file is refused; "accepted" where it is not.
+/// A strict reading: it refuses what another one mends or leaves out.
+inline const cage::GltfOptions kStrict{.pairing = cage::Pairing::never, .strict = true};
+
 /// For limits that are there however much memory a file may take.
 inline const cage::GltfOptions kMuchMemory = [] {
-    cage::GltfOptions options;
-    options.pairing = cage::Pairing::never;
+    cage::GltfOptions options = kStrict;
     options.memoryLimit = uint64_t{1} << 40;
     return options;
 }();
 
+/// Why a strict reading refuses a wrong file; "accepted" where it does not.
 inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code = ErrorCode::asset,
-                             const cage::GltfOptions& options = kKeepTriangles) {
+                             const cage::GltfOptions& options = kStrict) {
     const Result<cage::Character> result = cage::readGltf(bytes, "t.glb", "", options);
     if (result.ok()) {
         return "accepted";
@@ -47,6 +49,19 @@ inline std::string messageOf(const std::vector<std::byte>& bytes, ErrorCode code
 }
 inline std::string messageOf(const GltfBuilder& b) {
     return messageOf(b.glb());
+}
+
+/// What a reading says that is not strict: a line for each warning, or why even that one refuses the file.
+inline std::string saidOf(const std::vector<std::byte>& bytes) {
+    const Result<cage::Character> result = cage::readGltf(bytes, "t.glb", "", kKeepTriangles);
+    if (!result.ok()) {
+        return "refused: " + result.error().message;
+    }
+    std::string said;
+    for (const std::string& warning : result->warnings) {
+        said += (said.empty() ? "" : "\n") + warning;
+    }
+    return said;
 }
 
 /// Replaces the only occurrence of `from`.

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 using test::toBytes;
 using Strings = std::vector<std::string>;
 
-Result<Character> read(const std::string& text) {
-    return readObj(toBytes(text), "t.obj");
+Result<Character> read(const std::string& text, bool strict = false) {
+    return readObj(toBytes(text), "t.obj", {.strict = strict});
 }
 
 Character readWell(const std::string& text) {
@@ -31,8 +31,9 @@ Character readWell(const std::string& text) {
     return result.ok() ? std::move(result.value()) : Character{};
 }
 
+/// By a strict reading.
 void expectRefused(const std::string& text, const std::string& message) {
-    const Result<Character> result = read(text);
+    const Result<Character> result = read(text, true);
     ASSERT_FALSE(result.ok()) << message;
     EXPECT_EQ(result.error().message, "t.obj: " + message);
 }
@@ -242,6 +243,44 @@ TEST(ObjReader, RefusalsNameLineElementAndReason) {
     expectRefused(kSquare + "t corner 1/0/0 0\n", "line 6: t corner: 0 sharpnesses for 1 vertex");
     expectRefused(kSquare + "t corner 1/1/0 -1 1\n", "line 6: t corner: vertex -1 of 4");
     expectRefused(kSquare + "t hole 1/0/0 1\n", "line 6: t hole: face 1 of 1");
+}
+
+/// What a strict reading refuses, another one mends or leaves out: as little as can be.
+TEST(ObjReader, FaultsAreLeftOutAlone) {
+    const auto said = [](const std::string& text, const std::string& warning) {
+        SCOPED_TRACE(warning);
+        const Character c = readWell(text);
+        EXPECT_EQ(c.warnings, Strings{warning});
+        return c;
+    };
+    const Character uv = said(kFourVertices + "vt 0 0\nf 1/1 2/9 3/1 4/1\n",
+                              "line 6: face corner 2: texture coordinate 9 of 1; left out");
+    EXPECT_EQ(uv.cage.cornerUvs, (std::vector<glm::vec2>{{0, 1}, {0, 0}, {0, 1}, {0, 1}}));
+    const Character face =
+        said(kTwoQuads + "f 1 2 99\nt hole 1/0/0 1\n", "line 9: face corner 3: vertex 99 of 6; left out");
+    EXPECT_EQ(face.cage.holes, (std::vector<uint32_t>{1}));
+    said(kSquare + "t crease 2/1/0 0 4 1\n", "line 6: t crease: vertex 4 of 4; left out");
+    const Character number =
+        said(kSquare + "vt 1 x\n", "line 6: texture coordinate: \"x\" is not a finite number; left out");
+    EXPECT_EQ(number.cage.faceCount(), 1u);
+    // Vertices are counted: one that cannot be read moves all the others.
+    EXPECT_EQ(read("v 0 0\n" + kSquare).error().message, "t.obj: line 1: position: a number is missing");
+    EXPECT_EQ(read(kFourVertices + "f 1 2 99\n").error().message, "t.obj: line 5: face corner 3: vertex 99 of 4");
+}
+
+TEST(ObjReader, FacesThatAreLeftOutKeepTheNumbersOfTheOthers) {
+    const std::string before = kFourVertices + "f 1 2 99\n" + "f 1 2 3 4\nt hole 1/0/0 1\n";
+    EXPECT_EQ(readWell(before).cage.holes, (std::vector<uint32_t>{0}));
+}
+
+TEST(ObjReader, LinesMayEndAsOnOldMachines) {
+    std::string text = kSquare;
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    const Character c = readWell(text);
+    EXPECT_EQ(c.cage.faceVertices, (std::vector<uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(c.warnings, Strings());
+    std::string wrong = text + "f 1 2 9\r";
+    EXPECT_EQ(read(wrong, true).error().message, "t.obj: line 6: face corner 3: vertex 9 of 4");
 }
 
 TEST(ObjReader, NoPrefixOfAFileBreaksIt) {

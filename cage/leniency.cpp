@@ -1,0 +1,55 @@
+#include "cage/leniency.h"
+
+namespace supple::cage {
+namespace {
+
+/// A file of which more has to be left out is refused: it is none of those that somebody wants to use, and its faults
+/// would take more time and memory than its elements.
+constexpr size_t kMostLeftOut = 4096;
+/// Of the faults of a file that is refused because nothing is left, no more are told.
+constexpr size_t kMostTold = 24;
+/// readableLines() tells fewer.
+constexpr size_t kMostKeptLines = 4096;
+
+} // namespace
+
+void Leniency::mend(const std::string& element, const std::string& reason, const std::string& mended) {
+    if (strict_) {
+        refuse(element, reason);
+    }
+    note(element + ": " + reason, mended);
+}
+
+void Leniency::leaveOut(const Refusal& refusal) {
+    if (strict_ || refusal.code != ErrorCode::asset) {
+        refusals_.keep(refusal);
+        return;
+    }
+    for (const std::string& fault : refusal.faults) {
+        note(fault, "left out");
+    }
+    if (leftOutCount_++ < kMostTold) {
+        leftOut_.keep({refusal.code, {refusal.faults.front()}});
+    }
+    if (leftOutCount_ > kMostLeftOut) {
+        leftOut_.keep({ErrorCode::asset, {"file: more than " + std::to_string(kMostLeftOut) + " faults"}});
+        leftOut_.raise();
+    }
+}
+
+void Leniency::refuseAll(const std::set<std::string>& reasons) {
+    raise();
+    for (const std::string& reason : reasons) {
+        leftOut_.keep({ErrorCode::asset, {reason}});
+    }
+    leftOut_.raise();
+    throw Refusal{ErrorCode::asset, {"file: nothing is left of it"}};
+}
+
+void Leniency::note(const std::string& found, const std::string& repair) {
+    if (damages_.size() < kMostKeptLines && said_.insert(found).second) {
+        damages_.push_back({found, repair});
+    }
+}
+
+} // namespace supple::cage
