@@ -1,4 +1,4 @@
-// The nets and models that schemes are judged on, and supple gallery.
+// The cages that schemes are judged on, and supple gallery.
 #include "cage/topology.h"
 #include "surface/pm/mesh.h"
 #include "tests/support/meshes.h"
@@ -57,13 +57,13 @@ TEST(GalleryCages, ModelsHaveTheirFacesAndAreClosed) {
     EXPECT_NEAR(regularFaces(shaft, *cage::buildTopology(shaft)) / 1106.0, 0.9, 0.02) << "as the paper's";
 }
 
-TEST(GalleryCages, NetsHaveTheirValencesAndClasses) {
-    const std::vector<cage::GalleryCage> nets = cage::galleryCages();
-    ASSERT_EQ(nets.size(), 8u);
+TEST(GalleryCages, CagesHaveTheirValencesAndClasses) {
+    const std::vector<cage::GalleryCage> cages = cage::galleryCages();
+    ASSERT_EQ(cages.size(), 8u);
     const uint32_t valences[] = {3, 5, 6, 12};
-    for (size_t i = 0; i < nets.size(); ++i) {
-        SCOPED_TRACE(nets[i].name);
-        const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(nets[i].cage);
+    for (size_t i = 0; i < cages.size(); ++i) {
+        SCOPED_TRACE(cages[i].name);
+        const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cages[i].cage);
         ASSERT_TRUE(mesh);
         EXPECT_EQ(mesh->topology.spokeCount(0), valences[i % 4]);
         std::map<surface::PatchClass, uint32_t> classes;
@@ -71,7 +71,7 @@ TEST(GalleryCages, NetsHaveTheirValencesAndClasses) {
             ++classes[each];
         const surface::PatchClass middle = i % 4 < 2 ? surface::PatchClass::p4 : surface::PatchClass::polar;
         EXPECT_EQ(classes[middle], valences[i % 4]) << "round the middle";
-        for (const glm::vec3& p : nets[i].cage.positions) {
+        for (const glm::vec3& p : cages[i].cage.positions) {
             const float z = i < 4 ? -0.125f * (p.x * p.x + p.y * p.y) : 0.125f * (p.x * p.x - p.y * p.y);
             EXPECT_NEAR(p.z, z, 1e-5f);
         }
@@ -86,7 +86,7 @@ TEST_F(Gallery, IsAPicture) {
     const std::string png = readText(file("gallery.png"));
     EXPECT_EQ(png.substr(1, 3), "PNG");
     EXPECT_GT(png.size(), 3000u);
-    expectFailure(run("gallery -o x.png --only hexagons"), 2, "--only: no net is called hexagons");
+    expectFailure(run("gallery -o x.png --only hexagons"), 2, "--only: no cage is called hexagons");
 }
 
 } // namespace

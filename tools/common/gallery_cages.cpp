@@ -129,7 +129,7 @@ std::vector<uint32_t> facesAt(const Cage& cage, const glm::vec3& direction, bool
 
 } // namespace
 
-Cage makeValenceNet(uint32_t valence, GalleryShape shape) {
+Cage makeValenceCage(uint32_t valence, GalleryShape shape) {
     // A point (a, b) of sector s lies at a e_s + b e_{s+1}, where e are its two spokes.
     constexpr uint32_t kRings = 3;
     Cage cage = emptyCage();
@@ -165,7 +165,7 @@ Cage makeValenceNet(uint32_t valence, GalleryShape shape) {
     return cage;
 }
 
-Cage makePolarNet(uint32_t valence, GalleryShape shape) {
+Cage makePolarCage(uint32_t valence, GalleryShape shape) {
     constexpr uint32_t kRings = 3;
     Cage cage = emptyCage();
     cage.positions.emplace_back(0.0f);
@@ -189,14 +189,14 @@ Cage makePolarNet(uint32_t valence, GalleryShape shape) {
 }
 
 std::vector<GalleryCage> galleryCages() {
-    return {{"valence 3, elliptic", makeValenceNet(3, GalleryShape::elliptic)},
-            {"valence 5, elliptic", makeValenceNet(5, GalleryShape::elliptic)},
-            {"polar 6, elliptic", makePolarNet(6, GalleryShape::elliptic)},
-            {"polar 12, elliptic", makePolarNet(12, GalleryShape::elliptic)},
-            {"valence 3, saddle", makeValenceNet(3, GalleryShape::saddle)},
-            {"valence 5, saddle", makeValenceNet(5, GalleryShape::saddle)},
-            {"polar 6, saddle", makePolarNet(6, GalleryShape::saddle)},
-            {"polar 12, saddle", makePolarNet(12, GalleryShape::saddle)}};
+    return {{"valence 3, elliptic", makeValenceCage(3, GalleryShape::elliptic)},
+            {"valence 5, elliptic", makeValenceCage(5, GalleryShape::elliptic)},
+            {"polar 6, elliptic", makePolarCage(6, GalleryShape::elliptic)},
+            {"polar 12, elliptic", makePolarCage(12, GalleryShape::elliptic)},
+            {"valence 3, saddle", makeValenceCage(3, GalleryShape::saddle)},
+            {"valence 5, saddle", makeValenceCage(5, GalleryShape::saddle)},
+            {"polar 6, saddle", makePolarCage(6, GalleryShape::saddle)},
+            {"polar 12, saddle", makePolarCage(12, GalleryShape::saddle)}};
 }
 
 Cage makeGallery() {

@@ -11,11 +11,11 @@ namespace supple::cage {
 
 enum class GalleryShape : uint8_t { elliptic, saddle };
 
-/// An open net of quads, three rings round a vertex of this valence (3 or more), on z = -(x^2 + y^2) / 8 or on
+/// An open cage of quads, three rings round a vertex of this valence (3 or more), on z = -(x^2 + y^2) / 8 or on
 /// z = (x^2 - y^2) / 8.
-[[nodiscard]] Cage makeValenceNet(uint32_t valence, GalleryShape shape);
-/// The same as a polar net: a fan of so many triangles (3 or more), and two rings of as many quads.
-[[nodiscard]] Cage makePolarNet(uint32_t valence, GalleryShape shape);
+[[nodiscard]] Cage makeValenceCage(uint32_t valence, GalleryShape shape);
+/// A polar one: a fan of so many triangles (3 or more), and two rings of as many quads.
+[[nodiscard]] Cage makePolarCage(uint32_t valence, GalleryShape shape);
 
 struct GalleryCage {
     const char* name = "";

@@ -28,25 +28,26 @@ std::vector<std::string> galleryColumns() {
 }
 
 /// All, or those whose names begin so.
-std::vector<cage::GalleryCage> chosenNets(const std::string& only) {
-    std::vector<cage::GalleryCage> nets = cage::galleryCages();
-    std::erase_if(nets, [&](const cage::GalleryCage& net) { return std::string(net.name).rfind(only, 0) != 0; });
-    return nets;
+std::vector<cage::GalleryCage> chosenCages(const std::string& only) {
+    std::vector<cage::GalleryCage> cages = cage::galleryCages();
+    std::erase_if(cages,
+                  [&](const cage::GalleryCage& subject) { return std::string(subject.name).rfind(only, 0) != 0; });
+    return cages;
 }
 
-host::CharacterFile characterOf(const cage::GalleryCage& net) {
+host::CharacterFile characterOf(const cage::GalleryCage& subject) {
     host::CharacterFile file;
-    file.path = net.name;
-    file.character.name = net.name;
-    file.character.cage = net.cage;
+    file.path = subject.name;
+    file.character.name = subject.name;
+    file.character.cage = subject.cage;
     return file;
 }
 
-/// One net under one scheme, or its cage. None: the scheme does not take it.
-Result<std::unique_ptr<Stage>> openNet(Session& session, const cage::GalleryCage& net, const std::string& scheme,
+/// A cage under one scheme, or itself. None: the scheme does not take it.
+Result<std::unique_ptr<Stage>> openOne(Session& session, const cage::GalleryCage& subject, const std::string& scheme,
                                        VkExtent2D cell, DrawOptions draw, Extent& extent) {
     draw.scheme = scheme;
-    Result<std::unique_ptr<Stage>> stage = Stage::open(session, characterOf(net), cell, draw);
+    Result<std::unique_ptr<Stage>> stage = Stage::open(session, characterOf(subject), cell, draw);
     if (!stage) {
         const bool refused = stage.error().code == ErrorCode::asset || stage.error().code == ErrorCode::limit;
         return refused ? Result<std::unique_ptr<Stage>>(nullptr) : stage.error();
@@ -59,15 +60,16 @@ Result<std::unique_ptr<Stage>> openNet(Session& session, const cage::GalleryCage
     return std::move(*stage);
 }
 
-/// All schemes see a net from one place, and the same light.
-Status drawNet(Session& session, const cage::GalleryCage& net, const GalleryOptions& options, VkExtent2D cell,
+/// All schemes see a cage from one place, and the same light.
+Status drawRow(Session& session, const cage::GalleryCage& subject, const GalleryOptions& options, VkExtent2D cell,
                uint32_t view, uint32_t top, host::Picture& sheet) {
     const std::vector<std::string> columns = galleryColumns();
     host::Scene scene;
     scene.pixelScale = pixelScale(cell);
     for (uint32_t column = 0; column < columns.size(); ++column) {
         Extent extent;
-        const Result<std::unique_ptr<Stage>> stage = openNet(session, net, columns[column], cell, options.draw, extent);
+        const Result<std::unique_ptr<Stage>> stage =
+            openOne(session, subject, columns[column], cell, options.draw, extent);
         if (!stage)
             return stage.error();
         const uint32_t left = kSheetGap + column * (cell.width + kSheetGap);
@@ -94,10 +96,10 @@ Status drawNet(Session& session, const cage::GalleryCage& net, const GalleryOpti
 }
 
 Status drawGallery(Session& session, const GalleryOptions& options, VkExtent2D cell, uint32_t view) {
-    const std::vector<cage::GalleryCage> nets = chosenNets(options.only);
+    const std::vector<cage::GalleryCage> cages = chosenCages(options.only);
     const std::vector<std::string> columns = galleryColumns();
     const uint32_t step = kSheetLabelHeight + cell.height + kSheetGap;
-    const auto across = static_cast<uint32_t>(columns.size()), down = static_cast<uint32_t>(nets.size());
+    const auto across = static_cast<uint32_t>(columns.size()), down = static_cast<uint32_t>(cages.size());
     const std::optional<Legend> legend = legendOf(view);
     host::Picture sheet = blankSheet(kSheetGap + across * (cell.width + kSheetGap),
                                      kSheetGap + kSheetLabelHeight + down * step + (legend ? kLegendHeight : 0));
@@ -105,8 +107,8 @@ Status drawGallery(Session& session, const GalleryOptions& options, VkExtent2D c
         sheet.drawText(kSheetGap + column * (cell.width + kSheetGap) + 4, kSheetGap, columns[column], 2, kSheetInk);
     for (uint32_t row = 0; row < down; ++row) {
         const uint32_t top = kSheetGap + kSheetLabelHeight + row * step;
-        sheet.drawText(kSheetGap + 4, top, nets[row].name, 2, kSheetFaintInk);
-        const Status status = drawNet(session, nets[row], options, cell, view, top + kSheetLabelHeight, sheet);
+        sheet.drawText(kSheetGap + 4, top, cages[row].name, 2, kSheetFaintInk);
+        const Status status = drawRow(session, cages[row], options, cell, view, top + kSheetLabelHeight, sheet);
         if (!status)
             return status.error();
     }
@@ -124,8 +126,8 @@ int runGallery(const GalleryOptions& options) {
     const Result<uint32_t> view = parseView(options.draw.view);
     if (!view)
         return fail(kExitUsage, "--view: " + view.error().message);
-    if (chosenNets(options.only).empty())
-        return fail(kExitUsage, "--only: no net is called " + options.only);
+    if (chosenCages(options.only).empty())
+        return fail(kExitUsage, "--only: no cage is called " + options.only);
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());

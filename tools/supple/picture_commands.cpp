@@ -198,11 +198,11 @@ void bindSheet(CLI::App& app, int& exitCode) {
 void bindGallery(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<GalleryOptions>();
     options->draw = {.rate = 16, .view = "highlights", .ground = false, .yaw = 25.0, .pitch = 25.0};
-    CLI::App* command =
-        app.add_subcommand("gallery", "Nets round one vertex, elliptic and as saddles, under all schemes side by side");
+    CLI::App* command = app.add_subcommand(
+        "gallery", "Cages round one vertex, elliptic and as saddles, under all schemes side by side");
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
     command->add_option("--cell", options->cell, "Of one picture")->check(sizeValidator())->capture_default_str();
-    command->add_option("--only", options->only, "Nets whose names begin so: \"polar\", \"valence 3, saddle\"")
+    command->add_option("--only", options->only, "Cages whose names begin so: \"polar\", \"valence 3, saddle\"")
         ->type_name("NAME");
     command->add_option("--rate", options->draw.rate, "Segments along an edge of the cage")
         ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
