@@ -28,11 +28,13 @@ vec3 scaleColor(uint view, float value) {
     return fromSrgb(mix(unpackUnorm4x8(from), unpackUnorm4x8(to), at - float(low)).bgr);
 }
 
-/// Of what is left on contour lines of the scale. `width`: what the value changes by from pixel to pixel.
+/// What is left on contour lines of the scale, which lie between its steps: no line has the value zero, so that planes have none.
+/// `width`: what the value changes by from pixel to pixel.
 float contourShade(float value, float width) {
-    float at = value * kContours, pixel = max(width * kContours, 1e-6);
+    float at = value * kContours + 0.5, pixel = max(width * kContours, 1e-6);
     float line = 1.0 - clamp(abs(at - round(at)) / pixel, 0.0, 1.0);
-    return 1.0 - 0.55 * line * (1.0 - smoothstep(0.25, 0.6, pixel)); // lines as close as pixels run together
+    bool drawn = value >= 0.0 && pixel > 1e-4; // where all has one value there are no lines
+    return drawn ? 1.0 - 0.55 * line * (1.0 - smoothstep(0.25, 0.6, pixel)) : 1.0; // lines as close as pixels run together
 }
 
 /// In the colors that the view has; values of maps are shown as files store them.
