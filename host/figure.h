@@ -147,7 +147,8 @@ struct FigureSurface {
     };
     std::array<CoarseGrid, 4> coarseGrids;
     Buffer coarseIndices;
-    Buffer values; ///< a float per vertex of an instance, for the views kViewWeights and kViewDistance; may be none
+    Buffer
+        values; ///< a float per vertex of an instance, for the views from kViewWeights on but kViewLevels; may be none
 
     /// SUPPLE_SCHEME_POLYGONS.
     [[nodiscard]] bool isMesh() const { return output.surface.scheme == SUPPLE_SCHEME_POLYGONS; }

@@ -166,7 +166,7 @@ private:
             } else if (!known.insert(set->string()).second) {
                 faults.add(i, "a second curve for " + quoted(set->string()));
             } else {
-                refusals_.gather(
+                document_.leniency->leaveOut(
                     [&] { addCurve(animation, static_cast<int>(number), set->string(), item(list, i), clip); });
             }
         }

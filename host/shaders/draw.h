@@ -59,26 +59,38 @@ SUPPLE_HOST_CONST kViewShaded = 0u;
 SUPPLE_HOST_CONST kViewWire = 1u;
 SUPPLE_HOST_CONST kViewPatches = 2u;
 SUPPLE_HOST_CONST kViewNormals = 3u;
-SUPPLE_HOST_CONST kViewZebra = 4u;
+// Stripes: stripes.glsl.
+SUPPLE_HOST_CONST kViewZebra = 4u;      // reflected tubes, which stay with the viewer
+SUPPLE_HOST_CONST kViewHighlights = 5u; // lines of light, which stay with the figure
+SUPPLE_HOST_CONST kViewIsophotes = 6u;  // angles from a direction, which stays with the figure
 // Without the studio's light, from here on: flat_views.glsl.
-SUPPLE_HOST_CONST kViewTangents = 5u;
-SUPPLE_HOST_CONST kViewUv = 6u;
-SUPPLE_HOST_CONST kViewUv1 = 7u; // the second texture coordinates
-SUPPLE_HOST_CONST kViewVertexColor = 8u;
-SUPPLE_HOST_CONST kViewBaseColor = 9u;
-SUPPLE_HOST_CONST kViewMetallic = 10u;
-SUPPLE_HOST_CONST kViewRoughness = 11u;
-SUPPLE_HOST_CONST kViewNormalMap = 12u;
-SUPPLE_HOST_CONST kViewOcclusion = 13u;
-SUPPLE_HOST_CONST kViewEmissive = 14u;
+SUPPLE_HOST_CONST kViewTangents = 7u;
+SUPPLE_HOST_CONST kViewUv = 8u;
+SUPPLE_HOST_CONST kViewUv1 = 9u; // the second texture coordinates
+SUPPLE_HOST_CONST kViewVertexColor = 10u;
+SUPPLE_HOST_CONST kViewBaseColor = 11u;
+SUPPLE_HOST_CONST kViewMetallic = 12u;
+SUPPLE_HOST_CONST kViewRoughness = 13u;
+SUPPLE_HOST_CONST kViewNormalMap = 14u;
+SUPPLE_HOST_CONST kViewOcclusion = 15u;
+SUPPLE_HOST_CONST kViewEmissive = 16u;
 // As colors of a scale, from 0 to 1; below 0 there is no value.
-SUPPLE_HOST_CONST kViewWeights = 15u;  // values of the vertices (kSurfaceValueBinding)
-SUPPLE_HOST_CONST kViewDistance = 16u; // the same
-SUPPLE_HOST_CONST kViewLevels = 17u; // the largest level of the patch, or the rate, by its logarithm; kScaledLevel is 1
+SUPPLE_HOST_CONST kViewWeights = 17u;  // values of the vertices (kSurfaceValueBinding)
+SUPPLE_HOST_CONST kViewDistance = 18u; // the same
+SUPPLE_HOST_CONST kViewLevels = 19u; // the largest level of the patch, or the rate, by its logarithm; kScaledLevel is 1
 SUPPLE_HOST_FLOAT kScaledLevel = 16.0f;
+// The same with a sign: 1/2 is zero. With contour lines.
+SUPPLE_HOST_CONST kViewMeanCurvature = 20u; // values of the vertices
+SUPPLE_HOST_CONST kViewGaussianCurvature = 21u;
+SUPPLE_HOST_FLOAT kContours = 20.0f; // steps of the scale
+
+SUPPLE_HOST_CONST kHighlightCount = 24u;      // lines of light, parallel to the x axis, all round the figure
+SUPPLE_HOST_FLOAT kIsophoteDegrees = 15.0f;   // of a bright and a dark band together
 // The colors of a scale at 0, 1/4 .. 1, 0xRRGGBB, from dark blue over green to yellow; monotonic in brightness, so that
 // gray prints tell as much (a short viridis).
 #define SUPPLE_SCALE_COLORS 0x440154u, 0x3B528Bu, 0x21918Cu, 0x5EC962u, 0xFDE725u
+// The same for values with a sign: blue, white, red.
+#define SUPPLE_SIGNED_COLORS 0x2166ACu, 0x92C5DEu, 0xF7F7F7u, 0xF4A582u, 0xB2182Bu
 
 // DrawPush::domain: values of SuppleDomain.
 SUPPLE_HOST_CONST kDrawQuad = 0u;
@@ -125,7 +137,7 @@ struct FrameUniforms {
     mat4 viewProjection;
     mat4 view;
     vec4 eye;
-    vec4 target;       // what the camera looks at; w: radius of the scene
+    vec4 target;       // the middle of the scene; w: its radius
     vec4 ground;       // x: height, y: 1 where there is one
     vec4 viewport;     // width, height, 1 / width, 1 / height
     vec4 bounce;       // light from below

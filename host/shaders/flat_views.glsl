@@ -15,14 +15,26 @@ vec3 uvChecker(vec2 uv) {
     return mix(vec3(0.02), color, clamp(min(border.x, border.y), 0.0, 1.0));
 }
 
-/// The color of a value on the scale. Below 0 there is no value.
-vec3 scaleColor(float value) {
+bool isCurvature(uint view) { return view == kViewMeanCurvature || view == kViewGaussianCurvature; }
+
+/// The color of a value on the view's scale. Below 0 there is no value.
+vec3 scaleColor(uint view, float value) {
     if (value < 0.0) return vec3(0.30, 0.29, 0.28);
-    const uint kColors[5] = uint[5](SUPPLE_SCALE_COLORS);
+    const uint kColors[5] = uint[5](SUPPLE_SCALE_COLORS), kSigned[5] = uint[5](SUPPLE_SIGNED_COLORS);
     float at = min(value, 1.0) * 4.0;
     uint low = min(uint(at), 3u);
-    vec4 color = mix(unpackUnorm4x8(kColors[low]), unpackUnorm4x8(kColors[low + 1u]), at - float(low));
-    return fromSrgb(color.bgr);
+    uint from = isCurvature(view) ? kSigned[low] : kColors[low];
+    uint to = isCurvature(view) ? kSigned[low + 1u] : kColors[low + 1u];
+    return fromSrgb(mix(unpackUnorm4x8(from), unpackUnorm4x8(to), at - float(low)).bgr);
+}
+
+/// What is left on contour lines of the scale, which lie between its steps: no line has the value zero, so that planes have none.
+/// `width`: what the value changes by from pixel to pixel.
+float contourShade(float value, float width) {
+    float at = value * kContours + 0.5, pixel = max(width * kContours, 1e-6);
+    float line = 1.0 - clamp(abs(at - round(at)) / pixel, 0.0, 1.0);
+    bool drawn = value >= 0.0 && pixel > 1e-4; // where all has one value there are no lines
+    return drawn ? 1.0 - 0.55 * line * (1.0 - smoothstep(0.25, 0.6, pixel)) : 1.0; // lines as close as pixels run together
 }
 
 /// In the colors that the view has; values of maps are shown as files store them.
@@ -39,7 +51,7 @@ vec3 flatColor(uint view, vec4 base, Material material, vec4 uvs, vec3 tangent, 
         return fromSrgb(hasTexture(kNormal) ? texture(normalTexture, placed(kNormal, uvs)).xyz : vec3(0.5, 0.5, 1.0));
     case kViewOcclusion: return fromSrgb(vec3(material.occlusion));
     case kViewEmissive: return material.emission;
-    default: return scaleColor(value);
+    default: return scaleColor(view, value) * (isCurvature(view) ? contourShade(value, fwidth(value)) : 1.0);
     }
 }
 

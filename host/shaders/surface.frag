@@ -7,6 +7,7 @@
 #include "material_textures.glsl"
 #include "surface_trim.glsl"
 #include "flat_views.glsl"
+#include "stripes.glsl"
 
 layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
 
@@ -68,31 +69,6 @@ float patchHash(uint x) {
     return float((x ^ (x >> 15)) & 0xffffu) / 65535.0;
 }
 
-/// Where a place is among light tubes all round the viewer: from one tube to the next it grows by one.
-float amongTubes(vec3 position, vec3 n) {
-    vec3 r = mat3(frame.view) * reflect(normalize(position - frame.eye.xyz), n);
-    return acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
-}
-
-/// Where this pixel is among them, and how far away its neighbours are. A derivative of amongTubes() would not do: pixels beside
-/// the triangle help to take derivatives, and lavapipe reads zeros for them from storage buffers, which the frame is in. So only
-/// what is interpolated is derived, and this pixel looks at the tubes for its neighbours.
-vec2 tubesAt(vec3 n) {
-    float at = amongTubes(inPosition, n);
-    float right = amongTubes(inPosition + dFdx(inPosition), n + dFdx(n));
-    float below = amongTubes(inPosition + dFdy(inPosition), n + dFdy(n));
-    return vec2(at, abs(right - at) + abs(below - at));
-}
-
-/// A kink in a stripe is a kink in the surface's normals.
-vec3 zebra(vec2 tubes, vec3 n, vec3 v) {
-    float width = max(tubes.y, 1e-4);
-    float stripe = smoothstep(-width, width, abs(fract(tubes.x) - 0.5) - 0.25);
-    stripe = mix(stripe, 0.5, smoothstep(0.35, 0.9, width));
-    float form = 0.72 + 0.28 * clamp(dot(n, v), 0.0, 1.0);
-    return mix(vec3(0.012, 0.014, 0.02), vec3(0.82, 0.83, 0.84), stripe) * form;
-}
-
 /// The edge of a shadow crosses the triangle, or one of its vertices lies inside of another body: what is interpolated from
 /// vertices means little there. The mean of squares is the square of the mean only if all agree.
 bool verticesDisagree() { return strongest(inSquares - inKeyRimOpen * inKeyRimOpen) > 0.02; }
@@ -144,7 +120,7 @@ void main() {
         if (isShadedFlat(kView))
             flatly *= formShade(kView, n, v);
     }
-    vec2 tubes = kView == kViewZebra ? tubesAt(n) : vec2(0.0);
+    vec2 striped = hasStripes(kView) ? stripesAt(kView, inPosition, n) : vec2(0.0);
     float trim = 1.0, covered = 1.0;
     if (materialHas(kMaterialTrim)) {
         trim = trimValue(inTrim);
@@ -164,8 +140,8 @@ void main() {
     vec3 color;
     if (kView == kViewNormals) {
         color = fromSrgb(front * 0.5 + 0.5);
-    } else if (kView == kViewZebra) {
-        color = zebra(tubes, n, v);
+    } else if (hasStripes(kView)) {
+        color = stripes(striped, n, v);
     } else if (isFlatView(kView)) {
         color = flatly;
     } else if (kView == kViewShaded && materialHas(kMaterialUnlit)) {

@@ -29,7 +29,7 @@ constexpr double kMostMean = 1.75;
 
 /// The views with values of their own are opened one by one.
 bool hasValues(const std::string& view) {
-    return view == "weights" || view == "distance" || view == "levels";
+    return view == "weights" || view == "distance" || view == "levels" || view.ends_with("-curvature");
 }
 
 /// Four samples a pixel, in linear light.

@@ -108,6 +108,11 @@ AssetDescription::AssetDescription(const CharacterFile& file) {
     desc_.memoryLimit = memoryLimit(file.flags);
     desc_.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
     desc_.name = file.path.c_str();
+    if (file.bytes.empty()) {
+        cage_ = std::make_unique<const CageArrays>(file.character.cage);
+        desc_.cage = &cage_->desc;
+        return;
+    }
     desc_.bytes = file.bytes.data();
     desc_.byteCount = file.bytes.size();
     desc_.baseDirectory = file.directory.c_str();

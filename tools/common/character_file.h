@@ -4,9 +4,11 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "host/context.h"
+#include "tools/common/cage_arrays.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +40,7 @@ struct CharacterFile : FileInMemory {
 };
 [[nodiscard]] Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags = {});
 
-/// The file as Supple takes it.
+/// The file as Supple takes it. Of a character that was made, which has no bytes, the cage alone.
 class AssetDescription {
 public:
     /// The file must outlive it.
@@ -50,6 +52,7 @@ public:
 private:
     SuppleAssetDesc desc_{};
     std::vector<SuppleClipFile> clipFiles_;
+    std::unique_ptr<const CageArrays> cage_;
 };
 
 [[nodiscard]] Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file);

@@ -55,6 +55,7 @@ check bake box.obj -o baked.glb --rate 2
 check bake "$assets/helmet.glb" -o helmet.ply --rate 2
 check bake "$assets/helmet.glb" -o helmet.glb --scheme cage
 check bake box.obj -o box.obj.obj --scheme pm --patches patches.json --mapping wide --rate 2
+check render box.obj -o curvature.png --scheme all --view mean-curvature --size 64x64 --rate 2
 check sheet box.obj -o sheet.png
 check profile box.obj --frames 2 --rate 2 --json profile.json
 check profile box.obj --frames 2 --view --hashes hashes.txt

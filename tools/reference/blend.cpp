@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace supple::surface::blend {
 namespace {
@@ -347,6 +348,61 @@ Sample<T> Evaluator<T>::at(uint32_t face, const Pair& u, const Pair& v) const {
         n = glm::cross(near.du, near.dv);
     }
     return {sample.position, sample.du, sample.dv, unitNormal(face, n)};
+}
+
+namespace {
+
+/// U, V and T of a chart at a corner's own (x, y).
+struct ChartJets {
+    Jet u, v, t;
+};
+ChartJets chartJets(const ChartClass& chartClass, uint32_t sector, const Jet& x, const Jet& y) {
+    const double stretch = 4.0 / chartClass.turns();
+    const double turn = 2.0 * std::numbers::pi * sector / chartClass.turns();
+    if (stretch == 1.0) {
+        const double c = std::cos(turn), s = std::sin(turn);
+        const Jet u = c * x - s * y, v = s * x + c * y;
+        return {u, v, u};
+    }
+    const Jet square = x * x + y * y;
+    const Jet phi = stretch * angleOf(x, y) + turn;
+    const Jet radius = power(square, 0.5 * stretch);
+    const Jet u = radius * cosineOf(phi);
+    return {u, radius * sineOf(phi), chartClass.creased() ? power(square, 0.5) * cosineOf(phi) : u};
+}
+
+Jet hermiteJet(const Jet& t) {
+    return ((2.0 * t + -3.0) * (t * t)) + 1.0;
+}
+
+} // namespace
+
+SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<double>> coefficients, uint32_t face,
+                       double u, double v) {
+    const Jet s = Jet::first(u), r = Jet::second(v);
+    const std::array<std::array<Jet, 2>, 4> views{{{s, r}, {r, 1.0 - s}, {1.0 - s, 1.0 - r}, {1.0 - r, s}}};
+    SurfaceJet sum;
+    const glm::dvec3 origin = coefficients[mesh.corners[4 * size_t{face}].chart][0];
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Corner& corner = mesh.corners[4 * face + k];
+        const ChartCoefficients<double>& c = coefficients[corner.chart];
+        const Jet weight = hermiteJet(views[k][0]) * hermiteJet(views[k][1]);
+        sum.add(c[0] - origin, weight);
+        const ChartClass& chartClass = mesh.classOf(corner.chart);
+        if (chartClass.kind == ChartKind::point) {
+            continue;
+        }
+        const auto [zetaU, zetaV, t] = chartJets(chartClass, corner.sector, views[k][0], views[k][1]);
+        const Jet vv = zetaV * zetaV;
+        const std::array<Jet, kCoefficients> basis = {Jet::constant(0.0), zetaV,      vv,    t,
+                                                      zetaU * zetaV,      zetaU * vv, t * t, zetaU * zetaU * zetaV,
+                                                      zetaU * zetaU * vv};
+        for (size_t a = 1; a < kCoefficients; ++a) {
+            sum.add(c[a], weight * basis[a]);
+        }
+    }
+    sum.position += origin;
+    return sum;
 }
 
 template std::vector<ChartCoefficients<float>> construct<float>(const Mesh&, std::span<const glm::vec3>);

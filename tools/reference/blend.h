@@ -5,6 +5,7 @@
 #include "surface/blend/mesh.h"
 #include "surface/blend/weights.h"
 #include "tools/reference/chart_point.h"
+#include "tools/reference/jet.h"
 
 #include <array>
 #include <cstdint>
@@ -91,5 +92,10 @@ private:
     std::vector<Table> tables_;          ///< one per k
     std::vector<uint32_t> tableOfClass_; ///< per chart class, into tables_
 };
+
+/// With second derivatives, in (u, v) of a face. At a corner there are none but of interior charts with k = 4: then
+/// the result is not finite.
+[[nodiscard]] SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<double>> coefficients,
+                                     uint32_t face, double u, double v);
 
 } // namespace supple::surface::blend

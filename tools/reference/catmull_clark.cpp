@@ -21,14 +21,14 @@ using subdivision::kNoPoint;
 
 constexpr int kMostLevels = 40;
 
-/// The four weights of a leaf in one direction, and their derivatives.
+/// The four weights of a leaf in one direction, and their first and second derivatives.
 struct Weights {
-    std::array<double, 4> value{}, slope{};
+    std::array<double, 4> value{}, slope{}, bend{};
 };
 
 /// Of an endless crease, and of one that is sharp for `steps` steps, a point across it keeps this weight (1).
 struct Crease {
-    double value = 0.0, slope = 0.0;
+    double value = 0.0, slope = 0.0, bend = 0.0;
 };
 Crease sharpWeight(float sharpness, double x) {
     if (sharpness >= kInfiniteSharpness) {
@@ -41,6 +41,7 @@ Crease sharpWeight(float sharpness, double x) {
         const double rest = std::max(0.0, 1.0 - x * scale);
         sum.value += weight * rest * rest * rest / (6.0 * scale);
         sum.slope -= weight * rest * rest / 2.0;
+        sum.bend += weight * rest * scale;
     }
     return sum;
 }
@@ -52,11 +53,14 @@ Weights leafWeights(double x, float sharpness) {
     w.value = {s * s * s / 6.0, (1.0 + 3.0 * (s + s * s * x)) / 6.0, (1.0 + 3.0 * (x + x * x * s)) / 6.0,
                x * x * x / 6.0};
     w.slope = {-s * s / 2.0, 1.5 * x * x - 2.0 * x, 2.0 * s - 1.5 * s * s, x * x / 2.0};
+    w.bend = {s, 3.0 * x - 2.0, 3.0 * s - 2.0, x};
     if (sharpness > 0.0f) {
         const Crease crease = sharpWeight(sharpness, x);
         const double value = w.value[0] - crease.value, slope = w.slope[0] - crease.slope;
+        const double bend = w.bend[0] - crease.bend;
         w.value = {crease.value, w.value[1] + 2.0 * value, w.value[2] - value, w.value[3]};
         w.slope = {crease.slope, w.slope[1] + 2.0 * slope, w.slope[2] - slope, w.slope[3]};
+        w.bend = {crease.bend, w.bend[1] + 2.0 * bend, w.bend[2] - bend, w.bend[3]};
     }
     return w;
 }
@@ -82,6 +86,9 @@ Point evaluate(const FragmentNet<double>& net, const Fan& fan, uint32_t sector, 
             sum.position += leaf.a.value[x] * leaf.b.value[y] * p;
             sum.du += leaf.a.slope[x] * leaf.b.value[y] * p;
             sum.dv += leaf.a.value[x] * leaf.b.slope[y] * p;
+            sum.duu += leaf.a.bend[x] * leaf.b.value[y] * p;
+            sum.duv += leaf.a.slope[x] * leaf.b.slope[y] * p;
+            sum.dvv += leaf.a.value[x] * leaf.b.bend[y] * p;
         }
     }
     sum.position += centre;
@@ -125,6 +132,13 @@ Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> i
     return point;
 }
 
+void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& point) {
+    const glm::dvec3 aa = point.duu, ab = point.duv, bb = point.dvv;
+    point.duu = u.x * u.x * aa + 2.0 * u.x * u.y * ab + u.y * u.y * bb;
+    point.duv = u.x * v.x * aa + (u.x * v.y + u.y * v.x) * ab + u.y * v.y * bb;
+    point.dvv = v.x * v.x * aa + 2.0 * v.x * v.y * ab + v.y * v.y * bb;
+}
+
 LimitSurface::LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
     : mesh_(mesh), isolated_(subdivision::isolate<double>(mesh, positions)), sectors_(mesh.cage.faceCount()) {
     const FragmentNet<double> net(mesh, isolated_);
@@ -153,6 +167,9 @@ Point LimitSurface::at(uint32_t quad, double u, double v) const {
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};
     point.du = derivatives[corner][0];
     point.dv = derivatives[corner][1];
+    constexpr glm::dvec2 kA(1.0, 0.0), kB(0.0, 1.0);
+    constexpr std::array<std::array<glm::dvec2, 2>, 4> kSlopes = {{{kA, kB}, {-kB, kA}, {-kA, -kB}, {kB, -kA}}};
+    turnSecondDerivatives(kSlopes[corner][0], kSlopes[corner][1], point);
     return point;
 }
 
@@ -181,6 +198,7 @@ Point LimitSurface::inQuarter(const Sector& sector, double a, double b) const {
     point.normal = unitNormal(point.du, point.dv);
     point.du *= scale;
     point.dv *= scale;
+    turnSecondDerivatives({scale, 0.0}, {0.0, scale}, point);
     return point;
 }
 

@@ -4,6 +4,7 @@
 
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
+#include "tools/reference/jet.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -18,7 +19,13 @@ struct Point {
     glm::dvec3 position{0.0};
     glm::dvec3 du{0.0}, dv{0.0};
     glm::dvec3 normal{0.0}; ///< of unit length, or zero if there is none
+    glm::dvec3 duu{0.0}, duv{0.0}, dvv{0.0};
+
+    [[nodiscard]] SurfaceJet jet() const { return {position, du, dv, duu, duv, dvv}; }
 };
+
+/// Second derivatives in other parameters: each of `u` and `v` has the slopes of the point's own two in it.
+void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& point);
 
 /// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
 [[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
@@ -34,8 +41,8 @@ public:
     [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(sectors_.size() / 4); }
 
     /// At (u, v) of a quad, both from 0 to 1, u from corner 0 to corner 1. The position is exact to rounding but within
-    /// 2^-40 of a corner, where it is the corner's. There du and dv are zero. The normal is the limit's, but for a run
-    /// of several faces between creases at a corner, where it is a mean (docs/subdivision.md).
+    /// 2^-40 of a corner, where it is the corner's. There all derivatives are zero. The normal is the limit's, but for
+    /// a run of several faces between creases at a corner, where it is a mean (docs/subdivision.md).
     [[nodiscard]] Point at(uint32_t quad, double u, double v) const;
 
 private:

@@ -122,15 +122,23 @@ Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation
             point.position += own * std::pow(x, m) * std::pow(y, n);
             point.du += m == 0 ? glm::dvec3(0.0) : own * (m * std::pow(x, m - 1) * std::pow(y, n));
             point.dv += n == 0 ? glm::dvec3(0.0) : own * (n * std::pow(x, m) * std::pow(y, n - 1));
+            point.duu += m < 2 ? glm::dvec3(0.0) : own * (m * (m - 1) * std::pow(x, m - 2) * std::pow(y, n));
+            point.duv += m == 0 || n == 0 ? glm::dvec3(0.0) : own * (m * n * std::pow(x, m - 1) * std::pow(y, n - 1));
+            point.dvv += n < 2 ? glm::dvec3(0.0) : own * (n * (n - 1) * std::pow(x, m) * std::pow(y, n - 2));
         }
     }
     return point;
 }
 
+Point fromJet(const SurfaceJet& s) {
+    return {s.position, s.du, s.dv, {}, s.duu, s.duv, s.dvv};
+}
+
 /// The excess of three segments of a crease that follow each other.
 using Excess = std::array<glm::dvec3, 3>;
 
-/// The excess on a half of the second segment after a sharp step, which refines it as quadratic B-splines and halves it.
+/// The excess on a half of the second segment after a sharp step, which refines it as quadratic B-splines and halves
+/// it.
 Excess afterSharpStep(const Excess& s, bool secondHalf) {
     const auto between = [](const glm::dvec3& near, const glm::dvec3& far) { return (3.0 * near + far) / 8.0; };
     return secondHalf ? Excess{between(s[1], s[0]), between(s[1], s[2]), between(s[2], s[1])}
@@ -141,31 +149,27 @@ Excess afterSharpStep(const Excess& s, bool secondHalf) {
 /// from the line. Derivatives in x and y.
 Point smoothExcess(const Excess& s, double x, double y) {
     Point point;
-    const auto add = [&](const glm::dvec3& excess, double weight, double alongX, double alongY) {
-        point.position += excess * (weight / 12.0);
-        point.du += excess * (alongX / 12.0), point.dv += excess * (alongY / 12.0);
+    const auto add = [&](const glm::dvec3& excess, const Jet& weight) {
+        SurfaceJet sum = point.jet();
+        sum.add(excess, (1.0 / 12.0) * weight);
+        point = fromJet(sum);
     };
     if (y >= 1.0) {
         return point;
     }
+    const Jet v = Jet::first(x), w = Jet::second(y);
     if (x + y > 1.0) { // the triangle that touches the line at the segment's end
-        const double a = 1.0 - y, aaa = a * a * a, x01 = 1.0 - x, x11 = x + y - 1.0;
-        add(s[1], a * aaa + 2.0 * aaa * x01, -2.0 * aaa, -4.0 * aaa - 6.0 * a * a * x01);
-        add(s[2], a * aaa + 2.0 * aaa * x11, 2.0 * aaa, -4.0 * aaa - 6.0 * a * a * x11 + 2.0 * aaa);
+        const Jet a = 1.0 - w, aaa = a * a * a;
+        add(s[1], a * aaa + 2.0 * (aaa * (1.0 - v)));
+        add(s[2], a * aaa + 2.0 * (aaa * ((v + w) + -1.0)));
         return point;
     }
-    const double u = 1.0 - x - y, v = x, w = y, uu = u * u, vv = v * v;
-    const double du0 = 4.0 * u * uu + 6.0 * uu * v, dv0 = 2.0 * u * uu;
-    add(s[0], uu * uu + 2.0 * u * uu * v, dv0 - du0, -du0);
-    const double du2 = 2.0 * v * vv, dv2 = 4.0 * v * vv + 6.0 * vv * u;
-    add(s[2], vv * vv + 2.0 * v * vv * u, dv2 - du2, -du2);
-    const double both = uu * uu + vv * vv + 6.0 * u * v * (uu + vv) + 12.0 * uu * vv;
-    const double beside = 2.0 * (u * uu + v * vv) + 6.0 * u * v * (u + v);
-    const double du1 =
-        4.0 * u * uu + 18.0 * uu * v + 24.0 * u * vv + 6.0 * v * vv + w * (6.0 * uu + 12.0 * u * v + 6.0 * vv);
-    const double dv1 =
-        4.0 * v * vv + 18.0 * vv * u + 24.0 * v * uu + 6.0 * u * uu + w * (6.0 * vv + 12.0 * u * v + 6.0 * uu);
-    add(s[1], both + w * beside, dv1 - du1, beside - du1);
+    const Jet u = (1.0 - v) - w, uu = u * u, vv = v * v;
+    add(s[0], uu * uu + 2.0 * (u * uu * v));
+    add(s[2], vv * vv + 2.0 * (v * vv * u));
+    const Jet both = uu * uu + vv * vv + 6.0 * (u * v * (uu + vv)) + 12.0 * (uu * vv);
+    const Jet beside = 2.0 * (u * uu + v * vv) + 6.0 * (u * v * (u + v));
+    add(s[1], both + w * beside);
     return point;
 }
 
@@ -180,6 +184,7 @@ Point excessAfter(Excess s, uint32_t steps, double x, double y) {
     Point point = smoothExcess(s, x, y);
     const double scale = std::exp2(steps);
     point.du *= scale, point.dv *= scale;
+    catmull_clark::turnSecondDerivatives({scale, 0.0}, {0.0, scale}, point);
     return point;
 }
 
@@ -194,7 +199,10 @@ Point creaseExcess(const Excess& s, float sharpness, double x, double y) {
     return {glm::mix(few.position, more.position, part),
             glm::mix(few.du, more.du, part),
             glm::mix(few.dv, more.dv, part),
-            {}};
+            {},
+            glm::mix(few.duu, more.duu, part),
+            glm::mix(few.duv, more.duv, part),
+            glm::mix(few.dvv, more.dvv, part)};
 }
 
 /// Adds a crease to a point, given the derivatives of `x` and `y` of the crease in those of the point.
@@ -202,6 +210,9 @@ void addCrease(const Point& crease, const glm::dvec2& x, const glm::dvec2& y, Po
     point.position += crease.position;
     point.du += x.x * crease.du + y.x * crease.dv;
     point.dv += x.y * crease.du + y.y * crease.dv;
+    Point turned = crease;
+    catmull_clark::turnSecondDerivatives({x.x, y.x}, {x.y, y.y}, turned);
+    point.duu += turned.duu, point.duv += turned.duv, point.dvv += turned.dvv;
 }
 
 /// What the two spokes beside a sector add at (x, y), steps along them.
@@ -256,6 +267,10 @@ Point LimitSurface::at(uint32_t triangle, double v, double w) const {
         {{a, b}, {-b, a - b}, {b - a, -a}, {2.0 * (a - b), 2.0 * a}}};
     point.du = derivatives[corner][0];
     point.dv = derivatives[corner][1];
+    constexpr glm::dvec2 kA(1.0, 0.0), kB(0.0, 1.0);
+    constexpr std::array<std::array<glm::dvec2, 2>, 4> kSlopes = {
+        {{kA, kB}, {-kB, kA - kB}, {kB - kA, -kA}, {2.0 * (kA - kB), 2.0 * kA}}};
+    catmull_clark::turnSecondDerivatives(kSlopes[corner][0], kSlopes[corner][1], point);
     if (point.du != glm::dvec3(0.0)) {
         point.normal = subdivision::unitOrZero(glm::cross(point.du, point.dv));
     }
@@ -289,6 +304,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
     }
     addSpokes(lattice, x, y, point);
     point.du *= scale, point.dv *= scale;
+    catmull_clark::turnSecondDerivatives({scale, 0.0}, {0.0, scale}, point);
     return point;
 }
 

@@ -380,6 +380,16 @@ Sample<T> evaluateTensor(const Patch<T>& patch, const DomainPoint<T>& at) {
     return sample;
 }
 
+/// Of a sector: rows parallel to the border, from it to the centre.
+template <class T>
+std::array<Vec3<T>, 15> quarticOf(const SectorView<T>& s, uint32_t i) {
+    return {s.at(i, k300), s.b310(i),     s.b220(i),     s.b130(i),     s.at(i + 1, k300),
+            s.b301(i),     s.at(i, k211), s.at(i, k121), s.b301(i + 1), //
+            s.b202(i),     s.at(i, k112), s.b202(i + 1),                //
+            s.b103(i),     s.b103(i + 1),                               //
+            s.center()};
+}
+
 /// A sector's quartic by de Casteljau, relative to its first corner.
 template <class T>
 struct SectorPoint {
@@ -389,12 +399,7 @@ struct SectorPoint {
 template <class T>
 SectorPoint<T> evaluateSector(const Patch<T>& patch, uint32_t i, const Vec3<T>& weights) {
     const SectorView<T> s(patch.c, patch.sides, patch.c[1 + 6 * i]);
-    // Rows parallel to the border, from it to the centre.
-    std::array<Vec3<T>, 15> b = {s.at(i, k300), s.b310(i),     s.b220(i),     s.b130(i),     s.at(i + 1, k300),
-                                 s.b301(i),     s.at(i, k211), s.at(i, k121), s.b301(i + 1), //
-                                 s.b202(i),     s.at(i, k112), s.b202(i + 1),                //
-                                 s.b103(i),     s.b103(i + 1),                               //
-                                 s.center()};
+    std::array<Vec3<T>, 15> b = quarticOf(s, i);
     for (size_t degree = 4; degree > 1; --degree) {
         size_t from = 0;
         size_t to = 0;
@@ -521,6 +526,46 @@ template <class T>
 Derivatives<T> derivatives(const Patch<T>& patch, const DomainPoint<T>& at) {
     const SectorPoint<T> point = evaluateSector(patch, at.sector, at.weights);
     return {point.d1, point.d2};
+}
+
+SurfaceJet evaluateJet(const Patch<double>& patch, const DomainPoint<double>& at) {
+    SurfaceJet sum;
+    if (patch.patchClass == PatchClass::regular || patch.patchClass == PatchClass::polar) {
+        const auto cubics = [](const Jet& s) {
+            const Jet t = 1.0 - s;
+            return std::array<Jet, 4>{t * t * t, 3.0 * (t * t * s), 3.0 * (t * s * s), s * s * s};
+        };
+        const std::array<Jet, 4> along = cubics(Jet::first(at.u.x)), across = cubics(Jet::second(at.v.x));
+        for (size_t j = 0; j < 4; ++j) {
+            for (size_t i = 0; i < 4; ++i) {
+                const bool apex = patch.patchClass == PatchClass::polar && j == 3;
+                sum.add(patch.c[apex ? 12 : i + 4 * j] - patch.c[0], along[i] * across[j]);
+            }
+        }
+        sum.position += patch.c[0];
+        return sum;
+    }
+    const glm::dvec3& origin = patch.c[1 + 6 * at.sector];
+    const std::array<glm::dvec3, 15> b = quarticOf(SectorView<double>(patch.c, patch.sides, origin), at.sector);
+    const std::array<Jet, 3> w = {(1.0 - Jet::first(at.weights.y)) - Jet::second(at.weights.z),
+                                  Jet::first(at.weights.y), Jet::second(at.weights.z)};
+    std::array<std::array<Jet, 5>, 3> powers;
+    for (size_t k = 0; k < 3; ++k) {
+        powers[k][0] = Jet::constant(1.0);
+        for (size_t p = 1; p <= 4; ++p) {
+            powers[k][p] = powers[k][p - 1] * w[k];
+        }
+    }
+    constexpr double kFactorials[] = {1.0, 1.0, 2.0, 6.0, 24.0};
+    size_t index = 0;
+    for (size_t row = 0; row <= 4; ++row) {
+        for (size_t k = 0; row + k <= 4; ++k) {
+            const double count = 24.0 / (kFactorials[4 - row - k] * kFactorials[k] * kFactorials[row]);
+            sum.add(b[index++], count * (powers[0][4 - row - k] * powers[1][k] * powers[2][row]));
+        }
+    }
+    sum.position += origin;
+    return sum;
 }
 
 template Coefficients<float> construct(const Mesh&, std::span<const glm::vec3>);

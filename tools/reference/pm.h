@@ -4,6 +4,7 @@
 
 #include "surface/grid.h"
 #include "surface/pm/mesh.h"
+#include "tools/reference/jet.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -80,5 +81,9 @@ struct Derivatives {
 };
 template <class T>
 [[nodiscard]] Derivatives<T> derivatives(const Patch<T>& patch, const DomainPoint<T>& at);
+
+/// With second derivatives: by u and v, or of a P_m patch in the directions of Derivatives. Its sums have another order
+/// than those of evaluate(). At a polar patch's apex du is zero.
+[[nodiscard]] SurfaceJet evaluateJet(const Patch<double>& patch, const DomainPoint<double>& at);
 
 } // namespace supple::surface::pm

@@ -292,6 +292,37 @@ Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v) {
     return sample;
 }
 
+SurfaceJet evaluateJet(const Patch<double>& patch, double u, double v) {
+    const Jet s[2] = {Jet::first(u), Jet::second(v)}, t[2] = {1.0 - s[0], 1.0 - s[1]};
+    const auto cubics = [](const Jet& a, const Jet& b) {
+        return std::array<Jet, 4>{b * b * b, 3.0 * (b * b * a), 3.0 * (b * a * a), a * a * a};
+    };
+    const std::array<Jet, 4> along = cubics(s[0], t[0]), across = cubics(s[1], t[1]);
+    SurfaceJet sum;
+    for (size_t j = 0; j < 4; ++j) {
+        for (size_t i = 0; i < 4; ++i) {
+            sum.add(patch.g[i + 4 * j] - patch.g[0], along[i] * across[j]);
+        }
+    }
+    const Jet* const a[4] = {&s[0], &s[1], &t[0], &t[1]}; // along each edge, and inwards from it
+    const Jet* const b[4] = {&s[1], &t[0], &t[1], &s[0]};
+    for (size_t e = 0; e < 4 && patch.perturbed; ++e) {
+        const Jet& x = *a[e];
+        const Jet& y = *b[e];
+        const Jet xx = x * x, rest = 1.0 - x, restY = 1.0 - y;
+        const Jet quintic2 = 10.0 * (xx * (rest * rest * rest)), quintic3 = 10.0 * (xx * x * (rest * rest));
+        const Jet fourth = (restY * restY) * (restY * restY);
+        const Jet outer = restY * fourth, inner = 5.0 * (y * fourth);
+        const glm::dvec3* const h = &patch.h[4 * e]; // h20, h30, h21, h31
+        sum.add(h[0], quintic2 * outer);
+        sum.add(h[1], quintic3 * outer);
+        sum.add(h[2], quintic2 * inner);
+        sum.add(h[3], quintic3 * inner);
+    }
+    sum.position += patch.g[0];
+    return sum;
+}
+
 template Coefficients<float> construct<float>(const Cage&, const Topology&, std::span<const glm::vec3>, const Options&);
 template Coefficients<double> construct<double>(const Cage&, const Topology&, std::span<const glm::dvec3>,
                                                 const Options&);

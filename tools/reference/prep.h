@@ -5,6 +5,7 @@
 
 #include "cage/topology.h"
 #include "surface/prep/weights.h"
+#include "tools/reference/jet.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -60,5 +61,8 @@ template <class T>
 /// sample.
 template <class T>
 [[nodiscard]] Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v);
+
+/// With second derivatives. Its sums have another order than those of evaluate().
+[[nodiscard]] SurfaceJet evaluateJet(const Patch<double>& patch, double u, double v);
 
 } // namespace supple::surface::prep

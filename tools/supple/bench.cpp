@@ -2,9 +2,11 @@
 #include "tools/bench/bench.h"
 
 #include "tools/bench/check.h"
+#include "tools/bench/papers.h"
 #include "tools/bench/plot.h"
 #include "tools/bench/report.h"
 #include "tools/supple/command.h"
+#include "tools/supple/limit_surface.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
 
@@ -23,7 +25,7 @@ struct BenchFlags {
     bench::BenchOptions bench;
     DeviceFlags device;
     std::string json, plots, check, from;
-    bool driverCache = false;
+    bool driverCache = false, papers = false;
 };
 
 Result<Json> readResult(const std::string& path) {
@@ -93,6 +95,52 @@ Status report(const BenchFlags& flags, const Json* stored, const Json& result) {
         status = check(*stored, result);
     }
     return status;
+}
+
+/// Measures points on surfaces over the cage.
+Result<bench::MeasureDistance> limitOf(const cage::Cage& cage) {
+    const std::vector<glm::dvec3> positions(cage.positions.begin(), cage.positions.end());
+    Result<LimitSurface> built = LimitSurface::build(cage, positions);
+    if (!built) {
+        return built.error();
+    }
+    glm::dvec3 low = positions[0], high = low;
+    for (const glm::dvec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const auto limit = std::make_shared<const LimitSurface>(std::move(*built));
+    return bench::MeasureDistance([limit, extent = glm::distance(low, high)](const std::vector<uint32_t>& faces,
+                                                                             const std::vector<glm::dvec3>& points) {
+        LimitSurface::Probe probe(*limit);
+        bench::PaperDistance distance;
+        for (size_t i = 0; i < points.size(); ++i) {
+            const double own = probe.measure(faces[i], points[i], glm::dvec3(0.0)).distance / extent;
+            distance.largest = std::max(distance.largest, own);
+            distance.mean += own / static_cast<double>(points.size());
+        }
+        return distance;
+    });
+}
+
+int runPapersCommand(const BenchFlags& flags) {
+    return withSession(flags.device, [&](Session& session) {
+        bench::PapersOptions options;
+        options.quick = flags.bench.quick;
+        options.mapping = mappingOf(flags.device);
+        options.limitOf = limitOf;
+        options.progress = [](const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); };
+        Result<Json> result = bench::runPapers(*session.device, options);
+        if (!result) {
+            return Status(result.error());
+        }
+        const Machine machine = describeMachine(*session.device, flags.device.mapping);
+        (*result)["device"] = machine.device;
+        (*result)["mapping"] = machine.mapping;
+        std::printf("%s, %s\n\n%s", machine.device.c_str(), machine.mapping.c_str(),
+                    bench::papersText(*result).c_str());
+        return flags.json.empty() ? success() : writeTextFile(flags.json, result->dump(2) + "\n");
+    });
 }
 
 int runBenchCommand(BenchFlags flags) {
@@ -194,7 +242,14 @@ void bindBench(CLI::App& app, int& exitCode) {
         ->type_name("RESULT.json");
     command->add_option("--from", flags->from, "Report on this earlier result instead of measuring")
         ->type_name("RESULT.json");
+    command->add_flag("--papers", flags->papers,
+                      "Instead: the tables of the papers, on models of the same make, beside what they print; with "
+                      "--quick a frame each at N = 5");
     command->callback([flags, rounds, rates, quick, &exitCode] {
+        if (flags->papers) {
+            exitCode = runPapersCommand(*flags);
+            return;
+        }
         if (quick->count() > 0) {
             flags->bench.rounds = rounds->count() > 0 ? flags->bench.rounds : 3;
             flags->bench.rates = rates->count() > 0 ? flags->bench.rates : std::vector<uint32_t>{8};

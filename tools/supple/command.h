@@ -43,6 +43,7 @@ void bindBake(CLI::App& app, int& exitCode);
 void bindRender(CLI::App& app, int& exitCode);
 void bindAnimate(CLI::App& app, int& exitCode);
 void bindSheet(CLI::App& app, int& exitCode);
+void bindGallery(CLI::App& app, int& exitCode);
 /// `arguments`: of the command line, which it hands on to another build.
 void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& arguments);
 void bindBench(CLI::App& app, int& exitCode);

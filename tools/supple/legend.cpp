@@ -1,6 +1,7 @@
 #include "tools/supple/legend.h"
 
 #include "host/shaders/draw.h"
+#include "tools/supple/curvature_view.h"
 #include "tools/supple/limit_distance.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 constexpr uint32_t kLetterWidth = 6, kLetterHeight = 10; ///< host::Picture::drawText
 constexpr uint32_t kBarWidth = 200;
 constexpr uint8_t kInk[3] = {235, 235, 235}, kDarkInk[3] = {10, 20, 30};
+constexpr std::array<uint8_t, 3> kBright = {200, 201, 203}, kDark = {24, 25, 29}; ///< stripes
 constexpr float kShade = 0.35f; ///< what is left of the picture behind the legend
 
 std::vector<Legend::Mark> levelMarks() {
@@ -34,6 +36,18 @@ void shade(host::Picture& picture, uint32_t left, uint32_t top, uint32_t width, 
     }
 }
 
+/// What can be read on the bar.
+bool isInkDark(const Legend& legend, float at) {
+    switch (legend.bar) {
+    case Legend::Bar::scale:
+        return at > 0.6f;
+    case Legend::Bar::signedScale:
+        return at > 0.15f && at < 0.85f;
+    default:
+        return false;
+    }
+}
+
 } // namespace
 
 std::optional<Legend> legendOf(uint32_t view) {
@@ -44,20 +58,40 @@ std::optional<Legend> legendOf(uint32_t view) {
         return Legend{"distance to the limit / extent", distanceMarks()};
     case host::shared::kViewLevels:
         return Legend{"largest level of a patch, in segments", levelMarks()};
+    case host::shared::kViewMeanCurvature:
+        return Legend{"mean curvature x extent", curvatureMarks(), Legend::Bar::signedScale};
+    case host::shared::kViewGaussianCurvature:
+        return Legend{"root of Gaussian curvature x extent", curvatureMarks(), Legend::Bar::signedScale};
+    case host::shared::kViewHighlights:
+        return Legend{"24 lights along x, round the figure",
+                      {{0.0f, "-180"}, {0.5f, "0"}, {1.0f, "180"}},
+                      Legend::Bar::stripes,
+                      host::shared::kHighlightCount};
+    case host::shared::kViewIsophotes:
+        return Legend{"degrees from (1, 2, 2)",
+                      {{0.0f, "0"}, {0.5f, "90"}, {1.0f, "180"}},
+                      Legend::Bar::stripes,
+                      static_cast<uint32_t>(180.0f / host::shared::kIsophoteDegrees)};
     default:
         return std::nullopt;
     }
 }
 
-std::array<uint8_t, 3> scaleColor(float value) {
-    constexpr uint32_t kColors[] = {SUPPLE_SCALE_COLORS};
-    const float at = std::clamp(value, 0.0f, 1.0f) * 4.0f;
-    const uint32_t low = std::min(static_cast<uint32_t>(at), 3u);
+std::array<uint8_t, 3> barColor(const Legend& legend, float at) {
+    if (legend.bar == Legend::Bar::stripes) { // bright where a stripe begins and ends, as stripes.glsl has it
+        const float stripe = at * static_cast<float>(legend.stripes);
+        const bool bright = std::abs(stripe - std::floor(stripe) - 0.5f) > 0.25f;
+        return bright ? kBright : kDark;
+    }
+    constexpr uint32_t kColors[] = {SUPPLE_SCALE_COLORS}, kSigned[] = {SUPPLE_SIGNED_COLORS};
+    const uint32_t* const colors = legend.bar == Legend::Bar::signedScale ? kSigned : kColors;
+    const float steps = std::clamp(at, 0.0f, 1.0f) * 4.0f;
+    const uint32_t low = std::min(static_cast<uint32_t>(steps), 3u);
     std::array<uint8_t, 3> color{};
     for (uint32_t channel = 0; channel < 3; ++channel) {
-        const auto of = [&](uint32_t step) { return static_cast<float>(kColors[step] >> (16 - 8 * channel) & 255u); };
+        const auto of = [&](uint32_t step) { return static_cast<float>(colors[step] >> (16 - 8 * channel) & 255u); };
         color[channel] =
-            static_cast<uint8_t>(std::lround(std::lerp(of(low), of(low + 1), at - static_cast<float>(low))));
+            static_cast<uint8_t>(std::lround(std::lerp(of(low), of(low + 1), steps - static_cast<float>(low))));
     }
     return color;
 }
@@ -77,7 +111,7 @@ void drawLegend(host::Picture& picture, const Legend& legend) {
     picture.drawText(left + gap, top + scale, legend.title, scale, kInk);
     const uint32_t barLeft = left + width - gap - bar;
     for (uint32_t x = 0; x < bar; ++x) {
-        const std::array<uint8_t, 3> color = scaleColor(static_cast<float>(x) / static_cast<float>(bar - 1));
+        const std::array<uint8_t, 3> color = barColor(legend, static_cast<float>(x) / static_cast<float>(bar - 1));
         for (uint32_t y = top; y < top + height; ++y)
             std::copy(color.begin(), color.end(), picture.pixel(barLeft + x, y));
     }
@@ -86,7 +120,9 @@ void drawLegend(host::Picture& picture, const Legend& legend) {
         const auto x = static_cast<uint32_t>(
             std::clamp(mark.at * static_cast<float>(bar) - 0.5f * static_cast<float>(textWidth(mark.text)),
                        static_cast<float>(2 * scale), static_cast<float>(room)));
-        picture.drawText(barLeft + x, top + scale, mark.text, scale, mark.at > 0.6f ? kDarkInk : kInk);
+        if (legend.bar == Legend::Bar::stripes)
+            shade(picture, barLeft + x - scale, top, textWidth(mark.text) + scale, height);
+        picture.drawText(barLeft + x, top + scale, mark.text, scale, isInkDark(legend, mark.at) ? kDarkInk : kInk);
     }
 }
 

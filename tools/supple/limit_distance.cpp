@@ -36,6 +36,9 @@ Result<PosedSurfaces> readPosed(const host::FigureGroup& group) {
         if (ranges.empty() || ranges.front().domain == SUPPLE_DOMAIN_MESH)
             continue;
         surface.ranges.assign(ranges.begin(), ranges.end());
+        surface.scheme = output.surface.scheme;
+        surface.rate = output.grid.rate;
+        surface.parts.assign(output.surface.parts, output.surface.parts + output.surface.partCount);
         Result<std::vector<SupplePatchInfo>> patches = host::patchesOf(group.figure().context(), group.handle(), s);
         if (!patches)
             return patches.error();

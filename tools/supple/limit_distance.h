@@ -19,6 +19,9 @@ struct PosedSurfaces {
         std::vector<SuppleDrawRange> ranges; ///< none: it is no smooth surface
         std::vector<SupplePatchInfo> patches;
         size_t vertexCount = 0;
+        SuppleScheme scheme = SUPPLE_SCHEME_AUTO;
+        uint32_t rate = 0; ///< along a patch
+        std::vector<uint32_t> parts;
     };
     std::vector<Surface> surfaces;
 };

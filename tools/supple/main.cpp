@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
     bindRender(app, exitCode);
     bindAnimate(app, exitCode);
     bindSheet(app, exitCode);
+    bindGallery(app, exitCode);
     bindProfile(app, exitCode, {argv + std::min(argc, 1), argv + argc});
     bindBench(app, exitCode);
     bindView(app, exitCode);

@@ -2,6 +2,7 @@
 #include "tools/supple/animate.h"
 #include "tools/supple/command.h"
 #include "tools/supple/contact_sheet.h"
+#include "tools/supple/gallery.h"
 #include "tools/supple/options.h"
 #include "tools/supple/output_files.h"
 #include "tools/supple/render.h"
@@ -192,6 +193,26 @@ void bindSheet(CLI::App& app, int& exitCode) {
         checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
         exitCode = runContactSheet(*options);
     });
+}
+
+void bindGallery(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<GalleryOptions>();
+    options->draw = {.rate = 16, .view = "highlights", .ground = false, .yaw = 25.0, .pitch = 25.0};
+    CLI::App* command = app.add_subcommand(
+        "gallery", "Cages round one vertex, elliptic and as saddles, under all schemes side by side");
+    command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
+    command->add_option("--cell", options->cell, "Of one picture")->check(sizeValidator())->capture_default_str();
+    command->add_option("--only", options->only, "Cages whose names begin so: \"polar\", \"valence 3, saddle\"")
+        ->type_name("NAME");
+    command->add_option("--rate", options->draw.rate, "Segments along an edge of the cage")
+        ->check(CLI::Range(1u, SUPPLE_MAX_RATE))
+        ->capture_default_str();
+    command->add_option("--view", options->draw.view, "What is shown")
+        ->check(CLI::IsMember(viewNames()))
+        ->capture_default_str();
+    command->add_flag("--cage,!--no-cage", options->draw.cageOverlay, "Draw the cage's edges over the surface");
+    bindDevice(*command, options->draw.device, options->draw.mapping, options->draw.validate);
+    command->callback([options, &exitCode] { exitCode = runGallery(*options); });
 }
 
 void bindView(CLI::App& app, int& exitCode) {

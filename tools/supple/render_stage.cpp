@@ -2,7 +2,6 @@
 
 #include "tools/common/figure_file.h"
 #include "tools/supple/legend.h"
-#include "tools/supple/limit_distance.h"
 #include "tools/supple/views.h"
 
 #include <algorithm>
@@ -120,13 +119,21 @@ Status Stage::openRenderer(VkExtent2D size) {
 
 Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
                                            const DrawOptions& options) {
-    std::unique_ptr<Stage> stage(new Stage(session, options));
     Result<host::CharacterFile> character = host::readCharacterFile(file, options.reading);
-    if (!character)
-        return character.error();
-    if (options.view == "distance")
-        stage->cage_ = character->character.cage;
-    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(*session.context, std::move(*character));
+    return character ? open(session, std::move(*character), size, options) : character.error();
+}
+
+Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile character, VkExtent2D size,
+                                           const DrawOptions& options) {
+    std::unique_ptr<Stage> stage(new Stage(session, options));
+    const std::string file = character.path;
+    const Result<uint32_t> view = parseView(options.view);
+    if (!view)
+        return view.error();
+    if (isMeasured(*view))
+        stage->cage_ = character.character.cage;
+    stage->rules_ = {creaseModeOf(options.creases), options.sharpThreshold, rulesOf(options.rules)};
+    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(*session.context, std::move(character));
     if (!figure)
         return figure.error();
     stage->figure_ = std::move(*figure);
@@ -171,8 +178,8 @@ Status Stage::prepare(const host::Scene& scene) {
     const Result<PosedSurfaces> posed = readPosed(*group_);
     if (!posed)
         return posed.error();
-    const Result<std::vector<float>> distances = distancesToLimit(*posed, *cage_);
-    const Status status = distances ? group_->setValues(*distances) : distances.error();
+    const Result<std::vector<float>> values = measuredValues(scene.view, *posed, *cage_, rules_);
+    const Status status = values ? group_->setValues(*values) : values.error();
     return status ? bind() : status;
 }
 

@@ -3,6 +3,7 @@
 
 #include "cage/character.h"
 #include "host/surface_renderer.h"
+#include "tools/supple/measured_views.h"
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
 
@@ -50,6 +51,9 @@ class Stage {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Stage>> open(Session& session, const std::string& file, VkExtent2D size,
                                                              const DrawOptions& options);
+    /// Of a character that was read, or made.
+    [[nodiscard]] static Result<std::unique_ptr<Stage>> open(Session& session, host::CharacterFile character,
+                                                             VkExtent2D size, const DrawOptions& options);
 
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
 
@@ -69,7 +73,7 @@ private:
     [[nodiscard]] Status openRenderer(VkExtent2D size);
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(bool levels) const;
     [[nodiscard]] Status bind();
-    /// What the view shows of the figure as it is posed: levels for this camera, or distances.
+    /// What the view shows of the figure as it is posed: levels for this camera, or what is measured.
     [[nodiscard]] Status prepare(const host::Scene& scene);
     [[nodiscard]] Status chooseLevels(const host::Scene& scene);
 
@@ -78,7 +82,8 @@ private:
     std::unique_ptr<host::Figure> figure_;
     std::unique_ptr<host::FigureGroup> group_;
     std::unique_ptr<host::FigureGroup> levels_; ///< is drawn instead of group_, if levels are wanted
-    std::optional<cage::Cage> cage_;            ///< if distances from its limit are shown
+    std::optional<cage::Cage> cage_;            ///< if the view is measured
+    SurfaceRules rules_;
     ClipTime pose_;
     std::unique_ptr<host::SurfaceRenderer> renderer_;
     host::FigureBinding binding_; ///< of the group that is drawn

@@ -47,10 +47,11 @@ void drawScale(const Legend& legend) {
     const ImVec2 left(corner.x + kInset, corner.y + 0.5f * kInset + line);
     const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
     draw.AddText(ImVec2(left.x, left.y - line), ink, legend.title.c_str());
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-        const float from = static_cast<float>(i) / kSteps, to = static_cast<float>(i + 1) / kSteps;
-        const std::array<uint8_t, 3> color = scaleColor(0.5f * (from + to));
+    const int steps = legend.bar == Legend::Bar::stripes ? 4 * static_cast<int>(legend.stripes) : 64;
+    for (int i = 0; i < steps; ++i) {
+        const float from = static_cast<float>(i) / static_cast<float>(steps),
+                    to = static_cast<float>(i + 1) / static_cast<float>(steps);
+        const std::array<uint8_t, 3> color = barColor(legend, 0.5f * (from + to));
         draw.AddRectFilled(ImVec2(left.x + from * bar, left.y), ImVec2(left.x + to * bar, left.y + kBarHeight),
                            IM_COL32(color[0], color[1], color[2], 255));
     }
@@ -69,7 +70,7 @@ void drawOverPicture(const ViewStage& stage, float aspect) {
     std::optional<Legend> legend = stage.settings.cageFaces ? std::nullopt : legendOf(stage.settings.view);
     if (!legend)
         return;
-    if (stage.settings.view == host::shared::kViewDistance)
+    if (isMeasured(stage.settings.view))
         legend->title += ", " + printable(stage.measuredPose());
     drawScale(*legend);
 }

@@ -4,7 +4,7 @@
 #include "tools/common/character_file.h"
 #include "tools/common/figure_file.h"
 #include "tools/common/formatted.h"
-#include "tools/supple/limit_distance.h"
+#include "tools/supple/measured_views.h"
 
 #include <algorithm>
 #include <array>
@@ -314,7 +314,7 @@ Status ViewStage::pose() const {
 
 bool ViewStage::wantsLevels() const {
     // Measured values are those of the vertices of a rate.
-    const bool measured = settings.view == host::shared::kViewWeights || settings.view == host::shared::kViewDistance;
+    const bool measured = settings.view == host::shared::kViewWeights || isMeasured(settings.view);
     return settings.view == host::shared::kViewLevels || (settings.levels && !measured);
 }
 
@@ -345,31 +345,28 @@ ViewStage::Values ViewStage::wantedValues() const {
 bool ViewStage::needsValues() const {
     if (!hasFigure() || group_->hasLevels())
         return false;
-    if (distances_.valid())
-        return distances_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    if (measured_.valid())
+        return measured_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     const bool plays = settings.playing && figure_->clipDuration(settings.clip) > 0.0;
-    switch (settings.view) {
-    case host::shared::kViewWeights:
+    if (settings.view == host::shared::kViewWeights)
         return !figure_->jointNames().empty() && values_ != wantedValues();
-    case host::shared::kViewDistance:
-        return plays ? values_.version != version_ || values_.view != settings.view : values_ != wantedValues();
-    default:
+    if (!isMeasured(settings.view))
         return false;
-    }
+    return plays ? values_.version != version_ || values_.view != settings.view : values_ != wantedValues();
 }
 
 Status ViewStage::measureValues(bool wait) {
-    if (distances_.valid())
-        return showDistances();
+    if (measured_.valid())
+        return showMeasured();
     const bool first = values_.version != version_ || values_.view != settings.view;
     values_ = wantedValues(); // also if it fails: once is enough
     if (settings.view == host::shared::kViewWeights) {
         const Status status = group_->showWeights(settings.joint);
         return status ? bind() : status;
     }
-    Status status = startDistances();
+    Status status = startMeasuring();
     if (status && wait)
-        return showDistances();
+        return showMeasured();
     if (status && first) { // none yet
         const Result<std::vector<glm::vec3>> vertices = group_->readSurface();
         status = vertices ? group_->setValues(std::vector<float>(vertices->size(), -1.0f)) : vertices.error();
@@ -378,7 +375,7 @@ Status ViewStage::measureValues(bool wait) {
     return status;
 }
 
-Status ViewStage::startDistances() {
+Status ViewStage::startMeasuring() {
     if (const Status status = pose(); !status)
         return status.error();
     const SuppleGroup groups[] = {group_->handle()};
@@ -387,18 +384,20 @@ Status ViewStage::startDistances() {
     Result<PosedSurfaces> posed = readPosed(*group_);
     if (!posed)
         return posed.error();
-    distances_ = std::async(std::launch::async,
-                            [cage = cage_, posed = std::move(*posed)] { return distancesToLimit(posed, *cage); });
+    const SurfaceRules rules{creaseMode_, sharpThreshold_, fragmentRules_};
+    measured_ = std::async(std::launch::async, [view = settings.view, cage = cage_, rules, posed = std::move(*posed)] {
+        return measuredValues(view, posed, *cage, rules);
+    });
     return success();
 }
 
-Status ViewStage::showDistances() {
-    const Result<std::vector<float>> distances = distances_.get();
+Status ViewStage::showMeasured() {
+    const Result<std::vector<float>> values = measured_.get();
     if (values_.version != version_ || values_.view != settings.view) {
         values_ = {}; // something else is looked at by now
         return success();
     }
-    const Status status = distances ? group_->setValues(*distances) : distances.error();
+    const Status status = values ? group_->setValues(*values) : values.error();
     return status ? bind() : status;
 }
 
@@ -415,7 +414,7 @@ std::string ViewStage::measuredPose() const {
     const std::string pose = values_.clip < figure_->clips().size()
                                  ? figure_->clips()[values_.clip].name + formatted(" at %.2f s", values_.time)
                                  : "rest pose";
-    return distances_.valid() ? "measuring " + pose : pose;
+    return measured_.valid() ? "measuring " + pose : pose;
 }
 
 std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {

@@ -113,13 +113,13 @@ public:
     /// Whether the group should be one with levels, or without, and is not.
     [[nodiscard]] bool needsOtherLevels() const;
     [[nodiscard]] Status changeLevels(uint64_t lastFrame);
-    /// Whether the view shows values that are still to be measured: weights of another joint; distances in the pose in
-    /// which the figure stands. While it plays, distances stay those of the pose that was measured last.
+    /// Whether the view shows values that are still to be measured: weights of another joint; distances and curvature
+    /// in the pose in which the figure stands. While it plays, these stay those of the pose that was measured last.
     [[nodiscard]] bool needsValues() const;
-    /// No frame may be pending. Afterwards poses are to be set anew. Distances take some seconds: they are measured
-    /// beside the viewer's own work, and shown by a later call, unless it waits.
+    /// No frame may be pending. Afterwards poses are to be set anew. Distances and curvature take some seconds: they
+    /// are measured beside the viewer's own work, and shown by a later call, unless it waits.
     [[nodiscard]] Status measureValues(bool wait);
-    /// The pose in which distances are, or are being measured.
+    /// The pose in which values are, or are being measured.
     [[nodiscard]] std::string measuredPose() const;
     /// Joints in the picture, in fractions of it from its upper left; not where they are behind the eye.
     struct ShownJoint {
@@ -160,7 +160,7 @@ private:
         uint32_t version = 0; ///< of the group; 0: nothing is measured
         uint32_t view = 0;
         uint32_t joint = 0; ///< weights
-        // Distances: the pose.
+        // Measured views: the pose.
         uint32_t clip = 0, fadeClip = 0;
         double time = 0.0;
         float fade = 0.0f;
@@ -168,8 +168,8 @@ private:
         bool operator==(const Values&) const = default;
     };
     [[nodiscard]] Values wantedValues() const;
-    [[nodiscard]] Status startDistances();
-    [[nodiscard]] Status showDistances();
+    [[nodiscard]] Status startMeasuring();
+    [[nodiscard]] Status showMeasured();
     [[nodiscard]] Status bind();
 
     host::Context& context_;
@@ -195,11 +195,11 @@ private:
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
-    uint32_t version_ = 0;                              ///< counts groups
-    Values values_;                                     ///< that the group has, or that are being measured
-    std::future<Result<std::vector<float>>> distances_; ///< being measured
-    uint32_t shownValues_ = 0;                          ///< counts measurements
-    std::vector<Retired> retired_;                      ///< before figure_ in time, so gone before it
+    uint32_t version_ = 0;                             ///< counts groups
+    Values values_;                                    ///< that the group has, or that are being measured
+    std::future<Result<std::vector<float>>> measured_; ///< being computed
+    uint32_t shownValues_ = 0;                         ///< counts measurements
+    std::vector<Retired> retired_;                     ///< before figure_ in time, so gone before it
     Extent extent_;
     host::Camera camera_;
     host::Camera levelCamera_; ///< that levels are chosen by

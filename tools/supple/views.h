@@ -15,6 +15,8 @@ inline constexpr NamedView kViews[] = {
     {"patches", host::shared::kViewPatches},
     {"normals", host::shared::kViewNormals},
     {"zebra", host::shared::kViewZebra},
+    {"highlights", host::shared::kViewHighlights},
+    {"isophotes", host::shared::kViewIsophotes},
     {"tangents", host::shared::kViewTangents},
     {"uv", host::shared::kViewUv},
     {"uv1", host::shared::kViewUv1},
@@ -28,6 +30,8 @@ inline constexpr NamedView kViews[] = {
     {"weights", host::shared::kViewWeights},
     {"distance", host::shared::kViewDistance},
     {"levels", host::shared::kViewLevels},
+    {"mean-curvature", host::shared::kViewMeanCurvature},
+    {"gaussian-curvature", host::shared::kViewGaussianCurvature},
 };
 
 } // namespace supple::tools
