@@ -254,7 +254,10 @@ void Check::clips() {
             channel(clip.channels[i], name + at("channel", i) + ": ");
         }
         for (const SharpnessCurve& curve : clip.sharpness) {
-            keys(curve.keys, name + "sharpness of " + quoted(curve.set) + ": ");
+            const std::string of = name + "sharpness of " + quoted(curve.set) + ": ";
+            if (keys(curve.keys, of)) {
+                require(curve.keys.width() == 1 && curve.keys.firstTarget == 0, of + "not one value a key");
+            }
         }
         const bool markers = std::ranges::all_of(clip.markers, [](const Marker& m) { return std::isfinite(m.time); });
         require(markers && std::ranges::is_sorted(clip.markers, {}, &Marker::time),

@@ -144,7 +144,7 @@ template <PassCost (Tessellation::*record)(surface::Round&) const>
 PassCost recordInRounds(const Frame&, Tessellation& surface, surface::Round& round) {
     return (surface.*record)(round);
 }
-/// All surfaces together, for passes that also work on the group.
+/// All surfaces of a group together.
 template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
 PassCost recordSurfaces(const Frame& frame, Group& group) {
     return group.surfaces().record([&](const Tessellation& surface) { return (surface.*record)(frame.commands); });

@@ -1,3 +1,4 @@
+#include "shaders/shared/pm.h"
 #include "shaders/shared/prep.h"
 #include "surface/patch_records.h"
 #include "surface/smooth_uvs.h"
@@ -11,9 +12,12 @@ namespace {
 
 using namespace shared;
 
-/// The three corners, the two coefficients in front of the apex, and the weights that make these.
+/// The three corners, the two coefficients in front of the apex, and the weights and crease sets that make these.
 bool checkPolarPatch(TableCheck& check, std::span<const uint32_t> record) {
     bool fits = check.pool(record[3], 2) && check.elements(record[7], 1);
+    const uint32_t sets = fits ? check.element(record[7])[3] : 0;
+    fits = fits && check.require(std::max(sets & kAlphaSetMask, sets >> kBackSetShift) <= kMaxCreaseSets,
+                                 "an apex of a crease set that there is not");
     for (uint32_t i = 0; i < 3; ++i) {
         fits = fits && checkPatchCorner(check, record[i], record[4 + i]);
     }

@@ -57,7 +57,7 @@ enum class PatchClass : uint32_t {
     loopRegular = shared::kLoopRegularPatch,               ///< exact Loop: a quartic box spline
     loopIrregular = shared::kLoopIrregularPatch,           ///< some corner has a chain of leaves
     loopIrregularSharp = shared::kLoopIrregularSharpPatch, ///< some side is a semi-sharp crease, too
-    blendRegular = shared::kBlendRegularPatch              ///< blending surface: all charts are quarters, none creased
+    blendRegular = shared::kBlendRegularPatch              ///< blending surface: all charts have k = 4, none is creased
 };
 
 struct PatchClassRow {

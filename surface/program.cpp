@@ -71,9 +71,6 @@ void record(Round& round, std::span<const Step> steps, const Window& window) {
             return;
         }
         if (number == round.number) {
-            if (step.order == Order::shared) {
-                recordBarrier(round.device, round.commandBuffer, step.order);
-            }
             dispatch(round.device, round.commandBuffer, step, window);
         }
     }

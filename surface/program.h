@@ -80,8 +80,8 @@ struct Step {
 };
 using Steps = std::vector<Step>;
 
-/// Groups share the barriers inside of a pass: it is recorded in rounds. A round has of every group the steps that need
-/// no barrier but those that the rounds before end with.
+/// Groups share the barriers inside of a pass: it is recorded in rounds. In a round are, of every group, the steps that
+/// wait for nothing but the barriers behind the rounds before.
 struct Round {
     const gpu::Device& device;
     VkCommandBuffer commandBuffer = VK_NULL_HANDLE;

@@ -359,14 +359,17 @@ private:
     /// What is at a vertex without a face is left out with it.
     void copySharpness() {
         cage::SharpFeatures features;
+        std::vector<uint32_t> sets; // as the names come, whether or not they have creases
+        for (uint32_t i = 0; i < desc_.creaseSetCount; ++i) {
+            sets.push_back(cage::creaseSetOf(desc_.creaseSetNames[i], cage_));
+        }
         for (uint32_t i = 0; i < desc_.creaseCount; ++i) {
             const uint32_t a = places_[desc_.creaseVertices[2 * size_t{i}]],
                            b = places_[desc_.creaseVertices[2 * size_t{i} + 1]];
             if (a != kNone && b != kNone) {
                 const bool inSet = desc_.creaseSets != nullptr && desc_.creaseSets[i] != SUPPLE_NO_CREASE_SET;
-                const uint32_t set =
-                    inSet ? cage::creaseSetOf(desc_.creaseSetNames[desc_.creaseSets[i]], cage_) : kNone;
-                features.addCrease({a, b, desc_.creaseSharpnesses[i], set}, cage_);
+                features.addCrease({a, b, desc_.creaseSharpnesses[i], inSet ? sets[desc_.creaseSets[i]] : kNone},
+                                   cage_);
             }
         }
         for (uint32_t i = 0; i < desc_.cornerCount; ++i) {

@@ -16,7 +16,8 @@ inline constexpr auto kLast<surface::blend::CreaseMode> = surface::blend::Crease
 template <>
 inline constexpr auto kLast<surface::Stage> = surface::Stage::deepen;
 template <>
-inline constexpr auto kLast<surface::PatchClass> = surface::PatchClass::loopIrregularSharp;
+inline constexpr auto kLast<surface::PatchClass> =
+    static_cast<surface::PatchClass>(std::size(surface::kPatchClasses) - 1);
 template <>
 inline constexpr auto kLast<surface::Domain> = static_cast<surface::Domain>(surface::kDomainCount - 1);
 template <>

@@ -1,7 +1,8 @@
 // Evaluates the blending surface: four local geometries per face, blended by Hermite weights (docs/blend.md). At a rate, tables
 // say where samples lie in the charts: nothing transcendental is computed here. Narrow mapping: a lane has all coefficients of a
 // patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and checkedFrame(), so
-// positions agree bit for bit. Regular faces go by rows (blend/regular.glsl).
+// positions agree bit for bit. Regular faces go by rows (blend/regular.glsl), but at
+// levels in the wide mapping.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

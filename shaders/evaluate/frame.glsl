@@ -2,7 +2,7 @@
 const float kTiny = 1e-37; // above the denormals, which devices may flush
 
 // A power of two that makes the largest part of a vector about 1, so that squares of what is left are numbers still, however
-// small the surface is. Products with it have the bits that they have without it. A vector that vanishes stays one.
+// small the surface is. Products with it have the bits that they have without it. A zero vector stays zero.
 float evenScale(vec3 v) {
     uint exponent = floatBitsToUint(max(max(abs(v.x), abs(v.y)), abs(v.z))) >> 23u;
     return uintBitsToFloat((254u - clamp(exponent, 1u, 253u)) << 23u);

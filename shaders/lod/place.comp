@@ -17,8 +17,8 @@ uvec2 levelPair(float level) {
     return floatBitsToUint(vec2(a, inverse));
 }
 
-// Through the buffer that places are taken in. With two of one memory, synchronization validation would see groups read here what
-// others write.
+// Through the binding that places are taken with. If the buffer were bound twice, synchronization validation would see groups read
+// what others write.
 void storeElement(uint to, uvec4 words) {
     for (uint k = 0u; k < 4u; ++k) lodWords[to + k] = words[k];
 }

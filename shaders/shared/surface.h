@@ -194,8 +194,8 @@ SUPPLE_SHARED_CONST kUvCurveElements = 6u;
 #define SUPPLE_FIRST_PAIR(rate) ((rate) * ((rate) + 1u) / 2u - 1u)
 
 SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the patch-coefficient buffer
-// Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of bicubic ones at a
-// rate elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
+// Wide mapping: what the workgroup memory of the evaluation passes holds, patches of any class, and of those that go by rows
+// elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
 // or three of 12.
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;
 SUPPLE_SHARED_CONST kPatchLanes = 32u; // lanes of a workgroup where a lane takes a patch (kLanePatchConstant)

@@ -110,6 +110,11 @@ std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
             word = wordLike(word, random);
         }
     }
+    for (cage::Clip& clip : character.clips) {
+        for (cage::SharpnessCurve& curve : clip.sharpness) {
+            curve.keys.firstTarget = random() % 4 == 0 ? wordLike(curve.keys.firstTarget, random) : 0;
+        }
+    }
     if (!copies.empty() && random() % 3 == 0) {
         surface::Tables& tables = copies[random() % copies.size()]->tables;
         uint32_t* const members[] = {&tables.ring,         &tables.poolStride,     &tables.tangents,
@@ -156,6 +161,9 @@ void use(runtime::Prepared& prepared) {
     skinning::Pose pose;
     for (const cage::Clip& clip : character.clips) {
         skinning::sampleClip(character, clip, 0.5 * clip.duration, pose);
+        for (const cage::SharpnessCurve& curve : clip.sharpness) {
+            (void)skinning::sampleSharpness(curve, 0.5 * clip.duration);
+        }
     }
     (void)skinning::buildClipTable(character);
     for (const surface::SchemeId scheme : {surface::SchemeId::pm, surface::SchemeId::polygons}) {

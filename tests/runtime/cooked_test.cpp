@@ -128,6 +128,9 @@ TEST(Cooked, FilesKeepCreaseSetsAndTheirCurves) {
     prepared->character.cage.creaseSets.resize(65, "c");
     EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("too many crease sets"), std::string::npos);
     prepared->character.cage.creaseSets.resize(2);
+    prepared->character.clips[0].sharpness[0].keys.firstTarget = 1; // there is one number a time
+    EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("sharpness of \"b\": not one value a key"), std::string::npos);
+    prepared->character.clips[0].sharpness[0].keys.firstTarget = 0;
     prepared->character.clips[0].sharpness[0].keys.times = {1.0f, 0.0f};
     EXPECT_NE(refusalOf(writeCooked(*prepared, "")).find("sharpness of \"b\""), std::string::npos);
 }

@@ -115,6 +115,8 @@ private:
         if (polar) {
             add("inner coefficients", first + 3, {kAll, pool_, pool_ - 1});
             addIndex("apex", first + 7, elements_);
+            add("crease sets of an apex", size_t{4} * at(first + 7) + 3,
+                {kMaxCreaseSets + 1, (kMaxCreaseSets + 1) << kBackSetShift, kAll});
         }
         for (size_t i = 8; patchClass == PatchClass::perturbed && i < 12; ++i) {
             const uint32_t flags = at(first + i) & ~kEdgeOfPatchMask;

@@ -316,8 +316,8 @@ SUPPLE_API SuppleResult suppleGetMapping(SuppleContext context, SuppleMapping* o
 
 /** Crease control for SUPPLE_SCHEME_PM alone. alpha applies to the edge from vertex to toward, at its end `vertex`. It
  * lies in 0..1: 2/3 is smooth, smaller is sharper, larger is rounder. Less than 1/4096 counts as 1/4096, so that there
- * are normals. If all are 0, the surface is the polyhedron, up to that part of an edge. It replaces what the sharpness
- * of the edge would give there. */
+ * are normals. If all are 0, the surface is the polyhedron but for strips of that part of an edge. It replaces what the
+ * sharpness of the edge would give there. */
 typedef struct SuppleCreaseScalar {
     uint32_t vertex;
     uint32_t toward;
@@ -361,10 +361,10 @@ typedef struct SuppleCageDesc {
     const uint32_t* faceTriangles;
     uint32_t roundCornerCount;
     const uint32_t* roundCorners; /**< vertices that round the boundary off if they have one face; rising */
-    /** Names of crease sets (suppleSetSharpness), none empty. Sets of one name in several parts are one set. */
+    /** Names of crease sets (suppleSetSharpness). No name is empty. Sets of one name in several parts are one set. */
     uint32_t creaseSetCount;
     const char* const* creaseSetNames;
-    const uint32_t* creaseSets; /**< optional: per crease a name or SUPPLE_NO_CREASE_SET */
+    const uint32_t* creaseSets; /**< optional: per crease the number of its name, or SUPPLE_NO_CREASE_SET */
 } SuppleCageDesc;
 
 /** A whole character as arrays: supple_character.h. */
@@ -376,9 +376,9 @@ typedef enum SuppleAssetFlags {
      * normals, UVs and colors along it, and face the same side. Without this flag, they are paired if nearly all of a
      * mesh make good quads, and a warning says so. Polygons that the file lists are left as they are. */
     SUPPLE_ASSET_PAIR_QUADS = 1,
-    /** Refuse a damaged cage instead of repairing it, and a file with faults instead of mending them or leaving out what
-     * is broken (docs/gltf.md). The message has one line for each fault, and one for each kind of damage, which counts
-     * it and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
+    /** Refuse a damaged cage instead of repairing it, and a file with faults instead of mending them or leaving out
+     * what is broken (docs/gltf.md). The message has one line for each fault, and one for each kind of damage, which
+     * counts it and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
     /** Parts of a glTF file or of a character from arrays stay apart. Without this flag, parts are sewn together where
      * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
@@ -658,8 +658,9 @@ typedef struct SuppleImageInfo {
 
 /** Fails if the arrays are malformed, or if nothing can be read of the file; the message has one line for each kind of
  * fault. Single faults of a file are mended, or what is broken is left out, and a cage that is damaged (three faces on
- * an edge, flipped faces) is repaired: with a warning in the log for each kind, or refused with SUPPLE_ASSET_STRICT. If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead,
- * so the cage alone can still be used (SUPPLE_SCHEME_CAGE). */
+ * an edge, flipped faces) is repaired: with a warning in the log for each kind, or refused with SUPPLE_ASSET_STRICT.
+ * If only a scheme cannot take the cage (a face that is no quad), suppleCreateGroup fails instead, so the cage alone
+ * can still be used (SUPPLE_SCHEME_CAGE). */
 SUPPLE_API SuppleResult suppleCreateAsset(SuppleContext context, const SuppleAssetDesc* desc, SuppleAsset* out);
 /** Loads an asset anew in its place (hot reload). desc is as for suppleCreateAsset. The handles of the asset, of its
  * groups and of their instances stay valid. Instances keep their slots, transforms, visibility, user data and poses.
@@ -1419,10 +1420,11 @@ SUPPLE_API const char* suppleGetPassName(SupplePass pass);
 typedef struct SuppleTiming {
     /** Upload, attributes, pose (up to three times), deform, vertex, assemble, patch, evaluate, motion. Groups of a
      * view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level
-     * (twice), solve (once per view) and place; and assemble once more, with the levels of chains that views ask for,
-     * if patches of catmull-clark or loop have chains. If a group has several surfaces, passes that work on surfaces
-     * have an entry for each, and deform has one more for each. An entry SHORTFALL is no pass and takes no time. It
-     * follows solve only in frames in which the view's budget was not enough (SuppleViewStatistics.shortfall). */
+     * (twice), solve (once per view) and place, which comes once more if instances choose rates; and assemble and place
+     * once more each, for the levels of chains that views ask for, if patches of catmull-clark or loop have chains. If
+     * a group has several surfaces, passes that work on surfaces have an entry for each, and deform has one more for
+     * each. An entry SHORTFALL is no pass and takes no time. It follows solve only in frames in which the view's budget
+     * was not enough (SuppleViewStatistics.shortfall). */
     SupplePass pass;
     /** The surface of the group that the entry is about: SuppleSurfaceInfo has its parts. Parts of one surface go
      * through each pass together, so there are no times for each of them. SUPPLE_NO_SURFACE: the whole group. */

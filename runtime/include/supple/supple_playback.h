@@ -105,7 +105,8 @@ SUPPLE_API SuppleResult suppleGetRootMotion(SuppleContext context, SuppleAsset a
                                             SuppleRootMotion* out);
 
 /** Fills out: the sharpness that a clip gives to a crease set (suppleGetCreaseSets) at a time, for suppleSetSharpness;
- * before its first and behind its last key what these say. A clip without a curve of the set has SUPPLE_FILE_SHARPNESS.
+ * before its first and behind its last key what these say, and never less than SUPPLE_LEAST_SHARPNESS. A clip without a
+ * curve of the set has SUPPLE_FILE_SHARPNESS, which keys cannot say.
  * Supple does not set it by itself: only the host knows how clips that it plays at the same time go together.
  * docs/gltf.md says how files have curves. Errors: no such clip or set; time is not finite. */
 SUPPLE_API SuppleResult suppleGetClipSharpness(SuppleContext context, SuppleAsset asset, uint32_t clip, uint32_t set,
