@@ -135,6 +135,10 @@ public:
     Broken check(const Json& root, std::span<const std::span<const std::byte>> buffers,
                  const std::vector<int>& decodedInto) && {
         for (size_t i = 0; i < views_.size(); ++i) {
+            if (decodedInto[i] == kNotDecoded) {
+                broken_.add(views_[i]);
+                continue;
+            }
             orBroken(views_[i], [&] { checkBufferView(views_[i], at("bufferView", i), buffers, decodedInto[i]); });
         }
         for (size_t i = 0; i < accessors_.size(); ++i) {
