@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -134,6 +135,13 @@ struct Extent {
             high = glm::max(high, glm::dvec3(p));
         }
     }
+    [[nodiscard]] std::array<glm::dvec4, 8> corners() const {
+        std::array<glm::dvec4, 8> all{};
+        for (size_t k = 0; k < all.size(); ++k) {
+            all[k] = {(k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y, (k & 4) != 0 ? high.z : low.z, 1.0};
+        }
+        return all;
+    }
 };
 
 /// Whether two matrices take what has this extent to one place, but for the rounding of inverse bind matrices.
@@ -142,9 +150,7 @@ bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b, const Extent& extent)
     const glm::dvec3 &low = extent.low, &high = extent.high;
     const auto sizeBy = [&](const glm::dmat4& m) { return glm::length(glm::dmat3(m) * (high - low)); };
     const double most = kRounding * std::max(sizeBy(a), sizeBy(b));
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                           (corner & 4) != 0 ? high.z : low.z, 1.0);
+    for (const glm::dvec4& p : extent.corners()) {
         if (!(glm::length(glm::dvec3(a * p) - glm::dvec3(b * p)) <= most)) {
             return false;
         }
@@ -152,8 +158,22 @@ bool isSamePlace(const glm::dmat4& a, const glm::dmat4& b, const Extent& extent)
     return true;
 }
 
-/// By vertex: whether the joints that move it mirror, as the skeleton rests.
-std::vector<uint8_t> mirroredVertices(const PartCage& part, const Skin& skin, std::span<const glm::dmat4> rest) {
+/// Whether two inverse bind matrices take these points to the same places, but for their own rounding: that of a place
+/// is as large as the terms that it is the sum of.
+bool isSameBind(const glm::dmat4& a, const glm::dmat4& b, std::span<const glm::dvec4> points) {
+    constexpr double kRounding = 1e-5;
+    double largest = 0.0, difference = 0.0;
+    for (const glm::dvec4& p : points) {
+        largest = std::max(largest, glm::length(glm::dmat3(a) * glm::dvec3(p)));
+        difference = std::max(difference, glm::length(glm::dvec3(a * p) - glm::dvec3(b * p)));
+    }
+    return difference <= kRounding * largest;
+}
+
+/// By vertex: whether the joints that move it mirror, as the skeleton rests. Of vertices that nothing is known of, as
+/// those that a scale of 0 hides, it is `unknown`.
+std::vector<uint8_t> mirroredVertices(const PartCage& part, const Skin& skin, std::span<const glm::dmat4> rest,
+                                      bool unknown) {
     std::vector<double> signs;
     for (size_t j = 0; j < skin.joints.size(); ++j) {
         const glm::dmat4 moved = rest[skin.joints[j]] * glm::dmat4(skin.inverseBinds[j]);
@@ -165,7 +185,7 @@ std::vector<uint8_t> mirroredVertices(const PartCage& part, const Skin& skin, st
         for (uint32_t i = part.weights.starts[v]; i < part.weights.starts[v + 1]; ++i) {
             sign += part.weights.influences[i].weight * signs[part.weights.influences[i].joint];
         }
-        mirrored[v] = sign < 0.0 ? 1 : 0;
+        mirrored[v] = sign < 0.0 || (sign == 0.0 && unknown) ? 1 : 0;
     }
     return mirrored;
 }
@@ -323,7 +343,8 @@ glm::dmat4 BindSpace::placeOf(uint32_t node) const {
     return place;
 }
 
-glm::mat4 BindSpace::bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space) const {
+glm::mat4 BindSpace::bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space,
+                            std::span<const glm::dvec4> placed) const {
     const glm::mat4 bind = asBind(glm::dmat4(inverseBind) * glm::inverse(space));
     const auto joint = joints_.find(node);
     if (joint == joints_.end()) {
@@ -331,17 +352,12 @@ glm::mat4 BindSpace::bindOf(uint32_t node, const glm::mat4& inverseBind, const g
     }
     // Joints that several meshes have are one if they stand in one place, but for rounding.
     const glm::mat4& known = joint->second.inverseBind;
-    float largest = 0.0f, difference = 0.0f;
-    for (int k = 0; k < 16; ++k) {
-        largest = std::max(largest, std::abs(known[k / 4][k % 4]));
-        difference = std::max(difference, std::abs(known[k / 4][k % 4] - bind[k / 4][k % 4]));
-    }
-    return difference <= 1e-5f * largest ? known : bind;
+    return isSameBind(glm::dmat4(known), glm::dmat4(bind), placed) ? known : bind;
 }
 
 bool BindSpace::placeSkinned(const glm::dmat4& space, PartCage& part, MeshBinding& mesh) const {
     const bool isSpaceMirrored = isMirrored(space);
-    const std::vector<uint8_t> mirrored = mirroredVertices(part, mesh.skin, rest_);
+    const std::vector<uint8_t> mirrored = mirroredVertices(part, mesh.skin, rest_, isSpaceMirrored);
     const std::vector<uint32_t> pieces = piecesOf(part.cage);
     std::vector<uint8_t> turns(pieces.size(), 1); // of a piece: all of its vertices are mirrored, as the others are not
     std::vector<uint8_t> follows(pieces.size(), 0);
@@ -365,8 +381,12 @@ bool BindSpace::placeSkinned(const glm::dmat4& space, PartCage& part, MeshBindin
     }
     Skin skin = mesh.skin;
     const size_t count = mesh.skinJoints();
+    std::array<glm::dvec4, 8> placed = Extent(part.cage.positions).corners();
+    for (glm::dvec4& corner : placed) {
+        corner = space * corner;
+    }
     for (size_t j = 0; j < count && space != glm::dmat4(1.0); ++j) {
-        skin.inverseBinds[j] = bindOf(skin.joints[j], skin.inverseBinds[j], space);
+        skin.inverseBinds[j] = bindOf(skin.joints[j], skin.inverseBinds[j], space, placed);
     }
     if (mesh.hasFollower && isUsable(ofFollower)) {
         skin.inverseBinds.back() = asBind(glm::inverse(ofFollower));

@@ -1,4 +1,4 @@
-// Where meshes without a skin stand in the bind pose.
+// Where meshes stand in the bind pose, those with a skin and those without.
 #pragma once
 
 #include "cage/character.h"
@@ -18,7 +18,8 @@ struct MeshBinding {
     uint32_t node = 0;
     bool skinned = false; ///< else `skin` is the node itself, as the only joint
     Skin skin;
-    /// The last joint of `skin` is the node itself, for vertices that no joint of the file's moves.
+    /// The last joint of `skin` is the node itself, for vertices that no joint of the file's moves. So it is until
+    /// BindSpace::place() adds joints for what it turns.
     bool hasFollower = false;
 
     void addFollower();
@@ -65,7 +66,9 @@ private:
     [[nodiscard]] std::optional<glm::dmat4> spaceBesideJoints(const MeshBinding& mesh,
                                                               std::span<const uint32_t> order) const;
     [[nodiscard]] bool placeSkinned(const glm::dmat4& space, PartCage& part, MeshBinding& mesh) const;
-    [[nodiscard]] glm::mat4 bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space) const;
+    /// `placed`: corners of what the part takes in the space of the character.
+    [[nodiscard]] glm::mat4 bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space,
+                                   std::span<const glm::dvec4> placed) const;
 
     const Skeleton& skeleton_;
     std::vector<glm::dmat4> rest_; ///< by node

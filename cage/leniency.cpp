@@ -6,6 +6,10 @@ namespace {
 /// A file of which more has to be left out is refused: it is none of those that somebody wants to use, and its faults
 /// would take more time and memory than its elements.
 constexpr size_t kMostLeftOut = 4096;
+/// Nodes may share a mesh, and its faults are found once for each. So many repeated lines of 256 characters take
+/// seconds.
+constexpr uint64_t kMostRepeats = 1u << 20;
+constexpr size_t kLineLength = 256;
 /// Of the faults of a file that is refused because nothing is left, no more are told.
 constexpr size_t kMostTold = 24;
 /// readableLines() tells fewer.
@@ -25,8 +29,12 @@ void Leniency::leaveOut(const Refusal& refusal) {
         refusals_.keep(refusal);
         return;
     }
+    bool isNew = false;
     for (const std::string& fault : refusal.faults) {
-        note(fault, "left out");
+        isNew = note(fault, "left out") || isNew;
+    }
+    if (!isNew) {
+        return;
     }
     if (leftOutCount_++ < kMostTold) {
         leftOut_.keep({refusal.code, {refusal.faults.front()}});
@@ -46,10 +54,22 @@ void Leniency::refuseAll(const std::set<std::string>& reasons) {
     throw Refusal{ErrorCode::asset, {"file: nothing is left of it"}};
 }
 
-void Leniency::note(const std::string& found, const std::string& repair) {
-    if (damages_.size() < kMostKeptLines && said_.insert(found).second) {
-        damages_.push_back({found, repair});
+bool Leniency::note(const std::string& found, const std::string& repair) {
+    if (!said_.contains(found)) {
+        // More than that many lines are not kept, but still told apart until the file is refused.
+        if (said_.size() < 2 * kMostKeptLines) {
+            said_.insert(found);
+        }
+        if (damages_.size() < kMostKeptLines) {
+            damages_.push_back({found, repair});
+        }
+        return true;
     }
+    repeats_ += 1 + found.size() / kLineLength;
+    if (repeats_ > kMostRepeats) {
+        refuse("file", "nodes share meshes with too many faults", ErrorCode::limit);
+    }
+    return false;
 }
 
 } // namespace supple::cage

@@ -10,6 +10,7 @@
 #include "cage/refusal.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -54,12 +55,14 @@ public:
     [[nodiscard]] std::vector<Damage> takeDamages() { return std::move(damages_); }
 
 private:
-    void note(const std::string& found, const std::string& repair);
+    /// Returns whether the line is new.
+    bool note(const std::string& found, const std::string& repair);
 
     bool strict_;
-    Refusals refusals_; ///< what has to be refused
-    Refusals leftOut_;  ///< the first of what was left out
-    size_t leftOutCount_ = 0;
+    Refusals refusals_;       ///< what has to be refused
+    Refusals leftOut_;        ///< the first of what was left out
+    size_t leftOutCount_ = 0; ///< without repeated lines
+    uint64_t repeats_ = 0;    ///< of lines, long ones more than once
     std::vector<Damage> damages_;
     std::set<std::string> said_;
 };

@@ -70,8 +70,8 @@ void boundCreaseSets(Character& character) {
         return;
     }
     warn(character.warnings, "crease sets",
-         "the character has " + std::to_string(cage.creaseSets.size()) + ", and " + std::to_string(kMaxCreaseSets) +
-             " are the most; left out from " + cage::quoted(cage.creaseSets[kMaxCreaseSets]) + " on");
+         "the character has more than " + std::to_string(kMaxCreaseSets) + "; left out from " +
+             cage::quoted(cage.creaseSets[kMaxCreaseSets]) + " on");
     cage.creaseSets.resize(kMaxCreaseSets);
     for (Crease& crease : cage.creases) {
         crease.set = crease.set < kMaxCreaseSets ? crease.set : kNone;

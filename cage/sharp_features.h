@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/limits.h"
 
 #include <algorithm>
 #include <map>
@@ -16,9 +17,13 @@ inline void mergeCrease(const Crease& more, Crease& crease) {
     crease.set = crease.set != kNone ? crease.set : more.set;
 }
 
-/// The place of a crease set by name, which is added if it is new.
+/// The place of a crease set by name, which is added if it is new. No more than one set too many is added: it stands
+/// for all that boundCreaseSets() leaves out, however many a file names.
 [[nodiscard]] inline uint32_t creaseSetOf(const std::string& name, Cage& cage) {
     const auto known = std::find(cage.creaseSets.begin(), cage.creaseSets.end(), name);
+    if (known == cage.creaseSets.end() && cage.creaseSets.size() > kMaxCreaseSets) {
+        return kMaxCreaseSets;
+    }
     if (known == cage.creaseSets.end()) {
         cage.creaseSets.push_back(name);
         return static_cast<uint32_t>(cage.creaseSets.size() - 1);

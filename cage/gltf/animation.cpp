@@ -130,13 +130,16 @@ private:
             ++ignored_[path];
             return;
         }
-        if (!targets_.emplace(channel.node, path).second) {
+        if (targets_.contains({channel.node, path})) {
             refuse(element, "a second channel for " + path + " of node " + std::to_string(channel.node));
         }
+        // One that cannot be read is none: it takes no other's place, and no matrix apart.
+        Channel read = readChannel(document_, animation, channel, *kind, element);
         if (kind->path != ChannelPath::weights) {
             takeMatrixApart(static_cast<uint32_t>(channel.node), element);
         }
-        clip.channels.push_back(readChannel(document_, animation, channel, *kind, element));
+        targets_.emplace(channel.node, path);
+        clip.channels.push_back(std::move(read));
         count(clip.channels.back(), element);
     }
 

@@ -29,7 +29,8 @@ struct Document {
     Json meshes, materials; ///< as the file has them: with the extensions and extras that the model lacks, unchecked
     std::vector<Texture> textures;                   ///< see readTextures()
     std::vector<std::span<const std::byte>> buffers; ///< exactly byteLength bytes each, or none
-    std::vector<int> decodedInto; ///< per bufferView: the buffer behind the file's own that it is decoded into, or -1
+    std::vector<int> decodedInto; ///< per bufferView: the buffer behind the file's own that it is decoded into, -1, or
+                                  ///< kNotDecoded
     std::vector<Image> images;    ///< same indices as the file's; bytes empty where missing
     std::vector<std::string> warnings;
 

@@ -30,13 +30,10 @@ std::optional<std::string> readEntry(const Json& entry, size_t meshVertices, siz
     return std::nullopt;
 }
 
-/// Of `vertexCount` vertices and a sharpness each.
+/// `extras` has the key. Entries of `vertexCount` vertices and a sharpness each.
 std::optional<split::LooseSharpList> readList(const Json& extras, const char* key, const std::string& name,
                                               size_t meshVertices, size_t vertexCount, Warnings& warnings) {
-    const Json* entries = extras.isObject() ? member(extras, key) : nullptr;
-    if (entries == nullptr) {
-        return std::nullopt;
-    }
+    const Json* entries = member(extras, key);
     if (!entries->isArray()) {
         warn(warnings, name, "not an array; ignored");
         return std::nullopt;
@@ -56,19 +53,32 @@ std::optional<split::LooseSharpList> readList(const Json& extras, const char* ke
 
 } // namespace
 
-void readExtrasCreases(const Json& fileMesh, Mesh& mesh, Warnings& warnings) {
+void readExtrasCreases(const Json& fileMesh, bool isCounted, Mesh& mesh, Warnings& warnings) {
     const Json* extras = member(fileMesh, "extras");
-    if (extras == nullptr) {
+    if (extras == nullptr || !extras->isObject()) {
         return;
     }
-    const auto any = [&](auto has) { return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), has); };
-    if (!any([](const split::Primitive& primitive) { return primitive.creases.has_value(); })) {
-        mesh.creases =
-            readList(*extras, "creases", mesh.element + " extras creases", mesh.positions.size(), 2, warnings);
+    const auto isUsed = [&](const char* key, std::optional<split::SharpList> split::Primitive::*own) {
+        return member(*extras, key) != nullptr &&
+               std::none_of(mesh.primitives.begin(), mesh.primitives.end(),
+                            [&](const split::Primitive& primitive) { return (primitive.*own).has_value(); });
+    };
+    const bool creases = isUsed("creases", &split::Primitive::creases);
+    const bool corners = isUsed("corners", &split::Primitive::corners);
+    const std::string element = mesh.element + " extras ";
+    if ((creases || corners) && !isCounted) {
+        warn(warnings,
+             element + (!corners   ? "creases"
+                        : !creases ? "corners"
+                                   : "creases and corners"),
+             "they count the vertices of a primitive that is left out; left out");
+        return;
     }
-    if (!any([](const split::Primitive& primitive) { return primitive.corners.has_value(); })) {
-        mesh.corners =
-            readList(*extras, "corners", mesh.element + " extras corners", mesh.positions.size(), 1, warnings);
+    if (creases) {
+        mesh.creases = readList(*extras, "creases", element + "creases", mesh.positions.size(), 2, warnings);
+    }
+    if (corners) {
+        mesh.corners = readList(*extras, "corners", element + "corners", mesh.positions.size(), 1, warnings);
     }
 }
 

@@ -37,7 +37,7 @@ public:
         material_.name = text("name");
         material_.doubleSided = readFlag("doubleSided");
         readAlpha();
-        if (const Json* pbr = objectMember(from_, "pbrMetallicRoughness", element_)) {
+        if (const Json* pbr = part(from_, "pbrMetallicRoughness")) {
             readColor(*pbr, "baseColorFactor", material_.baseColorFactor);
             material_.baseColorTexture = readTexture(*pbr, "baseColorTexture");
             material_.metallicFactor = readNumber(*pbr, "metallicFactor", 1.0f, {});

@@ -87,6 +87,9 @@ public:
                 document_.leniency->leaveOut([&] { readPrimitive(mesh.primitives[numbers[i]], out_.primitives[i]); });
         }
         keepRead(isRead);
+        if (isNumberingLeftOut_) {
+            leaveOutNumbers();
+        }
         if (out_.primitives.empty()) {
             return std::nullopt;
         }
@@ -94,7 +97,7 @@ public:
             document_.leniency->leaveOut(
                 [&] { out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_); });
         }
-        readExtrasCreases(document_.meshes[meshIndex], out_, warnings_);
+        readExtrasCreases(document_.meshes[meshIndex], isCounted_, out_, warnings_);
         out_.weights.report(out_.element + " WEIGHTS", warnings_);
         return std::move(out_);
     }
@@ -110,17 +113,12 @@ private:
             const Primitive& from = mesh.primitives[k];
             const std::string element = out_.element + " " + at("primitive", k);
             if (from.broken) {
+                isCounted_ = false;
                 continue; // a warning says so
             }
             if (isDrawn(from)) {
-                split::Primitive& primitive = out_.primitives.emplace_back();
-                primitive.element = element;
-                extensions_.push_back(findCageExtension(document_, from.json, element, warnings_));
-                if (const std::optional<CageExtension>& extension = extensions_.back()) {
-                    primitive.roundCorners = extension->roundCorners;
-                    primitive.uvMode = extension->uvMode;
-                    primitive.madeFor = extension->madeFor;
-                }
+                out_.primitives.emplace_back().element = element;
+                addExtension(from, out_.primitives.back());
                 numbers.push_back(k);
                 continue;
             }
@@ -131,11 +129,25 @@ private:
                     : std::string(modeName(from.mode)) + " instead of TRIANGLES" +
                           (polygons ? ", with EXT_mesh_polygon in a form of the draft that is not understood" : "");
             if (polygons && isRequired(document_, "EXT_mesh_polygon")) {
-                refuse(element, reason);
+                document_.leniency->gather([&] { refuse(element, reason); });
+                continue;
             }
             warn(warnings_, element, reason + "; left out");
         }
         return numbers;
+    }
+
+    /// A malformed SUPPLE_mesh_cage is left out alone: the triangles are taken.
+    void addExtension(const Primitive& from, split::Primitive& primitive) {
+        std::optional<CageExtension>& extension = extensions_.emplace_back();
+        const bool isRead = document_.leniency->leaveOut(
+            [&] { extension = findCageExtension(document_, from.json, primitive.element, warnings_); });
+        isExtensionLeftOut_.push_back(isRead ? 0 : 1);
+        if (extension) {
+            primitive.roundCorners = extension->roundCorners;
+            primitive.uvMode = extension->uvMode;
+            primitive.madeFor = extension->madeFor;
+        }
     }
 
     /// Takes the primitives out that could not be read. Vertices that they have read are unused.
@@ -143,6 +155,7 @@ private:
         size_t kept = 0;
         for (size_t i = 0; i < isRead.size(); ++i) {
             if (isRead[i] == 0) {
+                isCounted_ = isCounted_ && out_.primitives[i].vertexCount > 0;
                 continue;
             }
             if (kept != i) {
@@ -172,8 +185,12 @@ private:
         }
         if (missing < out_.primitives.size()) {
             const auto first = std::find(cageNumbers_.begin(), cageNumbers_.end(), -1) - cageNumbers_.begin();
-            refuse(out_.primitives[static_cast<size_t>(first)].element,
-                   "no cageVertices of SUPPLE_mesh_cage, which other primitives of the mesh have");
+            isNumberingLeftOut_ = !document_.leniency->leaveOut([&] {
+                refuse(out_.primitives[static_cast<size_t>(first)].element,
+                       "no cageVertices of SUPPLE_mesh_cage, which other primitives of the mesh have");
+            });
+            cageNumbers_.assign(out_.primitives.size(), -1);
+            return;
         }
         missing = find(WeldSource::vertexAttribute, [&](size_t i) {
             const auto& attributes = mesh.primitives[numbers[i]].attributes;
@@ -185,6 +202,19 @@ private:
                 warn(warnings_, out_.element, "_CAGE_VERTEX is not on all primitives; not used");
             }
             cageNumbers_.assign(out_.primitives.size(), -1);
+        }
+    }
+
+    /// Takes the numbers of cage vertices out, and what names vertices by them.
+    void leaveOutNumbers() {
+        out_.cageNumbers.clear();
+        for (split::Primitive& primitive : out_.primitives) {
+            if (out_.numberSource == WeldSource::cageExtension) {
+                primitive.creases.reset();
+                primitive.creaseSets.clear();
+                primitive.corners.reset();
+                primitive.scalars.reset();
+            }
         }
     }
 
@@ -221,10 +251,12 @@ private:
         primitive.vertexCount = static_cast<uint32_t>(count);
 
         primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
-        document_.leniency->leaveOut([&] {
-            primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
-                                           primitive.vertexCount, element, warnings_);
-        });
+        if (isExtensionLeftOut_[number] == 0) {
+            document_.leniency->leaveOut([&] {
+                primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
+                                               primitive.vertexCount, element, warnings_);
+            });
+        }
         for (std::vector<uint32_t>* vertices : {&primitive.triangles, &primitive.faces.polygons.vertices}) {
             for (uint32_t& vertex : *vertices) {
                 vertex += primitive.firstVertex;
@@ -235,22 +267,24 @@ private:
             refuse(element, "more than " + std::to_string(kMaxCorners) + " corners", ErrorCode::limit);
         }
         readCornerAttributes(from, element, primitive);
-        readTrimTiles(document_, from, materials_, primitive);
+        document_.leniency->gather([&] { readTrimTiles(document_, from, materials_, primitive); });
         if (extension) {
             readSharpness(*extension, primitive);
         }
     }
 
+    /// A list that cannot be read is left out alone.
     void readSharpness(const CageExtension& extension, split::Primitive& primitive) const {
-        if (extension.creaseIndices >= 0) {
-            primitive.creases = readCreaseList(document_, extension);
-            primitive.creaseSets = readCreaseSets(document_, extension);
+        Leniency& leniency = *document_.leniency;
+        if (extension.creaseIndices >= 0 &&
+            leniency.leaveOut([&] { primitive.creases = readCreaseList(document_, extension); })) {
+            leniency.leaveOut([&] { primitive.creaseSets = readCreaseSets(document_, extension); });
         }
         if (extension.creaseScalarIndices >= 0) {
-            primitive.scalars = readScalarList(document_, extension);
+            leniency.leaveOut([&] { primitive.scalars = readScalarList(document_, extension); });
         }
         if (extension.cornerIndices >= 0) {
-            primitive.corners = readCornerList(document_, extension);
+            leniency.leaveOut([&] { primitive.corners = readCornerList(document_, extension); });
         }
     }
 
@@ -309,8 +343,9 @@ private:
         const std::vector<glm::vec3> positions = readPositions(position, count, element);
         const Displacements displacements = morphReader_.read(document_, targets, count, element);
         std::vector<uint32_t> numbers;
-        if (cageNumbers >= 0) {
-            numbers = readCageNumbers(cageNumbers, count, element);
+        if (cageNumbers >= 0 &&
+            !document_.leniency->leaveOut([&] { numbers = readCageNumbers(cageNumbers, count, element); })) {
+            isNumberingLeftOut_ = true; // some vertices have no number
         }
         if (sets.joints.empty()) {
             const size_t joint = binding_.hasFollower ? binding_.skinJoints() : 0;
@@ -401,9 +436,12 @@ private:
 
     Mesh out_;
     std::vector<std::optional<CageExtension>> extensions_; ///< by primitive
+    std::vector<uint8_t> isExtensionLeftOut_;              ///< by primitive
     std::vector<int> positionAccessors_;                   ///< by primitive
     MorphReader morphReader_;
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
+    bool isNumberingLeftOut_ = false;    ///< vertices that have no number are among those that should
+    bool isCounted_ = true;              ///< no primitive that is drawn, or may be, was left out with its vertices
     std::map<Stream, uint32_t> streams_; ///< -> first vertex
     uint64_t cornerCount_ = 0;
     uint64_t attributeFloats_ = 0;

@@ -1,5 +1,6 @@
 #include "cage/gltf/meshopt.h"
 
+#include "cage/gltf/structure.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -169,21 +170,21 @@ std::vector<uint8_t> findPlaceholders(const Json& root) {
 
 void decodeMeshopt(const Json& root, Document& document) {
     const Json views = table(root, "bufferViews");
-    const size_t bufferCount = document.buffers.size();
     document.decodedInto.assign(views.size(), -1);
     std::vector<Compressed> all;
     uint64_t total = 0;
-    Refusals refusals;
+    Leniency& leniency = *document.leniency;
     const auto add = [&](size_t i) {
         const auto [object, name] = extensionOf(views[i]);
         if (object == nullptr) {
-            // Before the decoded buffers are among those it might name.
-            checkIndexMember(views[i], "buffer", at("bufferView", i), "buffer", bufferCount, true);
             return;
         }
         const std::string element = at("bufferView", i) + " " + name;
         if (!kCanDecode) {
-            refuse(element, "this build of Supple reads no meshopt-compressed files (SUPPLE_WITH_MESHOPT is off)");
+            leniency.gather([&] {
+                refuse(element, "this build of Supple reads no meshopt-compressed files (SUPPLE_WITH_MESHOPT is off)");
+            });
+            return;
         }
         if (!object->isObject()) {
             refuse(element, "not an object");
@@ -198,9 +199,11 @@ void decodeMeshopt(const Json& root, Document& document) {
         }
     };
     for (size_t i = 0; i < views.size(); ++i) {
-        refusals.gather([&] { add(i); });
+        if (!leniency.leaveOut([&] { add(i); })) {
+            document.decodedInto[i] = kNotDecoded;
+        }
     }
-    refusals.raise();
+    leniency.raise();
     if (all.empty()) {
         return;
     }
@@ -210,10 +213,14 @@ void decodeMeshopt(const Json& root, Document& document) {
              "from that order are lost");
     for (const Compressed& compressed : all) {
         document.memory->take(compressed.count, compressed.stride, compressed.element);
-        document.owned.emplace_back(decode(compressed));
+        if (!leniency.leaveOut([&] { document.owned.emplace_back(decode(compressed)); })) {
+            document.decodedInto[compressed.view] = kNotDecoded;
+            continue;
+        }
         document.buffers.emplace_back(document.owned.back());
         document.decodedInto[compressed.view] = static_cast<int>(document.buffers.size()) - 1;
     }
+    leniency.raise();
 }
 
 } // namespace supple::cage::gltf

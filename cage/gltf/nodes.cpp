@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace supple::cage::gltf {
 namespace {
@@ -38,6 +39,37 @@ void checkPlacing(std::span<const float> values, const std::string& element) {
     }
 }
 
+/// Where a node stands under its parent.
+void readPlace(const Document& document, size_t number, Node& node) {
+    const auto& from = document.model.nodes[number];
+    const std::string element = at("node", number);
+    if (!from.matrix.empty()) {
+        node.hasMatrix = true;
+        for (int k = 0; k < 16; ++k) {
+            node.matrix[k / 4][k % 4] = static_cast<float>(from.matrix[static_cast<size_t>(k)]);
+        }
+        checkPlacing({&node.matrix[0][0], 16}, element + " matrix");
+        makeAffine(node.matrix, element + " matrix", *document.leniency);
+        return;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (!from.translation.empty()) {
+            node.translation[k] = static_cast<float>(from.translation[static_cast<size_t>(k)]);
+        }
+        if (!from.scale.empty()) {
+            node.scale[k] = static_cast<float>(from.scale[static_cast<size_t>(k)]);
+        }
+    }
+    checkPlacing({&node.translation[0], 3}, element + " translation");
+    checkPlacing({&node.scale[0], 3}, element + " scale");
+    if (!from.rotation.empty()) {
+        const auto& q = from.rotation;
+        document.leniency->leaveOut([&] {
+            node.rotation = unitRotation({q[0], q[1], q[2], q[3]}, element + " rotation");
+        });
+    }
+}
+
 /// A file of clips alone is none that cannot be read.
 std::string insteadOfMeshes(const Model& model) {
     return model.animations.empty() ? ""
@@ -54,35 +86,15 @@ Skeleton readSkeleton(const Document& document) {
     skeleton.nodes.resize(count);
     for (size_t i = 0; i < count; ++i) {
         const auto& from = model.nodes[i];
-        Node& node = skeleton.nodes[i];
-        node.name = from.name;
+        skeleton.nodes[i].name = from.name;
         for (const int child : from.children) {
             skeleton.nodes[static_cast<size_t>(child)].parent = static_cast<uint32_t>(i);
         }
-        if (!from.matrix.empty()) {
-            node.hasMatrix = true;
-            for (int k = 0; k < 16; ++k) {
-                node.matrix[k / 4][k % 4] = static_cast<float>(from.matrix[static_cast<size_t>(k)]);
-            }
-            checkPlacing({&node.matrix[0][0], 16}, at("node", i) + " matrix");
-            makeAffine(node.matrix, at("node", i) + " matrix", *document.leniency);
-            continue;
-        }
-        for (int k = 0; k < 3; ++k) {
-            if (!from.translation.empty()) {
-                node.translation[k] = static_cast<float>(from.translation[static_cast<size_t>(k)]);
-            }
-            if (!from.scale.empty()) {
-                node.scale[k] = static_cast<float>(from.scale[static_cast<size_t>(k)]);
-            }
-        }
-        checkPlacing({&node.translation[0], 3}, at("node", i) + " translation");
-        checkPlacing({&node.scale[0], 3}, at("node", i) + " scale");
-        if (!from.rotation.empty()) {
-            const auto& q = from.rotation;
-            document.leniency->leaveOut([&] {
-                node.rotation = unitRotation({q[0], q[1], q[2], q[3]}, at("node", i) + " rotation");
-            });
+    }
+    for (size_t i = 0; i < count; ++i) {
+        Node placed = skeleton.nodes[i];
+        if (document.leniency->gather([&] { readPlace(document, i, placed); })) {
+            skeleton.nodes[i] = std::move(placed);
         }
     }
     orderParentsFirst(skeleton);

@@ -223,7 +223,8 @@ bool sayNothingOfRuns(const Document& document, const Json& primitive, int mode,
         if (hasExtension(primitive, name)) {
             const std::string reason = std::string(modeName(mode)) + " instead of TRIANGLES";
             if (isRequired(document, name)) {
-                refuse(element + " " + name, reason);
+                document.leniency->gather([&] { refuse(element + " " + name, reason); });
+                continue;
             }
             warn(warnings, element + " " + name, reason + "; not used");
         }
@@ -261,7 +262,8 @@ PolygonData readPolygons(const Document& document, const Json& primitive, int mo
             return data;
         }
         if (isRequired(document, "EXT_mesh_polygon")) {
-            refuse(place, whyNot);
+            document.leniency->gather([&] { refuse(place, whyNot); });
+            return data;
         }
         warn(warnings, place, whyNot + "; not used");
     }

@@ -51,7 +51,7 @@ PartCage readPart(const Document& document, const MeshBinding& binding, const Gl
     part.element = mesh->element;
     part.gridStep = mesh->gridStep;
     part.morphs = readMorphs(document, node, targetCountOf(fromMesh), warnings);
-    split::buildCage(*mesh, options.pairing, part, warnings);
+    split::buildCage(*mesh, options.pairing, part, *document.leniency, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
     }

@@ -37,8 +37,8 @@ struct GltfOptions {
     Pairing pairing = Pairing::whereClean;
     /// Make edges with split normals infinitely sharp (cage/normal_creases.h).
     bool creasesFromNormals = false;
-    /// Refuse a file with faults (cage/leniency.h), and a damaged cage (cage/repair.h), instead of mending them. The error
-    /// has one line for each fault and each kind of damage.
+    /// Refuse a file with faults (cage/leniency.h), and a damaged cage (cage/repair.h), instead of mending them. The
+    /// error has one line for each fault and each kind of damage.
     bool strict = false;
     /// Most bytes that reading a file may take; 0: kBaseMemory, and kMemoryPerByte for each of its own
     /// (cage/memory_budget.h).
@@ -55,9 +55,10 @@ struct GltfOptions {
 /// Its polygons are those
 /// of the first PolygonSource that a primitive has, its vertices are welded by the first WeldSource that the mesh has.
 /// Cage vertices keep the order of the file's own numbers for them, or else of the POSITION elements they come from
-/// (those of all primitives, one after the other; primitives over the same accessors share them). Creases and sharp
-/// vertices are those of SUPPLE_mesh_cage, or else of mesh.extras.creases, [vertex, vertex, sharpness], and
-/// mesh.extras.corners, [vertex, sharpness], whose vertices are counted in the same order.
+/// (those of all primitives that are read, one after the other; primitives over the same accessors share them). Creases
+/// and sharp vertices are those of SUPPLE_mesh_cage, or else of mesh.extras.creases, [vertex, vertex, sharpness], and
+/// mesh.extras.corners, [vertex, sharpness], whose vertices are counted in the same order. If a primitive is left out
+/// with its vertices, these lists are left out too.
 ///
 /// Mended or left out with a line in Character::warnings: whatever of the file is broken, as little of it as can be
 /// (cage/leniency.h), weights that do not sum to 1 beyond rounding (normalised), vertices whose weights are all zero

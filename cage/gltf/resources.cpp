@@ -134,7 +134,8 @@ void loadBuffers(const Json& buffers, std::span<const uint8_t> placeholder, cons
     document.leniency->raise();
 }
 
-/// A character without its texture is still a character: whatever is wrong with an image is a warning.
+/// A character without its texture is still a character: one that is missing is a warning by any
+/// reading, and what is malformed is left out.
 void loadImages(const Json& images, Resources& resources, Document& document) {
     std::vector<ViewBytes> views;
     for (size_t i = 0; i < images.size(); ++i) {

@@ -82,24 +82,25 @@ void checkNodeTree(const Json& nodes, const Broken& broken, Leniency& leniency) 
         if (children == nullptr) {
             continue;
         }
-        for (const Json& entry : *children) {
-            if (broken.contains(*children) || broken.contains(entry)) {
-                continue;
-            }
-            const auto child = entry.index();
+        const auto add = [&](size_t child) {
             if (child == parent) {
                 refuse(at("node", child), "is its own child");
             }
             if (parents[child] == parent) {
                 leniency.mend(at("node", child), "listed twice by its parent, node " + std::to_string(parent),
                               "once is enough");
-                continue;
+                return;
             }
             if (parents[child] != count) {
                 refuse(at("node", child),
                        "has two parents, nodes " + std::to_string(parents[child]) + " and " + std::to_string(parent));
             }
             parents[child] = parent;
+        };
+        for (const Json& entry : *children) {
+            if (!broken.contains(*children) && !broken.contains(entry)) {
+                leniency.gather([&] { add(entry.index()); });
+            }
         }
     }
     // With one parent at most, following parents either ends at a root or runs round a cycle.
@@ -115,7 +116,7 @@ void checkNodeTree(const Json& nodes, const Broken& broken, Leniency& leniency) 
             node = parents[node];
         }
         if (node != count && state[node] == onPath) {
-            refuse(at("node", node), "is its own ancestor");
+            leniency.gather([&] { refuse(at("node", node), "is its own ancestor"); });
         }
         for (const size_t passed : path) {
             state[passed] = done;
@@ -128,11 +129,16 @@ public:
     StructureCheck(const Json& root, Leniency& leniency)
         : leniency_(leniency), accessors_(table(root, "accessors")), materials_(table(root, "materials")),
           meshes_(table(root, "meshes")), nodes_(table(root, "nodes")), skins_(table(root, "skins")),
-          views_(table(root, "bufferViews")), scenes_(table(root, "scenes")) {}
+          views_(table(root, "bufferViews")), scenes_(table(root, "scenes")),
+          bufferCount_(table(root, "buffers").size()) {}
 
     Broken check(const Json& root, std::span<const std::span<const std::byte>> buffers,
                  const std::vector<int>& decodedInto) && {
         for (size_t i = 0; i < views_.size(); ++i) {
+            if (decodedInto[i] == kNotDecoded) {
+                broken_.add(views_[i]);
+                continue;
+            }
             orBroken(views_[i], [&] { checkBufferView(views_[i], at("bufferView", i), buffers, decodedInto[i]); });
         }
         for (size_t i = 0; i < accessors_.size(); ++i) {
@@ -157,6 +163,7 @@ public:
         }
         leniency_.raise();
         checkNodeTree(nodes_, broken_, leniency_);
+        leniency_.raise();
         return std::move(broken_);
     }
 
@@ -205,13 +212,14 @@ private:
 
     Leniency& leniency_;
     const Json accessors_, materials_, meshes_, nodes_, skins_, views_, scenes_;
+    const size_t bufferCount_; ///< of the file's own: no view names one that another view was decoded into
     Broken broken_;
 };
 
 /// `decodedInto`: the buffer that takes the place of what the view names, or -1.
 void StructureCheck::checkBufferView(const Json& view, const std::string& element,
                                      std::span<const std::span<const std::byte>> buffers, int decodedInto) {
-    checkIndexMember(view, "buffer", element, "buffer", buffers.size(), true);
+    checkIndexMember(view, "buffer", element, "buffer", bufferCount_, true);
     const bool decoded = decodedInto >= 0;
     const size_t available = buffers[decoded ? static_cast<size_t>(decodedInto) : view.at("buffer").index()].size();
     const uint64_t offset = decoded ? 0 : unsignedMember(view, "byteOffset", element, 0);

@@ -14,6 +14,9 @@ namespace supple::cage::gltf {
 /// Version and extensions: whether this reader is meant to understand the file. Throws Refusal.
 void checkHeader(const Json& root);
 
+/// In the place of a buffer that a view was decoded into: its compressed bytes are damaged, and a warning says so.
+inline constexpr int kNotDecoded = -2;
+
 /// Everything else but buffers and images. Where decodedInto[view] is not -1, that buffer takes the place of what the
 /// bufferView names. Returns what is left out. Throws Refusal if something is broken that nothing can do without: the
 /// tree of nodes and where they stand.

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace supple::cage::gltf {
 namespace {
@@ -144,6 +146,8 @@ void readTrimTiles(const Document& document, const file::Primitive& from, std::s
     checkVertexCount(document, attribute->second, primitive.vertexCount, name);
     const std::vector<float> values =
         readFloats(document, attribute->second, file::kScalar, kFloat | kU8 | kU16 | kU32 | kS8 | kS16, name);
+    std::vector<uint32_t> tiles; // all of them or, if one is refused, none
+    tiles.reserve(values.size());
     for (size_t v = 0; v < values.size(); ++v) {
         // Written so that a NaN is refused too.
         if (!(values[v] >= -1.0f) || std::floor(values[v]) != values[v]) {
@@ -153,8 +157,9 @@ void readTrimTiles(const Document& document, const file::Primitive& from, std::s
             refuse(item(name, v), "tile " + std::to_string(static_cast<uint64_t>(values[v])) +
                                       " is out of range: " + whose + " has " + counted(trim.tiles, "tile", "tiles"));
         }
-        primitive.trimTiles.push_back(values[v] < 0.0f ? kNone : static_cast<uint32_t>(values[v]));
+        tiles.push_back(values[v] < 0.0f ? kNone : static_cast<uint32_t>(values[v]));
     }
+    primitive.trimTiles = std::move(tiles);
 }
 
 } // namespace supple::cage::gltf

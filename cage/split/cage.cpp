@@ -312,7 +312,8 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
 }
 
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.
-std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, PartCage& out) {
+std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Welding& welding, Leniency& leniency,
+                               PartCage& out) {
     Cage& cage = out.cage;
     std::vector<uint8_t> used(mesh.positions.size(), 0);
     for (const uint32_t v : faces.polygons.vertices) {
@@ -353,7 +354,7 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     fillCorners(mesh, faces, cage);
     fillShading(mesh, faces, cage);
     fillTriangles(mesh, faces, welding, cage);
-    fillTrimTiles(mesh, faces, cage);
+    leniency.gather([&] { fillTrimTiles(mesh, faces, cage); });
 
     fillMotion(mesh, out);
 
@@ -379,7 +380,7 @@ void addRoundCorners(Cage& cage) {
 
 } // namespace
 
-void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Warnings& warnings) {
+void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Leniency& leniency, Warnings& warnings) {
     Polygons sewn;
     for (const Primitive& primitive : mesh.primitives) {
         addSewingFaces(primitive, sewn);
@@ -416,7 +417,7 @@ void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Warnings& warni
         out.part.madeFor = out.part.madeFor ? out.part.madeFor : primitive.madeFor;
     }
     out.sourceVertexCount = static_cast<uint32_t>(mesh.positions.size());
-    addCreases(mesh, fillCage(mesh, faces, welding, out), out.cage, warnings);
+    addCreases(mesh, fillCage(mesh, faces, welding, leniency, out), out.cage, leniency, warnings);
     if (std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
                     [](const Primitive& primitive) { return primitive.roundCorners; })) {
         addRoundCorners(out.cage);

@@ -1,6 +1,7 @@
 // From split vertices and triangles to the cage: welding, polygons, corners.
 #pragma once
 
+#include "cage/leniency.h"
 #include "cage/message.h"
 #include "cage/parts.h"
 #include "cage/split/mesh.h"
@@ -18,8 +19,9 @@ enum class Pairing {
 namespace split {
 
 /// Fills the cage, its weights, the displacements of its morph targets, and what a part tells of where they came from.
-/// The cage has no face if the mesh has only triangles that repeat a vertex. Throws Refusal.
-void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Warnings& warnings);
+/// The cage has no face if the mesh has only triangles that repeat a vertex. Throws Refusal. Lists of creases and
+/// corners that name what is not there are left out by `leniency`, and it gathers what is wrong with tiles of trims.
+void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Leniency& leniency, Warnings& warnings);
 
 } // namespace split
 

@@ -14,9 +14,10 @@ namespace {
 /// else a vertex of the primitive.
 class PrimitiveLists {
 public:
-    PrimitiveLists(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings)
+    PrimitiveLists(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Leniency& leniency,
+                   Warnings& warnings)
         : byNumber_(!mesh.cageNumbers.empty() && mesh.numberSource == WeldSource::cageExtension),
-          cageVertices_(cageVertices), cage_(cage), warnings_(warnings) {
+          cageVertices_(cageVertices), cage_(cage), leniency_(leniency), warnings_(warnings) {
         for (uint32_t v = 0; v < mesh.cageNumbers.size(); ++v) {
             // Any vertex of a number will do, but one without a face only where none has a face.
             uint32_t& vertex = ofNumber_.try_emplace(mesh.cageNumbers[v], cageVertices[v]).first->second;
@@ -26,7 +27,7 @@ public:
 
     void addCreasesOf(const Primitive& primitive) {
         const SharpList& list = *primitive.creases;
-        const std::vector<uint32_t> sets = setsOf(primitive);
+        std::vector<Crease> creases; // all of them or, if one is refused, none
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
             const uint32_t a = vertexOf(primitive, list, 2 * i);
@@ -36,28 +37,39 @@ public:
             } else if (a == b) {
                 refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
             } else {
-                features_.addCrease({a, b, list.sharpnesses[i], sets[i]}, cage_);
+                creases.push_back({a, b, list.sharpnesses[i], static_cast<uint32_t>(i)});
             }
+        }
+        std::vector<uint32_t> sets(list.sharpnesses.size(), kNone);
+        leniency_.leaveOut([&] { sets = setsOf(primitive); });
+        for (Crease& crease : creases) {
+            crease.set = sets[crease.set];
+            features_.addCrease(crease, cage_);
         }
         faults.report(warnings_);
     }
 
     void addCornersOf(const Primitive& primitive) {
         const SharpList& list = *primitive.corners;
+        std::vector<SharpVertex> corners;
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
             const uint32_t vertex = vertexOf(primitive, list, i);
             if (vertex == kNone) {
                 faults.add(i, "a vertex without a face");
             } else {
-                features_.addCorner(vertex, list.sharpnesses[i], cage_);
+                corners.push_back({vertex, list.sharpnesses[i]});
             }
+        }
+        for (const SharpVertex& corner : corners) {
+            features_.addCorner(corner.vertex, corner.sharpness, cage_);
         }
         faults.report(warnings_);
     }
 
     void addScalarsOf(const Primitive& primitive) {
         const SharpList& list = *primitive.scalars;
+        std::vector<CreaseScalar> scalars;
         EntryFaults faults(list.element);
         for (size_t i = 0; i < list.sharpnesses.size(); ++i) {
             const uint32_t vertex = vertexOf(primitive, list, 2 * i);
@@ -67,9 +79,10 @@ public:
             } else if (vertex == toward) {
                 refuse(item(list.element, 2 * i), "both ends are one vertex of the cage");
             } else {
-                cage_.creaseScalars.push_back({vertex, toward, list.sharpnesses[i]});
+                scalars.push_back({vertex, toward, list.sharpnesses[i]});
             }
         }
+        cage_.creaseScalars.insert(cage_.creaseScalars.end(), scalars.begin(), scalars.end());
         faults.report(warnings_);
     }
 
@@ -77,8 +90,8 @@ private:
     /// The set of each of a primitive's creases.
     std::vector<uint32_t> setsOf(const Primitive& primitive) {
         std::vector<uint32_t> sets(primitive.creases->sharpnesses.size(), kNone);
-        for (const CreaseSet& set : primitive.creaseSets) {
-            const uint32_t number = creaseSetOf(set.name, cage_);
+        for (size_t number = 0; number < primitive.creaseSets.size(); ++number) {
+            const CreaseSet& set = primitive.creaseSets[number];
             for (const uint32_t crease : set.creases) {
                 if (crease >= sets.size() || sets[crease] != kNone) {
                     refuse(primitive.element + " crease set " + quoted(set.name),
@@ -87,8 +100,15 @@ private:
                                     ? " is out of range: the primitive has " + std::to_string(sets.size())
                                     : " is in a set already"));
                 }
-                sets[crease] = number;
+                sets[crease] = static_cast<uint32_t>(number);
             }
+        }
+        std::vector<uint32_t> ofCage;
+        for (const CreaseSet& set : primitive.creaseSets) {
+            ofCage.push_back(creaseSetOf(set.name, cage_));
+        }
+        for (uint32_t& set : sets) {
+            set = set == kNone ? kNone : ofCage[set];
         }
         return sets;
     }
@@ -114,6 +134,7 @@ private:
     const bool byNumber_; ///< lists have cage numbers
     std::span<const uint32_t> cageVertices_;
     Cage& cage_;
+    Leniency& leniency_;
     Warnings& warnings_;
     SharpFeatures features_;
     std::map<uint32_t, uint32_t>
@@ -141,21 +162,22 @@ void addLoose(const LooseSharpList& list, std::span<const uint32_t> cageVertices
 
 } // namespace
 
-void addCreases(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Warnings& warnings) {
+void addCreases(const Mesh& mesh, std::span<const uint32_t> cageVertices, Cage& cage, Leniency& leniency,
+                Warnings& warnings) {
     bool creases = false;
     bool corners = false;
-    PrimitiveLists lists(mesh, cageVertices, cage, warnings);
+    PrimitiveLists lists(mesh, cageVertices, cage, leniency, warnings);
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.creases) {
-            lists.addCreasesOf(primitive);
+            leniency.leaveOut([&] { lists.addCreasesOf(primitive); });
             creases = true;
         }
         if (primitive.corners) {
-            lists.addCornersOf(primitive);
+            leniency.leaveOut([&] { lists.addCornersOf(primitive); });
             corners = true;
         }
         if (primitive.scalars) {
-            lists.addScalarsOf(primitive);
+            leniency.leaveOut([&] { lists.addScalarsOf(primitive); });
         }
     }
     if (mesh.creases && !creases) {

@@ -55,7 +55,7 @@ ReadParts readParts(const SuppleCharacterDesc& desc, cage::Pairing pairing, cage
     return read;
 }
 
-/// The palette, and parts without a skin at their places.
+/// The palette, and parts at their places.
 void bindParts(ReadParts& read, cage::Character& character) {
     const cage::BindSpace bindSpace(character.skeleton, read.bindings, read.parts, read.parts.size() == 1);
     cage::PaletteBuilder palette(character.skin);

@@ -332,7 +332,9 @@ void readPrimitiveArrays(const SupplePartDesc& desc, const cage::MeshBinding& bi
     }
     mesh.weights.report(faults.element() + " influences", *context.warnings);
     faults.refusals().gather([&] {
-        cage::split::buildCage(mesh, context.pairing, part, *context.warnings);
+        cage::Leniency strict(true);
+        cage::split::buildCage(mesh, context.pairing, part, strict, *context.warnings);
+        strict.raise();
         if (part.cage.faceCount() == 0) {
             cage::refuse(faults.element(), "no triangle is left");
         }

@@ -52,7 +52,8 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
                     "byte of the file and of those that it names")
         ->type_name("MIB")
         ->check(CLI::Range(1u, 1u << 20));
-    command.add_flag("--strict", reading.strict, "Refuse a file with faults or a damaged cage, and name them all, instead of mending them");
+    command.add_flag("--strict", reading.strict,
+                     "Refuse a file with faults or a damaged cage, and name them all, instead of mending them");
 }
 
 void bindRate(CLI::App& command, uint32_t& rate) {

@@ -159,5 +159,27 @@ TEST(GltfSpaces, AMirroredLimbIsSeenFromOutside) {
     EXPECT_EQ(c.cage.cornerNormals[3], glm::vec3(0, 0, 1));
 }
 
+/// Of a piece that a scale of 0 hides, nothing is known: it is turned as its mesh is.
+TEST(GltfSpaces, AHiddenPieceFollowsItsMesh) {
+    GltfBuilder b;
+    b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 0, 4, 0, 0, 3, 1, 0});
+    b.addIntegers("VEC4", 5121, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    b.addFloats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0});
+    b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}])";
+    b.nodes = R"([{"mesh":0,"skin":0},{"scale":[-1,1,1],"children":[2]},{"scale":[0,0,0]}])";
+    b.more = R"(,"skins":[{"joints":[1,2]}])";
+    const Character c = readWell(b);
+    EXPECT_EQ(c.skin.joints.size(), 2u);
+    EXPECT_EQ(c.cage.positions[1], glm::vec3(-1, 0, 0));
+    EXPECT_EQ(c.cage.positions[4], glm::vec3(-4, 0, 0));
+}
+
+/// On a grid of many steps the linear part of a matrix is small beside its last element, but counts all the same.
+TEST(GltfSpaces, JointsOfOtherScalesAreApart) {
+    GltfBuilder b = twoPlates(kGrids, kUpright);
+    b.setFloat(static_cast<QuadAccessor>(9), 16, 1.2f / 777.0f); // of the second plate's second joint, in x
+    EXPECT_EQ(readWell(b.glb(), {.sewParts = false}).skin.joints.size(), 3u);
+}
+
 } // namespace
 } // namespace supple::cage

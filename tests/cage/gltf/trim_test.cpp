@@ -174,6 +174,15 @@ TEST(GltfTrim, NamedErrorsOfTiles) {
               "t.glb: material 0 extras.trim tiles: 1025, more than 1024");
 }
 
+/// No reading shows what a trim would cut off.
+TEST(GltfTrim, WrongTilesAreRefusedByALenientReading) {
+    const std::string strip = R"({"texture":{"index":0},"domain":"face"})";
+    EXPECT_EQ(saidOf(trimmed(strip).glb()), "refused: " + messageOf(trimmed(strip)));
+    for (const std::vector<float>& tiles : {std::vector<float>{0, 0, 4, 0}, {0, 0, 0, -1}, {0, 0, 0}}) {
+        EXPECT_EQ(saidOf(tiled(strip, tiles).glb()), "refused: " + messageOf(tiled(strip, tiles)));
+    }
+}
+
 TEST(GltfTrim, PairsOfTrianglesHaveOneTile) {
     GltfOptions pairs;
     pairs.pairing = Pairing::always;
