@@ -326,7 +326,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_LEVEL, isInView, recordInRounds<&Tessellation::recordEdgeLevels>},
     {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
     {SUPPLE_PASS_SOLVE, isInView, recordSolve},
-    {SUPPLE_PASS_PLACE, anySurface<&Tessellation::deepens>, recordSurface<&Tessellation::recordDepths>},
+    {SUPPLE_PASS_PLACE, anySurface<&Tessellation::findsDepths>, recordSurface<&Tessellation::recordDepths>},
     {SUPPLE_PASS_PLACE, isInView, recordSurfaces<&Tessellation::recordPlaces>, Behind::places},
     {SUPPLE_PASS_PLACE, choosesRates, recordRates, Behind::places},
     {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},

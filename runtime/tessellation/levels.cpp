@@ -199,7 +199,7 @@ PassCost Levels::recordPatchLevels(VkCommandBuffer commandBuffer) const {
 
 PassCost Levels::recordDepths(VkCommandBuffer commandBuffer) const {
     windows().forEach([&](uint32_t w) { record(commandBuffer, program_.depths, levelWindow(w)); });
-    return {0, 0, deepens() && windows().visible > 0};
+    return {0, 0, findsDepths() && windows().visible > 0};
 }
 
 PassCost Levels::recordPlaces(VkCommandBuffer commandBuffer) const {

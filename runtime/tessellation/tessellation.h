@@ -126,6 +126,7 @@ public:
     // Groups of a view, in this order; the view solves its budget before places.
     virtual PassCost recordEdgeLevels(surface::Round& /*round*/) const { return {}; }
     virtual PassCost recordPatchLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    [[nodiscard]] bool findsDepths() const { return !program_.depths.empty(); }
     virtual PassCost recordDepths(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     virtual PassCost recordPlaces(VkCommandBuffer /*commandBuffer*/) const { return {}; }
     [[nodiscard]] bool deepens() const { return !program_.deepen.empty(); }
