@@ -97,8 +97,8 @@ key f
 until_true "F frames the figure" '[ "$(shown)" = "$first" ]'
 
 # Every view has its turn, and comes back to the first.
-for view in wire patches normals zebra tangents uv uv1 vertex-color base-color metallic roughness normal-map occlusion \
-    emissive weights distance levels; do
+for view in wire patches normals zebra highlights isophotes tangents uv uv1 vertex-color base-color metallic roughness \
+    normal-map occlusion emissive weights distance levels; do
     key v
     until_true "V shows $view" "shown | grep -Eq -- '--view $view( |\$)'"
     [ "$view" != distance ] || sleep 4 # it is measured beside
@@ -119,6 +119,11 @@ shown >/dev/null
 shoot levels_near
 cmp -s levels_frozen.png levels_near.png && fail "Z freezes nothing"
 key f
+for view in mean-curvature gaussian-curvature; do
+    key v
+    until_true "V shows $view" "shown | grep -Eq -- '--view $view( |\$)'"
+    sleep 4 # it is measured beside
+done
 key v
 until_true "V comes back" '[ "$(shown)" = "$first" ]'
 key d
