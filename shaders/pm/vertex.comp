@@ -43,20 +43,25 @@ Spoke spokeOf(uint element, uint instance) {
     float alpha = alphaOfSet(instance, words.w & kAlphaSetMask);
     bool isOwn = alpha < 0.0, isGiven = isOwn && (words.w & kGivenAlpha) != 0u;
     if (isOwn) alpha = w.x;
-    return Spoke(alpha, w.y, w.z, isGiven ? 0.0 : clamp(1.0 - 1.5 * alpha, 0.0, 1.0), 0.0);
+    precise float sharp = 1.0 - 1.5 * alpha;
+    return Spoke(alpha, w.y, w.z, isGiven ? 0.0 : max(min(sharp, 1.0), 0.0), 0.0);
 }
 
 // The part of a rim's weight that all edges of a sector make: it vanishes where a third one is sharp.
 float smoothProduct(uint element, uint edges, uint instance) {
-    float product = 1.0;
-    for (uint j = 0u; kVariable && j < edges; ++j) product *= 1.0 - spokeOf(element + j, instance).sharp;
+    precise float product = 1.0;
+    for (uint j = 0u; kVariable && j < edges; ++j) {
+        precise float smoothPart = 1.0 - spokeOf(element + j, instance).sharp;
+        product = product * smoothPart;
+    }
     return product;
 }
 // Of the facet between two edges.
 float rimBetween(Spoke a, Spoke b, float product) {
     if (!kVariable) return a.rim;
     if (a.sharp == 0.0 || b.sharp == 0.0) return 0.0;
-    return (1.0 / 6.0) * a.sharp * b.sharp * (product / ((1.0 - a.sharp) * (1.0 - b.sharp)));
+    precise float rim = (1.0 / 6.0) * a.sharp * b.sharp * (product / ((1.0 - a.sharp) * (1.0 - b.sharp)));
+    return rim;
 }
 
 // The tangent where an open sector ends, relative to p: of its edge alone, or of the smooth curve through p.
