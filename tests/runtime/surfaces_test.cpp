@@ -319,9 +319,10 @@ TEST_F(SurfacesOnce, AreTimedPassByPass) {
         EXPECT_GE(timing.gpuEnd, timing.gpuBegin) << name;
         end = timing.gpuEnd;
     }
-    const std::vector<std::string> expected = {
-        "upload", "attributes", "pose",  "pose",  "pose",  "deform", "deform",   "bounds",     "bounds",   "list",
-        "vertex", "assemble",   "level", "level", "solve", "place",  "assemble", "attributes", "evaluate", "motion"};
+    const std::vector<std::string> expected = {"upload",   "attributes", "pose",     "pose",  "pose",   "deform",
+                                               "deform",   "bounds",     "bounds",   "list",  "vertex", "assemble",
+                                               "level",    "level",      "solve",    "place", "place",  "place",
+                                               "assemble", "attributes", "evaluate", "motion"};
     EXPECT_EQ(passes, expected);
     EXPECT_EQ(surfacesOf["evaluate"], (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(surfacesOf["deform"], (std::vector<uint32_t>{SUPPLE_NO_SURFACE, 0, 1, 2, 3, 4, 5, 6}));
