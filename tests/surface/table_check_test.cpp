@@ -166,7 +166,7 @@ void expectRefused(const Sample& sample, std::span<const Change> changes) {
 
 TEST(TableCheck, PatchesAndRanges) {
     constexpr Change kChanges[] = {
-        {"patches: an unknown class", [](Tables& t) { t.patches[3].patchClass = static_cast<PatchClass>(17); }},
+        {"patches: an unknown class", [](Tables& t) { t.patches[3].patchClass = static_cast<PatchClass>(99); }},
         {"patches: a count of corners not its class's", [](Tables& t) { t.patches[3].cornerCount = 6; }},
         {"patches: 18, of # faces", [](Tables& t) { t.patches[3].face = 18; }},
         {"patches: 999, of # cage vertices", [](Tables& t) { t.patches[3].corners[1] = 999; }},
