@@ -214,8 +214,21 @@ glm::mat4 asBind(const glm::dmat4& matrix) {
     return bind;
 }
 
-bool isFar(const glm::mat4& matrix) {
-    return faultOfCoordinates(&matrix[0][0], 16) != nullptr;
+/// Whether the inverse bind matrix of what was taken to `place` can do what `given` does: its numbers are those of a
+/// file, and it takes back what has this extent, but for a small part of its size.
+bool isExact(const glm::mat4& bind, const glm::dmat4& place, const glm::dmat4& given, const Extent& extent) {
+    constexpr double kMost = 0.01; // of what `given` makes of the extent
+    if (faultOfCoordinates(&bind[0][0], 16) != nullptr) {
+        return false;
+    }
+    const double most = kMost * glm::length(glm::dmat3(given) * (extent.high - extent.low));
+    for (const glm::dvec4& p : extent.corners()) {
+        const glm::dvec4 placed(glm::vec3(place * p), 1.0);
+        if (!(glm::length(glm::dvec3(glm::dmat4(bind) * placed) - glm::dvec3(given * p)) <= most)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -333,14 +346,17 @@ std::optional<glm::dmat4> BindSpace::spaceBesideJoints(const MeshBinding& mesh, 
 
 glm::dmat4 BindSpace::placeOf(uint32_t node) const {
     glm::dmat4 place(1.0);
-    for (; node != kNone; node = skeleton_.nodes[node].parent) {
-        const auto joint = joints_.find(node);
+    for (uint32_t above = node; above != kNone; above = skeleton_.nodes[above].parent) {
+        const auto joint = joints_.find(above);
         if (joint != joints_.end()) {
             return joint->second.place * place;
         }
-        place = localMatrix(skeleton_.nodes[node]) * place;
+        place = localMatrix(skeleton_.nodes[above]) * place;
     }
-    return place;
+    constexpr uint32_t kItself[] = {0};
+    const std::optional<glm::dmat4> beside =
+        joints_.empty() ? std::nullopt : spaceBesideJoints(bindToNode(node), kItself);
+    return beside.value_or(place);
 }
 
 glm::mat4 BindSpace::bindOf(uint32_t node, const glm::mat4& inverseBind, const glm::dmat4& space,
@@ -381,22 +397,28 @@ bool BindSpace::placeSkinned(const glm::dmat4& space, PartCage& part, MeshBindin
     }
     Skin skin = mesh.skin;
     const size_t count = mesh.skinJoints();
-    std::array<glm::dvec4, 8> placed = Extent(part.cage.positions).corners();
+    const Extent extent(part.cage.positions);
+    std::array<glm::dvec4, 8> placed = extent.corners();
     for (glm::dvec4& corner : placed) {
         corner = space * corner;
     }
+    bool exact = true;
     for (size_t j = 0; j < count && space != glm::dmat4(1.0); ++j) {
         skin.inverseBinds[j] = bindOf(skin.joints[j], skin.inverseBinds[j], space, placed);
+        exact = exact && isExact(skin.inverseBinds[j], space, glm::dmat4(mesh.skin.inverseBinds[j]), extent);
     }
     if (mesh.hasFollower && isUsable(ofFollower)) {
         skin.inverseBinds.back() = asBind(glm::inverse(ofFollower));
+        exact = exact && isExact(skin.inverseBinds.back(), ofFollower, glm::dmat4(1.0), extent);
     }
     const size_t firstTurned = skin.joints.size();
     for (size_t j = 0; j < count && isTurned; ++j) {
+        const glm::dmat4 given(mesh.skin.inverseBinds[j]);
         skin.joints.push_back(skin.joints[j]);
-        skin.inverseBinds.push_back(asBind(glm::dmat4(mesh.skin.inverseBinds[j]) * glm::inverse(space * mirror())));
+        skin.inverseBinds.push_back(asBind(given * glm::inverse(space * mirror())));
+        exact = exact && isExact(skin.inverseBinds.back(), space * mirror(), given, extent);
     }
-    if (std::any_of(skin.inverseBinds.begin(), skin.inverseBinds.end(), isFar) || !placement.apply(part)) {
+    if (!exact || !placement.apply(part)) {
         return false;
     }
     for (uint32_t v = 0; v < pieces.size(); ++v) {
@@ -418,7 +440,8 @@ bool BindSpace::place(size_t number, PartCage& part, MeshBinding& mesh) const {
         return true;
     }
     const glm::mat4 bind = asBind(glm::inverse(place));
-    if (isFar(bind) || !Placement(part, {Group(place)}).apply(part)) {
+    if (!isExact(bind, place, glm::dmat4(1.0), Extent(part.cage.positions)) ||
+        !Placement(part, {Group(place)}).apply(part)) {
         return false;
     }
     mesh.skin.inverseBinds[0] = bind;

@@ -39,7 +39,8 @@ struct MeshBinding {
 /// then. The same holds for a piece of it whose joints mirror.
 ///
 /// A mesh without a skin is given in the space of its node, and is taken to where the node stands in the bind pose,
-/// under the nearest joint above it, or else at rest. Vertices of a skinned mesh's follower are, too.
+/// under the nearest joint above it, or else beside the joints as the rest pose has it. Vertices of a skinned mesh's
+/// follower are, too.
 class BindSpace {
 public:
     /// The skeleton must outlive the object. `parts`: those of `meshes`, one each. `alone`: the character has no other
@@ -49,7 +50,8 @@ public:
 
     /// Takes a part to its place: positions, displacements, faces where the place is mirrored, and the inverse bind
     /// matrices. Does nothing to parts that stand there, and to a mesh without a skin that is alone and not mirrored.
-    /// Returns false, and does nothing, if numbers would not be coordinates any more (kMaxCoordinate).
+    /// Returns false, and does nothing, if numbers would not be coordinates any more (kMaxCoordinate), or if inverse
+    /// bind matrices of floats would lose the place where a joint takes the part.
     [[nodiscard]] bool place(size_t number, PartCage& part, MeshBinding& mesh) const;
 
 private:
@@ -62,7 +64,8 @@ private:
     [[nodiscard]] glm::dmat4 placeOf(uint32_t node) const;
     void addJoints(const MeshBinding& mesh, const glm::dmat4& space);
     [[nodiscard]] glm::dmat4 spaceOf(const MeshBinding& mesh, const PartCage& part);
-    /// Of a mesh that shares no joint with those before: as the rest pose has its joints beside theirs.
+    /// The space of a mesh that shares no joint with those before: the rest pose says where its joints stand beside
+    /// theirs.
     [[nodiscard]] std::optional<glm::dmat4> spaceBesideJoints(const MeshBinding& mesh,
                                                               std::span<const uint32_t> order) const;
     [[nodiscard]] bool placeSkinned(const glm::dmat4& space, PartCage& part, MeshBinding& mesh) const;

@@ -144,7 +144,7 @@ std::vector<PartCage> readParts(const Document& document, const GltfOptions& opt
     for (size_t i = 0; i < parts.size(); ++i) {
         if (!bindSpace.place(i, parts[i], meshes[i])) {
             warn(character.warnings, at("node", meshes[i].node),
-                 "its place in the bind pose is beyond 1e+09; its mesh stays in the node's own space");
+                 "float numbers do not reach its place in the bind pose; its mesh stays in the node's own space");
         }
         parts[i].part.joints = palette.add(meshes[i].skin);
     }

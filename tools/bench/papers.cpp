@@ -29,8 +29,8 @@ using tools::formatted;
 namespace {
 
 constexpr VkExtent2D kPicture{512, 512};
-constexpr double kTurn =
-    0.3; ///< seconds of processor time that frames are counted for; or four times that by the clock
+/// Seconds of processor time that frames are counted for; or four times that by the clock.
+constexpr double kTurn = 0.3;
 constexpr uint32_t kBlendRate = 29;
 
 struct PaperModel {
@@ -119,12 +119,12 @@ Json classesOf(const std::vector<SupplePatchInfo>& patches) {
     return json;
 }
 
-/// Of a turn, by both clocks.
+/// What a turn takes, by both clocks.
 struct Seconds {
     double cpu = 0.0;  ///< of the process, the mean
     double wall = 0.0; ///< the least
 };
-/// Of as many turns as fill the time.
+/// Takes as many turns as fill the time.
 template <class Work>
 Result<Seconds> secondsOf(bool once, const Work& work) {
     if (const Status status = work(); !status) // what is made at first is not counted
@@ -155,8 +155,9 @@ private:
     Result<Json> frames(host::FigureGroup& group, uint32_t samples);
     Result<Json> blendRow(const char* name, const cage::Cage& cage);
     Result<Json> accRow(const PaperModel& model);
+    Result<std::vector<uint32_t>> facesOfVertices(host::FigureGroup& group);
     Result<Json> distances(const PaperModel& model, SuppleScheme scheme, const MeasureDistance& measure);
-    /// Of device work that is recorded.
+    /// What recorded work of the device takes.
     Result<double> replaySeconds(Replay& replay) const;
     Result<double> evaluateSeconds(const PaperModel& model, SuppleScheme scheme, uint32_t rate, uint64_t& points);
     /// What counts as a second: on CPU devices one of processor time, so that other processes do not count.
@@ -285,14 +286,18 @@ Result<Json> Papers::blendRow(const char* name, const cage::Cage& cage) {
         return success();
     });
     const Result<std::vector<glm::vec3>> points = (*group)->readSurface();
-    if (!device || !points)
-        return !device ? device.error() : points.error();
+    const Result<std::vector<uint32_t>> faces = facesOfVertices(**group);
+    if (!device || !points || !faces)
+        return !device ? device.error() : !points ? points.error() : faces.error();
     const std::span<const float> own = (*cpu)->vertices();
     if (points->size() * 6 != own.size())
         return Error{ErrorCode::asset, std::string(name) + ": the CPU's blend has other samples"};
+    constexpr size_t kSamples = size_t{kBlendRate + 1} * (kBlendRate + 1);
     float apart = 0.0f;
-    for (size_t i = 0; i < points->size(); ++i)
-        apart = std::max(apart, glm::length((*points)[i] - glm::vec3(own[6 * i], own[6 * i + 1], own[6 * i + 2])));
+    for (size_t i = 0; i < points->size(); ++i) {
+        const float* p = &own[6 * ((*faces)[i] * kSamples + i % kSamples)];
+        apart = std::max(apart, glm::length((*points)[i] - glm::vec3(p[0], p[1], p[2])));
+    }
     const float extent = 2.0f * host::boundsOf(*points).radius();
     if (!(apart <= 1e-5f * extent))
         return Error{ErrorCode::asset, std::string(name) + ": the CPU's blend is another surface"};
@@ -305,7 +310,22 @@ Result<Json> Papers::blendRow(const char* name, const cage::Cage& cage) {
                 {"apart", apart / extent}};
 }
 
-/// Of what the device evaluates at rate 8.
+/// The face of the cage that each vertex is of. Patches stand class by class.
+Result<std::vector<uint32_t>> Papers::facesOfVertices(host::FigureGroup& group) {
+    const Result<std::vector<SupplePatchInfo>> patches = host::patchesOf(*context_, group.handle(), 0);
+    if (!patches)
+        return patches.error();
+    const SuppleGridOutput& grid = group.surfaces().front().output.grid;
+    std::vector<uint32_t> faces(grid.vertexCount);
+    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = grid.drawRanges[r];
+        for (size_t i = 0; i < size_t{range.patchCount} * range.samplesPerPatch; ++i)
+            faces[range.firstVertex + i] = (*patches)[range.firstPatch + i / range.samplesPerPatch].face;
+    }
+    return faces;
+}
+
+/// How far what the device evaluates at rate 8 lies from what `measure` compares it with.
 Result<Json> Papers::distances(const PaperModel& model, SuppleScheme scheme, const MeasureDistance& measure) {
     Result<std::unique_ptr<host::Figure>> figure = host::createFigure(*context_, characterOf(model));
     if (!figure)
@@ -320,17 +340,10 @@ Result<Json> Papers::distances(const PaperModel& model, SuppleScheme scheme, con
         status = context_->evaluate(groups);
     const Result<std::vector<glm::vec3>> points =
         status ? (*group)->readSurface() : Result<std::vector<glm::vec3>>(status.error());
-    const Result<std::vector<SupplePatchInfo>> patches = host::patchesOf(*context_, (*group)->handle(), 0);
-    if (!points || !patches)
-        return !points ? points.error() : patches.error();
-    const SuppleGridOutput& grid = (*group)->surfaces().front().output.grid;
-    std::vector<uint32_t> faces(points->size());
-    for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = grid.drawRanges[r];
-        for (size_t i = 0; i < size_t{range.patchCount} * range.samplesPerPatch; ++i)
-            faces[range.firstVertex + i] = (*patches)[range.firstPatch + i / range.samplesPerPatch].face;
-    }
-    const PaperDistance distance = measure(faces, std::vector<glm::dvec3>(points->begin(), points->end()));
+    const Result<std::vector<uint32_t>> faces = points ? facesOfVertices(**group) : points.error();
+    if (!faces)
+        return faces.error();
+    const PaperDistance distance = measure(*faces, std::vector<glm::dvec3>(points->begin(), points->end()));
     return Json{{"largest", distance.largest}, {"mean", distance.mean}};
 }
 

@@ -85,7 +85,7 @@ std::vector<glm::vec3> atRest(const Character& c) {
     return positions;
 }
 
-/// Of a face: twice its area, along its normal.
+/// Twice the area of a face, along its normal.
 glm::vec3 areaOf(const Character& c, const std::vector<glm::vec3>& positions, uint32_t f) {
     const std::vector<uint32_t> corners = face(c.cage, f);
     return glm::cross(positions[corners[1]] - positions[corners[0]], positions[corners[2]] - positions[corners[0]]);
@@ -120,6 +120,21 @@ TEST(GltfSpaces, PartsOfOneSpaceAreLeftAlone) {
     EXPECT_EQ(c.cage.positions[8], glm::vec3(200, 100, 0));
     EXPECT_EQ(c.skin.inverseBinds[0][0][0], 0.01f);
     EXPECT_EQ(c.warnings, Strings());
+}
+
+TEST(GltfSpaces, APartOfANodeStandsBesideTheJointsOnAGrid) {
+    GltfBuilder b = twoPlates(
+        kGrids, R"([{"mesh":0,"skin":0},{"mesh":2,"translation":[0,4,0]},{"children":[3]},{"translation":[1,0,0]}])");
+    b.meshes.back() = ',';
+    b.meshes += R"({"primitives":[{"attributes":{"POSITION":)" +
+                std::to_string(b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0})) + R"(},"indices":)" +
+                std::to_string(b.addIntegers("SCALAR", 5123, {0, 1, 2})) + "}]}]";
+    const Character c = readWell(b.glb(), {.sewParts = false, .pairing = Pairing::never});
+    ASSERT_EQ(c.cage.vertexCount(), 9u);
+    for (const auto& [vertex, wanted] : {std::pair(6u, glm::vec3(0, 4, 0)), std::pair(7u, glm::vec3(1, 4, 0))}) {
+        EXPECT_LE(glm::length(c.cage.positions[vertex] / 32000.0f - wanted), 1e-6f) << "no joint is above it";
+        EXPECT_LE(glm::length(atRest(c)[vertex] - wanted), 1e-6f);
+    }
 }
 
 /// glTF: what a negative determinant mirrors is wound the other way.
@@ -159,7 +174,7 @@ TEST(GltfSpaces, AMirroredLimbIsSeenFromOutside) {
     EXPECT_EQ(c.cage.cornerNormals[3], glm::vec3(0, 0, 1));
 }
 
-/// Of a piece that a scale of 0 hides, nothing is known: it is turned as its mesh is.
+/// Nothing is known of a piece that a scale of 0 hides: it is turned as its mesh is.
 TEST(GltfSpaces, AHiddenPieceFollowsItsMesh) {
     GltfBuilder b;
     b.addFloats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 0, 4, 0, 0, 3, 1, 0});
