@@ -10,7 +10,7 @@ constexpr size_t kMostLeftOut = 4096;
 /// seconds.
 constexpr uint64_t kMostRepeats = 1u << 20;
 constexpr size_t kLineLength = 256;
-/// Of the faults of a file that is refused because nothing is left, no more are told.
+/// If a file is refused because nothing of it is left, no more of its faults are told.
 constexpr size_t kMostTold = 24;
 /// readableLines() tells fewer.
 constexpr size_t kMostKeptLines = 4096;
@@ -55,21 +55,18 @@ void Leniency::refuseAll(const std::set<std::string>& reasons) {
 }
 
 bool Leniency::note(const std::string& found, const std::string& repair) {
-    if (!said_.contains(found)) {
-        // More than that many lines are not kept, but still told apart until the file is refused.
-        if (said_.size() < 2 * kMostKeptLines) {
-            said_.insert(found);
-        }
-        if (damages_.size() < kMostKeptLines) {
-            damages_.push_back({found, repair});
-        }
+    const bool isNew = !said_.contains(found);
+    if (isNew && damages_.size() < kMostKeptLines) {
+        said_.insert(found);
+        damages_.push_back({found, repair});
         return true;
     }
+    // More lines are not kept. Whether they repeat each other is not known then, so they count as if they did.
     repeats_ += 1 + found.size() / kLineLength;
     if (repeats_ > kMostRepeats) {
         refuse("file", "nodes share meshes with too many faults", ErrorCode::limit);
     }
-    return false;
+    return isNew;
 }
 
 } // namespace supple::cage

@@ -12,7 +12,7 @@ namespace supple::cage {
 inline constexpr uint64_t kMaxVertices = 1u << 24;
 inline constexpr uint64_t kMaxCorners = 3u << 24;
 
-/// Of a character: an instance has a number for each.
+/// The most that a character has: an instance has a number for each.
 inline constexpr uint32_t kMaxCreaseSets = 64;
 
 /// Coordinates beyond this are refused: a normal is a product of two lengths, and its length one of four, which must be

@@ -17,7 +17,7 @@ struct Bounds {
     }
     [[nodiscard]] bool empty() const { return min.x > max.x; }
     [[nodiscard]] glm::vec3 center() const { return empty() ? glm::vec3(0.0f) : (min + max) * 0.5f; }
-    /// Of the sphere round the box; never 0. Its box may be of any size.
+    /// The radius of the sphere round the box, which may be of any size; never 0.
     [[nodiscard]] float radius() const {
         const auto half = static_cast<float>(glm::length(glm::dvec3(max - min)) * 0.5);
         return empty() ? 1.0f : half > 0.0f ? half : 1e-6f;

@@ -32,7 +32,7 @@ enum Mode : int { kPoints = 0, kLines = 1, kLineStrip = 3, kTriangles = 4, kTria
 /// The names of all element types that glTF has.
 inline constexpr const char* kTypeNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 
-/// Of the structs below, one that is broken has nothing else: what uses it is left out.
+/// If one of the structs below is broken, its other members are not read, and what uses it is left out.
 struct BufferView {
     bool broken = false;
     size_t buffer = 0;

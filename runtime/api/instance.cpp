@@ -84,7 +84,10 @@ SuppleResult suppleSetSharpness(SuppleContext handle, SuppleInstance instance, u
             return refuse(context, found, std::isnan(sharpness) ? ErrorCode::notFinite : ErrorCode::range, kHere,
                           "sharpness is below SUPPLE_LEAST_SHARPNESS");
         }
-        if (!context.draws(found.instances(), SUPPLE_SCHEME_PM)) {
+        // Most of the time it is the group itself, which takes no look at all others.
+        const bool drawsPm =
+            found.surfaces().any([](const Tessellation& surface) { return surface.schemeId() == SUPPLE_SCHEME_PM; });
+        if (!drawsPm && !context.draws(found.instances(), SUPPLE_SCHEME_PM)) {
             return refuse(context, found, ErrorCode::argument, kHere,
                           "no group draws the instance with SUPPLE_SCHEME_PM, and the tables of other schemes hold the "
                           "sharpness of the file");

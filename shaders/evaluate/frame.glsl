@@ -7,7 +7,7 @@ float evenScale(vec3 v) {
     uint exponent = floatBitsToUint(max(max(abs(v.x), abs(v.y)), abs(v.z))) >> 23u;
     return uintBitsToFloat((254u - clamp(exponent, 1u, 253u)) << 23u);
 }
-// Of any length; a vanishing one stays zero instead of becoming NaN.
+// A normal of any length, made a unit vector; a vanishing one stays zero instead of becoming NaN.
 vec3 unitNormal(vec3 normal) {
     vec3 n = normal * evenScale(normal);
     return n * inversesqrt(max(dot(n, n), kTiny));

@@ -56,7 +56,7 @@ float smoothProduct(uint element, uint edges, uint instance) {
     }
     return product;
 }
-// Of the facet between two edges.
+// The rim's weight of the facet between two edges.
 float rimBetween(Spoke a, Spoke b, float product) {
     if (!kVariable) return a.rim;
     if (a.sharp == 0.0 || b.sharp == 0.0) return 0.0;

@@ -139,7 +139,7 @@ private:
         tables_.ring = ring.write();
     }
 
-    /// Of an edge of a variable fan.
+    /// What the weights of a variable fan say of the crease set of an edge.
     [[nodiscard]] uint32_t setWord(uint32_t slot) const {
         const uint32_t set = mesh_.slotSets[slot];
         return (set == cage::kNone ? 0u : set + 1) | (mesh_.slotGivens[slot] != 0 ? shared::kGivenAlpha : 0u);

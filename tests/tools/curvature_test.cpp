@@ -105,7 +105,7 @@ TEST(SecondDerivatives, OfPm) {
         EXPECT_TRUE(seen[static_cast<size_t>(each)]) << surface::className(each);
 }
 
-/// Of limit surfaces: creases and semi-sharp creases are among the cages.
+/// Compares jets of limit surfaces; creases and semi-sharp creases are among the cages.
 template <class Limit>
 void compareLimits(surface::subdivision::Subdivision subdivision, uint32_t (Limit::*count)() const) {
     const std::vector<SubdivisionCage>& zoo = subdivisionZoo();

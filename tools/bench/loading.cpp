@@ -114,7 +114,8 @@ Status readFiles(const runtime::Prepared& prepared, LoadTimes& times) {
     times.parse = 1e3 * (read - begin);
     times.cooked = 1e3 * (wallSeconds() - read);
     if (!parsed || !loaded) {
-        return parsed ? loaded.error() : parsed.error();
+        // What was written here must be read. An asset that a scheme refuses is another thing, which the heats name.
+        return Error{ErrorCode::io, parsed ? loaded.error().message : parsed.error().message};
     }
     return success();
 }

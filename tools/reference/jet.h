@@ -55,7 +55,7 @@ struct Jet {
 [[nodiscard]] inline Jet sineOf(const Jet& a) {
     return composed(a, std::sin(a.value), std::cos(a.value), -std::sin(a.value));
 }
-/// Of positive numbers.
+/// A power of a positive number.
 [[nodiscard]] inline Jet power(const Jet& a, double exponent) {
     const double value = std::pow(a.value, exponent), slope = exponent * value / a.value;
     return composed(a, value, slope, (exponent - 1.0) * slope / a.value);

@@ -380,7 +380,7 @@ Sample<T> evaluateTensor(const Patch<T>& patch, const DomainPoint<T>& at) {
     return sample;
 }
 
-/// Of a sector: rows parallel to the border, from it to the centre.
+/// The coefficients of a sector: rows parallel to the border, from it to the centre.
 template <class T>
 std::array<Vec3<T>, 15> quarticOf(const SectorView<T>& s, uint32_t i) {
     return {s.at(i, k300), s.b310(i),     s.b220(i),     s.b130(i),     s.at(i + 1, k300),

@@ -151,16 +151,13 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
 } // namespace
 
 int runContactSheet(const ContactSheetOptions& options) {
-    const Result<VkExtent2D> cell = parseSize(options.cell);
-    if (!cell)
-        return fail(kExitUsage, "--cell: " + cell.error().message);
-    const Result<uint32_t> view = parseView(options.draw.view);
-    if (!view)
-        return fail(kExitUsage, "--view: " + view.error().message);
+    const Result<PictureKind> cells = parsePicture("--cell", options.cell, options.draw.view);
+    if (!cells)
+        return fail(kExitUsage, cells.error().message);
     if (options.columns == 0)
         return fail(kExitUsage, "--columns: at least one");
     return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return drawSheet(session, options, *cell, *view); });
+                       [&](Session& session) { return drawSheet(session, options, cells->size, cells->view); });
 }
 
 } // namespace supple::tools

@@ -15,7 +15,7 @@ using JetVisitor = std::function<void(size_t vertex, const Jets& jets, uint32_t 
 [[nodiscard]] Status visitSamples(const PosedSurfaces& posed, const cage::Cage& cage, const SurfaceRules& rules,
                                   const JetVisitor& visit);
 
-/// Of every vertex: where its curvature lies on the scale, of which 1/2 is no curvature. `view`: one of the two.
+/// Where the curvature of every vertex lies on the scale, of which 1/2 is no curvature. `view`: one of the two.
 /// `cage`: the figure's. Vertices without patches (of the scheme polygons, of shared samples) have none. Any thread may
 /// call it.
 [[nodiscard]] Result<std::vector<float>> curvatures(const PosedSurfaces& posed, const cage::Cage& cage,

@@ -120,19 +120,16 @@ Status drawGallery(Session& session, const GalleryOptions& options, VkExtent2D c
 } // namespace
 
 int runGallery(const GalleryOptions& options) {
-    const Result<VkExtent2D> cell = parseSize(options.cell);
-    if (!cell)
-        return fail(kExitUsage, "--cell: " + cell.error().message);
-    const Result<uint32_t> view = parseView(options.draw.view);
-    if (!view)
-        return fail(kExitUsage, "--view: " + view.error().message);
+    const Result<PictureKind> cells = parsePicture("--cell", options.cell, options.draw.view);
+    if (!cells)
+        return fail(kExitUsage, cells.error().message);
     if (chosenCages(options.only).empty())
         return fail(kExitUsage, "--only: no cage is called " + options.only);
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());
     return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return drawGallery(session, options, *cell, *view); });
+                       [&](Session& session) { return drawGallery(session, options, cells->size, cells->view); });
 }
 
 } // namespace supple::tools

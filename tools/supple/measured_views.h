@@ -9,7 +9,7 @@
 
 namespace supple::tools {
 
-/// Of host::shared::kView....
+/// Whether a view (host::shared::kView...) shows values that are measured on the CPU.
 [[nodiscard]] bool isMeasured(uint32_t view);
 
 /// The values of a measured view, of every vertex. `cage`: the figure's. Any thread may call it.

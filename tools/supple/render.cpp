@@ -203,17 +203,14 @@ Status renderPicture(Session& session, const RenderOptions& options) {
 }
 
 int runRender(const RenderOptions& options) {
-    const Result<VkExtent2D> size = parseSize(options.size);
-    if (!size)
-        return fail(kExitUsage, "--size: " + size.error().message);
-    const Result<uint32_t> view = parseView(options.draw.view);
-    if (!view)
-        return fail(kExitUsage, "--view: " + view.error().message);
+    const Result<PictureKind> picture = parsePicture("--size", options.size, options.draw.view);
+    if (!picture)
+        return fail(kExitUsage, picture.error().message);
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());
     return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return render(session, options, *size, *view); });
+                       [&](Session& session) { return render(session, options, picture->size, picture->view); });
 }
 
 } // namespace supple::tools

@@ -29,6 +29,16 @@ Result<uint32_t> parseView(const std::string& name) {
     return Error{ErrorCode::argument, name + " is no view (" + all + ")"};
 }
 
+Result<PictureKind> parsePicture(const char* option, const std::string& size, const std::string& view) {
+    const Result<VkExtent2D> extent = parseSize(size);
+    if (!extent)
+        return Error{ErrorCode::argument, std::string(option) + ": " + extent.error().message};
+    const Result<uint32_t> known = parseView(view);
+    if (!known)
+        return Error{ErrorCode::argument, "--view: " + known.error().message};
+    return PictureKind{*extent, *known};
+}
+
 DeviceFlags deviceFlags(const DrawOptions& options) {
     return {.device = options.device, .mapping = options.mapping, .validate = options.validate};
 }

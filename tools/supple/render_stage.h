@@ -20,6 +20,13 @@ namespace supple::tools {
 [[nodiscard]] Result<VkExtent2D> parseSize(const std::string& text);
 /// host::shared::kView... of a view's name.
 [[nodiscard]] Result<uint32_t> parseView(const std::string& name);
+/// The size of a picture, or of a cell of a sheet, and its view.
+struct PictureKind {
+    VkExtent2D size{};
+    uint32_t view = 0;
+};
+/// `option`: what gives the size. The error names the option that is wrong.
+[[nodiscard]] Result<PictureKind> parsePicture(const char* option, const std::string& size, const std::string& view);
 [[nodiscard]] DeviceFlags deviceFlags(const DrawOptions& options);
 [[nodiscard]] float radians(double degrees);
 /// Lines keep their weight when a picture is drawn larger or smaller.
@@ -51,7 +58,7 @@ class Stage {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Stage>> open(Session& session, const std::string& file, VkExtent2D size,
                                                              const DrawOptions& options);
-    /// Of a character that was read, or made.
+    /// Opens a character that was read, or made.
     [[nodiscard]] static Result<std::unique_ptr<Stage>> open(Session& session, host::CharacterFile character,
                                                              VkExtent2D size, const DrawOptions& options);
 

@@ -167,32 +167,47 @@ Result<std::vector<PatchFace>> facesBefore(const surface::subdivision::Isolation
     return finderOf(isolation.parent.cage, isolation.parent.sourceFaces, cage.vertexCount()).find(source.patches);
 }
 
-Result<Jets> catmullClarkJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {
-    const auto limit = limitOf<QuadLimit>(cage, positions, Subdivision::catmullClark);
+/// A place of a limit surface.
+struct LimitPlace {
+    uint32_t face = 0;
+    double u = 0.0, v = 0.0;
+};
+
+/// Jets of a limit surface. facesOf(isolation) gives what each patch draws, and place(that, sample, inside) where a
+/// sample of it lies.
+template <class Limit, class FacesOf, class Place>
+Result<Jets> limitJets(const cage::Cage& cage, std::span<const glm::dvec3> positions,
+                       surface::subdivision::Subdivision subdivision, const FacesOf& facesOf, const Place& place) {
+    const auto limit = limitOf<Limit>(cage, positions, subdivision);
     if (!limit)
         return limit.error();
-    Result<std::vector<PatchFace>> faces = facesBefore((*limit)->isolation, cage, source);
+    auto faces = facesOf((*limit)->isolation);
     if (!faces)
         return faces.error();
-    return Jets([rate = source.rate, limit = *limit, faces = std::move(*faces)](uint32_t patch, uint32_t sample,
-                                                                                double inside) {
-        const glm::dvec2 at = inQuad(quadSample(rate, sample, inside), faces[patch].firstCorner);
-        return limit->limit.at(faces[patch].face, at.x, at.y).jet();
+    return Jets([limit = *limit, faces = std::move(*faces), place](uint32_t patch, uint32_t sample, double inside) {
+        const LimitPlace at = place(faces[patch], sample, inside);
+        return limit->limit.at(at.face, at.u, at.v).jet();
     });
 }
 
+Result<Jets> catmullClarkJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {
+    return limitJets<QuadLimit>(
+        cage, positions, Subdivision::catmullClark,
+        [&](const surface::subdivision::Isolation& isolation) { return facesBefore(isolation, cage, source); },
+        [rate = source.rate](const PatchFace& face, uint32_t sample, double inside) {
+            const glm::dvec2 at = inQuad(quadSample(rate, sample, inside), face.firstCorner);
+            return LimitPlace{face.face, at.x, at.y};
+        });
+}
+
 Result<Jets> loopJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {
-    const auto limit = limitOf<TriangleLimit>(cage, positions, Subdivision::loop);
-    if (!limit)
-        return limit.error();
-    Result<std::vector<PatchFace>> faces = facesBefore((*limit)->isolation, cage, source);
-    if (!faces)
-        return faces.error();
-    return Jets([rate = source.rate, limit = *limit, faces = std::move(*faces)](uint32_t patch, uint32_t sample,
-                                                                                double inside) {
-        const glm::dvec3 at = inTriangle(triangleSample(rate, sample, inside), faces[patch].firstCorner);
-        return limit->limit.at(faces[patch].face, at.y, at.z).jet();
-    });
+    return limitJets<TriangleLimit>(
+        cage, positions, Subdivision::loop,
+        [&](const surface::subdivision::Isolation& isolation) { return facesBefore(isolation, cage, source); },
+        [rate = source.rate](const PatchFace& face, uint32_t sample, double inside) {
+            const glm::dvec3 at = inTriangle(triangleSample(rate, sample, inside), face.firstCorner);
+            return LimitPlace{face.face, at.y, at.z};
+        });
 }
 
 /// Fragments draw the isolated mesh, whose faces come four by four of a face before: in each of its corners one, and of
@@ -212,29 +227,26 @@ std::vector<uint32_t> drawnFaces(const cage::Cage& mesh) {
 }
 
 Result<Jets> fragmentJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {
+    const auto drawn = [](const surface::subdivision::Isolation& isolation) {
+        return Result<std::vector<uint32_t>>(drawnFaces(isolation.mesh.cage));
+    };
     if (source.rules.fragments == SUPPLE_RULES_LOOP) {
-        const auto limit = limitOf<TriangleLimit>(cage, positions, Subdivision::loop);
-        if (!limit)
-            return limit.error();
-        std::vector<uint32_t> faces = drawnFaces((*limit)->isolation.mesh.cage);
-        return Jets([rate = source.rate, limit = *limit, faces = std::move(faces)](uint32_t patch, uint32_t sample,
-                                                                                   double inside) {
-            const uint32_t corner = faces[patch] % 4;
-            const glm::dvec3 half = 0.5 * triangleSample(rate, sample, inside);
-            const glm::dvec3 at = corner == 3 ? glm::dvec3(half.x + half.z, half.x + half.y, half.y + half.z)
-                                              : inTriangle({half.x + 0.5, half.y, half.z}, corner);
-            return limit->limit.at(faces[patch] / 4, at.y, at.z).jet();
-        });
+        return limitJets<TriangleLimit>(cage, positions, Subdivision::loop, drawn,
+                                        [rate = source.rate](uint32_t face, uint32_t sample, double inside) {
+                                            const uint32_t corner = face % 4;
+                                            const glm::dvec3 half = 0.5 * triangleSample(rate, sample, inside);
+                                            const glm::dvec3 at =
+                                                corner == 3
+                                                    ? glm::dvec3(half.x + half.z, half.x + half.y, half.y + half.z)
+                                                    : inTriangle({half.x + 0.5, half.y, half.z}, corner);
+                                            return LimitPlace{face / 4, at.y, at.z};
+                                        });
     }
-    const auto limit = limitOf<QuadLimit>(cage, positions, Subdivision::catmullClark);
-    if (!limit)
-        return limit.error();
-    std::vector<uint32_t> faces = drawnFaces((*limit)->isolation.mesh.cage);
-    return Jets(
-        [rate = source.rate, limit = *limit, faces = std::move(faces)](uint32_t patch, uint32_t sample, double inside) {
-            const glm::dvec2 at = inQuad(0.5 * quadSample(rate, sample, inside), faces[patch] % 4);
-            return limit->limit.at(faces[patch] / 4, at.x, at.y).jet();
-        });
+    return limitJets<QuadLimit>(cage, positions, Subdivision::catmullClark, drawn,
+                                [rate = source.rate](uint32_t face, uint32_t sample, double inside) {
+                                    const glm::dvec2 at = inQuad(0.5 * quadSample(rate, sample, inside), face % 4);
+                                    return LimitPlace{face / 4, at.x, at.y};
+                                });
 }
 
 Result<Jets> blendJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {

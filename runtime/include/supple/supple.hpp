@@ -348,7 +348,7 @@ public:
                                                   SuppleClipMarker* out, uint32_t& count) const {
         return suppleGetClipMarkersBetween(context_, handle_, clip, from, to, flags, out, &count);
     }
-    /// Of a crease set.
+    /// Fills out: the sharpness that a clip gives to a crease set.
     [[nodiscard]] SuppleResult clipSharpness(uint32_t clip, uint32_t set, double time, float& out) const {
         return suppleGetClipSharpness(context_, handle_, clip, set, time, &out);
     }
@@ -540,7 +540,7 @@ public:
     [[nodiscard]] SuppleResult setUserData(const std::array<float, 4>& data) const {
         return suppleSetUserData(context_, handle_, data.data());
     }
-    /// Of a crease set.
+    /// Sets the sharpness of a crease set.
     [[nodiscard]] SuppleResult setSharpness(uint32_t set, float sharpness) const {
         return suppleSetSharpness(context_, handle_, set, sharpness);
     }
