@@ -5,6 +5,8 @@
 # supple_kernel_table(TARGET NAMESPACE path...): of kernels that TARGET embeds, makes "NAMESPACE/kernels.h" with
 # `enum class supple::NAMESPACE::Kernel`, an enumerator for each and `count`, and defines `Shaders::embedded()`, their table
 # (NAMESPACE/shaders.h). "evaluate/bicubic.comp+LEVELS" is the enumerator evaluateBicubicLevels.
+# With SUPPLE_COMPILED_SHADERS, the folder "generated" of another build of the same sources, nothing is compiled: the arrays of that
+# build are taken.
 # As a script (-DNAME= -DSPIRV= -DOUT=) it writes a header of such an array from a file of SPIR-V.
 if(CMAKE_SCRIPT_MODE_FILE)
     file(READ "${SPIRV}" words HEX)
@@ -15,8 +17,11 @@ if(CMAKE_SCRIPT_MODE_FILE)
     return()
 endif()
 
-find_program(SUPPLE_GLSLANG NAMES glslangValidator glslang REQUIRED)
-find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
+set(SUPPLE_COMPILED_SHADERS "" CACHE PATH "The folder \"generated\" of another build of the same sources, whose shaders are taken")
+if(NOT SUPPLE_COMPILED_SHADERS)
+    find_program(SUPPLE_GLSLANG NAMES glslangValidator glslang REQUIRED)
+    find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
+endif()
 
 # Drivers inline all functions before they look at constants: code that is never taken, and every early return, would cost
 # time whenever a pipeline is made. And a driver keeps an array in memory until it has unrolled the loops that index it. These
@@ -51,6 +56,10 @@ function(supple_embed_kernels target)
         set(includes "")
         foreach(mapping NARROW WIDE)
             supple_shader_entry(${entry}+${mapping})
+            string(APPEND includes "#include \"shaders/${shader_name}.h\"\n")
+            if(SUPPLE_COMPILED_SHADERS)
+                continue()
+            endif()
             set(base ${directory}/shaders/${shader_name})
             # The SPIR-V comes first: it is what the dependencies that glslang writes are of.
             add_custom_command(OUTPUT ${base}.spv ${base}.h
@@ -62,7 +71,6 @@ function(supple_embed_kernels target)
                 DEPENDS ${shader_source} ${supple_shader_script} DEPFILE ${base}.d
                 COMMENT "GLSL ${entry}+${mapping}" VERBATIM)
             target_sources(${target} PRIVATE ${base}.h)
-            string(APPEND includes "#include \"shaders/${shader_name}.h\"\n")
         endforeach()
         string(MAKE_C_IDENTIFIER ${entry} name)
         file(CONFIGURE OUTPUT ${directory}/shaders/${name}.h CONTENT "// Made by cmake/supple_shaders.cmake.
@@ -73,6 +81,9 @@ static const supple::gpu::Spirv ${name}{${name}_NARROW, ${name}_WIDE};
 " @ONLY)
     endforeach()
     target_include_directories(${target} PRIVATE ${directory})
+    if(SUPPLE_COMPILED_SHADERS)
+        target_include_directories(${target} PRIVATE ${SUPPLE_COMPILED_SHADERS})
+    endif()
 endfunction()
 
 function(supple_kernel_table target namespace)

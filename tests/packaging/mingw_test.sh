@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Cross-compiles the library for Windows, static and DLL, and links hosts in C and C++ with either; runs them where wine is.
-#   mingw_test.sh SOURCE WORK
+#   mingw_test.sh BUILD SOURCE WORK
+# Its shaders are those of BUILD.
 set -euo pipefail
-source=$1
-work=$2
+build=$1
+source=$2
+work=$3
 if ! command -v x86_64-w64-mingw32-g++-posix >/dev/null; then
     echo "skipped: g++-mingw-w64-x86-64-posix is not installed"
     exit 77
@@ -21,7 +23,7 @@ fi
 # Without any optimization the objects are seven times as large, and linking COFF takes minutes.
 quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
     -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=OFF -DSUPPLE_BUILD_TESTS=OFF \
-    -DCMAKE_CXX_FLAGS=-O1
+    -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_CXX_FLAGS=-O1
 quietly cmake --build "$work/build" --target supple supple_other
 rm -rf "$work/prefix"
 quietly cmake --install "$work/build" --prefix "$work/prefix"

@@ -30,16 +30,9 @@ struct LodCase {
         if (scheme == SUPPLE_SCHEME_BLEND) {
             return filesBelow(SUPPLE_SAMPLE_ASSETS, {".glb"});
         }
-        std::vector<std::string> all = allCharacters(), sampled;
-        for (size_t i = 0; i < all.size(); ++i) {
-            const bool every = mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_CATMULL_CLARK;
-            if (every || i % 3 == 0 || isOwn(all[i])) {
-                sampled.push_back(all[i]);
-            }
-        }
-        return sampled;
+        const bool every = mapping == SUPPLE_MAPPING_NARROW && scheme != SUPPLE_SCHEME_CATMULL_CLARK;
+        return sampledCharacters(every ? 1 : 3);
     }
-    [[nodiscard]] static bool isOwn(const std::string& path) { return path.starts_with(SUPPLE_SAMPLE_ASSETS); }
     [[nodiscard]] surface::Recipe recipe() const {
         surface::Recipe recipe;
         recipe.scheme = static_cast<surface::SchemeId>(scheme);
@@ -115,7 +108,7 @@ TEST_P(LodCharacters, neighboursAgreeBitForBit) {
                 }
                 const float size = glm::length(high - low);
                 for (uint32_t frame = 0; frame < 4; ++frame) {
-                    if (!LodCase::isOwn(path) && frame != 1 && frame != kRest[characters % 3]) {
+                    if (!isOwnCharacter(path) && frame != 1 && frame != kRest[characters % 3]) {
                         continue;
                     }
                     if (crowd.clipCount() > 0) {
@@ -179,7 +172,7 @@ TEST(LodRandom, LevelsAndCapacitiesLeaveNoCracks) {
                 desc.blend = &blend;
                 // Levels of the repository's own go up to 63. Of others it is the faces that count: they have fewer
                 // vertices.
-                const uint32_t budget = LodCase::isOwn(path) ? 0 : 2'000'000;
+                const uint32_t budget = isOwnCharacter(path) ? 0 : 2'000'000;
                 std::optional<RandomLevels::Drawn> drawn = random.draw(std::move(*character), desc, budget);
                 if (!drawn) {
                     continue; // the test above prints which cages a scheme refuses, and why

@@ -66,4 +66,20 @@ inline std::vector<std::string> allCharacters() {
     return paths;
 }
 
+inline bool isOwnCharacter(const std::string& path) {
+    return path.starts_with(SUPPLE_SAMPLE_ASSETS);
+}
+
+/// The repository's own, and every `step`th of the shared characters, from one on: for tests that take long with each.
+inline std::vector<std::string> sampledCharacters(size_t step, size_t first = 0) {
+    std::vector<std::string> sampled;
+    size_t shared = 0;
+    for (const std::string& path : allCharacters()) {
+        if (isOwnCharacter(path) || shared++ % step == first % step) {
+            sampled.push_back(path);
+        }
+    }
+    return sampled;
+}
+
 } // namespace supple::test

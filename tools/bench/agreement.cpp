@@ -2,6 +2,7 @@
 
 #include "tools/bench/avx2_evaluation.h"
 #include "tools/bench/plain_evaluation.h"
+#include "tools/common/schemes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr uint32_t kSide = kAgreedRate + 1;
 constexpr double kArithmeticBound = 1e-5;
 /// Unit normals of small patches, from a device that rounds as it likes.
 constexpr double kDeviceBound = 1e-4;
-/// OpenSubdiv ends its refinement with Gregory patches, which only come near the limit.
+/// OpenSubdiv ends its refinement with Gregory patches, which only come near the limit. Of the cage's extent.
 constexpr double kLimitBound = 1e-3;
 
 double largestDifference(std::span<const float> a, std::span<const float> b) {
@@ -82,6 +83,57 @@ double nearest(const glm::vec3& from, std::span<const glm::vec3> points) {
     return best;
 }
 
+double extentOf(const cage::Cage& cage) {
+    glm::vec3 low = cage.positions.front(), high = low;
+    for (const glm::vec3& p : cage.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::length(high - low);
+}
+
+using PointsByFace = std::vector<std::vector<glm::vec3>>;
+
+Result<PointsByFace> pointsByFace(host::Device& device, Workbench& workbench, const BenchCage& cage,
+                                  SuppleScheme scheme) {
+    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, cage, scheme, 0);
+    if (!frame) {
+        return frame.error();
+    }
+    const SuppleGroup group = (*frame)->group;
+    const host::GroupOutput& output = workbench.output(group);
+    const Result<std::vector<float>> surface = readFloats(device, output.streams.vertices);
+    if (!surface) {
+        return surface.error();
+    }
+    const std::vector<uint32_t> faces = workbench.patchFaces(group);
+    PointsByFace points(cage.character.cage.faceCount());
+    for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
+        const SuppleDrawRange& range = output.grid.drawRanges[r];
+        for (uint32_t p = 0; p < range.patchCount; ++p) {
+            for (uint32_t s = 0; s < range.samplesPerPatch; ++s) {
+                const float* v = &(*surface)[size_t{6} * (range.firstVertex + p * range.samplesPerPatch + s)];
+                points[faces[range.firstPatch + p]].emplace_back(v[0], v[1], v[2]);
+            }
+        }
+    }
+    return points;
+}
+
+/// Orders differ, the places are the same: every sample of a face has one of the other's near it, both ways.
+double largestGap(const PointsByFace& a, const PointsByFace& b) {
+    double largest = 0.0;
+    for (size_t f = 0; f < a.size(); ++f) {
+        for (const glm::vec3& p : a[f]) {
+            largest = std::max(largest, nearest(p, b[f]));
+        }
+        for (const glm::vec3& p : b[f]) {
+            largest = std::max(largest, nearest(p, a[f]));
+        }
+    }
+    return largest;
+}
+
 } // namespace
 
 Result<std::vector<float>> bicubicCoefficients(host::Device& device, Workbench& workbench, const BenchCage& quads) {
@@ -133,12 +185,13 @@ Result<std::vector<Agreement>> compareEvaluations(host::Device& device, Workbenc
 }
 
 Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& workbench, const OpensubdivPeers& peers,
-                                            const BenchCage& quads) {
+                                            const BenchCage& cage, PeerRules rules) {
     std::vector<Agreement> result;
-    Result<std::vector<Peer>> all = peers.make(quads.character.cage, kAgreedRate);
+    const Result<std::vector<Peer>> all = peers.make(cage.character.cage, rules, kAgreedRate);
     if (!all) {
         return all.error();
     }
+    const double extent = extentOf(cage.character.cage);
     std::vector<float> reference;
     for (const Peer& peer : *all) {
         const Status status = peer.run();
@@ -149,50 +202,24 @@ Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& wor
         if (reference.empty()) {
             reference = positions;
         } else {
-            result.push_back({quads.name + ": " + peer.name + " against " + all->front().name,
-                              largestDifference(positions, reference), kArithmeticBound});
+            result.push_back({cage.name + ": " + peer.name + " against " + all->front().name,
+                              largestDifference(positions, reference) / extent, kArithmeticBound});
         }
     }
     if (reference.empty()) {
         return result;
     }
-
-    Result<std::unique_ptr<Evaluated>> frame = evaluated(device, workbench, quads, SUPPLE_SCHEME_FRAGMENTS, 0);
-    if (!frame) {
-        return frame.error();
+    std::vector<std::vector<glm::vec3>> theirs(cage.character.cage.faceCount());
+    for (size_t i = 0; i < all->front().points; ++i) {
+        theirs[(*all->front().faces)[i]].emplace_back(reference[3 * i], reference[3 * i + 1], reference[3 * i + 2]);
     }
-    const SuppleGroup group = (*frame)->group;
-    const host::GroupOutput& output = workbench.output(group);
-    const Result<std::vector<float>> surface = readFloats(device, output.streams.vertices);
-    if (!surface) {
-        return surface.error();
+    const SuppleScheme scheme = rules == PeerRules::loop ? SUPPLE_SCHEME_LOOP : SUPPLE_SCHEME_FRAGMENTS;
+    const Result<PointsByFace> ours = pointsByFace(device, workbench, cage, scheme);
+    if (!ours) {
+        return ours.error();
     }
-    // Orders differ, the places are the same: every sample of a face has one of the other's near it, both ways.
-    const std::vector<uint32_t> faces = workbench.patchFaces(group);
-    std::vector<std::vector<glm::vec3>> ours(quads.character.cage.faceCount());
-    for (uint32_t r = 0; r < output.grid.drawRangeCount; ++r) {
-        const SuppleDrawRange& range = output.grid.drawRanges[r];
-        for (uint32_t p = 0; p < range.patchCount; ++p) {
-            for (uint32_t s = 0; s < range.samplesPerPatch; ++s) {
-                const float* v = &(*surface)[size_t{6} * (range.firstVertex + p * range.samplesPerPatch + s)];
-                ours[faces[range.firstPatch + p]].emplace_back(v[0], v[1], v[2]);
-            }
-        }
-    }
-    double largest = 0.0;
-    for (size_t f = 0; f < ours.size(); ++f) {
-        std::vector<glm::vec3> theirs;
-        for (size_t k = f * kSide * kSide; k < (f + 1) * kSide * kSide; ++k) {
-            theirs.emplace_back(reference[3 * k], reference[3 * k + 1], reference[3 * k + 2]);
-        }
-        for (const glm::vec3& p : theirs) {
-            largest = std::max(largest, nearest(p, ours[f]));
-        }
-        for (const glm::vec3& p : ours[f]) {
-            largest = std::max(largest, nearest(p, theirs));
-        }
-    }
-    result.push_back({quads.name + ": device's fragments against " + all->front().name, largest, kLimitBound});
+    result.push_back({cage.name + ": device's " + tools::schemeName(scheme) + " against " + all->front().name,
+                      largestGap(*ours, theirs) / extent, kLimitBound});
     return result;
 }
 

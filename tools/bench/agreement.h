@@ -13,7 +13,7 @@ namespace supple::bench {
 
 struct Agreement {
     std::string what;
-    double difference = 0.0; ///< the largest between two points or components
+    double difference = 0.0; ///< the largest between two points or components; peers': of the cage's extent
     double bound = 0.0;
     [[nodiscard]] bool holds() const { return difference <= bound; }
 };
@@ -27,8 +27,10 @@ struct Agreement {
                                                                 const BenchCage& sphere,
                                                                 std::span<const float> coefficients);
 
-/// OpenSubdiv's evaluators with each other and with the device's Catmull-Clark.
+/// OpenSubdiv's evaluators with each other and with the device's fragments or Loop. ErrorCode::asset or limit:
+/// OpenSubdiv refuses the cage.
 [[nodiscard]] Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& workbench,
-                                                          const OpensubdivPeers& peers, const BenchCage& quads);
+                                                          const OpensubdivPeers& peers, const BenchCage& cage,
+                                                          PeerRules rules);
 
 } // namespace supple::bench

@@ -295,12 +295,13 @@ Status Run::agree() {
     yardstick_ = std::move(*coefficients);
     Result<std::vector<Agreement>> all = compareEvaluations(device_, *workbench_, *sphere, yardstick_);
     for (size_t c = 0; all && c < cages_.size(); ++c) {
-        if (cages_[c].peers) {
-            Result<std::vector<Agreement>> peers = comparePeers(device_, *workbench_, peers_, cages_[c]);
-            if (!peers) {
+        for (const PeerRules rules : cages_[c].peers) {
+            const Result<std::vector<Agreement>> peers = comparePeers(device_, *workbench_, peers_, cages_[c], rules);
+            if (peers) {
+                all->insert(all->end(), peers->begin(), peers->end());
+            } else if (peers.error().code != ErrorCode::asset && peers.error().code != ErrorCode::limit) {
                 return peers.error();
             }
-            all->insert(all->end(), peers->begin(), peers->end());
         }
     }
     for (const SuppleScheme scheme : crowdSize() > 0 ? crowdSchemes() : std::vector<SuppleScheme>()) {

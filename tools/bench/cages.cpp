@@ -55,14 +55,23 @@ std::vector<SuppleScheme> schemesFor(const cage::Cage& cage) {
     return schemes;
 }
 
+BenchCage benchCage(const std::string& name, cage::Character character) {
+    BenchCage made{name, std::move(character), {}, {PeerRules::catmullClark}, false};
+    made.schemes = schemesFor(made.character.cage);
+    if (std::find(made.schemes.begin(), made.schemes.end(), SUPPLE_SCHEME_LOOP) != made.schemes.end()) {
+        made.peers.push_back(PeerRules::loop);
+    }
+    return made;
+}
+
 Result<BenchCage> fromCage(const std::string& name, const cage::Cage& cage) {
     const host::CageArrays arrays(cage);
     Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, name);
     if (!character) {
         return character.error();
     }
-    BenchCage made{name, std::move(*character), schemesFor(cage), false, false};
-    made.peers = made.bothFormats = made.schemes.front() == SUPPLE_SCHEME_PREP;
+    BenchCage made = benchCage(name, std::move(*character));
+    made.bothFormats = made.schemes.front() == SUPPLE_SCHEME_PREP;
     return made;
 }
 
@@ -71,8 +80,7 @@ Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> byt
     if (!character) {
         return character.error();
     }
-    std::vector<SuppleScheme> schemes = schemesFor(character->cage);
-    return BenchCage{name, std::move(*character), std::move(schemes), false, false};
+    return benchCage(name, std::move(*character));
 }
 
 } // namespace
@@ -119,9 +127,7 @@ Result<BenchCage> readCage(const std::string& path) {
     if (!file) {
         return file.error();
     }
-    std::vector<SuppleScheme> schemes = schemesFor(file->character.cage);
-    return BenchCage{std::filesystem::path(path).stem().string(), std::move(file->character), std::move(schemes), false,
-                     false};
+    return benchCage(std::filesystem::path(path).stem().string(), std::move(file->character));
 }
 
 } // namespace supple::bench

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "tools/bench/opensubdiv_peers.h"
 
 #include <supple/supple.h>
 
@@ -15,7 +16,7 @@ struct BenchCage {
     std::string name; ///< as --cages takes it
     cage::Character character;
     std::vector<SuppleScheme> schemes; ///< that it is measured under
-    bool peers = false;                ///< OpenSubdiv is measured on it too; all of its faces are quads
+    std::vector<PeerRules> peers;      ///< by which OpenSubdiv is measured on it too
     bool bothFormats = false;          ///< p-rep also with 24-byte vertices
 };
 

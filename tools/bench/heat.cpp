@@ -145,14 +145,16 @@ Status Heat::addReplay(const std::string& name, uint64_t points, const std::func
 }
 
 Status Heat::addPeers(const OpensubdivPeers& peers) {
-    if (!desc_.cage->peers) {
-        return success();
+    for (const PeerRules rules : desc_.cage->peers) {
+        Result<std::vector<Peer>> made = peers.make(desc_.cage->character.cage, rules, desc_.rate);
+        if (made) {
+            peers_.insert(peers_.end(), made->begin(), made->end());
+        } else if (made.error().code == ErrorCode::asset || made.error().code == ErrorCode::limit) {
+            refused_.push_back({{"scheme", peerName(rules)}, {"reason", made.error().message}});
+        } else {
+            return made.error();
+        }
     }
-    Result<std::vector<Peer>> made = peers.make(desc_.cage->character.cage, desc_.rate);
-    if (!made) {
-        return made.error();
-    }
-    peers_ = std::move(*made);
     for (const Peer& peer : peers_) {
         Contestant contestant{peer.name, peer.points,
                               [run = peer.run](uint32_t times) {
@@ -251,8 +253,8 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
         }
-        if (scheme == "prep" || scheme == "pm" || scheme == "catmull-clark" || scheme == "fragments") {
-            for (const Peer& peer : peers_) {
+        for (const Peer& peer : peers_) {
+            if (scheme != "blend" && (scheme == "loop") == (peer.rules == PeerRules::loop)) {
                 add(scheme + " evaluate", peer.name, true);
             }
         }

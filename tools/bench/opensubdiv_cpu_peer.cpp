@@ -28,7 +28,8 @@ Peer limitStencils(const std::shared_ptr<const OpensubdivTables>& tables) {
             stencils.GetWeights().data(), stencils.GetDuWeights().data(), stencils.GetDvWeights().data(), 0,
             stencils.GetNumStencils()));
     };
-    return {"OpenSubdiv CPU, limit stencils", tables->points(), run, nullptr, [out] { return out->position; }};
+    return {tables->name + " CPU, limit stencils", tables->rules, tables->points(), run, nullptr,
+            [out] { return out->position; },       tables->faces};
 }
 
 Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
@@ -49,7 +50,8 @@ Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
                                    patchTable->GetPatchArrayBuffer(), patchTable->GetPatchIndexBuffer(),
                                    patchTable->GetPatchParamBuffer()));
     };
-    return {"OpenSubdiv CPU, patches", tables->points(), run, nullptr, [out] { return out->position; }};
+    return {tables->name + " CPU, patches",  tables->rules, tables->points(), run, nullptr,
+            [out] { return out->position; }, tables->faces};
 }
 
 } // namespace

@@ -30,7 +30,7 @@ std::vector<float> readBack(Osd::GLVertexBuffer& from, size_t floats) {
 }
 
 /// `ask` hands the work to OpenGL and says whether that went well.
-Peer peer(const GlContext& gl, const std::string& name, size_t points, const std::function<bool()>& ask,
+Peer peer(const GlContext& gl, const OpensubdivTables& tables, const char* job, const std::function<bool()>& ask,
           std::function<std::vector<float>()> positions) {
     const auto asked = [ask] {
         return ask() ? success() : Status(Error{ErrorCode::vulkan, "OpenSubdiv's GLComputeEvaluator failed"});
@@ -41,7 +41,8 @@ Peer peer(const GlContext& gl, const std::string& name, size_t points, const std
         return status;
     };
     const auto seconds = [&gl, asked](uint32_t times) { return gl.elapsedSeconds(times, asked); };
-    return {name, points, run, seconds, std::move(positions)};
+    return {tables.name + " GLSL, " + job, tables.rules, tables.points(), run, seconds,
+            std::move(positions),          tables.faces};
 }
 
 struct GlOutput {
@@ -82,9 +83,9 @@ Result<std::vector<Peer>> opensubdivGlslPeers(const GlContext& gl,
                                       patchOut->dv.get(), kXyz, static_cast<int>(points), coordinates.get(),
                                       patches.get());
     };
-    return std::vector<Peer>{peer(gl, "OpenSubdiv GLSL, limit stencils", points, askLimits,
+    return std::vector<Peer>{peer(gl, *tables, "limit stencils", askLimits,
                                   [limitOut, points] { return readBack(*limitOut->position, 3 * points); }),
-                             peer(gl, "OpenSubdiv GLSL, patches", points, askPatches,
+                             peer(gl, *tables, "patches", askPatches,
                                   [patchOut, points] { return readBack(*patchOut->position, 3 * points); })};
 }
 

@@ -19,6 +19,10 @@ struct OpensubdivPeers::Inside {
 #endif
 };
 
+std::string peerName(PeerRules rules) {
+    return rules == PeerRules::loop ? "OpenSubdiv Loop" : "OpenSubdiv";
+}
+
 OpensubdivPeers::OpensubdivPeers() : inside_(std::make_unique<Inside>()) {
 #ifdef SUPPLE_HAS_OPENSUBDIV
     constexpr int kVersion = OPENSUBDIV_VERSION_NUMBER;
@@ -55,11 +59,12 @@ bool OpensubdivPeers::hasGlsl() const {
     return inside_->hasGlsl;
 }
 
-Result<std::vector<Peer>> OpensubdivPeers::make([[maybe_unused]] const cage::Cage& quads,
+Result<std::vector<Peer>> OpensubdivPeers::make([[maybe_unused]] const cage::Cage& cage,
+                                                [[maybe_unused]] PeerRules rules,
                                                 [[maybe_unused]] uint32_t rate) const {
     std::vector<Peer> peers;
 #ifdef SUPPLE_HAS_OPENSUBDIV
-    Result<std::unique_ptr<OpensubdivTables>> made = opensubdivTables(quads, rate);
+    Result<std::unique_ptr<OpensubdivTables>> made = opensubdivTables(cage, rules, rate);
     if (!made) {
         return made.error();
     }

@@ -10,6 +10,12 @@
 
 namespace supple::bench {
 
+/// Peers are refused more points than this: the tables of their limit stencils take a gigabyte.
+inline constexpr size_t kMostPeerPoints = 1'500'000;
+
+/// The library and the rules, as its peers are called.
+[[nodiscard]] std::string peerName(PeerRules rules);
+
 class OpensubdivPeers {
 public:
     OpensubdivPeers();
@@ -24,8 +30,9 @@ public:
     [[nodiscard]] bool hasCpu() const;
     [[nodiscard]] bool hasGlsl() const;
 
-    /// Empty where there are none; else limit stencils on the CPU first. They end before this does.
-    [[nodiscard]] Result<std::vector<Peer>> make(const cage::Cage& quads, uint32_t rate) const;
+    /// Empty where there are none; else limit stencils on the CPU first. They end before this does. ErrorCode::limit:
+    /// beyond kMostPeerPoints; ErrorCode::asset: OpenSubdiv refuses the cage.
+    [[nodiscard]] Result<std::vector<Peer>> make(const cage::Cage& cage, PeerRules rules, uint32_t rate) const;
 
 private:
     struct Inside;

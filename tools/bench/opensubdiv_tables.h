@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "tools/bench/opensubdiv_peers.h"
 
 #include <memory>
 #include <opensubdiv/far/patchTable.h>
@@ -26,11 +27,17 @@ struct OpensubdivTables {
     std::unique_ptr<const OpenSubdiv::Far::PatchTable> patches;
     std::unique_ptr<const OpenSubdiv::Far::StencilTable> refinement; ///< all points of the patches but the cage's
     std::vector<OpenSubdiv::Osd::PatchCoord> coordinates;            ///< of the points, in their order
+    std::shared_ptr<const std::vector<uint32_t>> faces;              ///< of the points
+    PeerRules rules = PeerRules::catmullClark;
+    std::string name; ///< of the library and the rules, as peers are called
 
     [[nodiscard]] size_t points() const { return coordinates.size(); }
 };
 
-/// A grid of (rate + 1)^2 points a face, u fastest. The cage has quads alone.
-[[nodiscard]] Result<std::unique_ptr<OpensubdivTables>> opensubdivTables(const cage::Cage& cage, uint32_t rate);
+/// Grids of points, u fastest. By Catmull-Clark's rules a quad has (rate + 1)^2, and any other face n times
+/// (rate / 2 + 1)^2, one grid a corner; the rate is even. By Loop's rules a triangle has (rate + 1) (rate + 2) / 2.
+/// Holes have none. Errors are those of OpensubdivPeers::make().
+[[nodiscard]] Result<std::unique_ptr<OpensubdivTables>> opensubdivTables(const cage::Cage& cage, PeerRules rules,
+                                                                         uint32_t rate);
 
 } // namespace supple::bench

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
 #include <vector>
 
 namespace supple::bench {
@@ -114,10 +116,14 @@ std::string cageTables(const Json& result, const std::string& cage) {
     out += byRate(rows, "contestants", "wallNanosecondsPerPoint", "wall ns a point");
     out += byRate(rows, "contestants", "gpuNanosecondsPerPoint", "device timestamps, ns a point");
     out += byRate(rows, "ratios", "median", "median of the rounds' ratios");
-    for (const Json& refused : rows.front()->at("refused")) {
-        out += refused["scheme"].get<std::string>() + " refuses it: " + refused["reason"].get<std::string>() + "\n\n";
+    std::set<std::string> refusals; // most are of every rate
+    for (const Json* row : rows) {
+        for (const Json& refused : row->at("refused")) {
+            refusals.insert(refused["scheme"].get<std::string>() +
+                            " refuses it: " + refused["reason"].get<std::string>() + "\n\n");
+        }
     }
-    return out;
+    return std::accumulate(refusals.begin(), refusals.end(), out);
 }
 
 std::string loadingTable(const Json& result) {
