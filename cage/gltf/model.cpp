@@ -1,5 +1,7 @@
 #include "cage/gltf/model.h"
 
+#include "cage/gltf/node_extensions.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -104,6 +106,7 @@ public:
         node.name = from.at("name").string();
         node.mesh = index(from, "mesh");
         node.skin = index(from, "skin");
+        node.hidden = saysHidden(from);
         node.children = indices(from, "children");
         node.translation = numbers(from, "translation");
         node.rotation = numbers(from, "rotation");

@@ -83,6 +83,7 @@ struct Node {
     std::string name;
     int mesh = -1;
     int skin = -1;
+    bool hidden = false; ///< by KHR_node_visibility, with all that is below it
     std::vector<int> children;
     // Empty where the file says nothing.
     std::vector<double> translation, rotation, scale, matrix, weights;

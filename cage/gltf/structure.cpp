@@ -2,6 +2,7 @@
 
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/model.h"
+#include "cage/gltf/node_extensions.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -33,14 +34,20 @@ void checkAsset(const Json& root) {
     }
 }
 
-/// Extensions a file may require, besides kLookExtensions. (Of the two that allow restart values, lines and strips
-/// alone make use.)
-constexpr std::array<std::string_view, 10> kUnderstood{
-    "SUPPLE_mesh_cage",           "EXT_mesh_polygon",
-    "FB_ngon_encoding",           "EXT_mesh_primitive_edge_visibility",
-    "EXT_mesh_manifold",          "KHR_mesh_quantization",
-    "EXT_meshopt_compression",    "KHR_meshopt_compression",
-    "KHR_mesh_primitive_restart", "EXT_mesh_primitive_restart",
+/// Extensions a file may require, besides kLookExtensions. (Of the two that allow restart values,
+/// lines and strips alone make use.)
+constexpr std::array<std::string_view, 11> kUnderstood{
+    "SUPPLE_mesh_cage",
+    "EXT_mesh_polygon",
+    "FB_ngon_encoding",
+    "EXT_mesh_primitive_edge_visibility",
+    "EXT_mesh_manifold",
+    "KHR_mesh_quantization",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "KHR_mesh_primitive_restart",
+    "EXT_mesh_primitive_restart",
+    kNodeVisibility,
 };
 
 void checkExtensions(const Json& root) {
@@ -367,6 +374,7 @@ void StructureCheck::checkNode(const Json& node, const std::string& element) {
     checkNumbers(node, "rotation", element, 4);
     checkNumbers(node, "scale", element, 3);
     checkMember(node, "weights", [&] { checkNumbers(node, "weights", element, std::nullopt); });
+    leniency_.leaveOut([&] { checkVisibility(node, element); });
 }
 
 void StructureCheck::checkSkin(const Json& skin, const std::string& element) {
