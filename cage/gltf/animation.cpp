@@ -244,7 +244,7 @@ ClipSet readMotion(const Document& document, const std::string& name) {
             targets = std::max(targets, primitive.targets.size());
         }
         targetsOfMesh.push_back(targets);
-        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes));
+        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes).names);
     }
     std::vector<size_t> targetCounts;
     for (const auto& node : document.model.nodes) {

@@ -3,6 +3,7 @@
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/model.h"
 #include "cage/gltf/node_extensions.h"
+#include "cage/gltf/vrm.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -34,7 +35,7 @@ void checkAsset(const Json& root) {
     }
 }
 
-/// Extensions a file may require, besides kLookExtensions. (Of the two that allow restart values,
+/// Extensions a file may require, besides kLookExtensions and kVrmExtensions. (Of the two that allow restart values,
 /// lines and strips alone make use.)
 constexpr std::array<std::string_view, 11> kUnderstood{
     "SUPPLE_mesh_cage",
@@ -69,7 +70,8 @@ void checkExtensions(const Json& root) {
     for (const Json& entry : *required) {
         const std::string name = entry.string();
         if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end() ||
-            std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end()) {
+            std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end() ||
+            std::find(kVrmExtensions.begin(), kVrmExtensions.end(), name) != kVrmExtensions.end()) {
             continue;
         }
         if (name == "KHR_draco_mesh_compression") {

@@ -81,5 +81,58 @@ TEST(GltfVisibility, UnreadExtensionsOfNodesAreNamed) {
                                "drawn once\nnode 2: MSFT_lod is not read");
 }
 
+/// A triangle with two morph targets.
+GltfBuilder withTargets(const std::string& meshMore, const std::string& primitiveMore) {
+    GltfBuilder b = trianglesAt(R"([{"mesh":0}])");
+    b.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":0},{"POSITION":0}])" +
+               primitiveMore + "}]" + meshMore + "}]";
+    return b;
+}
+std::string targetNames(const std::string& names) {
+    return R"(,"extras":{"targetNames":)" + names + "}";
+}
+
+TEST(GltfVrm, NamesOfTargetsInAPrimitive) {
+    const auto namesOf = [](const GltfBuilder& b, const Strings& warnings) {
+        const Character c = readWell(b);
+        EXPECT_EQ(c.warnings, warnings);
+        Strings names;
+        for (const MorphTarget& target : c.morphs.targets) {
+            names.push_back(target.name);
+        }
+        return names;
+    };
+    EXPECT_EQ(namesOf(withTargets("", targetNames(R"(["A","Blink"])")), {}), (Strings{"A", "Blink"}));
+    EXPECT_EQ(namesOf(withTargets(targetNames(R"(["x","y"])"), targetNames(R"(["A","Blink"])")), {}),
+              (Strings{"x", "y"}));
+    const std::string element = "mesh 0 primitive 0 extras targetNames";
+    EXPECT_EQ(namesOf(withTargets("", targetNames(R"(["A"])")), {element + ": 1 name for 2 morph targets"}),
+              (Strings{"A", ""}));
+    EXPECT_EQ(namesOf(withTargets("", targetNames(R"([7,"B"])")), {element + "[0]: not a string; ignored"}),
+              (Strings{"", "B"}));
+    EXPECT_EQ(namesOf(withTargets("", targetNames("7")), {element + ": not an array; ignored"}), (Strings{"", ""}));
+    EXPECT_EQ(namesOf(withTargets("", R"(,"extras":7)"), {}), (Strings{"", ""}));
+}
+
+TEST(GltfVrm, WhatIsNotUsedIsSaidInOneLine) {
+    const std::string required =
+        R"(,"extensionsRequired":["VRM","VRMC_vrm","VRMC_materials_mtoon","VRMC_springBone","VRMC_node_constraint"])";
+    const auto said = [&](const std::string& extensions, const std::string& more = "") {
+        return saidOf(
+            trianglesAt(R"([{"mesh":0)" + more + "}]", R"(,"extensions":{)" + extensions + "}" + required).glb());
+    };
+    EXPECT_EQ(said(R"("VRM":{"blendShapeMaster":{},"secondaryAnimation":{},"firstPerson":{},"materialProperties":[]})"),
+              "VRM: expressions, spring bones, first-person flags and toon materials are not used");
+    EXPECT_EQ(said(R"("VRMC_vrm":{"expressions":{},"lookAt":{}},"VRMC_springBone":{})",
+                   R"(,"extensions":{"VRMC_node_constraint":{}})"),
+              "VRM: expressions, spring bones, gaze and node constraints are not used");
+    EXPECT_EQ(said(R"("VRMC_vrm":{"humanoid":{}})"), "");
+    EXPECT_EQ(said(R"("VRMC_vrm":7,"VRM":[])"), "");
+    EXPECT_EQ(
+        saidOf(trianglesAt(R"([{"mesh":0}])", R"(,"materials":[{"extensions":{"VRMC_materials_mtoon":{}}}])" + required)
+                   .glb()),
+        "material 0: VRMC_materials_mtoon is not read; the material is shown as its base");
+}
+
 } // namespace
 } // namespace supple::cage
