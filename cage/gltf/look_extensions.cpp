@@ -1,6 +1,7 @@
 #include "cage/gltf/look_extensions.h"
 
 #include "cage/gltf/node_extensions.h"
+#include "cage/gltf/specular_glossiness.h"
 
 #include <algorithm>
 #include <array>
@@ -65,8 +66,8 @@ private:
 void addMaterial(const Json& material, const std::string& element, UnreadExtensions& unread) {
     unread.addAllOf(material, element);
     const auto addTextures = [&](const Json& object) {
-        for (const char* key :
-             {"baseColorTexture", "metallicRoughnessTexture", "normalTexture", "occlusionTexture", "emissiveTexture"}) {
+        for (const char* key : {"baseColorTexture", "diffuseTexture", "metallicRoughnessTexture", "normalTexture",
+                                "occlusionTexture", "emissiveTexture"}) {
             if (const Json* info = member(object, key)) {
                 unread.addAllOf(*info, within(element, key));
             }
@@ -77,6 +78,7 @@ void addMaterial(const Json& material, const std::string& element, UnreadExtensi
     if (pbr != nullptr && pbr->isObject()) {
         addTextures(*pbr);
     }
+    addTextures(material.at("extensions").at(kSpecularGlossiness));
 }
 
 } // namespace
