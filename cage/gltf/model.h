@@ -105,7 +105,8 @@ struct AnimationChannel {
     bool broken = false;
     int sampler = -1;
     int node = 0;
-    std::string path; ///< "pointer" where an extension says what moves
+    std::string path;    ///< "pointer" where an extension says what moves
+    std::string pointer; ///< of KHR_animation_pointer; empty: an unknown extension says it
 };
 
 struct Animation {

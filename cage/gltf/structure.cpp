@@ -37,7 +37,7 @@ void checkAsset(const Json& root) {
 
 /// Extensions a file may require, besides kLookExtensions and kVrmExtensions. (Of the two that allow restart values,
 /// lines and strips alone make use.)
-constexpr std::array<std::string_view, 11> kUnderstood{
+constexpr std::array<std::string_view, 12> kUnderstood{
     "SUPPLE_mesh_cage",
     "EXT_mesh_polygon",
     "FB_ngon_encoding",
@@ -49,6 +49,7 @@ constexpr std::array<std::string_view, 11> kUnderstood{
     "KHR_mesh_primitive_restart",
     "EXT_mesh_primitive_restart",
     kNodeVisibility,
+    "KHR_animation_pointer",
 };
 
 void checkExtensions(const Json& root) {

@@ -27,7 +27,6 @@ const std::map<std::string, std::string> kNotRightYet = {
     {"01_bridged_hole.obj", "a face that passes a vertex twice is cut there, so that the hole is filled"},
     {"15_unwelded.obj", "vertices of OBJ files are not welded, and nothing is said of it"},
     {"16_objects.obj", "objects of OBJ files are not kept apart"},
-    {"24_pointer_translation.glb", "refused by name: KHR_animation_pointer is not read"},
     {"29_colours_and_mtl.obj", "colors and MTL files of OBJ files are not read"},
 };
 

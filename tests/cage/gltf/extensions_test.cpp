@@ -134,5 +134,81 @@ TEST(GltfVrm, WhatIsNotUsedIsSaidInOneLine) {
         "material 0: VRMC_materials_mtoon is not read; the material is shown as its base");
 }
 
+std::string pointerTo(const std::string& pointer) {
+    return R"("target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" + pointer + "\"}}}";
+}
+
+/// skinnedQuad() with the target of its channel of rotation replaced.
+GltfBuilder quadPointing(const std::string& target, const std::string& more = "") {
+    GltfBuilder b = skinnedQuad();
+    b.more = replaced(b.more, R"("target":{"node":2,"path":"rotation"})", target) + more;
+    return b;
+}
+
+TEST(GltfPointer, MovesNodesAsOtherChannelsDo) {
+    const Clip wanted = readWell(skinnedQuad()).clips[0];
+    GltfBuilder b = quadPointing(pointerTo("/nodes/2/rotation"), R"(,"extensionsRequired":["KHR_animation_pointer"])");
+    b.more = replaced(b.more, R"("target":{"node":2,"path":"translation"})", pointerTo("/nodes/2/translation"));
+    const Character c = readWell(b, kStrict);
+    EXPECT_EQ(c.warnings, Strings());
+    ASSERT_EQ(c.clips[0].channels.size(), 2u);
+    EXPECT_EQ(c.clips[0].duration, 2.0);
+    for (size_t k = 0; k < 2; ++k) {
+        const Channel& channel = c.clips[0].channels[k];
+        EXPECT_EQ(channel.node, 2u);
+        EXPECT_EQ(channel.path, wanted.channels[k].path);
+        EXPECT_EQ(channel.times, wanted.channels[k].times);
+        EXPECT_EQ(channel.values, wanted.channels[k].values);
+    }
+    b.more = replaced(b.more, "/nodes/2/translation", "/nodes/1/scale");
+    const Character scaled = readWell(b);
+    EXPECT_EQ(scaled.clips[0].channels[1].node, 1u);
+    EXPECT_EQ(scaled.clips[0].channels[1].path, ChannelPath::scale);
+}
+
+TEST(GltfPointer, MovesWeights) {
+    GltfBuilder b = withTargets("", "");
+    b.addFloats("SCALAR", {0, 1});              // 1
+    b.addFloats("SCALAR", {0, 0.5f, 1, 0.25f}); // 2
+    b.more = R"(,"animations":[{"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,)" +
+             pointerTo("/nodes/0/weights") + "}]}]";
+    const Character c = readWell(b, kStrict);
+    ASSERT_EQ(c.clips[0].channels.size(), 1u);
+    EXPECT_EQ(c.clips[0].channels[0].path, ChannelPath::weights);
+    EXPECT_EQ(c.clips[0].channels[0].values, (std::vector<float>{0, 0.5f, 1, 0.25f}));
+}
+
+TEST(GltfPointer, ATargetTwiceIsOne) {
+    EXPECT_EQ(saidOf(quadPointing(pointerTo("/nodes/2/translation")).glb()),
+              "animation 0 channel 0 output: VEC4 instead of VEC3; left out");
+    GltfBuilder b = quadPointing(pointerTo("/nodes/2/translation"));
+    b.more = replaced(b.more, R"("output":6)", R"("output":7)");
+    EXPECT_EQ(saidOf(b.glb()), "animation 0 channel 1: a second channel for translation of node 2; left out");
+}
+
+TEST(GltfPointer, WhatElseMovesIsNamedByItsKind) {
+    const auto said = [](const std::string& target) {
+        const GltfBuilder b = quadPointing(target);
+        EXPECT_EQ(readWell(b).clips[0].channels.size(), 1u);
+        return saidOf(b.glb());
+    };
+    const auto ignored = [](const std::string& what) { return "animation 0: 1 channel of " + what + " ignored"; };
+    const std::string to = "KHR_animation_pointer to ";
+    EXPECT_EQ(said(pointerTo("/nodes/2/extensions/KHR_node_visibility/visible")),
+              ignored(to + "\"/nodes/*/extensions/KHR_node_visibility/visible\""));
+    EXPECT_EQ(said(pointerTo("/materials/0/emissiveFactor")), ignored(to + "\"/materials/*/emissiveFactor\""));
+    EXPECT_EQ(said(pointerTo("/nodes/2/weights/1")), ignored(to + "\"/nodes/*/weights/*\""));
+    EXPECT_EQ(said(pointerTo("/nodes/-1/scale")), ignored(to + "\"/nodes/-1/scale\""));
+    EXPECT_EQ(said(pointerTo("/nodes//scale")), ignored(to + "\"/nodes//scale\""));
+    EXPECT_EQ(said(pointerTo("/nodes/2")), ignored(to + "\"/nodes/*\""));
+    EXPECT_EQ(said(R"("target":{"path":"pointer"})"), ignored("no node"));
+    EXPECT_EQ(said(R"("target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":[7]}}})"),
+              ignored("no node"));
+    EXPECT_EQ(said(pointerTo("/nodes/3/rotation")),
+              "animation 0 channel 0 pointer: node 3 is out of range: the file has 3; left out");
+    EXPECT_EQ(said(pointerTo("/nodes/18446744073709551618/rotation")),
+              "animation 0 channel 0 pointer: node 18446744073709551618 is out of range: the file has 3; left out");
+}
+
 } // namespace
 } // namespace supple::cage
