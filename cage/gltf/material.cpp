@@ -83,7 +83,7 @@ private:
                 }
             } else {
                 warn(warnings_, element_,
-                     std::string(kSpecularGlossiness) + " is not read: pbrMetallicRoughness says the same");
+                     std::string(kSpecularGlossiness) + " is not read: pbrMetallicRoughness is taken");
             }
         }
         if (pbr != nullptr) {

@@ -243,7 +243,7 @@ TEST(GltfMaterial, SpecularGlossinessBesideMetallicRoughness) {
     const std::string green = R"(,"pbrMetallicRoughness":{"baseColorFactor":[0,1,0,1]})";
     const GltfBuilder both = specularQuad(red, green);
     EXPECT_EQ(only(both).baseColorFactor, glm::vec4(0, 1, 0, 1));
-    EXPECT_EQ(warningsOf(both), (Strings{kSpecularElement + " is not read: pbrMetallicRoughness says the same"}));
+    EXPECT_EQ(warningsOf(both), (Strings{kSpecularElement + " is not read: pbrMetallicRoughness is taken"}));
     EXPECT_EQ(only(specularQuad(red, R"(,"pbrMetallicRoughness":{})")).baseColorFactor, glm::vec4(1, 0, 0, 1));
     const std::string required = R"(,"extensionsRequired":["KHR_materials_pbrSpecularGlossiness"])";
     EXPECT_EQ(only(specularQuad(red, green, required)).baseColorFactor, glm::vec4(1, 0, 0, 1));
