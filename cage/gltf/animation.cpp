@@ -7,6 +7,7 @@
 #include "cage/gltf/markers.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/nodes.h"
+#include "cage/gltf/pointer.h"
 #include "cage/refusal.h"
 #include "cage/skeleton.h"
 
@@ -86,6 +87,17 @@ Channel readChannel(const Document& document, const file::Animation& animation, 
     return channel;
 }
 
+/// What a channel moves that is not read, as messages have it.
+std::string whatIsIgnored(const file::AnimationChannel& channel) {
+    if (channel.path == "weights") {
+        return "weights of nodes without morph targets";
+    }
+    if (channel.path != "pointer") {
+        return channel.path;
+    }
+    return channel.pointer.empty() ? "no node" : "KHR_animation_pointer to " + quoted(kindOfPointer(channel.pointer));
+}
+
 /// Reads clips one after the other, and bounds what they hold together.
 class ClipReader {
 public:
@@ -109,25 +121,21 @@ public:
         const float first = beginAtFirstKey(clip, element, warnings_);
         clip.duration = lastKey(clip);
         clip.markers = readMarkers(animation.extras, element, first, clip.duration, warnings_);
-        for (const auto& [path, count] : ignored_) {
-            warn(warnings_, element,
-                 counted(count, "channel", "channels") + " of " +
-                     (path == "pointer"   ? "KHR_animation_pointer or no node"
-                      : path == "weights" ? "weights of nodes without morph targets"
-                                          : path) +
-                     " ignored");
+        for (const auto& [what, count] : ignored_) {
+            warn(warnings_, element, counted(count, "channel", "channels") + " of " + what + " ignored");
         }
         return clip;
     }
 
 private:
     void addChannel(const file::Animation& animation, size_t k, const std::string& element, Clip& clip) {
-        const auto& channel = animation.channels[k];
+        file::AnimationChannel channel = animation.channels[k];
+        resolvePointer(targetCounts_.size(), element, channel);
         const std::string& path = channel.path;
         const std::optional<Output> kind =
             outputOf(path, channel.node < 0 ? 0 : targetCounts_[static_cast<size_t>(channel.node)]);
         if (!kind) {
-            ++ignored_[path];
+            ++ignored_[whatIsIgnored(channel)];
             return;
         }
         if (targets_.contains({channel.node, path})) {
@@ -215,7 +223,7 @@ private:
     const std::span<const size_t> targetCounts_;
     Warnings& warnings_;
     uint64_t floats_ = 0;
-    std::map<std::string, size_t> ignored_;         ///< of the clip: path -> channels
+    std::map<std::string, size_t> ignored_;         ///< of the clip: what -> channels
     std::set<std::pair<int, std::string>> targets_; ///< of the clip
 };
 
@@ -244,7 +252,7 @@ ClipSet readMotion(const Document& document, const std::string& name) {
             targets = std::max(targets, primitive.targets.size());
         }
         targetsOfMesh.push_back(targets);
-        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes));
+        set.targetNames.push_back(readTargetNames(document.meshes[m], at("mesh", m), *document.memory, ofMeshes).names);
     }
     std::vector<size_t> targetCounts;
     for (const auto& node : document.model.nodes) {

@@ -6,6 +6,7 @@
 #include "cage/gltf/resources.h"
 #include "cage/gltf/structure.h"
 #include "cage/gltf/texture.h"
+#include "cage/gltf/vrm.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -71,6 +72,7 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
         loadImages(table(root, "images"), resources, document);
         document.textures = readTextures(root, *document.leniency, document.warnings);
         nameUnreadLook(root, document.warnings);
+        nameUnusedVrm(root, document.warnings);
         document.materials = table(root, "materials");
     }
     document.meshes = table(root, "meshes");

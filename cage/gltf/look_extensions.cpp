@@ -1,13 +1,31 @@
 #include "cage/gltf/look_extensions.h"
 
+#include "cage/gltf/node_extensions.h"
+#include "cage/gltf/specular_glossiness.h"
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace supple::cage::gltf {
 namespace {
+
+/// Those of nodes that do not change what is drawn of their meshes.
+constexpr std::array<std::string_view, 6> kNodeExtensions{
+    kNodeVisibility,          "KHR_lights_punctual",      "KHR_node_hoverability",
+    "KHR_node_selectability", "KHR_physics_rigid_bodies", "VRMC_node_constraint"};
+
+/// What becomes of a thing whose extension is not read, where it is not clear.
+std::string instead(const std::string& extension) {
+    return extension == "EXT_mesh_gpu_instancing" ? "; the mesh is drawn once"
+           : extension == "VRMC_materials_mtoon"  ? "; the material is shown as its base"
+                                                  : "";
+}
 
 class UnreadExtensions {
 public:
@@ -16,13 +34,14 @@ public:
     }
 
     /// Of a part of the file that has to do with nothing but looks.
-    void addAllOf(const Json& object, const std::string& element) {
+    void addAllOf(const Json& object, const std::string& element,
+                  std::span<const std::string_view> known = kLookExtensions) {
         const Json* extensions = object.isObject() ? member(object, "extensions") : nullptr;
         if (extensions == nullptr || !extensions->isObject()) {
             return;
         }
         for (const auto& [name, value] : extensions->members()) {
-            if (std::find(kLookExtensions.begin(), kLookExtensions.end(), name) == kLookExtensions.end()) {
+            if (std::find(known.begin(), known.end(), name) == known.end()) {
                 add(std::string(name), element);
             }
         }
@@ -32,7 +51,7 @@ public:
         for (const auto& [name, place] : met_) {
             const std::string more =
                 place.count == 1 ? "" : ", here and in " + counted(place.count - 1, "other place", "other places");
-            warn(warnings, place.first, name + " is not read" + more);
+            warn(warnings, place.first, name + " is not read" + more + instead(name));
         }
     }
 
@@ -47,8 +66,8 @@ private:
 void addMaterial(const Json& material, const std::string& element, UnreadExtensions& unread) {
     unread.addAllOf(material, element);
     const auto addTextures = [&](const Json& object) {
-        for (const char* key :
-             {"baseColorTexture", "metallicRoughnessTexture", "normalTexture", "occlusionTexture", "emissiveTexture"}) {
+        for (const char* key : {"baseColorTexture", "diffuseTexture", "metallicRoughnessTexture", "normalTexture",
+                                "occlusionTexture", "emissiveTexture"}) {
             if (const Json* info = member(object, key)) {
                 unread.addAllOf(*info, within(element, key));
             }
@@ -59,6 +78,7 @@ void addMaterial(const Json& material, const std::string& element, UnreadExtensi
     if (pbr != nullptr && pbr->isObject()) {
         addTextures(*pbr);
     }
+    addTextures(material.at("extensions").at(kSpecularGlossiness));
 }
 
 } // namespace
@@ -73,6 +93,12 @@ void nameUnreadLook(const Json& root, Warnings& warnings) {
         const Json list = table(root, key);
         for (size_t i = 0; i < list.size(); ++i) {
             unread.addAllOf(list[i], at(what, i));
+        }
+    }
+    const Json nodes = table(root, "nodes");
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (member(nodes[i], "mesh") != nullptr) {
+            unread.addAllOf(nodes[i], at("node", i), kNodeExtensions);
         }
     }
     const Json meshes = table(root, "meshes");

@@ -1,5 +1,6 @@
 #include "cage/gltf/material.h"
 
+#include "cage/gltf/specular_glossiness.h"
 #include "cage/gltf/texture.h"
 #include "cage/gltf/trim.h"
 #include "cage/materials.h"
@@ -37,13 +38,7 @@ public:
         material_.name = text("name");
         material_.doubleSided = readFlag("doubleSided");
         readAlpha();
-        if (const Json* pbr = part(from_, "pbrMetallicRoughness")) {
-            readColor(*pbr, "baseColorFactor", material_.baseColorFactor);
-            material_.baseColorTexture = readTexture(*pbr, "baseColorTexture");
-            material_.metallicFactor = readNumber(*pbr, "metallicFactor", 1.0f, {});
-            material_.roughnessFactor = readNumber(*pbr, "roughnessFactor", 1.0f, {});
-            material_.metallicRoughnessTexture = readTexture(*pbr, "metallicRoughnessTexture");
-        }
+        readBase();
         material_.normalTexture = readTexture(from_, "normalTexture");
         if (const Json* normal = member(from_, "normalTexture")) {
             material_.normalScale = readNumber(*normal, "scale", 1.0f, {-kUnbounded, kUnbounded}, " normalTexture");
@@ -76,6 +71,48 @@ private:
         const Json* found = nullptr;
         leaveOut([&] { found = objectMember(object, key, element_); });
         return found;
+    }
+
+    void readBase() {
+        const Json* pbr = part(from_, "pbrMetallicRoughness");
+        if (hasExtension(from_, kSpecularGlossiness)) {
+            if (pbr == nullptr || pbr->members().empty() || isRequired(document_, kSpecularGlossiness)) {
+                if (const Json* extension = part(from_.at("extensions"), kSpecularGlossiness)) {
+                    readSpecularGlossiness(*extension);
+                    return;
+                }
+            } else {
+                warn(warnings_, element_,
+                     std::string(kSpecularGlossiness) + " is not read: pbrMetallicRoughness is taken");
+            }
+        }
+        if (pbr != nullptr) {
+            readColor(*pbr, "baseColorFactor", material_.baseColorFactor);
+            material_.baseColorTexture = readTexture(*pbr, "baseColorTexture");
+            material_.metallicFactor = readNumber(*pbr, "metallicFactor", 1.0f, {});
+            material_.roughnessFactor = readNumber(*pbr, "roughnessFactor", 1.0f, {});
+            material_.metallicRoughnessTexture = readTexture(*pbr, "metallicRoughnessTexture");
+        }
+    }
+
+    /// Factors are converted. A texture of specular colors would have to be converted pixel by pixel. The factors of
+    /// one that is left out say little of the material: it counts as no metal, half as glossy as its factor.
+    void readSpecularGlossiness(const Json& from) {
+        SpecularGlossiness read;
+        readColor(from, "diffuseFactor", read.diffuse);
+        readColor(from, "specularFactor", read.specular);
+        read.glossiness = readNumber(from, "glossinessFactor", 1.0f, {});
+        std::string how = " is converted to metallic and roughness factors";
+        MetallicRoughness converted = toMetallicRoughness(read);
+        if (member(from, "specularGlossinessTexture") != nullptr) {
+            converted = {read.diffuse, 0.0f, 1.0f - 0.5f * read.glossiness};
+            how += "; its specularGlossinessTexture is left out";
+        }
+        material_.baseColorFactor = converted.baseColor;
+        material_.metallicFactor = converted.metallic;
+        material_.roughnessFactor = converted.roughness;
+        material_.baseColorTexture = readTexture(from, "diffuseTexture");
+        warn(warnings_, element_, kSpecularGlossiness + how);
     }
 
     void readAlpha() {

@@ -1,5 +1,7 @@
 #include "cage/gltf/model.h"
 
+#include "cage/gltf/node_extensions.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -104,6 +106,7 @@ public:
         node.name = from.at("name").string();
         node.mesh = index(from, "mesh");
         node.skin = index(from, "skin");
+        node.hidden = saysHidden(from);
         node.children = indices(from, "children");
         node.translation = numbers(from, "translation");
         node.rotation = numbers(from, "rotation");
@@ -181,11 +184,14 @@ private:
         if (broken_.contains(from)) {
             return {.broken = true};
         }
-        const Json* target = member(from, "target");
-        if (target == nullptr || member(*target, "node") == nullptr) {
-            return {.sampler = index(from, "sampler"), .node = 0, .path = "pointer"};
+        const int sampler = index(from, "sampler");
+        const Json& target = from.at("target");
+        const std::string path = target.at("path").string();
+        if (path == "pointer" || member(target, "node") == nullptr) {
+            const Json& extension = target.at("extensions").at("KHR_animation_pointer");
+            return {.sampler = sampler, .node = 0, .path = "pointer", .pointer = extension.at("pointer").string()};
         }
-        return {.sampler = index(from, "sampler"), .node = index(*target, "node"), .path = target->at("path").string()};
+        return {.sampler = sampler, .node = index(target, "node"), .path = path, .pointer = {}};
     }
 
     const Broken& broken_;

@@ -83,6 +83,7 @@ struct Node {
     std::string name;
     int mesh = -1;
     int skin = -1;
+    bool hidden = false; ///< by KHR_node_visibility, with all that is below it
     std::vector<int> children;
     // Empty where the file says nothing.
     std::vector<double> translation, rotation, scale, matrix, weights;
@@ -104,7 +105,8 @@ struct AnimationChannel {
     bool broken = false;
     int sampler = -1;
     int node = 0;
-    std::string path; ///< "pointer" where an extension says what moves
+    std::string path;    ///< "pointer" where an extension says what moves
+    std::string pointer; ///< of KHR_animation_pointer; empty: an unknown extension says it
 };
 
 struct Animation {

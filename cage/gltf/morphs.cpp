@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace supple::cage::gltf {
@@ -31,6 +32,12 @@ void readTarget(const Document& document, int accessor, uint32_t target, size_t 
             read.push_back({v, {target, delta}});
         }
     }
+}
+
+/// Null where a mesh or a primitive has none.
+const Json* targetNamesOf(const Json& named) {
+    const Json* extras = member(named, "extras");
+    return extras == nullptr ? nullptr : member(*extras, "targetNames");
 }
 
 } // namespace
@@ -87,14 +94,18 @@ size_t targetCountOf(const file::Mesh& mesh) {
 }
 
 /// A target's name is a courtesy to people: one that is no string is reported, not refused.
-std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element, MemoryBudget& memory,
-                                         Warnings& warnings) {
-    const Json* extras = member(mesh, "extras");
-    const Json* names = extras != nullptr && extras->isObject() ? member(*extras, "targetNames") : nullptr;
+TargetNames readTargetNames(const Json& mesh, const std::string& element, MemoryBudget& memory, Warnings& warnings) {
+    const Json* names = targetNamesOf(mesh);
+    const std::span<const Json> primitives = mesh.at("primitives").items();
+    size_t searched = 0;
+    while (names == nullptr && searched < primitives.size()) { // as files of VRM 0.x have them
+        names = targetNamesOf(primitives[searched++]);
+    }
     if (names == nullptr) {
         return {};
     }
-    const std::string place = element + " extras targetNames";
+    const std::string place =
+        (searched == 0 ? element : element + " " + at("primitive", searched - 1)) + " extras targetNames";
     if (!names->isArray()) {
         warn(warnings, place, "not an array; ignored");
         return {};
@@ -112,7 +123,7 @@ std::vector<std::string> readTargetNames(const Json& mesh, const std::string& el
             warn(warnings, item(place, i), "not a string; ignored");
         }
     }
-    return read;
+    return {place, std::move(read)};
 }
 
 Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCount, Warnings& warnings) {
@@ -147,10 +158,9 @@ Morphs readMorphs(const Document& document, uint32_t meshNode, size_t targetCoun
         morphs.weights[i] = static_cast<float>(weights[i]);
     }
     const std::string element = at("mesh", meshIndex);
-    const std::vector<std::string> names =
-        readTargetNames(document.meshes[meshIndex], element, *document.memory, warnings);
+    const auto [place, names] = readTargetNames(document.meshes[meshIndex], element, *document.memory, warnings);
     if (!names.empty() && names.size() != targetCount) {
-        warn(warnings, element + " extras targetNames",
+        warn(warnings, place,
              counted(names.size(), "name", "names") + " for " + counted(targetCount, "morph target", "morph targets"));
     }
     for (size_t i = 0; i < std::min(names.size(), targetCount); ++i) {

@@ -37,9 +37,13 @@ private:
     uint64_t elementsRead_ = 0;
 };
 
-/// Names of a mesh's morph targets, mesh.extras.targetNames: empty where the file has no string.
-[[nodiscard]] std::vector<std::string> readTargetNames(const Json& mesh, const std::string& element,
-                                                       MemoryBudget& memory, Warnings& warnings);
+struct TargetNames {
+    std::string element;            ///< what has them
+    std::vector<std::string> names; ///< empty where the file has no string
+};
+/// Names of a mesh's morph targets: targetNames of its extras, else of the extras of the first primitive that has some.
+[[nodiscard]] TargetNames readTargetNames(const Json& mesh, const std::string& element, MemoryBudget& memory,
+                                          Warnings& warnings);
 
 /// How many morph targets a mesh has: as many as the primitive with most of them.
 [[nodiscard]] size_t targetCountOf(const file::Mesh& mesh);

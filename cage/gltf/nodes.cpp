@@ -1,5 +1,6 @@
 #include "cage/gltf/nodes.h"
 
+#include "cage/gltf/node_extensions.h"
 #include "cage/limits.h"
 #include "cage/refusal.h"
 #include "cage/skeleton.h"
@@ -77,31 +78,8 @@ std::string insteadOfMeshes(const Model& model) {
                                           ": it is no character, but a file of clips for one";
 }
 
-} // namespace
-
-Skeleton readSkeleton(const Document& document) {
-    const Model& model = document.model;
-    Skeleton skeleton;
-    const size_t count = model.nodes.size();
-    skeleton.nodes.resize(count);
-    for (size_t i = 0; i < count; ++i) {
-        const auto& from = model.nodes[i];
-        skeleton.nodes[i].name = from.name;
-        for (const int child : from.children) {
-            skeleton.nodes[static_cast<size_t>(child)].parent = static_cast<uint32_t>(i);
-        }
-    }
-    for (size_t i = 0; i < count; ++i) {
-        Node placed = skeleton.nodes[i];
-        if (document.leniency->gather([&] { readPlace(document, i, placed); })) {
-            skeleton.nodes[i] = std::move(placed);
-        }
-    }
-    orderParentsFirst(skeleton);
-    return skeleton;
-}
-
-std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
+/// Nodes of the scene whose meshes are read, but for those that are hidden.
+std::vector<uint32_t> findSceneNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
     const Model& model = document.model;
     if (model.meshes.empty()) {
         document.leniency->refuseAll({"meshes: none" + insteadOfMeshes(model)});
@@ -135,6 +113,49 @@ std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint
              counted(all.size() - nodes.size(), "node with a mesh is", "nodes with meshes are") +
                  " not in this scene; left out");
     }
+    return nodes;
+}
+
+} // namespace
+
+Skeleton readSkeleton(const Document& document) {
+    const Model& model = document.model;
+    Skeleton skeleton;
+    const size_t count = model.nodes.size();
+    skeleton.nodes.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const auto& from = model.nodes[i];
+        skeleton.nodes[i].name = from.name;
+        for (const int child : from.children) {
+            skeleton.nodes[static_cast<size_t>(child)].parent = static_cast<uint32_t>(i);
+        }
+    }
+    for (size_t i = 0; i < count; ++i) {
+        Node placed = skeleton.nodes[i];
+        if (document.leniency->gather([&] { readPlace(document, i, placed); })) {
+            skeleton.nodes[i] = std::move(placed);
+        }
+    }
+    orderParentsFirst(skeleton);
+    return skeleton;
+}
+
+std::vector<uint32_t> findMeshNodes(const Document& document, std::optional<uint32_t> scene, Warnings& warnings) {
+    std::vector<uint32_t> nodes = findSceneNodes(document, scene, warnings);
+    const std::vector<uint32_t> hiders = findHiders(document.model);
+    const auto isHidden = [&](uint32_t node) { return hiders[node] != kNone; };
+    if (std::all_of(nodes.begin(), nodes.end(), isHidden)) {
+        document.leniency->refuseAll({std::string("nodes: all that have meshes are hidden by ") + kNodeVisibility +
+                                      ", the first is " + at("node", nodes.front())});
+    }
+    for (const uint32_t node : nodes) {
+        if (isHidden(node)) {
+            warn(warnings, at("node", node),
+                 std::string("hidden by ") + kNodeVisibility +
+                     (hiders[node] == node ? "" : " of " + at("node", hiders[node])) + "; left out");
+        }
+    }
+    std::erase_if(nodes, isHidden);
     return nodes;
 }
 

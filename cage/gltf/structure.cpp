@@ -2,6 +2,8 @@
 
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/model.h"
+#include "cage/gltf/node_extensions.h"
+#include "cage/gltf/vrm.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -33,14 +35,21 @@ void checkAsset(const Json& root) {
     }
 }
 
-/// Extensions a file may require, besides kLookExtensions. (Of the two that allow restart values, lines and strips
-/// alone make use.)
-constexpr std::array<std::string_view, 10> kUnderstood{
-    "SUPPLE_mesh_cage",           "EXT_mesh_polygon",
-    "FB_ngon_encoding",           "EXT_mesh_primitive_edge_visibility",
-    "EXT_mesh_manifold",          "KHR_mesh_quantization",
-    "EXT_meshopt_compression",    "KHR_meshopt_compression",
-    "KHR_mesh_primitive_restart", "EXT_mesh_primitive_restart",
+/// Extensions a file may require, besides kLookExtensions and kVrmExtensions. (Of the two that allow restart values,
+/// lines and strips alone make use.)
+constexpr std::array<std::string_view, 12> kUnderstood{
+    "SUPPLE_mesh_cage",
+    "EXT_mesh_polygon",
+    "FB_ngon_encoding",
+    "EXT_mesh_primitive_edge_visibility",
+    "EXT_mesh_manifold",
+    "KHR_mesh_quantization",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "KHR_mesh_primitive_restart",
+    "EXT_mesh_primitive_restart",
+    kNodeVisibility,
+    "KHR_animation_pointer",
 };
 
 void checkExtensions(const Json& root) {
@@ -62,7 +71,8 @@ void checkExtensions(const Json& root) {
     for (const Json& entry : *required) {
         const std::string name = entry.string();
         if (std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end() ||
-            std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end()) {
+            std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end() ||
+            std::find(kVrmExtensions.begin(), kVrmExtensions.end(), name) != kVrmExtensions.end()) {
             continue;
         }
         if (name == "KHR_draco_mesh_compression") {
@@ -367,6 +377,7 @@ void StructureCheck::checkNode(const Json& node, const std::string& element) {
     checkNumbers(node, "rotation", element, 4);
     checkNumbers(node, "scale", element, 3);
     checkMember(node, "weights", [&] { checkNumbers(node, "weights", element, std::nullopt); });
+    leniency_.leaveOut([&] { checkVisibility(node, element); });
 }
 
 void StructureCheck::checkSkin(const Json& skin, const std::string& element) {

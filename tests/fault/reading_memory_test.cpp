@@ -232,6 +232,28 @@ TEST(ReadingMemory, WhatNodesShareIsCountedForEach) {
                        "]}"));
 }
 
+TEST(ReadingMemory, WhatExtensionsLeaveOutIsCounted) {
+    const std::string zeros = R"({"componentType":5126,"count":3,"type":"VEC3"})";
+    const auto file = [&](const std::string& nodes, const std::string& more) {
+        return toBytes(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes +
+                       R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[)" + zeros + "]" +
+                       more + "}");
+    };
+    const std::string hidden = R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}})";
+    EXPECT_EQ(readWithin("100,000 hidden nodes", file(list(100000, hidden) + R"(,{"mesh":0})", "")), "");
+    std::string named, channels;
+    for (int i = 0; i < 50000; ++i) {
+        named += R"({"mesh":0,"extensions":{"a)" + std::to_string(i) + R"(":0}},)";
+        channels += (i == 0 ? "" : ",") + std::string(R"({"sampler":0,"target":{"path":"pointer","extensions":)") +
+                    R"({"KHR_animation_pointer":{"pointer":"/a)" + std::to_string(i) + R"("}}}})";
+    }
+    (void)readWithin("50,000 unread extensions", file(named + R"({"mesh":0})", ""));
+    EXPECT_EQ(readWithin("50,000 kinds of pointers",
+                         file(R"({"mesh":0})", R"(,"animations":[{"samplers":[{"input":0,"output":0}],"channels":[)" +
+                                                   channels + "]}]")),
+              "");
+}
+
 TEST(ReadingMemory, LinesOfAnObjAreCounted) {
     const auto lines = [](size_t count, const std::string& line) {
         std::string all = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n";

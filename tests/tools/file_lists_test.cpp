@@ -17,7 +17,7 @@ protected:
         folder_ = fs::path(testing::TempDir()) / ("supple_file_lists_" + std::to_string(getpid()));
         fs::create_directories(folder_ / "sub");
         fs::create_directories(folder_ / ".hidden");
-        for (const char* name : {"b.GLB", "a.gltf", "c.obj", "notes.txt", ".d.glb"})
+        for (const char* name : {"b.GLB", "a.gltf", "c.obj", "e.vrm", "notes.txt", ".d.glb"})
             std::ofstream(folder_ / name) << "x";
         fs::create_symlink(folder_ / "nowhere.glb", folder_ / "dangling.glb");
     }
@@ -30,7 +30,7 @@ TEST_F(FileListsTest, AFolderShowsFoldersAndCharacters) {
     const Folder folder = readFolder(folder_);
     EXPECT_EQ(folder.fault, "");
     EXPECT_EQ(folder.folders, std::vector<std::string>{"sub"});
-    EXPECT_EQ(folder.files, (std::vector<std::string>{"a.gltf", "b.GLB", "c.obj"}));
+    EXPECT_EQ(folder.files, (std::vector<std::string>{"a.gltf", "b.GLB", "c.obj", "e.vrm"}));
     const Folder gone = readFolder(folder_ / "gone");
     EXPECT_TRUE(gone.files.empty());
     EXPECT_NE(gone.fault.find("gone: No such file"), std::string::npos) << gone.fault;

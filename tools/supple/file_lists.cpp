@@ -20,7 +20,7 @@ bool isCharacterFile(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+    return extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".obj";
 }
 
 Folder readFolder(const fs::path& path) {

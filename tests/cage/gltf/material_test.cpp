@@ -191,6 +191,68 @@ TEST(GltfMaterial, WhatCannotBeUsedIsLeftOutByName) {
     EXPECT_TRUE(replaced.normalTexture == Texture{.image = 1});
 }
 
+const std::string kSpecularElement = "material 0: KHR_materials_pbrSpecularGlossiness";
+
+/// A material of KHR_materials_pbrSpecularGlossiness alone, or with more. `files`: what stands behind the materials.
+GltfBuilder specularQuad(const std::string& members, const std::string& materialMore = "",
+                         const std::string& files = "") {
+    return quadWith(R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{)" + members + "}}" + materialMore + "}",
+                    R"({"source":0},{"source":1})", files);
+}
+
+TEST(GltfMaterial, SpecularGlossinessIsConverted) {
+    const auto factors = [](const std::string& diffuse, const std::string& specular) {
+        return R"("diffuseFactor":)" + diffuse + R"(,"specularFactor":)" + specular + R"(,"glossinessFactor":0.25)";
+    };
+    const GltfBuilder plain = specularQuad(factors("[0.5,0.25,0.125,0.75]", "[0.02,0.02,0.02]"));
+    EXPECT_EQ(warningsOf(plain), (Strings{kSpecularElement + " is converted to metallic and roughness factors"}));
+    Material m = only(plain);
+    EXPECT_EQ(m.metallicFactor, 0.0f);
+    EXPECT_EQ(m.roughnessFactor, 0.75f);
+    const glm::vec4 bright(0.5f * 0.98f / 0.96f, 0.25f * 0.98f / 0.96f, 0.125f * 0.98f / 0.96f, 0.75f);
+    EXPECT_LT(glm::length(m.baseColorFactor - bright), 1e-6f) << "what is less reflective is brighter below";
+    m = only(specularQuad(factors("[0,0,0,1]", "[0.9,0.6,0.3]")));
+    EXPECT_NEAR(m.metallicFactor, 1.0f, 1e-5f);
+    EXPECT_LT(glm::length(m.baseColorFactor - glm::vec4(0.9f, 0.6f, 0.3f, 1)), 1e-5f) << "the color of a metal";
+    m = only(specularQuad(factors("[0.5,0.5,0.5,1]", "[0.3,0.3,0.3]")));
+    EXPECT_NEAR(m.metallicFactor, 0.431992f, 1e-5f);
+    EXPECT_NEAR(m.baseColorFactor.x, 0.641863f, 1e-5f);
+    m = only(specularQuad(""));
+    EXPECT_EQ(m.metallicFactor, 1.0f);
+    EXPECT_EQ(m.roughnessFactor, 0.0f);
+    EXPECT_EQ(m.baseColorFactor, glm::vec4(1.0f));
+}
+
+TEST(GltfMaterial, SpecularGlossinessTextures) {
+    const GltfBuilder b = specularQuad(R"("diffuseFactor":[0.5,1,1,1],"diffuseTexture":{"index":0,"texCoord":1,)"
+                                       R"("extensions":{"ACME_noise":{}}},"specularGlossinessTexture":{"index":1})");
+    EXPECT_EQ(warningsOf(b), (Strings{"material 0 diffuseTexture: ACME_noise is not read",
+                                      kSpecularElement + " is converted to metallic and roughness factors; its "
+                                                         "specularGlossinessTexture is left out"}));
+    const Material m = only(b);
+    EXPECT_TRUE(m.baseColorTexture == (Texture{.image = 0, .uvSet = 1}));
+    EXPECT_FALSE(m.metallicRoughnessTexture.exists());
+    EXPECT_EQ(m.baseColorFactor, glm::vec4(0.5f, 1, 1, 1));
+    EXPECT_EQ(m.metallicFactor, 0.0f);
+    EXPECT_EQ(m.roughnessFactor, 0.5f);
+}
+
+/// Metallic and roughness are what is drawn, so they are taken where a file has both and leaves the choice.
+TEST(GltfMaterial, SpecularGlossinessBesideMetallicRoughness) {
+    const std::string red = R"("diffuseFactor":[1,0,0,1],"specularFactor":[0,0,0])";
+    const std::string green = R"(,"pbrMetallicRoughness":{"baseColorFactor":[0,1,0,1]})";
+    const GltfBuilder both = specularQuad(red, green);
+    EXPECT_EQ(only(both).baseColorFactor, glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(warningsOf(both), (Strings{kSpecularElement + " is not read: pbrMetallicRoughness is taken"}));
+    EXPECT_EQ(only(specularQuad(red, R"(,"pbrMetallicRoughness":{})")).baseColorFactor, glm::vec4(1, 0, 0, 1));
+    const std::string required = R"(,"extensionsRequired":["KHR_materials_pbrSpecularGlossiness"])";
+    EXPECT_EQ(only(specularQuad(red, green, required)).baseColorFactor, glm::vec4(1, 0, 0, 1));
+    const GltfBuilder wrong =
+        quadWith(R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":7})" + green + "}", "", required);
+    EXPECT_EQ(only(wrong).baseColorFactor, glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(warningsOf(wrong), (Strings{"material 0 KHR_materials_pbrSpecularGlossiness: not an object; left out"}));
+}
+
 TEST(GltfMaterial, UnreadExtensionsAreNamedOnceAKind) {
     GltfBuilder b =
         quadWith(R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":1.4}}},)"

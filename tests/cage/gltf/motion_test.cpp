@@ -33,14 +33,16 @@ TEST(GltfMotion, IntegerRotationsAreDequantised) {
 
 TEST(GltfMotion, ForeignChannelsAreIgnoredByName) {
     GltfBuilder b = skinnedQuad();
-    b.more = replaced(b.more, R"("channels":[)",
-                      R"("channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":)"
-                      R"({"pointer":"/nodes/0/weights"}}}},{"sampler":9,"target":{"node":0,"path":"weights"}},)");
+    b.more =
+        replaced(b.more, R"("channels":[)",
+                 R"("channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":)"
+                 R"({"pointer":"/cameras/0/perspective/yfov"}}}},{"sampler":9,"target":{"node":0,"path":"weights"}},)");
     b.more = replaced(b.more, R"("sampler":9)", R"("sampler":0)");
     const Character c = readWell(b.glb());
     ASSERT_EQ(c.clips[0].channels.size(), 2u);
-    EXPECT_EQ(c.warnings, (Strings{"animation 0: 1 channel of KHR_animation_pointer or no node ignored",
-                                   "animation 0: 1 channel of weights of nodes without morph targets ignored"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"animation 0: 1 channel of KHR_animation_pointer to \"/cameras/*/perspective/yfov\" ignored",
+                       "animation 0: 1 channel of weights of nodes without morph targets ignored"}));
 }
 
 TEST(GltfMotion, ClipsKeepTheirNumbers) {
