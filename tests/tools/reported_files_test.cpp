@@ -28,11 +28,8 @@ const std::map<std::string, std::string> kNotRightYet = {
     {"05a_hidden_required.glb", "refused by name: KHR_node_visibility is not read"},
     {"05b_hidden_optional.glb", "KHR_node_visibility is not read, and nothing is said of it"},
     {"06_vrm0_target_names.glb", "names of targets in a primitive's extras are not read"},
-    {"15_unwelded.obj", "vertices of OBJ files are not welded, and nothing is said of it"},
-    {"16_objects.obj", "objects of OBJ files are not kept apart"},
     {"24_pointer_translation.glb", "refused by name: KHR_animation_pointer is not read"},
     {"25_specular_glossiness.glb", "KHR_materials_pbrSpecularGlossiness is not read"},
-    {"29_colours_and_mtl.obj", "colors and MTL files of OBJ files are not read"},
 };
 
 /// How much positions may be off: the expected ones have five decimals.
