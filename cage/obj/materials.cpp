@@ -17,7 +17,7 @@
 namespace supple::cage::obj {
 namespace {
 
-/// MTL files that one OBJ file names, and the size of one: larger ones are no lists of materials.
+/// MTL files that one OBJ file names, found or not, and the size of one: larger ones are no lists of materials.
 constexpr size_t kMaxLibraries = 64;
 constexpr size_t kMaxLibraryBytes = 64u << 20;
 constexpr size_t kMaxImages = 4096;
@@ -120,15 +120,15 @@ private:
         if (!path) {
             return path.error();
         }
-        if (!tried_.insert(*path).second) {
+        if (tried_.count(*path) != 0) {
             return success();
         }
-        if (tried_.size() > kMaxLibraries) {
+        if (tried_.size() == kMaxLibraries) {
             return notFound("more than " + std::to_string(kMaxLibraries) + " MTL files");
         }
+        tried_.insert(*path);
         const Result<std::vector<std::byte>> bytes = readFile_(*path);
         if (!bytes) {
-            tried_.erase(*path);
             return bytes.error();
         }
         if (bytes->size() > kMaxLibraryBytes) {

@@ -287,6 +287,38 @@ TEST_F(ReportedFiles, SurfacesMayBeOfAnySize) {
     }
 }
 
+/// What OBJ files have besides polygons, as the command shows it: parts, one of them by another scheme, welded
+/// vertices, and a material of the file beside it.
+TEST_F(ReportedFiles, ObjFilesHavePartsAndMaterials) {
+    writeText(file("two.mtl"), "newmtl Red\nKd 1 0 0\n");
+    writeText(file("two.obj"),
+              "mtllib two.mtl\no Body\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 2 1 0\n"
+              "usemtl Red\nf 1 2 3 4\nf 5 6 7\no Hat\nv 0 0 2\nv 1 0 2\nv 1 1 2\nv 0 1 2\nf 8 9 10 11\n");
+    const auto inspected = [&](const std::string& options) {
+        const Outcome outcome = run("inspect two.obj --json " + options);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    const auto said = inspected("");
+    ASSERT_EQ(said["parts"].size(), 2u);
+    EXPECT_EQ(said["parts"][0]["name"], "Body");
+    EXPECT_EQ(said["parts"][1]["name"], "Hat");
+    EXPECT_EQ(said["parts"][0]["weldSource"], "equal position, skin and morphs");
+    EXPECT_EQ(said["parts"][1]["weldSource"], "as given");
+    EXPECT_EQ(said["materials"][0]["baseColorFactor"], nlohmann::json::parse("[1.0, 0.0, 0.0, 1.0]"));
+    EXPECT_EQ(said["vertices"], 9);
+    EXPECT_EQ(inspected("--vertices-apart")["vertices"], 11);
+    // The library gets the same flag.
+    for (const auto& [options, vertices] : {std::pair("", 9u), std::pair(" --vertices-apart", 11u)}) {
+        const Outcome baked = runOnDevice(std::string("bake two.obj -o cage.obj --scheme cage") + options);
+        ASSERT_EQ(baked.exitCode, 0) << baked.err;
+        EXPECT_EQ(readObj(file("cage.obj")).v.size(), vertices);
+    }
+    const Outcome drawn =
+        runOnDevice("bake two.obj -o hat.ply --rate 2 --part-scheme Hat=polygons --scheme catmull-clark");
+    EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+}
+
 TEST_F(ReportedFiles, ComeOutRight) {
     if (!fs::exists(kFolder / "expected.json")) {
         GTEST_SKIP() << "all reported files left out: " << kFolder << " is not present";
