@@ -24,11 +24,21 @@ void addOneJoint(Character& character, const std::string& name) {
 
 } // namespace
 
-void bindToOneJoint(PartCage& part, Character& character, const std::string& nodeName) {
+void bindToOneJoint(std::span<PartCage> parts, Character& character, const std::string& nodeName) {
     addOneJoint(character, nodeName);
-    part.part.name = nodeName;
-    part.part.joints = {0};
-    part.weights = ofOneJoint(part.cage.positions.size());
+    for (PartCage& part : parts) {
+        part.part.joints = {0};
+        part.weights = ofOneJoint(part.cage.positions.size());
+        if (parts.size() == 1) {
+            part.part.name = part.part.name.empty() ? nodeName : part.part.name;
+            continue;
+        }
+        part.part.node = static_cast<uint32_t>(character.skeleton.nodes.size());
+        character.skeleton.parentsFirst.push_back(part.part.node);
+        Node& node = character.skeleton.nodes.emplace_back();
+        node.name = part.part.name;
+        node.parent = 0;
+    }
 }
 
 void bindToOneJoint(Character& character, const std::string& nodeName) {

@@ -4,13 +4,15 @@
 #include "cage/character.h"
 #include "cage/parts.h"
 
+#include <span>
 #include <string>
 
 namespace supple::cage {
 
-/// Gives the character one node of that name, which carries the part and is the only joint; every vertex of the part is
-/// bound to it.
-void bindToOneJoint(PartCage& part, Character& character, const std::string& nodeName);
+/// Gives the character one node of that name, which is the only joint; every vertex of the parts is bound to it. It
+/// carries a part that is alone, which is called as it if it has no name. Each of several is carried by a node of its
+/// own below that one.
+void bindToOneJoint(std::span<PartCage> parts, Character& character, const std::string& nodeName);
 /// The same of a character that is its cage alone.
 void bindToOneJoint(Character& character, const std::string& nodeName);
 

@@ -12,7 +12,7 @@ supple_packages=(
 )
 # To test as well.
 supple_test_packages=(
-    libgtest-dev vulkan-validationlayers libtinygltf-dev
+    libgtest-dev vulkan-validationlayers libtinygltf-dev libtinyobjloader-dev
     libosd-dev libegl-dev libgl-dev
     xvfb xauth xdotool
     qt6-declarative-dev qml6-module-qtquick qml6-module-qtquick-controls

@@ -1,5 +1,6 @@
 #include "cage/formats/reader.h"
 
+#include "cage/gltf/uri.h"
 #include "cage/obj/reader.h"
 
 #include <algorithm>
@@ -34,7 +35,11 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
             return Error{ErrorCode::argument, name + ": " + options.clipFiles.front().name +
                                                   ": an OBJ file has no nodes that clips of other files could move"};
         }
-        return readObj(bytes, name, {options.sewParts, options.creasesFromNormals, options.strict});
+        const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
+        return readObj(bytes, name,
+                       {.finish = {options.sewParts, options.creasesFromNormals, options.strict},
+                        .weld = options.weldObj,
+                        .readFile = options.readFile ? options.readFile : readFolder});
     }
     return readGltf(bytes, name, baseDirectory, options);
 }

@@ -3,22 +3,18 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/file_reader.h"
 #include "cage/skeleton.h"
 #include "cage/split/cage.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace supple::cage {
-
-/// Gives the bytes of a file that the asset refers to, or why it cannot, in a few words. `path` is percent-decoded and
-/// relative, with forward slashes, no ".." and no scheme.
-using FileReader = std::function<Result<std::vector<std::byte>>(const std::string& path)>;
 
 /// A glTF file whose clips a character takes.
 struct ClipFile {
@@ -33,6 +29,8 @@ struct GltfOptions {
     std::optional<uint32_t> scene;
     /// Sew parts together where their boundaries coincide.
     bool sewParts = true;
+    /// Make vertices of a part of an OBJ file one where they lie in one place (cage/obj/reader.h).
+    bool weldObj = true;
     /// Whether triangles are paired into quads where the file carries no polygons.
     Pairing pairing = Pairing::whereClean;
     /// Make edges with split normals infinitely sharp (cage/normal_creases.h).

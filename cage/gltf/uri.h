@@ -1,4 +1,5 @@
-// The URIs of a glTF file: data: URIs and files of the asset's own folder, nothing else. Private to cage/gltf/.
+// The URIs of a glTF file: data: URIs and files of the asset's own folder, nothing else. For the readers of
+// cage/ alone.
 #pragma once
 
 #include "base/result.h"

@@ -63,8 +63,8 @@ std::string nameOf(const SuppleClipFile& file, size_t index) {
 
 std::optional<Error> faultOfFlags(uint32_t flags) {
     constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
-    constexpr uint32_t kKnown =
-        kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART | SUPPLE_ASSET_CREASES_FROM_NORMALS;
+    constexpr uint32_t kKnown = kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART |
+                                SUPPLE_ASSET_CREASES_FROM_NORMALS | SUPPLE_ASSET_VERTICES_APART;
     if ((flags & ~kKnown) != 0) {
         return Error{ErrorCode::range, "unknown flags"};
     }
@@ -244,6 +244,7 @@ Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& d
     options.strict = finish.strict;
     options.creasesFromNormals = finish.creasesFromNormals;
     options.sewParts = finish.sewParts;
+    options.weldObj = !has(SUPPLE_ASSET_VERTICES_APART);
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }

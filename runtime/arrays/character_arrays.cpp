@@ -122,7 +122,7 @@ Result<cage::Character> characterFromArrays(const SuppleCageDesc& desc, const st
         parts[0].namesBySource = true;
         readCageArrays(desc, {}, parts[0], faults);
         refusals.raise();
-        cage::bindToOneJoint(parts[0], character, name);
+        cage::bindToOneJoint(parts, character, name);
         character.damages = std::move(parts[0].damages);
         return parts;
     });

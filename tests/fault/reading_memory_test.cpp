@@ -263,7 +263,7 @@ TEST(ReadingMemory, LinesOfAnObjAreCounted) {
         return all;
     };
     for (const char* line : {"f 1 2 3\n", "f 1 2 3 4\n", "f 1 1 1\n", "v 0 0 0\n", "vn 0 0 1\n", "vt 0 0\n", "l 1 2\n",
-                             "usemtl a\n", "g a\n", "o a\n", "s 1\n", "\n", "#\n", "?\n", "p 1\n"}) {
+                             "v 0 0 0 1 1 1\n", "usemtl a\n", "g a\n", "o a\n", "s 1\n", "\n", "#\n", "?\n", "p 1\n"}) {
         readWithin(("100,000 lines of " + std::string(line).substr(0, 3)).c_str(), toBytes(lines(100000, line)),
                    "hostile.obj");
     }
@@ -277,6 +277,18 @@ TEST(ReadingMemory, LinesOfAnObjAreCounted) {
         named += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
     }
     readWithin("100,000 materials", toBytes(named), "hostile.obj");
+    for (const auto& [count, line] : {std::pair(16383, "g "), std::pair(100000, "o "), std::pair(100000, "mtllib ")}) {
+        std::string parts = lines(0, "");
+        for (int i = 0; i < count; ++i) {
+            parts += line + std::to_string(i) + (line[0] == 'm' ? "\n" : "\nf 1 2 3\n");
+        }
+        readWithin((std::to_string(count) + " times " + line).c_str(), toBytes(parts), "hostile.obj");
+    }
+    std::string soup = lines(0, "");
+    for (int i = 0; i < 100000; ++i) {
+        soup += "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nf -1 -2 -3\n";
+    }
+    readWithin("100,000 triangles, one place", toBytes(soup), "hostile.obj");
     std::string polygon = lines(0, "");
     for (int i = 0; i < 200000; ++i) {
         polygon += "v 0 0 0\n";

@@ -229,10 +229,10 @@ std::vector<uint8_t> mutateGltf(const uint8_t* data, size_t size, Random& random
 }
 
 std::vector<uint8_t> mutateLines(const uint8_t* data, size_t size, Random& random) {
-    static const char* const kWords[] = {"v",          "vt",          "vn",  "f",    "usemtl", "mtllib", "o",  "g",
-                                         "s",          "l",           "1",   "2",    "3",      "-1",     "0",  "1/1",
-                                         "1//1",       "1/1/1",       "1e9", "3e38", "nan",    "#",      "\\", "/",
-                                         "4294967296", "-9999999999", "\t",  "\r",   "\xFF"};
+    static const char* const kWords[] = {
+        "v",  "vt", "vn",         "f",           "usemtl", "mtllib", "o",     "g",      "s",      "l",   "1",
+        "2",  "3",  "-1",         "0",           "1/1",    "1//1",   "1/1/1", "1e9",    "3e38",   "nan", "#",
+        "\\", "/",  "4294967296", "-9999999999", "\t",     "\r",     "\xFF",  "newmtl", "map_Kd", "Kd"};
     std::istringstream stream(std::string(reinterpret_cast<const char*>(data), size));
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);) {

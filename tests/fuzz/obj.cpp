@@ -1,4 +1,5 @@
-// Any OBJ: read, or refused with a message; then the tables of all schemes.
+// Any OBJ: read, or refused with a message; then the tables of all schemes. The file is its own MTL file, and whatever
+// is called .png begins as a picture does.
 #include "cage/formats/reader.h"
 #include "surface/schemes.h"
 #include "tests/fuzz/target.h"
@@ -7,6 +8,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace supple;
     cage::GltfOptions options;
     options.creasesFromNormals = size % 2 == 0;
+    options.weldObj = size % 5 != 0;
+    options.sewParts = size % 7 != 0;
+    options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
+        constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+        const auto bytes = path.ends_with(".png") ? fuzz::bytesOf(kPng, sizeof kPng) : fuzz::bytesOf(data, size);
+        return std::vector<std::byte>(bytes.begin(), bytes.end());
+    };
     const Result<cage::Character> character = cage::readCharacter(fuzz::bytesOf(data, size), "fuzz.obj", "", options);
     if (!character) {
         fuzz::demand(character.error().message.starts_with("fuzz.obj: "), "a refusal without the name");

@@ -43,8 +43,8 @@ Result<FileInMemory> load(const std::string& path) {
 
 /// The character of a cooked file.
 Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags) {
-    if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.partsApart || flags.scene ||
-        !flags.clipFiles.empty()) {
+    if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.partsApart || flags.verticesApart ||
+        flags.scene || !flags.clipFiles.empty()) {
         return Error{ErrorCode::argument,
                      file.path + ": it is cooked: its polygons, parts, scene and clips were chosen then"};
     }
@@ -72,6 +72,7 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
     }
     cage::GltfOptions options{.scene = flags.scene,
                               .sewParts = !flags.partsApart,
+                              .weldObj = !flags.verticesApart,
                               .pairing = flags.pairQuads       ? cage::Pairing::always
                                          : flags.keepTriangles ? cage::Pairing::never
                                                                : cage::Pairing::whereClean,
@@ -105,6 +106,7 @@ AssetDescription::AssetDescription(const CharacterFile& file) {
     flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
+    flag(file.flags.verticesApart, SUPPLE_ASSET_VERTICES_APART);
     desc_.memoryLimit = memoryLimit(file.flags);
     desc_.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
     desc_.name = file.path.c_str();

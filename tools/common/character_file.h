@@ -22,6 +22,7 @@ struct ReadOptions {
     bool creasesFromNormals = false;    ///< SUPPLE_ASSET_CREASES_FROM_NORMALS
     bool strict = false;                ///< SUPPLE_ASSET_STRICT
     bool partsApart = false;            ///< SUPPLE_ASSET_PARTS_APART
+    bool verticesApart = false;         ///< SUPPLE_ASSET_VERTICES_APART
     uint32_t memoryLimit = 0;           ///< SuppleAssetDesc.memoryLimit in MiB
     std::optional<uint32_t> scene;      ///< the file's own choice if it is not given
     std::vector<std::string> clipFiles; ///< paths of files whose clips the character takes

@@ -151,6 +151,7 @@ std::string readingOf(const host::ReadOptions& reading) {
     add(reading.keepTriangles, "keep-triangles");
     add(reading.creasesFromNormals, "creases-from-normals");
     add(reading.partsApart, "parts-apart");
+    add(reading.verticesApart, "vertices-apart");
     add(reading.strict, "strict");
     add(reading.memoryLimit != 0, "memory-limit " + std::to_string(reading.memoryLimit));
     add(reading.scene.has_value(), "scene " + std::to_string(reading.scene.value_or(0)));

@@ -44,6 +44,8 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
         ->type_name("CLIPS.glb");
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
+    command.add_flag("--vertices-apart", reading.verticesApart,
+                     "Do not weld vertices of an OBJ file that lie in one place");
     command.add_flag("--creases-from-normals", reading.creasesFromNormals,
                      "Make edges hard creases where the normals of the file are split");
     command

@@ -29,7 +29,8 @@ void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bo
 void bindDevice(CLI::App& command, DeviceFlags& flags);
 [[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
 
-/// --clips, --pair-quads, --keep-triangles, --creases-from-normals, --scene, --parts-apart, --memory-limit and
+/// --clips, --pair-quads, --keep-triangles, --creases-from-normals, --scene, --parts-apart, --vertices-apart,
+/// --memory-limit and
 /// --strict.
 void bindReading(CLI::App& command, host::ReadOptions& reading);
 

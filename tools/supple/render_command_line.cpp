@@ -64,6 +64,7 @@ void addReading(Words& words, const host::ReadOptions& reading) {
     words.flag("--pair-quads", reading.pairQuads);
     words.flag("--keep-triangles", reading.keepTriangles);
     words.flag("--parts-apart", reading.partsApart);
+    words.flag("--vertices-apart", reading.verticesApart);
     words.flag("--creases-from-normals", reading.creasesFromNormals);
     words.flag("--strict", reading.strict);
     if (reading.memoryLimit != 0)

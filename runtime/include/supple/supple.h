@@ -380,7 +380,7 @@ typedef enum SuppleAssetFlags {
      * what is broken (docs/gltf.md). The message has one line for each fault, and one for each kind of damage, which
      * counts it and names the first place. Then the vertices of a cage given as arrays keep their numbers. */
     SUPPLE_ASSET_STRICT = 2,
-    /** Parts of a glTF file or of a character from arrays stay apart. Without this flag, parts are sewn together where
+    /** Parts of a file or of a character from arrays stay apart. Without this flag, parts are sewn together where
      * their boundaries coincide in position, skin and morph targets, and the surface goes on smoothly from one to the
      * other. */
     SUPPLE_ASSET_PARTS_APART = 4,
@@ -389,7 +389,10 @@ typedef enum SuppleAssetFlags {
     SUPPLE_ASSET_KEEP_TRIANGLES = 8,
     /** Edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth schemes
      * keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are. */
-    SUPPLE_ASSET_CREASES_FROM_NORMALS = 16
+    SUPPLE_ASSET_CREASES_FROM_NORMALS = 16,
+    /** Vertices of an OBJ file stay as they are. Without this flag, those of one part that lie in one place become one
+     * vertex where faces meet edge by edge, and a warning counts them. Files of other kinds are not touched by it. */
+    SUPPLE_ASSET_VERTICES_APART = 32
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
@@ -398,7 +401,7 @@ typedef struct SuppleFileBytes {
     size_t byteCount;
     void* handle; /**< the host's own, for release */
 } SuppleFileBytes;
-/** The host's file system: how the external files of an asset (buffers, images) are found. */
+/** The host's file system: how the external files of an asset (buffers, images, MTL files) are found. */
 typedef struct SuppleFiles {
     /** Fills out and returns non-zero, or returns 0 if there is no such file. The bytes must stay valid until release.
      * path is relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or URI scheme. Supple
@@ -440,7 +443,7 @@ typedef struct SuppleAssetDesc {
      * scene, clipFiles and flags other than SUPPLE_ASSET_STRICT must be 0. */
     const void* bytes;
     size_t byteCount;
-    const char* baseDirectory; /**< where the external files of a .gltf lie; null allows none */
+    const char* baseDirectory; /**< where the external files of a .gltf or .obj lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc*
         cage;       /**< a bare cage: a character of one part with one joint, which is called as the asset */

@@ -22,7 +22,7 @@ using test::toBytes;
 using Strings = std::vector<std::string>;
 
 Result<Character> read(const std::string& text, bool strict = false) {
-    return readObj(toBytes(text), "t.obj", {.strict = strict});
+    return readObj(toBytes(text), "t.obj", {.finish = {.strict = strict}});
 }
 
 Character readWell(const std::string& text) {
@@ -125,7 +125,8 @@ TEST(ObjReader, MaterialsAreNames) {
     EXPECT_EQ(c.materials[0].baseColorFactor, glm::vec4(1.0f));
     EXPECT_EQ(c.materials[1].name, "");
     EXPECT_EQ(c.cage.faceMaterials, (std::vector<uint32_t>{kNone, kNone, 0, 1, 0}));
-    EXPECT_EQ(c.warnings, Strings{"line 1: mtllib ignored"});
+    EXPECT_EQ(c.warnings, Strings{"line 1: mtllib \"two.mtl\": external files are not allowed for an asset read from "
+                                  "memory; left out"});
 }
 
 TEST(ObjReader, CreasesAlongChains) {
@@ -175,11 +176,10 @@ TEST(ObjReader, UnusedVerticesGoAndTagsFollow) {
 }
 
 TEST(ObjReader, SaysWhatItLeavesOut) {
-    const Character c = readWell("v 0 0 0 1 1 1\nv 1 0 0 1 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\nl 2 3\n"
+    const Character c = readWell("v 0 0 0 1 1\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 2\nl 2 3\n"
                                  "p 1\ncurv 0 1 1 2\nt crease 2/1/0 0 2 3\nt vertexedit 9/9/9 x\n"
                                  "t interpolateboundary 1/0/0 2\n");
-    EXPECT_EQ(c.warnings, (Strings{"line 10: 1 crease is not an edge; left out",
-                                   "line 1: colors of v ignored, here and on 1 further line", "line 9: curv ignored",
+    EXPECT_EQ(c.warnings, (Strings{"line 10: 1 crease is not an edge; left out", "line 9: curv ignored",
                                    "line 6: l ignored, here and on 1 further line", "line 8: p ignored",
                                    "line 12: t interpolateboundary other than 1 (edges and corners) ignored",
                                    "line 11: t vertexedit ignored"}));
@@ -226,6 +226,10 @@ TEST(ObjReader, RefusalsNameLineElementAndReason) {
     expectRefused(kFourVertices + "f 1 2 4294967297\n", "line 5: face corner 3: vertex 4294967297 of 4");
     expectRefused(kFourVertices + "f 1 2 99999999999999999999\n",
                   "line 5: face corner 3: \"99999999999999999999\" is not an index");
+    for (const std::string& utf16 : {std::string("\xFF\xFEv\0", 4), std::string("\xFE\xFF\0v", 4),
+                                     std::string("v\0 \0001\0 \0002\0", 10), std::string("\0v\0 \0001\0 ", 8)}) {
+        expectRefused(utf16, "file: UTF-16; OBJ files are ASCII or UTF-8");
+    }
     expectRefused(kFourVertices + "f 1 1 2\n", "file: no face is left: all have fewer than three different vertices or "
                                                "bound nothing");
     expectRefused(kFourVertices + "f 1 2 " + std::string(100, '\x01') + "\n",
