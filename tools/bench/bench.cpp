@@ -257,6 +257,9 @@ Status Run::classical() {
         desc.rates = options_.quick ? std::vector<uint32_t>{4} : std::vector<uint32_t>{1, 2, 4, 8, 16};
         desc.rounds = roundOptions();
         desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rclassical: %s   ", what.c_str()); };
+        desc.leaveOut = [&](const std::string& what, const std::string& reason) {
+            result_["leftOut"].push_back({{"what", what}, {"reason", reason}});
+        };
         Result<std::vector<Agreement>> agreement = compareClassical(device_, *workbench_, cage);
         const Status same = agreement ? agreed(*agreement) : Status(agreement.error());
         Result<Json> measured = same ? measureClassical(device_, *workbench_, desc) : Result<Json>(same.error());

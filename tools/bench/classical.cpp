@@ -267,6 +267,10 @@ Result<Json> measureClassical(host::Device& device, Workbench& workbench, const 
         Race race(device, workbench, desc, rate);
         const Status status = race.load();
         Result<Json> row = status ? race.run() : Result<Json>(status.error());
+        if (!row && row.error().code == ErrorCode::limit) {
+            desc.leaveOut(desc.cage->name + " as a dense mesh, rate " + std::to_string(rate), row.error().message);
+            continue;
+        }
         if (!row) {
             return row.error();
         }

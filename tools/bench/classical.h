@@ -20,6 +20,8 @@ struct ClassicalDesc {
     std::vector<uint32_t> rates;
     RoundOptions rounds;
     std::function<void(const std::string& what)> progress;
+    /// Called for each rate whose mesh is too large for the device.
+    std::function<void(const std::string& what, const std::string& reason)> leaveOut;
 };
 
 /// Whether a dense mesh can be made of it and moves: quads without holes, a clip.
