@@ -743,7 +743,7 @@ void createAsset(Rows& r) {
         d.cage = &kNoCage;
         d.character = &kNoCharacter;
     });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 32; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 64; });
     spoiled("pairs and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.flags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
