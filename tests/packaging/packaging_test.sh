@@ -43,7 +43,8 @@ if [ "$part" = subdirectory ]; then
         "-DLANGUAGES=C;CXX" -DBUILD_SHARED_LIBS=ON
     grep -q "^SUPPLE_BUILD_SHARED:BOOL=ON" "$work/fetch/CMakeCache.txt" || fail "BUILD_SHARED_LIBS is not followed"
     # The kernels of the other two are those of the build proper, which takes a minute less.
-    kernel=$(ninja -C "$work/fetch" -t targets all | grep -o '^[^:]*deform_gather_comp_NARROW\.h' | head -1)
+    targets=$(ninja -C "$work/fetch" -t targets all)
+    kernel=$(grep -m1 -o '^[^:]*deform_gather_comp_NARROW\.h' <<<"$targets") || fail "no kernel to compile"
     quietly cmake --build "$work/fetch" --target "$kernel"
     cmp "$work/fetch/$kernel" "$build/generated/shaders/deform_gather_comp_NARROW.h" || fail "another kernel"
     say "FetchContent, configured, a kernel compiled"

@@ -27,8 +27,8 @@ struct Agreement {
                                                                 const BenchCage& sphere,
                                                                 std::span<const float> coefficients);
 
-/// OpenSubdiv's evaluators with each other and with the device's fragments or Loop. ErrorCode::asset or limit:
-/// OpenSubdiv refuses the cage.
+/// OpenSubdiv's evaluators with each other and with the device's fragments or Loop. Empty if OpenSubdiv refuses the
+/// cage.
 [[nodiscard]] Result<std::vector<Agreement>> comparePeers(host::Device& device, Workbench& workbench,
                                                           const OpensubdivPeers& peers, const BenchCage& cage,
                                                           PeerRules rules);

@@ -300,11 +300,10 @@ Status Run::agree() {
     for (size_t c = 0; all && c < cages_.size(); ++c) {
         for (const PeerRules rules : cages_[c].peers) {
             const Result<std::vector<Agreement>> peers = comparePeers(device_, *workbench_, peers_, cages_[c], rules);
-            if (peers) {
-                all->insert(all->end(), peers->begin(), peers->end());
-            } else if (peers.error().code != ErrorCode::asset && peers.error().code != ErrorCode::limit) {
+            if (!peers) {
                 return peers.error();
             }
+            all->insert(all->end(), peers->begin(), peers->end());
         }
     }
     for (const SuppleScheme scheme : crowdSize() > 0 ? crowdSchemes() : std::vector<SuppleScheme>()) {

@@ -28,8 +28,13 @@ Peer limitStencils(const std::shared_ptr<const OpensubdivTables>& tables) {
             stencils.GetWeights().data(), stencils.GetDuWeights().data(), stencils.GetDvWeights().data(), 0,
             stencils.GetNumStencils()));
     };
-    return {tables->name + " CPU, limit stencils", tables->rules, tables->points(), run, nullptr,
-            [out] { return out->position; },       tables->faces};
+    return {peerName(tables->rules) + " CPU, limit stencils",
+            tables->rules,
+            tables->points(),
+            run,
+            nullptr,
+            [out] { return out->position; },
+            tables->faces};
 }
 
 Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
@@ -50,8 +55,8 @@ Peer patches(const std::shared_ptr<const OpensubdivTables>& tables) {
                                    patchTable->GetPatchArrayBuffer(), patchTable->GetPatchIndexBuffer(),
                                    patchTable->GetPatchParamBuffer()));
     };
-    return {tables->name + " CPU, patches",  tables->rules, tables->points(), run, nullptr,
-            [out] { return out->position; }, tables->faces};
+    return {peerName(tables->rules) + " CPU, patches", tables->rules, tables->points(), run, nullptr,
+            [out] { return out->position; },           tables->faces};
 }
 
 } // namespace

@@ -41,8 +41,13 @@ Peer peer(const GlContext& gl, const OpensubdivTables& tables, const char* job, 
         return status;
     };
     const auto seconds = [&gl, asked](uint32_t times) { return gl.elapsedSeconds(times, asked); };
-    return {tables.name + " GLSL, " + job, tables.rules, tables.points(), run, seconds,
-            std::move(positions),          tables.faces};
+    return {peerName(tables.rules) + " GLSL, " + job,
+            tables.rules,
+            tables.points(),
+            run,
+            seconds,
+            std::move(positions),
+            tables.faces};
 }
 
 struct GlOutput {

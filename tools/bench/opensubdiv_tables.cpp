@@ -129,7 +129,6 @@ Result<std::unique_ptr<OpensubdivTables>> opensubdivTables(const cage::Cage& cag
     }
     auto tables = std::make_unique<OpensubdivTables>();
     tables->rules = rules;
-    tables->name = peerName(rules);
     for (const glm::vec3& p : cage.positions) {
         tables->cage.insert(tables->cage.end(), {p.x, p.y, p.z});
     }

@@ -29,7 +29,6 @@ struct OpensubdivTables {
     std::vector<OpenSubdiv::Osd::PatchCoord> coordinates;            ///< of the points, in their order
     std::shared_ptr<const std::vector<uint32_t>> faces;              ///< of the points
     PeerRules rules = PeerRules::catmullClark;
-    std::string name; ///< of the library and the rules, as peers are called
 
     [[nodiscard]] size_t points() const { return coordinates.size(); }
 };
