@@ -72,6 +72,13 @@ Status Asset::makeSkin(const gpu::Device& device, const std::shared_ptr<const st
     return success();
 }
 
+const skinning::Reach& Asset::reach() {
+    if (!prepared->reach && !ownReach) {
+        ownReach = skinning::reachOf(character);
+    }
+    return prepared->reach ? *prepared->reach : *ownReach;
+}
+
 Result<std::shared_ptr<AssetPiece>> Asset::pieceOf(const gpu::Device& device, const std::vector<uint32_t>& wanted) {
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {
         if (piece->prepared->parts == wanted) {

@@ -44,6 +44,7 @@ struct Asset {
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words may be gone
     gpu::StaticBuffers clips;                             ///< 0: the clip table
+    std::optional<skinning::Reach> ownReach; ///< made for the first group of a view, if it was not prepared
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -70,6 +71,8 @@ struct Asset {
     tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// How far the character reaches in any pose of its clips.
+    [[nodiscard]] const skinning::Reach& reach();
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// What all groups share, and the tables of those that there have been.
     template <class F>

@@ -250,7 +250,8 @@ PassCost recordReadback(const Frame& frame, Group& group) {
                     patches += surface->patchesAtLevels();
                 }
                 group.view()->recordReadback(frame.commands, other.culling()->list().buffer,
-                                             other.culling()->countOffset(), {patches, other.leastVertices()});
+                                             other.culling()->countOffset(),
+                                             {patches, other.leastVertices(), other.unposed()});
             }
         });
     }

@@ -153,6 +153,11 @@ Status Group::createListing(const GroupShared& shared) {
     }
     const bool windowed = windows->count() > 1;
     listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? &drawnParts_ : nullptr);
+    constexpr uint32_t kPosesAll = SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_BOUNDS;
+    if (view_ != nullptr && view_->culls() && !follows() && (desc_.flags & kPosesAll) == 0) {
+        outOfSight_ = OutOfSight(asset_->reach(), capacity);
+        listing_.leaveOut(&outOfSight_);
+    }
     return follows() ? success() : instances_->makeBuffers(windowed);
 }
 
@@ -335,10 +340,11 @@ void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
     noDraws_.renew();
     passesFrame_ = lastRecordedFrame_ = frame.number;
-    const bool changed = listing_.changed(slots());
+    bool changed = listing_.changed(slots());
     PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
+    changed = findUnseen() || changed;
     if (changed) {
         visibility_->list(slots(), listing_);
     }
@@ -351,6 +357,15 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     return cost;
+}
+
+bool Group::findUnseen() {
+    if (!outOfSight_.isAskedFor()) {
+        return false;
+    }
+    // Groups that draw the same instances read their deformed cages, wherever their views look.
+    return instances_.use_count() > 1 ? outOfSight_.clear()
+                                      : outOfSight_.find(view_->cullView(), boundsMargin(), slots(), poses());
 }
 
 PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {

@@ -9,6 +9,7 @@
 #include "runtime/culling/bounds_readback.h"
 #include "runtime/culling/culling.h"
 #include "runtime/culling/listed_bounds.h"
+#include "runtime/culling/out_of_sight.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
 #include "runtime/stages/cage_stages.h"
@@ -82,6 +83,8 @@ public:
     [[nodiscard]] View* view() const { return view_.get(); }
     [[nodiscard]] Culling* culling() { return culling_; }
     [[nodiscard]] const Culling* culling() const { return culling_; }
+    /// Visible instances that the last recording has left out before they were posed.
+    [[nodiscard]] uint32_t unposed() const { return outOfSight_.count(); }
 
     /// Whether the device finds the bounds of instances.
     [[nodiscard]] bool hasBounds() const { return culling_ != nullptr || listedBounds_ != nullptr; }
@@ -148,6 +151,8 @@ private:
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
     void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
     [[nodiscard]] Status createVisibility();
+    /// True if others than before are out of sight.
+    bool findUnseen();
     /// What frames concern: once all of it is there.
     void addMembers(const GroupShared& shared);
 
@@ -163,6 +168,7 @@ private:
     std::shared_ptr<InstanceSet> instances_;
     DrawnParts drawnParts_;
     InstanceListing listing_;
+    OutOfSight outOfSight_;
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view
     std::unique_ptr<ListedBounds> listedBounds_; ///< if it belongs to none and has bounds

@@ -167,6 +167,15 @@ void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatc
     }
 }
 
+skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
+    const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+    const skinning::Box box = skinning::paletteBounds(
+        reach, std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount),
+        std::span(weights).subspan(instance * targetCount_, targetCount_));
+    return skinning::movedBy(glm::dmat4(placement(instance)),
+                             rotations_.empty() ? box : skinning::dualQuaternionBounds(reach, box));
+}
+
 void HostPoses::write(uint32_t count, std::byte* target) const {
     const size_t joints = layout_.jointCount;
     for (uint32_t instance = 0; instance < count; ++instance) {

@@ -5,6 +5,7 @@
 #include "runtime/asset_match.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
+#include "skinning/reach.h"
 #include "supple/supple.h"
 
 #include <cstddef>
@@ -52,6 +53,9 @@ public:
 
     /// Where the joint is, as the instance is posed and placed now.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
+
+    /// A box that holds the instance's cage, as it is posed and placed now.
+    [[nodiscard]] skinning::Box boundsOf(uint32_t instance, const skinning::Reach& reach) const;
 
     /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h.
     void write(uint32_t count, std::byte* target) const;

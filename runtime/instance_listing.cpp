@@ -1,5 +1,6 @@
 #include "runtime/instance_listing.h"
 
+#include "runtime/culling/out_of_sight.h"
 #include "shaders/shared/instances.h"
 
 namespace supple::runtime {
@@ -23,6 +24,10 @@ InstanceListing::Lists InstanceListing::next() {
     return {entries.first(n), entries.subspan(n, n), entries.subspan(windows_.firstPartEntry())};
 }
 
+bool InstanceListing::worksOn(const InstanceSlots& slots, uint32_t slot) const {
+    return slots.shows(slot) && (unseen_ == nullptr || !unseen_->holds(slot));
+}
+
 void InstanceListing::list(const InstanceSlots& slots, std::span<uint32_t> byWindow) {
     listedVersion_ = slots.version();
     settles_ = false;
@@ -33,7 +38,7 @@ void InstanceListing::list(const InstanceSlots& slots, std::span<uint32_t> byWin
         InstanceWindows::Listed listed;
         for (const bool past : {true, false}) {
             for (uint32_t s = first; s < last; ++s) {
-                if (slots.shows(s) && hasPast(slots, s) == past) {
+                if (worksOn(slots, s) && hasPast(slots, s) == past) {
                     byWindow[first + listed.count++] = (s - first) |
                                                        slots.priority(s) << shared::kInstancePriorityShift |
                                                        (past ? 0 : shared::kInstanceIsNew);
@@ -49,7 +54,7 @@ void InstanceListing::list(const InstanceSlots& slots, std::span<uint32_t> byWin
         settles_ = settles_ || listed.withPast < listed.count;
     }
     for (uint32_t s = 0; s < slots.end(); ++s) {
-        lives_[s] = slots.shows(s) ? slots.life(s) : 0;
+        lives_[s] = worksOn(slots, s) ? slots.life(s) : 0;
     }
     windows_.allEntries = windows_.visible;
     windows_.partEntries = 0;
@@ -87,7 +92,7 @@ void InstanceListing::listDrawn(const InstanceSlots& slots, const Lists& lists) 
 void InstanceListing::listForCulling(const InstanceSlots& slots, std::span<uint32_t> all) const {
     uint32_t count = 0;
     for (uint32_t s = 0; s < slots.end(); ++s) {
-        if (slots.shows(s)) {
+        if (worksOn(slots, s)) {
             all[count++] = s | slots.priority(s) << shared::kInstancePriorityShift |
                            (hasPast(slots, s) ? 0 : shared::kInstanceIsNew) |
                            (slots.hiddenParts().hidesAny(s) ? shared::kInstanceHidesParts : 0);

@@ -13,6 +13,8 @@
 
 namespace supple::runtime {
 
+class OutOfSight;
+
 class InstanceListing {
 public:
     InstanceListing() = default;
@@ -49,6 +51,8 @@ public:
     void listDrawn(const InstanceSlots& slots, const Lists& lists);
     /// Before list(): the visible slots with flags, as culling takes them (shaders/shared/bounds.h).
     void listForCulling(const InstanceSlots& slots, std::span<uint32_t> all) const;
+    /// What the next lists leave out; null: nothing. It must outlive them.
+    void leaveOut(const OutOfSight* unseen) { unseen_ = unseen; }
     /// Every instance is new to the next list().
     void forgetAll();
 
@@ -61,12 +65,15 @@ private:
     /// The visible slots of a draw window that show the part, rising; how many.
     [[nodiscard]] uint32_t listPart(const InstanceSlots& slots, uint32_t part, uint32_t window,
                                     std::span<uint32_t> out) const;
+    /// Whether the frame works on the instance in the slot.
+    [[nodiscard]] bool worksOn(const InstanceSlots& slots, uint32_t slot) const;
     [[nodiscard]] bool hasPast(const InstanceSlots& slots, uint32_t slot) const {
         return lives_[slot] == slots.life(slot);
     }
 
     InstanceWindows windows_;
     const DrawnParts* parts_ = nullptr;
+    const OutOfSight* unseen_ = nullptr;
     std::vector<uint32_t> lives_; ///< by slot: InstanceSlots::life of what was evaluated last; 0: nothing
     uint64_t listedVersion_ = 0;
     bool settles_ = true; ///< the next list differs though nothing changes

@@ -66,6 +66,8 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.evaluated_.memory = skinning::PoseMemory(desc.asset->character);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
+    playback.bounds_ =
+        PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion, desc.capacity);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
@@ -218,12 +220,14 @@ void Playback::reset(uint32_t slot) {
     skinning::PlaybackState own = state(slot);
     own.setMorphWeights(nullptr, 0);
     own.setBindPose();
+    bounds_.setBindPose(slot);
     setTransform(slot, glm::mat4(1.0f));
 }
 
 void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     forget(slot);
     state(slot).set(asset_->character, *asset_->clipTable, desc);
+    bounds_.set(slot, desc);
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
         adds_ = adds_ || layer.mode == skinning::LayerMode::additive;
@@ -231,11 +235,23 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     markChanged(slot);
 }
 
-void Playback::place(uint32_t slot) {
+glm::mat4 Playback::placement(uint32_t slot) const {
     glm::mat4 placed = transforms_[slot];
     placed[3] = glm::vec4(glm::vec3(positions_[slot] - origin_), 1.0f);
-    state(slot).setTransform(placed);
+    return placed;
+}
+
+void Playback::place(uint32_t slot) {
+    state(slot).setTransform(placement(slot));
     markChanged(slot);
+}
+
+std::optional<skinning::Box> Playback::boundsOf(uint32_t slot, const skinning::Reach& reach) {
+    // Targets that move nothing have no weights on the device.
+    const float* const weights = state(slot).morphWeights();
+    const std::span<const float> own(weights, weights != nullptr ? push_.morphCount : 0);
+    const std::optional<skinning::Box> box = bounds_.of(slot, time_, reach, own);
+    return box ? std::optional(skinning::movedBy(glm::dmat4(placement(slot)), *box)) : std::nullopt;
 }
 
 void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
@@ -342,6 +358,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         roots_ = other.roots_;
         const size_t words = size_t{push_.stateStride} * 4 * count;
         std::copy_n(other.states_.begin(), words, states_.begin());
+        bounds_.takeOver(other.bounds_, count);
     } else {
         takeOverMasks(other, match);
     }

@@ -6,6 +6,7 @@
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/played_bounds.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
 #include "skinning/playback.h"
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,6 +61,10 @@ public:
     /// kept until what plays, the time or a mask changes.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
 
+    /// A box that holds the instance's cage at the group's time, where the next recording places it; nothing if nobody
+    /// knows. It is found without a pose.
+    [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach);
+
     /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
     /// Layers whose clip the other version lacks are left out. Joints and morph targets that it lacks have in a mask
     /// what they would have if the mask did not name them.
@@ -89,6 +95,7 @@ private:
     Status createSets(const Desc& desc);
     [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
+    [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void takeOverMasks(const Playback& other, const AssetMatch& match);
@@ -125,6 +132,8 @@ private:
         skinning::PoseMemory memory;
     };
     Evaluated evaluated_;
+
+    PlayedBounds bounds_;
 
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order

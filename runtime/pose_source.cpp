@@ -19,6 +19,9 @@ public:
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return poses_.jointTransform(slot, joint);
     }
+    [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach) override {
+        return poses_.boundsOf(slot, reach);
+    }
     [[nodiscard]] HostPoses* host() override { return &poses_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
         poses_.takeOver(*other.host(), count, match);
@@ -64,6 +67,9 @@ public:
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);
+    }
+    [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach) override {
+        return playback_.boundsOf(slot, reach);
     }
     [[nodiscard]] Playback* playback() override { return &playback_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {

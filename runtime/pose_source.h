@@ -11,6 +11,7 @@
 #include "skinning/pose_kernels.h"
 
 #include <memory>
+#include <optional>
 
 namespace supple::runtime {
 
@@ -32,6 +33,10 @@ public:
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
+    /// A box that holds the instance's cage, as the next recording poses and places it; nothing if nobody knows.
+    [[nodiscard]] virtual std::optional<skinning::Box> boundsOf(uint32_t /*slot*/, const skinning::Reach& /*reach*/) {
+        return std::nullopt;
+    }
     [[nodiscard]] virtual HostPoses* host() { return nullptr; }
     [[nodiscard]] virtual Playback* playback() { return nullptr; }
 

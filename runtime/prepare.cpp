@@ -90,6 +90,9 @@ Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK && !prepared.clips) {
         prepared.clips = skinning::buildClipTable(prepared.character);
     }
+    if (group.viewFlags && !prepared.reach) {
+        prepared.reach = skinning::reachOf(prepared.character);
+    }
     if (group.desc.scheme == SUPPLE_SCHEME_CAGE) {
         return success();
     }

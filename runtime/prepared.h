@@ -8,6 +8,7 @@
 #include "skinning/deform_kernels.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
+#include "skinning/reach.h"
 #include "surface/choice.h"
 #include "surface/lod/instance.h"
 #include "surface/schemes.h"
@@ -48,6 +49,7 @@ struct Prepared {
     skinning::Rig rig;
     skinning::JointFrames jointFrames;
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
+    std::optional<skinning::Reach> reach;     ///< if a group is to be of a view
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
     /// How the level of an instance is measured, if a group of a view is to have the tables.

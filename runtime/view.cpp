@@ -288,7 +288,7 @@ VkDeviceSize View::uploadBytes() const {
 
 CullView View::cullView() const {
     CullView view{};
-    if ((desc_.flags & SUPPLE_VIEW_CULL) != 0) {
+    if (culls()) {
         std::array<float, 16> columns{};
         std::copy_n(camera_.viewProjection, 16, columns.begin());
         const std::array<float, 24> planes = frustumPlanes(columns);
@@ -367,7 +367,8 @@ SuppleViewStatistics View::read(size_t place) const {
         std::array<uint32_t, kListHeaderWords> counts{};
         std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
         read.drawnInstanceCount += counts[0];
-        read.instanceCount += counts[2];
+        read.instanceCount += counts[2] + solved.of[g].unposed;
+        read.unposedInstanceCount += solved.of[g].unposed;
         read.droppedInstanceCount += counts[3];
         read.occludedInstanceCount += counts[4];
         patches += counts[0] * solved.of[g].patches;

@@ -25,6 +25,7 @@ public:
                                                               uint32_t framesInFlight, const SuppleViewDesc& desc);
 
     [[nodiscard]] const SuppleViewDesc& desc() const { return desc_; }
+    [[nodiscard]] bool culls() const { return (desc_.flags & SUPPLE_VIEW_CULL) != 0; }
     [[nodiscard]] bool leavesBackFaces() const { return (desc_.flags & SUPPLE_VIEW_BACK_FACES) != 0; }
     void setCamera(const SuppleCameraDesc& camera); ///< as checked by the caller
     /// As checked by the caller; nothing: nothing hides.
@@ -60,9 +61,10 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// `priorities`: bits of those that instances have.
     void recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const;
-    /// What an instance of a group has: patches of the view's, and surface vertices of the budget at its coarsest.
     struct SolvedGroup {
-        uint32_t patches = 0, leastVertices = 0;
+        uint32_t patches = 0;       ///< of an instance
+        uint32_t leastVertices = 0; ///< of the budget that an instance has at its coarsest
+        uint32_t unposed = 0;       ///< instances that were left out before they were posed
     };
     /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
     /// instances were seen (Culling::countOffset).

@@ -55,4 +55,15 @@ RootMotion traveledBy(const cage::Character& character, const PlaybackDesc& desc
     return rootMotionBetween(character, *first.clip, desc.root, first.previousTime, first.time, first.loop);
 }
 
+double loopsAt(const cage::Character& character, const PlaybackLayer& layer, double time) {
+    const double duration = character.clips[layer.clip].duration;
+    return layer.loop && duration > 0.0 ? loopTime(clipTimeAt(layer, time), duration).loops : 0.0;
+}
+
+RootMotion traveledToLoop(const cage::Character& character, const PlaybackLayer& layer, const RootSelection& root,
+                          double loops) {
+    const cage::Clip& clip = character.clips[layer.clip];
+    return rootMotionBetween(character, clip, root, layer.offset, loops * clip.duration, layer.loop);
+}
+
 } // namespace supple::skinning

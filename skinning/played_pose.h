@@ -23,5 +23,10 @@ void poseNodes(const cage::Character& character, const Rig& rig, const PlaybackD
 
 /// What stands between the instance's transform and model space: how far its first layer has carried it, or nothing.
 [[nodiscard]] RootMotion traveledBy(const cage::Character& character, const PlaybackDesc& desc, double time);
+/// How many whole loops of a layer's clip lie before a time; 0 if it does not loop.
+[[nodiscard]] double loopsAt(const cage::Character& character, const PlaybackLayer& layer, double time);
+/// The part of traveledBy() up to the beginning of that loop.
+[[nodiscard]] RootMotion traveledToLoop(const cage::Character& character, const PlaybackLayer& layer,
+                                        const RootSelection& root, double loops);
 
 } // namespace supple::skinning

@@ -40,9 +40,9 @@ void restPose(const cage::Character& character, Pose& pose);
 /// animate is as in the rest pose.
 void sampleClip(const cage::Character& character, const cage::Clip& clip, double time, Pose& pose);
 
-/// The local transform of one node alone.
 /// What a clip gives to a crease set at a time: the first or the last key's value outside of the keys.
 [[nodiscard]] double sampleSharpness(const cage::SharpnessCurve& curve, double time);
+/// The local transform of one node alone.
 [[nodiscard]] Transform sampleNode(const cage::Skeleton& skeleton, const cage::Clip& clip, double time, uint32_t node);
 
 [[nodiscard]] glm::dmat4 localMatrix(const cage::Node& node, const Transform& transform);

@@ -184,7 +184,7 @@ std::string crowdTable(const Json& crowd) {
 
 /// Passes that some row lacks are blank there.
 std::string viewTable(const Json& rows) {
-    std::vector<std::string> head{"scheme", "characters", "vertices", "frame, ms"}, passes;
+    std::vector<std::string> head{"scheme", "characters", "vertices", "frame, ms", "all unseen, ms"}, passes;
     for (const Json& row : rows) {
         for (const Json& pass : row["passes"]) {
             const std::string name = pass["pass"];
@@ -198,7 +198,7 @@ std::string viewTable(const Json& rows) {
     Table table(head);
     for (const Json& row : rows) {
         std::vector<std::string> cells{row["scheme"], row["characters"].dump(), row["vertices"].dump(),
-                                       number(row["frameMs"])};
+                                       number(row["frameMs"]), number(row["unseenMs"])};
         for (const std::string& name : passes) {
             const auto own = std::find_if(row["passes"].begin(), row["passes"].end(),
                                           [&](const Json& pass) { return pass["pass"] == name; });

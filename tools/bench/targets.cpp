@@ -41,6 +41,7 @@ constexpr uint32_t kRates[] = {4, 8, 16, 32};
 constexpr double kLoadMicrosecondsAFace = 5.0, kStaticBytesAFace = 150.0;
 constexpr double kBandwidthShare = 0.70, kCrowdMilliseconds = 0.5, kOneCharacterMicroseconds = 40.0;
 constexpr double kAroundEvaluate = 0.6;
+constexpr double kUnseen = 0.02;
 constexpr uint32_t kCrowd = 1000, kCrowdRate = 4;
 constexpr double kColdMilliseconds = 500.0, kWarmMilliseconds = 30.0;
 
@@ -102,6 +103,8 @@ Json judge(const Json& result) {
     }
     for (const Json& row : result.value("views", Json::array())) {
         add("level, place and attributes / evaluate, in a view", row["scheme"], row["aroundEvaluate"], kAroundEvaluate);
+        add("frame with all unseen / with all seen, in a view", row["scheme"],
+            row["unseenMs"].get<double>() / row["frameMs"].get<double>(), kUnseen);
     }
     for (const Json& loading : result["loading"]) {
         const std::string scheme = loading["scheme"], where = loading["cage"].get<std::string>() + ", " + scheme;

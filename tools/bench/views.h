@@ -18,8 +18,8 @@ struct ViewsDesc {
 };
 
 /// A row per scheme: medians over the frames of the milliseconds of a frame and of each pass by timestamps, surface
-/// vertices, and what level, place and attributes take together over what evaluate takes, the median of the frames'
-/// own ratios.
+/// vertices, what a frame takes if all characters are behind the camera, and what level, place and attributes take
+/// together over what evaluate takes, the median of the frames' own ratios.
 [[nodiscard]] Result<nlohmann::ordered_json> measureViews(host::Device& device, Workbench& workbench,
                                                           const ViewsDesc& desc);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace supple::bench {
 
@@ -19,6 +20,14 @@ constexpr float kCameraDistance = 4.0f, kPixelsPerUnit = 1000.0f;
 
 void computeBarrier(VkCommandBuffer commands) {
     host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite});
+}
+
+SuppleCameraDesc benchCamera() {
+    SuppleCameraDesc camera{};
+    camera.structSize = sizeof camera;
+    camera.position[2] = kCameraDistance;
+    camera.pixelsPerUnit = kPixelsPerUnit;
+    return camera;
 }
 
 } // namespace
@@ -109,12 +118,17 @@ Result<SuppleView> Workbench::createView(SuppleViewDesc desc) {
     if (!id) {
         return id.error();
     }
-    SuppleCameraDesc camera{};
-    camera.structSize = sizeof camera;
-    camera.position[2] = kCameraDistance;
-    camera.pixelsPerUnit = kPixelsPerUnit;
-    inside_->context->views.find(*id)->setCamera(camera);
+    inside_->context->views.find(*id)->setCamera(benchCamera());
     return SuppleView{*id};
+}
+
+void Workbench::lookAway(SuppleView view) {
+    SuppleCameraDesc camera = benchCamera();
+    const glm::vec3 eye(0.0f, 0.0f, 1000.0f);
+    const glm::mat4 seen =
+        glm::perspectiveRH_ZO(1.0f, 1.0f, 0.1f, 1e4f) * glm::lookAtRH(eye, 2.0f * eye, glm::vec3(0.0f, 1.0f, 0.0f));
+    std::copy_n(&seen[0][0], 16, camera.viewProjection);
+    inside_->context->views.find(view.id)->setCamera(camera);
 }
 
 void Workbench::destroy(SuppleAsset asset) {

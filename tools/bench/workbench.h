@@ -49,7 +49,10 @@ public:
     /// Whether the group's static data is on the device.
     [[nodiscard]] bool isThere(SuppleGroup group) const;
     /// With a camera that sees what lies about the origin.
+    /// Its camera sees everything.
     [[nodiscard]] Result<SuppleView> createView(SuppleViewDesc desc);
+    /// The camera sees what is far behind it alone, and no longer what stands about the origin.
+    void lookAway(SuppleView view);
     /// Their memory is freed in a later frame.
     void destroy(SuppleAsset asset);
     void destroy(SuppleGroup group);

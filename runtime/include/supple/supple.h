@@ -836,7 +836,11 @@ typedef enum SuppleGroupFlags {
      * windowSize is a capacity that fits. */
     SUPPLE_GROUP_WINDOWS = 128,
     /** With ATTRIBUTES: also write a tangent per surface vertex, for normal maps. See SuppleVertexStreams.tangents. */
-    SUPPLE_GROUP_TANGENTS = 256
+    SUPPLE_GROUP_TANGENTS = 256,
+    /** Groups of a view with SUPPLE_VIEW_CULL: pose and deform every visible instance. Without this flag, instances
+     * that surely are out of the camera's sight are left out before they are posed. Use it if you read poses or
+     * deformed cages of instances that the camera does not see. */
+    SUPPLE_GROUP_POSE_UNSEEN = 512
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */

@@ -33,7 +33,10 @@ typedef enum SuppleViewFlags {
     SUPPLE_VIEW_ATTRIBUTES = 2, /**< write surface attributes, every frame anew */
     SUPPLE_VIEW_UVS1 = 4,       /**< with ATTRIBUTES: second UV sets */
     SUPPLE_VIEW_FACE_UVS = 8,   /**< with ATTRIBUTES: where vertices lie in the trim tiles of their faces */
-    SUPPLE_VIEW_CULL = 16,      /**< instances that the camera does not see are deformed, but get no vertices */
+    /** Instances that the camera does not see get no vertices. Those that are out of its sight in any pose of their
+     * clips are not even posed (see SUPPLE_GROUP_POSE_UNSEEN). When they come back, they have no motion in their first
+     * frame, as instances that were hidden. */
+    SUPPLE_VIEW_CULL = 16,
     SUPPLE_VIEW_OCCLUSION = 32, /**< with CULL: nor do those that suppleSetDepthPyramid hides */
     /** Leave out patches that surely show the camera only their backs, unless their material is double-sided. Use it
      * only if you draw front faces (counter-clockwise) alone, and from this camera alone. Irregular patches of
@@ -200,7 +203,8 @@ SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup 
 /** Bounds of the instances of a view's group, or of a group with SUPPLE_GROUP_BOUNDS. out gets a buffer of two float4
  * per slot, in the space of the surface vertices. The first has the least corner of a box round the surface, and in w
  * the level that the instance asks for as a whole (without a view: 0). The second has the greatest corner, and in w 1
- * if a cage vertex is not finite, else 0. suppleRecord writes the boxes of visible instances. Errors: the group has no
+ * if a cage vertex is not finite, else 0. suppleRecord writes the boxes of visible instances that
+ * it poses. Errors: the group has no
  * bounds. */
 SUPPLE_API SuppleResult suppleGetInstanceBounds(SuppleContext context, SuppleGroup group, SuppleBufferRange* out);
 
@@ -234,6 +238,8 @@ typedef struct SuppleViewStatistics {
     uint32_t occludedInstanceCount; /**< hidden by the depth pyramid, and by nothing else */
     uint32_t backFaceCount;         /**< patches of drawn instances that BACK_FACES left out */
     uint32_t hiddenPatchCount;      /**< patches of drawn instances that suppleSetPartVisible left out */
+    /** Visible instances that were not posed, as they surely are out of sight; instanceCount has them too. */
+    uint32_t unposedInstanceCount;
 } SuppleViewStatistics;
 
 /** Statistics of the newest completed frame that recorded the view. SUPPLE_NOT_READY: there is none. Never waits. */

@@ -1,0 +1,53 @@
+#include "runtime/played_bounds.h"
+
+#include "skinning/played_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supple::runtime {
+
+void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
+    Played& own = played_[slot];
+    own = {};
+    const bool adds = std::ranges::any_of(
+        desc.layers, [](const skinning::PlaybackLayer& layer) { return layer.mode == skinning::LayerMode::additive; });
+    // Where the yaw is taken and the way is not, the root stands anywhere on a circle.
+    const bool circles = (desc.root.axes & skinning::kRootYaw) != 0 && (desc.root.axes & skinning::kRootGround) == 0;
+    own.kind = adds || circles ? Kind::unbounded : Kind::blended;
+    own.root = desc.root;
+    own.travels = desc.travels && desc.root.axes != 0 && !desc.layers.empty();
+    if (own.travels) {
+        own.first = desc.layers.front();
+    }
+}
+
+std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,
+                                              std::span<const float> hostWeights) {
+    Played& own = played_[slot];
+    if (own.kind == Kind::unbounded || (own.root.axes != 0 && own.root.node != reach.anchor)) {
+        return std::nullopt;
+    }
+    if (own.kind == Kind::bindPose) {
+        return skinning::bindBounds(reach, hostWeights);
+    }
+    skinning::Box box = skinning::grownBy(reach.blended, skinning::reachedBy(hostWeights, reach.targets));
+    if (dualQuaternions_) {
+        box = skinning::dualQuaternionBounds(reach, box);
+    }
+    if (!own.travels) {
+        return box; // the root stays where the clip begins: at one of the anchor's places
+    }
+    // Within a loop, the root of the first layer moves among the anchor's places; what other layers mix in may stand at
+    // another one, and turns with it.
+    const double across = std::hypot(reach.anchorPath.x, reach.anchorPath.z);
+    const glm::dvec3 within(across, reach.anchorPath.y, across);
+    const double loops = skinning::loopsAt(*character_, own.first, time);
+    if (own.loops != loops) {
+        own.loops = loops;
+        own.traveled = skinning::toMatrix(skinning::traveledToLoop(*character_, own.first, own.root, loops));
+    }
+    return skinning::movedBy(own.traveled, {box.low - within, box.high + within});
+}
+
+} // namespace supple::runtime
