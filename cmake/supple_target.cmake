@@ -5,7 +5,7 @@ function(supple_target name)
     target_compile_features(${name} PRIVATE cxx_std_20)
     set_target_properties(${name} PROPERTIES
         CXX_STANDARD 20 CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-        UNITY_BUILD ${SUPPLE_UNITY_BUILD} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 6
+        UNITY_BUILD ${SUPPLE_UNITY_BUILD} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE ${SUPPLE_UNITY_BATCH}
         CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     # The public library shows hosts its own include folder alone.
     target_include_directories(${name} PRIVATE ${supple_SOURCE_DIR})

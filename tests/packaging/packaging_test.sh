@@ -28,7 +28,8 @@ if [ "$part" = subdirectory ]; then
     # A host with flags of its own; one build folder for both kinds, of which only the ABI's file differs.
     for shared in OFF ON; do
         quietly cmake -S "$consumer" -B "$work/subdirectory" -G Ninja "${launcher[@]}" -DHOW=subdirectory \
-            -DSOURCE="$source" -DSUPPLE_UNITY_BUILD=ON -DSUPPLE_COMPILED_SHADERS="$build/generated" "-DLANGUAGES=C;CXX" "-DCMAKE_CXX_FLAGS=-O0 -fno-exceptions -fno-rtti -ffast-math" \
+            -DSOURCE="$source" -DSUPPLE_UNITY_BUILD=ON -DSUPPLE_UNITY_BATCH=30 \
+            -DSUPPLE_COMPILED_SHADERS="$build/generated" "-DLANGUAGES=C;CXX" "-DCMAKE_CXX_FLAGS=-O0 -fno-exceptions -fno-rtti -ffast-math" \
             -DSUPPLE_BUILD_SHARED=$shared
         quietly cmake --build "$work/subdirectory" --target consumer_c consumer_cpp
         "$work/subdirectory/consumer_c"
