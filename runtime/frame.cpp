@@ -120,7 +120,9 @@ PassCost recordUpload(const Frame& frame, Group& group) {
     const Context::Statics statics = frame.context.recordPendingStatics(frame.commands, group);
     // Those that follow a group come behind it.
     const std::shared_ptr<Group> leader = group.follows() ? frame.context.groups.find(group.leader()) : nullptr;
-    if (!statics.there || (leader != nullptr && leader->waitsIn(frame.number))) {
+    // A leader that was recorded before this group was created may not have posed all that it draws.
+    const bool lacksPoses = leader != nullptr && (leader->waitsIn(frame.number) || leader->unposed() > 0);
+    if (!statics.there || lacksPoses) {
         group.recordWaiting(frame.commands, frame.number);
         return {0, statics.bytes};
     }

@@ -155,7 +155,7 @@ Status Group::createListing(const GroupShared& shared) {
     listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? &drawnParts_ : nullptr);
     constexpr uint32_t kPosesAll = SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_BOUNDS;
     if (view_ != nullptr && view_->culls() && !follows() && (desc_.flags & kPosesAll) == 0) {
-        outOfSight_ = OutOfSight(asset_->reach(), capacity);
+        outOfSight_ = OutOfSight(asset_->reach(), boundsMargin(), capacity);
         listing_.leaveOut(&outOfSight_);
     }
     return follows() ? success() : instances_->makeBuffers(windowed);
@@ -364,8 +364,7 @@ bool Group::findUnseen() {
         return false;
     }
     // Groups that draw the same instances read their deformed cages, wherever their views look.
-    return instances_.use_count() > 1 ? outOfSight_.clear()
-                                      : outOfSight_.find(view_->cullView(), boundsMargin(), slots(), poses());
+    return instances_.use_count() > 1 ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), poses());
 }
 
 PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {

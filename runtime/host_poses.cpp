@@ -29,6 +29,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     poseWeights_.resize(instanceCount * targetCount_);
     hostWeights_.resize(instanceCount * targetCount_);
     hostWeighted_.resize(instanceCount, false);
+    versions_.assign(instanceCount, 0);
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
@@ -57,6 +58,7 @@ glm::mat4 HostPoses::jointTransform(uint32_t instance, uint32_t joint) const {
 }
 
 void HostPoses::finishPalette(uint32_t instance) {
+    ++versions_[instance];
     if (!rotations_.empty()) {
         skinning::jointRotations(
             palette(instance),
@@ -115,6 +117,7 @@ void HostPoses::setMatrixPose(uint32_t instance, const float* jointMatrices) {
 }
 
 void HostPoses::setMorphWeights(uint32_t instance, const float* weights) {
+    ++versions_[instance];
     hostWeighted_[instance] = weights != nullptr;
     if (weights != nullptr) {
         std::copy_n(weights, targetCount_, hostWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
@@ -145,6 +148,7 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
 void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match) {
     origin_ = other.origin_;
     for (uint32_t i = 0; i < count; ++i) {
+        ++versions_[i];
         transforms_[i] = other.transforms_[i];
         positions_[i] = other.positions_[i];
         hostWeighted_[i] = other.hostWeighted_[i];

@@ -41,12 +41,19 @@ public:
     void setMatrixPose(uint32_t instance, const float* jointMatrices);
     void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
     void setTransform(uint32_t instance, const glm::mat4& transform) {
+        ++versions_[instance];
         transforms_[instance] = transform;
         positions_[instance] = glm::dvec3(transform[3]);
     }
-    void setPosition(uint32_t instance, const glm::dvec3& position) { positions_[instance] = position; }
+    void setPosition(uint32_t instance, const glm::dvec3& position) {
+        ++versions_[instance];
+        positions_[instance] = position;
+    }
     /// Where the coordinates of the device begin.
-    void setOrigin(const glm::dvec3& origin) { origin_ = origin; }
+    void setOrigin(const glm::dvec3& origin) {
+        originVersion_ += origin_ != origin ? uint64_t{1} << 40 : 0; // all versions are others than any before
+        origin_ = origin;
+    }
     /// Takes over the first `count` instances, of the same asset or of another version of it. Joints and morph targets
     /// that the other version lacks are as in the rest pose.
     void takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match);
@@ -54,6 +61,8 @@ public:
     /// Where the joint is, as the instance is posed and placed now.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
 
+    /// Another number whenever boundsOf() may give another box; never 0.
+    [[nodiscard]] uint64_t version(uint32_t instance) const { return versions_[instance] + originVersion_; }
     /// A box that holds the instance's cage, as it is posed and placed now.
     [[nodiscard]] skinning::Box boundsOf(uint32_t instance, const skinning::Reach& reach) const;
 
@@ -85,6 +94,8 @@ private:
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
     glm::dvec3 origin_{0.0};
+    std::vector<uint64_t> versions_; ///< rise whenever something of the instance is set
+    uint64_t originVersion_ = 1;
     skinning::PoseMemory memory_;
 };
 

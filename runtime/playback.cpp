@@ -68,6 +68,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ =
         PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion, desc.capacity);
+    playback.versions_.resize(desc.capacity, 1);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
@@ -173,6 +174,7 @@ skinning::PlaybackState Playback::state(uint32_t slot) {
 }
 
 void Playback::markChanged(uint32_t slot) {
+    versions_[slot] += versions_[slot] == UINT32_MAX ? 2 : 1;
     if (!changed_[slot]) {
         changed_[slot] = true;
         changedSlots_.push_back(slot);

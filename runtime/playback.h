@@ -65,6 +65,11 @@ public:
     /// knows. It is found without a pose.
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach);
 
+    /// Another number whenever boundsOf() may give another box; never 0.
+    [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const {
+        return uint64_t{versions_[slot]} << 32 | bounds_.loopOf(slot, time_);
+    }
+
     /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
     /// Layers whose clip the other version lacks are left out. Joints and morph targets that it lacks have in a mask
     /// what they would have if the mask did not name them.
@@ -134,6 +139,7 @@ private:
     Evaluated evaluated_;
 
     PlayedBounds bounds_;
+    std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
 
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order

@@ -22,9 +22,15 @@ void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     }
 }
 
+uint32_t PlayedBounds::loopOf(uint32_t slot, double time) const {
+    const Played& own = played_[slot];
+    return own.travels ? static_cast<uint32_t>(static_cast<int64_t>(skinning::loopsAt(*character_, own.first, time)))
+                       : 0;
+}
+
 std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,
-                                              std::span<const float> hostWeights) {
-    Played& own = played_[slot];
+                                              std::span<const float> hostWeights) const {
+    const Played& own = played_[slot];
     if (own.kind == Kind::unbounded || (own.root.axes != 0 && own.root.node != reach.anchor)) {
         return std::nullopt;
     }
@@ -43,11 +49,8 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
     const double across = std::hypot(reach.anchorPath.x, reach.anchorPath.z);
     const glm::dvec3 within(across, reach.anchorPath.y, across);
     const double loops = skinning::loopsAt(*character_, own.first, time);
-    if (own.loops != loops) {
-        own.loops = loops;
-        own.traveled = skinning::toMatrix(skinning::traveledToLoop(*character_, own.first, own.root, loops));
-    }
-    return skinning::movedBy(own.traveled, {box.low - within, box.high + within});
+    return skinning::movedBy(skinning::toMatrix(skinning::traveledToLoop(*character_, own.first, own.root, loops)),
+                             {box.low - within, box.high + within});
 }
 
 } // namespace supple::runtime

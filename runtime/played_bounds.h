@@ -30,11 +30,14 @@ public:
         std::copy_n(other.played_.begin(), count, played_.begin());
     }
 
+    /// What of() depends on besides what is set: the number of the loop, if the instance travels.
+    [[nodiscard]] uint32_t loopOf(uint32_t slot, double time) const;
+
     /// A box that holds the instance's cage at a time, before the instance's transform, but with what it has travelled.
     /// Nothing if nobody knows: with additive layers, or if something else than the only anchor takes the movement of
     /// the root. `hostWeights`: morph weights of the host's; empty: those of the clips.
     [[nodiscard]] std::optional<skinning::Box> of(uint32_t slot, double time, const skinning::Reach& reach,
-                                                  std::span<const float> hostWeights);
+                                                  std::span<const float> hostWeights) const;
 
 private:
     enum class Kind { bindPose, blended, unbounded };
@@ -43,8 +46,6 @@ private:
         bool travels = false; ///< the first layer's root motion goes into its transform
         skinning::PlaybackLayer first;
         skinning::RootSelection root;
-        double loops = -1.0; ///< that `traveled` is of
-        glm::dmat4 traveled{1.0};
     };
 
     const cage::Character* character_ = nullptr;

@@ -22,6 +22,7 @@ public:
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach) override {
         return poses_.boundsOf(slot, reach);
     }
+    [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return poses_.version(slot); }
     [[nodiscard]] HostPoses* host() override { return &poses_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
         poses_.takeOver(*other.host(), count, match);
@@ -71,6 +72,7 @@ public:
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach) override {
         return playback_.boundsOf(slot, reach);
     }
+    [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return playback_.boundsVersion(slot); }
     [[nodiscard]] Playback* playback() override { return &playback_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
         playback_.takeOver(*other.playback(), count, match);

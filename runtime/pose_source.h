@@ -37,6 +37,8 @@ public:
     [[nodiscard]] virtual std::optional<skinning::Box> boundsOf(uint32_t /*slot*/, const skinning::Reach& /*reach*/) {
         return std::nullopt;
     }
+    /// Another number whenever boundsOf() may give another box than the last time; never 0.
+    [[nodiscard]] virtual uint64_t boundsVersion(uint32_t /*slot*/) const { return 1; }
     [[nodiscard]] virtual HostPoses* host() { return nullptr; }
     [[nodiscard]] virtual Playback* playback() { return nullptr; }
 

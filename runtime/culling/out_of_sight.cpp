@@ -1,50 +1,111 @@
 #include "runtime/culling/out_of_sight.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace supple::runtime {
 
 namespace {
 
-/// Of what is compared: more than floats lose where the device compares.
-constexpr double kSlack = 1e-4;
+/// Of what is compared: more than floats lose, here and where the device compares.
+constexpr float kSlack = 1e-4f;
+
+/// Boxes that lie behind a plane, in vectors: no branches.
+void findBehind(const float* plane, const BoxRuns& boxes, std::span<uint8_t> unseen) {
+    const float x = plane[0], y = plane[1], z = plane[2], offset = plane[3];
+    const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z), size = std::abs(offset);
+    const float *mx = boxes.middle[0].data(), *my = boxes.middle[1].data(), *mz = boxes.middle[2].data();
+    const float *hx = boxes.half[0].data(), *hy = boxes.half[1].data(), *hz = boxes.half[2].data();
+    for (size_t i = 0; i < unseen.size(); ++i) {
+        const float at = x * mx[i] + y * my[i] + z * mz[i] + offset;
+        const float reach = ax * hx[i] + ay * hy[i] + az * hz[i];
+        const float far = ax * std::abs(mx[i]) + ay * std::abs(my[i]) + az * std::abs(mz[i]) + size + reach;
+        unseen[i] |= at + reach < -kSlack * far ? 1 : 0; // false for what is not a number
+    }
+}
+
+/// Boxes that are too far away or too small.
+void findFar(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8_t> unseen) {
+    const float farthest = view.farthest > 0.0f ? view.farthest : std::numeric_limits<float>::infinity();
+    for (size_t i = 0; i < unseen.size(); ++i) {
+        float distance = 0.0f, size = 0.0f;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const float middle = boxes.middle[axis][i], half = boxes.half[axis][i];
+            const float from = std::abs(middle - view.camera.position[axis]);
+            const float beyond = from - half - kSlack * (std::abs(middle) + half);
+            distance += beyond > 0.0f ? beyond * beyond : 0.0f;
+            size += half * half;
+        }
+        distance = std::sqrt(distance) * (1.0f - kSlack);
+        // The box within may be at this box's nearest point, and as large as it.
+        const float away = view.camera.orthographic != 0 ? 1.0f : distance;
+        const bool small = std::sqrt(size) * view.camera.focal * (1.0f + kSlack) < view.smallest * away;
+        unseen[i] |= distance > farthest || small ? 1 : 0;
+    }
+}
 
 } // namespace
 
-bool surelyUnseen(const shared::CullView& view, const skinning::Box& box) {
-    const glm::dvec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
-    for (int k = 0; k < 6; ++k) {
-        const glm::dvec3 normal(view.planes[4 * k], view.planes[4 * k + 1], view.planes[4 * k + 2]);
-        const double offset = view.planes[4 * k + 3], reach = glm::dot(glm::abs(normal), half);
-        const double slack = kSlack * (glm::dot(glm::abs(normal), glm::abs(middle)) + std::abs(offset) + reach);
-        if (glm::dot(normal, middle) + offset + reach < -slack) {
-            return true;
-        }
+BoxRuns::BoxRuns(size_t count) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+        middle[axis].assign(count, 0.0f);
+        half[axis].assign(count, 0.0f);
     }
-    const glm::dvec3 camera(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
-    const glm::dvec3 beyond = glm::max(glm::max(box.low - camera, camera - box.high), glm::dvec3(0.0));
-    const double distance = glm::length(beyond) * (1.0 - kSlack);
-    if (view.farthest > 0.0f && distance > static_cast<double>(view.farthest)) {
-        return true;
-    }
-    // The box within may be at this box's nearest point, and as large as it.
-    const double away = view.camera.orthographic != 0 ? 1.0 : distance;
-    return glm::length(half) * static_cast<double>(view.camera.focal) * (1.0 + kSlack) <
-           static_cast<double>(view.smallest) * away;
 }
 
-bool OutOfSight::find(const shared::CullView& view, float margin, const InstanceSlots& slots, PoseSource& poses) {
+void BoxRuns::set(size_t index, const skinning::Box& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        middle[static_cast<size_t>(axis)][index] = static_cast<float>(0.5 * box.low[axis] + 0.5 * box.high[axis]);
+        half[static_cast<size_t>(axis)][index] = static_cast<float>(0.5 * box.high[axis] - 0.5 * box.low[axis]);
+    }
+}
+
+void BoxRuns::setUnknown(size_t index) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+        middle[axis][index] = 0.0f;
+        half[axis][index] = std::numeric_limits<float>::infinity();
+    }
+}
+
+void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8_t> unseen) {
+    std::ranges::fill(unseen, uint8_t{0});
+    for (size_t k = 0; k < 6; ++k) {
+        findBehind(view.planes + 4 * k, boxes, unseen);
+    }
+    if (view.farthest > 0.0f || view.smallest > 0.0f) {
+        findFar(view, boxes, unseen);
+    }
+}
+
+OutOfSight::OutOfSight(const skinning::Reach& reach, float margin, uint32_t capacity)
+    : reach_(&reach), margin_(static_cast<double>(margin)), versions_(capacity, 0), boxes_(capacity),
+      judged_(capacity, 0), unseen_(capacity, 0) {}
+
+bool OutOfSight::find(const shared::CullView& view, const InstanceSlots& slots, PoseSource& poses) {
+    const uint32_t end = slots.end();
+    for (uint32_t slot = 0; slot < end; ++slot) {
+        if (!slots.shows(slot)) {
+            continue;
+        }
+        const uint64_t version = poses.boundsVersion(slot);
+        if (versions_[slot] == version) {
+            continue;
+        }
+        versions_[slot] = version;
+        if (const std::optional<skinning::Box> cage = poses.boundsOf(slot, *reach_)) {
+            const glm::dvec3 around = margin_ * (cage->high - cage->low);
+            boxes_.set(slot, {cage->low - around, cage->high + around});
+        } else {
+            boxes_.setUnknown(slot);
+        }
+    }
+    findUnseen(view, boxes_, std::span(judged_).first(end));
     bool changed = false;
     count_ = 0;
-    for (uint32_t slot = 0; slot < slots.end(); ++slot) {
-        bool unseen = false;
-        if (slots.shows(slot)) {
-            if (const std::optional<skinning::Box> cage = poses.boundsOf(slot, *reach_)) {
-                const glm::dvec3 around = static_cast<double>(margin) * (cage->high - cage->low);
-                unseen = surelyUnseen(view, {cage->low - around, cage->high + around});
-            }
-        }
-        count_ += unseen ? 1 : 0;
+    for (uint32_t slot = 0; slot < end; ++slot) {
+        const uint8_t unseen = slots.shows(slot) ? judged_[slot] : 0;
+        count_ += unseen;
         changed = changed || unseen_[slot] != unseen;
         unseen_[slot] = unseen;
     }
@@ -53,7 +114,7 @@ bool OutOfSight::find(const shared::CullView& view, float margin, const Instance
 
 bool OutOfSight::clear() {
     const bool changed = count_ > 0;
-    unseen_.assign(unseen_.size(), false);
+    std::ranges::fill(unseen_, uint8_t{0});
     count_ = 0;
     return changed;
 }
