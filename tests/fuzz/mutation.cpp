@@ -78,6 +78,7 @@ const char* const kNames[] = {
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
     "KHR_materials_unlit",
     "faceVertexCounts",
     "faceVertexIndices",
