@@ -53,7 +53,8 @@ TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
     ASSERT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme pm --for grids").exitCode, 0);
     Outcome outcome = run("inspect pip.supple --pair-quads");
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_EQ(outcome.err, "supple: pip.supple: it is cooked: its polygons, parts, scene and clips were chosen then\n");
+    EXPECT_EQ(outcome.err,
+              "supple: pip.supple: it is cooked: its polygons, parts, scene, variant and clips were chosen then\n");
     writeText(file("half.supple"), readText(file("pip.supple")).substr(0, 4000));
     outcome = run("inspect half.supple");
     EXPECT_EQ(outcome.exitCode, 1);
