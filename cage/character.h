@@ -228,7 +228,48 @@ struct Trim {
     bool operator==(const Trim&) const = default;
 };
 
-/// The core material of glTF 2.0; what is not said is glTF's default. Factors are linear and multiply their textures.
+/// What glTF's extensions add to a material; what is not said is as if there were no such extension. Factors multiply
+/// their textures (cage/material_layers.h lists all of these).
+struct MaterialLayers {
+    // KHR_materials_clearcoat: a clear layer over all.
+    float clearcoatFactor = 0.0f;
+    Texture clearcoatTexture; ///< red
+    float clearcoatRoughnessFactor = 0.0f;
+    Texture clearcoatRoughnessTexture; ///< green
+    Texture clearcoatNormalTexture;    ///< tangent space, +Y up
+    float clearcoatNormalScale = 1.0f;
+    // KHR_materials_sheen: fibers, as of velvet.
+    glm::vec3 sheenColorFactor{0.0f};
+    Texture sheenColorTexture; ///< sRGB
+    float sheenRoughnessFactor = 0.0f;
+    Texture sheenRoughnessTexture; ///< alpha
+    // KHR_materials_transmission: light goes through, as through thin glass.
+    float transmissionFactor = 0.0f;
+    Texture transmissionTexture; ///< red
+    // KHR_materials_ior. 0: infinite.
+    float ior = 1.5f;
+    // KHR_materials_specular: what a dielectric mirrors.
+    float specularFactor = 1.0f;
+    Texture specularTexture; ///< alpha
+    glm::vec3 specularColorFactor{1.0f};
+    Texture specularColorTexture; ///< sRGB
+    // KHR_materials_iridescence: a thin film. Thickness in nanometres: of black texels, and of white ones.
+    float iridescenceFactor = 0.0f;
+    Texture iridescenceTexture; ///< red
+    float iridescenceIor = 1.3f;
+    float iridescenceThicknessMinimum = 100.0f;
+    float iridescenceThicknessMaximum = 400.0f;
+    Texture iridescenceThicknessTexture; ///< green
+    // KHR_materials_anisotropy: brushed metal.
+    float anisotropyStrength = 0.0f;
+    float anisotropyRotation = 0.0f; ///< radians, counter-clockwise from the tangent
+    Texture anisotropyTexture;       ///< red and green: direction, blue: strength
+
+    bool operator==(const MaterialLayers&) const = default;
+};
+
+/// The core material of glTF 2.0, and what extensions add to it; what is not said is glTF's default. Factors are linear
+/// and multiply their textures.
 struct Material {
     std::string name;
     glm::vec4 baseColorFactor{1.0f};
@@ -247,6 +288,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    MaterialLayers layers;
     std::optional<Trim> trim; ///< takes the place of alphaMode mask: see trimOf() (cage/trim.h)
 };
 
@@ -314,6 +356,7 @@ struct Character {
     Morphs morphs;
     std::vector<Clip> clips;
     std::vector<Material> materials;
+    std::vector<std::string> materialVariants; ///< names of KHR_materials_variants; one may have been chosen
     std::vector<Image> images;
     std::vector<std::string> warnings; ///< what was repaired or ignored, one line each
     std::vector<Damage> damages;       ///< what a strict reader refuses; it is among the warnings too

@@ -1,6 +1,7 @@
 #include "cage/character_check.h"
 
 #include "cage/limits.h"
+#include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/skeleton.h"
 #include "cage/trim.h"
@@ -274,9 +275,7 @@ void Check::materials() {
     for (size_t m = 0; m < character_.materials.size(); ++m) {
         const Material& material = character_.materials[m];
         const std::string name = at("material", m) + ": ";
-        require(texture(material.baseColorTexture) && texture(material.metallicRoughnessTexture) &&
-                    texture(material.normalTexture) && texture(material.occlusionTexture) &&
-                    texture(material.emissiveTexture),
+        require(std::ranges::all_of(texturesOf(material), [&](const Texture* each) { return texture(*each); }),
                 name + "a texture names no image or no UV set");
         require(!material.trim || (texture(material.trim->texture) && material.trim->channel <= 3 &&
                                    material.trim->tiles <= kMaxTrimTiles),

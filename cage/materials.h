@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/material_layers.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,13 @@
 namespace supple::cage {
 
 /// All that a material looks up, but its trim.
-[[nodiscard]] inline std::array<const Texture*, 5> texturesOf(const Material& material) {
-    return {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-            &material.occlusionTexture, &material.emissiveTexture};
+[[nodiscard]] inline std::array<const Texture*, 5 + kLayerTextures.size()> texturesOf(const Material& material) {
+    std::array<const Texture*, 5 + kLayerTextures.size()> textures{
+        &material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+        &material.occlusionTexture, &material.emissiveTexture};
+    std::transform(kLayerTextures.begin(), kLayerTextures.end(), textures.begin() + 5,
+                   [&](const LayerTexture& row) { return &(material.layers.*row.member); });
+    return textures;
 }
 
 /// Leaves out what a texture names of images that have no bytes; an alternate image then takes the place of the image.

@@ -7,8 +7,12 @@
 namespace supple::cage {
 
 void MemoryBudget::take(uint64_t bytes, const std::string& element) {
+    check(bytes, element);
+    taken_ += bytes;
+}
+
+void MemoryBudget::check(uint64_t bytes, const std::string& element) const {
     if (bytes <= limit() - taken_) {
-        taken_ += bytes;
         return;
     }
     const std::string limit = std::to_string(this->limit());

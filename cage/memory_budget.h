@@ -26,6 +26,9 @@ public:
     /// The same for `count` things.
     void take(uint64_t count, uint64_t bytesEach, const std::string& element);
 
+    /// For what is given back before anything else is taken. Throws Refusal.
+    void check(uint64_t bytes, const std::string& element) const;
+
     [[nodiscard]] uint64_t limit() const { return given_ != 0 ? given_ : kBaseMemory + kMemoryPerByte * fileBytes_; }
 
 private:

@@ -1,6 +1,6 @@
 # For Windows, from Debian, by MinGW-w64 with its POSIX threads (which std::mutex and the like need):
-#   cmake -S . -B build/mingw --toolchain cmake/mingw-w64.cmake -DSUPPLE_WITH_MESHOPT=OFF
-# Debian has no meshoptimizer for Windows. Libraries of headers alone are as good there as here: links to them are laid
+#   cmake -S . -B build/mingw --toolchain cmake/mingw-w64.cmake -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF
+# Debian has no meshoptimizer and no Draco for Windows. Libraries of headers alone are as good there as here: links to them are laid
 # into the build folder, since all of /usr/include would bring Linux's own headers with it.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)

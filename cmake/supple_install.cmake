@@ -63,6 +63,10 @@ if(SUPPLE_WITH_MESHOPT AND "STATIC_LIBRARY" IN_LIST installed_kinds)
     install(FILES ${supple_SOURCE_DIR}/cmake/supple_meshoptimizer.cmake
         DESTINATION ${config_directory} COMPONENT development)
 endif()
+if(SUPPLE_WITH_DRACO AND "STATIC_LIBRARY" IN_LIST installed_kinds)
+    install(FILES ${supple_SOURCE_DIR}/cmake/supple_draco.cmake
+        DESTINATION ${config_directory} COMPONENT development)
+endif()
 
 # ---- for pkg-config
 
@@ -95,6 +99,9 @@ endif()
 set(private "")
 if(SUPPLE_WITH_MESHOPT)
     string(APPEND private " -lmeshoptimizer")
+endif()
+if(SUPPLE_WITH_DRACO)
+    string(APPEND private " -ldraco")
 endif()
 foreach(library IN LISTS SUPPLE_CXX_LIBRARIES)
     string(APPEND private " -l${library}")

@@ -43,6 +43,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_package} ${this_version}
 if(SUPPLE_WITH_MESHOPT)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libmeshoptimizer-dev")
 endif()
+if(SUPPLE_WITH_DRACO)
+    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libdraco-dev")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${about}\n\nThis package has headers for C and C++, the static library, what CMake and\npkg-config ask for, and GLSL for a host's shaders.")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME supple-tools)

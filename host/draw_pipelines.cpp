@@ -86,6 +86,12 @@ Status DrawPipelines::createLayouts() {
         texture(shared::kOcclusion),
         texture(shared::kEmissive),
         texture(shared::kTrim),
+        texture(shared::kClearcoat),
+        texture(shared::kClearcoatRoughness),
+        texture(shared::kClearcoatNormal),
+        texture(shared::kSheenColor),
+        texture(shared::kSheenRoughness),
+        texture(shared::kTransmission),
     };
     for (const Status& status :
          {keep(createSetLayout(device_, frame), frameSet), keep(createSetLayout(device_, figure), figureSet),
@@ -146,7 +152,8 @@ Status DrawPipelines::prepare(const Faces& faces) {
     if (faces_.contains(faces))
         return success();
     GraphicsDesc desc{.layout = layout,
-                      .constants = {faces.vertexLit ? 1u : 0u, faces.maps ? 1u : 0u, faces.view, faces.material}};
+                      .constants = {faces.vertexLit ? 1u : 0u, faces.maps ? 1u : 0u, faces.view, faces.material,
+                                    faces.blend == Blend::multiply ? 1u : 0u}};
     if (faces.shadow) {
         desc.name = faces.cage ? "cage shadow, trimmed" : "surface shadow, trimmed";
         desc.vertexShader = faces.cage ? std::span<const uint32_t>(cage_shadow_trim_vert) : surface_shadow_trim_vert;
@@ -162,9 +169,9 @@ Status DrawPipelines::prepare(const Faces& faces) {
         desc.depth = formats_.depth;
         desc.samples = formats_.samples;
         desc.blend = faces.blend;
-        desc.depthWrite = !faces.blend;
+        desc.depthWrite = faces.blend == Blend::none;
         // Coverage smooths the edges of holes. What blends needs its alpha itself.
-        desc.alphaToCoverage = !faces.blend && formats_.samples != VK_SAMPLE_COUNT_1_BIT;
+        desc.alphaToCoverage = faces.blend == Blend::none && formats_.samples != VK_SAMPLE_COUNT_1_BIT;
     }
     VkPipeline made = VK_NULL_HANDLE;
     if (const Status status = keep(createGraphicsPipeline(device_, desc), made); !status)
@@ -184,7 +191,7 @@ Status DrawPipelines::createPicturePipelines() {
         return keep(createGraphicsPipeline(device_, desc), out);
     };
     GraphicsDesc edges = opaque;
-    edges.blend = true;
+    edges.blend = Blend::over;
     edges.depthWrite = false;
     GraphicsDesc strip = opaque;
     strip.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;

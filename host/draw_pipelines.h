@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/device.h"
+#include "host/pipelines.h"
 
 #include <compare>
 #include <map>
@@ -33,13 +34,13 @@ public:
 
     /// What faces are drawn with: there is a pipeline for each of these.
     struct Faces {
-        bool cage = false;      ///< of the cage instead of the surface
-        bool shadow = false;    ///< the shadow of what has holes, and nothing else
-        uint32_t material = 0;  ///< what it has: shared::kMaterial...
-        uint32_t view = 0;      ///< shared::kView...; 0 of a shadow
-        bool vertexLit = false; ///< the light is looked up once a vertex; only of the surface
-        bool maps = false;      ///< the material has normal, occlusion or emissive maps
-        bool blend = false;     ///< over what is there, by alpha
+        bool cage = false;         ///< of the cage instead of the surface
+        bool shadow = false;       ///< the shadow of what has holes, and nothing else
+        uint32_t material = 0;     ///< what it has: shared::kMaterial...
+        uint32_t view = 0;         ///< shared::kView...; 0 of a shadow
+        bool vertexLit = false;    ///< the light is looked up once a vertex; only of the surface
+        bool maps = false;         ///< the material has normal, occlusion or emissive maps
+        Blend blend = Blend::none; ///< multiply and add: glass
 
         auto operator<=>(const Faces&) const = default;
     };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <span>
+#include <supple/supple.hpp>
+#include <utility>
 
 namespace supple::host {
 
@@ -60,8 +62,16 @@ Status FigureMaterials::load(Context& context, SuppleAsset asset, const std::str
             !status)
             return status.error();
         infos_.push_back(info);
+        SuppleMaterialLayers layers{};
+        layers.structSize = sizeof layers;
+        if (const Status status =
+                context.check(suppleGetMaterialLayers(context.handle(), asset, i, &layers), "suppleGetMaterialLayers");
+            !status)
+            return status.error();
+        layers_.push_back(layers);
     }
     infos_.push_back(whiteClay());
+    layers_.push_back(defaultMaterialLayers());
     knowsNoSides_ = path.ends_with(".obj") || path.ends_with(".OBJ");
     return loadTextures(context, asset, path);
 }
@@ -71,7 +81,9 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
     std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
     if (const Result<size_t> first = upload(context.device(), white, TextureKind::color); !first)
         return first.error();
-    for (SuppleMaterialInfo& info : infos_) {
+    for (size_t i = 0; i < infos_.size(); ++i) {
+        SuppleMaterialInfo& info = infos_[i];
+        SuppleMaterialLayers& layers = layers_[i];
         std::array<size_t, shared::kTextureCount>& slots = slots_.emplace_back();
         const bool blend = info.alphaMode == SUPPLE_ALPHA_BLEND && info.trimDomain == SUPPLE_TRIM_NONE;
         if (blend)
@@ -89,10 +101,16 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
                       {info.normal, shared::kNormal, TextureKind::data},
                       {info.occlusion, shared::kOcclusion, TextureKind::data},
                       {info.emissive, shared::kEmissive, TextureKind::color},
-                      {info.trim, shared::kTrim, trimKind}};
+                      {info.trim, shared::kTrim, trimKind},
+                      {layers.clearcoat, shared::kClearcoat, TextureKind::data},
+                      {layers.clearcoatRoughness, shared::kClearcoatRoughness, TextureKind::data},
+                      {layers.clearcoatNormal, shared::kClearcoatNormal, TextureKind::data},
+                      {layers.sheenColor, shared::kSheenColor, TextureKind::color},
+                      {layers.sheenRoughness, shared::kSheenRoughness, TextureKind::data},
+                      {layers.transmission, shared::kTransmission, TextureKind::data}};
         for (const auto& [texture, slot, kind] : wanted) {
             const bool required = slot == shared::kTrim && ownTrim;
-            const Result<size_t> loaded = load(context, asset, path, texture.image, kind, required);
+            const Result<size_t> loaded = load(context, asset, path, texture, kind, required);
             if (!loaded)
                 return loaded.error();
             slots[slot] = *loaded;
@@ -112,27 +130,34 @@ bool FigureMaterials::hasNormalMaps() const {
     return std::any_of(slots_.begin(), slots_.end(), [](const auto& slots) { return slots[shared::kNormal] != 0; });
 }
 
-Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path, uint32_t image,
-                                     TextureKind kind, bool required) {
-    if (image == SUPPLE_NO_IMAGE)
+Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path,
+                                     const SuppleTextureInfo& texture, TextureKind kind, bool required) {
+    if (texture.image == SUPPLE_NO_IMAGE)
         return size_t{0};
-    const auto [known, isNew] = known_.try_emplace({image, kind}, 0);
+    const auto [known, isNew] = known_.try_emplace({texture.image, kind}, 0);
     if (!isNew)
         return known->second;
-    SuppleImageInfo info{};
-    info.structSize = sizeof info;
-    if (const Status status =
-            context.check(suppleGetImageInfo(context.handle(), asset, image, &info), "suppleGetImageInfo");
-        !status)
-        return status.error();
-    const std::string name = info.name[0] != '\0' ? info.name : std::to_string(image);
-    const Result<Picture> picture = decodePicture(std::span(static_cast<const std::byte*>(info.bytes), info.byteCount),
-                                                  path + (required ? ": trim image " : ": image ") + name);
+    const auto decode = [&](uint32_t image) -> Result<Picture> {
+        SuppleImageInfo info{};
+        info.structSize = sizeof info;
+        if (const Status status =
+                context.check(suppleGetImageInfo(context.handle(), asset, image, &info), "suppleGetImageInfo");
+            !status)
+            return status.error();
+        const std::string name = info.name[0] != '\0' ? info.name : std::to_string(image);
+        return decodePicture(std::span(static_cast<const std::byte*>(info.bytes), info.byteCount),
+                             path + (required ? ": trim image " : ": image ") + name);
+    };
+    Result<Picture> picture = decode(texture.image);
+    if (!picture && texture.alternateImage != SUPPLE_NO_IMAGE) {
+        if (Result<Picture> alternate = decode(texture.alternateImage))
+            picture = std::move(alternate);
+    }
     if (!picture && required)
         return picture.error();
     if (!picture) {
         // It takes nothing from the shape: draw without it, but say so.
-        if (unread_.insert(image).second)
+        if (unread_.insert(texture.image).second)
             std::fprintf(stderr, "warning: %s: left out\n", picture.error().message.c_str());
         return known->second;
     }

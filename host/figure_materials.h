@@ -29,6 +29,9 @@ public:
     /// Of infos(); `material` may be SUPPLE_NO_MATERIAL.
     [[nodiscard]] size_t indexOf(uint32_t material) const { return std::min<size_t>(material, infos_.size() - 1); }
     [[nodiscard]] const SuppleMaterialInfo& of(uint32_t material) const { return infos_[indexOf(material)]; }
+    /// What that one has beyond infos().
+    [[nodiscard]] const SuppleMaterialLayers& layersAt(size_t index) const { return layers_[index]; }
+    [[nodiscard]] const SuppleMaterialLayers& layersOf(uint32_t material) const { return layers_[indexOf(material)]; }
     /// `slot`: shared::kBaseColor and the others. White where the material of infos() has no such texture.
     [[nodiscard]] const Image& texture(size_t index, uint32_t slot) const {
         return textures_[slots_[index][slot]].image;
@@ -51,12 +54,13 @@ private:
     };
 
     [[nodiscard]] Status loadTextures(Context& context, SuppleAsset asset, const std::string& path);
-    /// Which of textures_ an image became.
-    [[nodiscard]] Result<size_t> load(Context& context, SuppleAsset asset, const std::string& path, uint32_t image,
-                                      TextureKind kind, bool required);
+    /// Which of textures_ a texture's image became, or its alternate image where the first cannot be decoded.
+    [[nodiscard]] Result<size_t> load(Context& context, SuppleAsset asset, const std::string& path,
+                                      const SuppleTextureInfo& texture, TextureKind kind, bool required);
     [[nodiscard]] Result<size_t> upload(Device& device, const Picture& picture, TextureKind kind);
 
     std::vector<SuppleMaterialInfo> infos_;
+    std::vector<SuppleMaterialLayers> layers_;                     ///< one of infos_
     std::vector<std::array<size_t, shared::kTextureCount>> slots_; ///< one of infos_: which of textures_
     std::vector<Texture> textures_;                                ///< the first one is white
     bool knowsNoSides_ = false;                                    ///< OBJ

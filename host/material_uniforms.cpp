@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace supple::host {
 
@@ -19,9 +20,33 @@ bool hasOwnTrim(const SuppleMaterialInfo& material) {
     return material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
 }
 
+/// What a dielectric mirrors if it is looked at straight, and along its surface.
+glm::vec4 dielectricOf(const SuppleMaterialLayers& layers) {
+    const float side = layers.ior > 0.0f ? (layers.ior - 1.0f) / (layers.ior + 1.0f) : 1.0f;
+    glm::vec4 mirrored(0.0f, 0.0f, 0.0f, layers.specularFactor);
+    for (int channel = 0; channel < 3; ++channel)
+        mirrored[channel] = std::min(side * side * layers.specularColorFactor[channel], 1.0f) * layers.specularFactor;
+    return mirrored;
+}
+
+bool isUsualDielectric(const SuppleMaterialLayers& layers) {
+    return layers.ior == 1.5f && layers.specularFactor == 1.0f &&
+           std::all_of(std::begin(layers.specularColorFactor), std::end(layers.specularColorFactor),
+                       [](float channel) { return channel == 1.0f; });
+}
+
+bool hasSheen(const SuppleMaterialLayers& layers) {
+    return std::any_of(std::begin(layers.sheenColorFactor), std::end(layers.sheenColorFactor),
+                       [](float channel) { return channel > 0.0f; });
+}
+
 } // namespace
 
-uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1) {
+bool isGlass(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers) {
+    return layers.transmissionFactor > 0.0f && material.unlit == 0;
+}
+
+uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers, bool uv1) {
     uint32_t flags = 0;
     const bool ownTrim = hasOwnTrim(material);
     // A mask without a texture is a trim too: of the alphas that multiply a white one.
@@ -35,16 +60,23 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, bool uv1) {
     set(ownTrim, shared::kMaterialTrim);
     set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
     uint32_t hasTexture = shared::kMaterialTexture; // in the order of shared::kBaseColor and so on
-    for (const SuppleTextureInfo* texture : {&material.baseColor, &material.metallicRoughness, &material.normal,
-                                             &material.occlusion, &material.emissive, &material.trim}) {
+    for (const SuppleTextureInfo* texture :
+         {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive,
+          &material.trim, &layers.clearcoat, &layers.clearcoatRoughness, &layers.clearcoatNormal, &layers.sheenColor,
+          &layers.sheenRoughness, &layers.transmission}) {
         set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);
         set(texture->image != SUPPLE_NO_IMAGE, hasTexture);
         hasTexture <<= 1;
     }
+    set(layers.clearcoatFactor > 0.0f, shared::kMaterialClearcoat);
+    set(hasSheen(layers), shared::kMaterialSheen);
+    set(isGlass(material, layers), shared::kMaterialTransmission);
+    set(!isUsualDielectric(layers), shared::kMaterialSpecular);
     return flags;
 }
 
-shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bool uv1) {
+shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers,
+                                          bool uv1) {
     shared::MaterialUniforms uniforms{};
     const float* color = material.baseColorFactor;
     uniforms.baseColor = glm::vec4(color[0], color[1], color[2], color[3]);
@@ -60,6 +92,19 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, bo
     uniforms.places[shared::kOcclusion] = placeOf(material.occlusion, uv1);
     uniforms.places[shared::kEmissive] = placeOf(material.emissive, uv1);
     uniforms.places[shared::kTrim] = placeOf(material.trim, uv1);
+    uniforms.places[shared::kClearcoat] = placeOf(layers.clearcoat, uv1);
+    uniforms.places[shared::kClearcoatRoughness] = placeOf(layers.clearcoatRoughness, uv1);
+    uniforms.places[shared::kClearcoatNormal] = placeOf(layers.clearcoatNormal, uv1);
+    uniforms.places[shared::kSheenColor] = placeOf(layers.sheenColor, uv1);
+    uniforms.places[shared::kSheenRoughness] = placeOf(layers.sheenRoughness, uv1);
+    uniforms.places[shared::kTransmission] = placeOf(layers.transmission, uv1);
+    const float* sheen = layers.sheenColorFactor;
+    uniforms.sheen = glm::vec4(sheen[0], sheen[1], sheen[2], layers.sheenRoughnessFactor);
+    uniforms.dielectric = dielectricOf(layers);
+    uniforms.clearcoat = layers.clearcoatFactor;
+    uniforms.clearcoatRoughness = layers.clearcoatRoughnessFactor;
+    uniforms.clearcoatNormalScale = layers.clearcoatNormalScale;
+    uniforms.transmission = layers.transmissionFactor;
     const bool ownTrim = hasOwnTrim(material);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;

@@ -1,6 +1,7 @@
 // PNG and JPEG into pictures, by libpng and libjpeg. The bytes may be anybody's: the header is believed only as far as
 // its area, and nothing of C++ is on the stack where these jump over it.
 #include "host/picture.h"
+#include "host/webp_decoder.h"
 
 #include <csetjmp>
 #include <cstdio>
@@ -160,13 +161,17 @@ bool decodeJpeg(Decoding& decoding, uint8_t** rows) {
 } // namespace
 
 Result<Picture> decodePicture(std::span<const std::byte> bytes, const std::string& name) {
+    if (isWebp(bytes)) {
+        return decodeWebp(bytes, kMaxPixels, name);
+    }
     Decoding decoding;
     decoding.data = reinterpret_cast<const uint8_t*>(bytes.data());
     decoding.size = bytes.size();
     const bool isPng = bytes.size() >= 8 && png_sig_cmp(decoding.data, 0, 8) == 0;
     const bool isJpeg = bytes.size() >= 3 && std::memcmp(decoding.data, "\xFF\xD8\xFF", 3) == 0;
+    const bool isKtx2 = bytes.size() >= 8 && std::memcmp(decoding.data, "\xABKTX 20\xBB", 8) == 0;
     if (!isPng && !isJpeg) {
-        return Error{ErrorCode::asset, name + ": not a PNG or JPEG"};
+        return Error{ErrorCode::asset, name + (isKtx2 ? ": KTX2 is not decoded" : ": not a PNG, JPEG or WebP")};
     }
     const auto failed = [&] {
         return Error{ErrorCode::asset, name + ": " + (decoding.fault[0] != '\0' ? decoding.fault : "damaged")};

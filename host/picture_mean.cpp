@@ -48,7 +48,7 @@ Result<std::unique_ptr<PictureMean>> PictureMean::create(Device& device) {
                             .fragmentShader = picture_mean_frag,
                             .colors = {kMeanFormat},
                             .depthWrite = false,
-                            .blend = true};
+                            .blend = Blend::over};
     if (const Status status = take(createGraphicsPipeline(device, desc), mean->pipeline_); !status)
         return status.error();
     if (const Status status = take(createSampler(device, VK_FILTER_NEAREST), mean->sampler_); !status)

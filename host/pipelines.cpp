@@ -90,13 +90,20 @@ struct Ends {
     std::vector<VkPipelineColorBlendAttachmentState> attachments;
 };
 
-VkPipelineColorBlendAttachmentState attachmentState(bool blend) {
-    return {.blendEnable = blend ? VK_TRUE : VK_FALSE,
-            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                              VK_COLOR_COMPONENT_A_BIT};
+VkPipelineColorBlendAttachmentState attachmentState(Blend blend) {
+    VkPipelineColorBlendAttachmentState state{.blendEnable = blend != Blend::none ? VK_TRUE : VK_FALSE,
+                                              .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+                                              .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                              .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                              .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+    if (blend == Blend::multiply || blend == Blend::add) {
+        state.srcColorBlendFactor = blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+        state.dstColorBlendFactor = blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_COLOR;
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    }
+    return state;
 }
 
 /// All that stands between shaders and pictures.

@@ -25,6 +25,14 @@ struct Binding {
 [[nodiscard]] Result<VkPipeline> createComputePipeline(Device& device, VkPipelineLayout layout,
                                                        std::span<const uint32_t> shader);
 
+/// How a color comes to what is there.
+enum class Blend {
+    none,
+    over,     ///< by its alpha
+    multiply, ///< what is there is multiplied by it
+    add
+};
+
 /// For dynamic rendering, without vertex buffers; viewport, scissor and cull mode are dynamic (beginRendering sets
 /// them).
 struct GraphicsDesc {
@@ -39,7 +47,7 @@ struct GraphicsDesc {
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool alphaToCoverage = false;
-    bool blend = false; ///< over what is there, by alpha
+    Blend blend = Blend::none;
     float depthBias = 0.0f;
     float depthBiasSlope = 0.0f;
 };

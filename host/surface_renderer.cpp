@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <supple/supple.hpp>
 #include <utility>
 
 namespace supple::host {
@@ -74,12 +75,22 @@ bool isTrimmed(const SuppleMaterialInfo& material) {
 
 /// The cage has the holes of masks, not those of a trim of its own.
 bool isMasked(const SuppleMaterialInfo& material) {
-    return (materialFlags(material, false) & shared::kMaterialTrimAlpha) != 0;
+    return (materialFlags(material, defaultMaterialLayers(), false) & shared::kMaterialTrimAlpha) != 0;
+}
+
+bool isGlass(const FigureMaterials& materials, uint32_t material) {
+    return host::isGlass(materials.of(material), materials.layersOf(material));
+}
+/// Most of the light goes through all of it.
+bool castsNoShadow(const FigureMaterials& materials, uint32_t material) {
+    return isGlass(materials, material) && materials.layersOf(material).transmissionFactor >= 0.5f &&
+           materials.layersOf(material).transmission.image == SUPPLE_NO_IMAGE;
 }
 
 uint32_t flagsOf(const Scene& scene, uint32_t material) {
     const Figure& figure = scene.group->figure();
-    return materialFlags(figure.materials().of(material), !figure.cage().uvSets[1].empty());
+    return materialFlags(figure.materials().of(material), figure.materials().layersOf(material),
+                         !figure.cage().uvSets[1].empty());
 }
 
 DrawPipelines::Faces shadowFaces(const Scene& scene, uint32_t material) {
@@ -92,8 +103,21 @@ bool isWireOfMesh(const Scene& scene, uint32_t part) {
 }
 
 /// Only where a material is looked at as it is: other views show all sides, and what lies behind.
-bool isBlended(const Scene& scene, const SuppleMaterialInfo& material) {
-    return scene.view == shared::kViewShaded && material.alphaMode == SUPPLE_ALPHA_BLEND;
+bool isBlended(const Scene& scene, uint32_t material) {
+    const FigureMaterials& materials = scene.group->figure().materials();
+    return scene.view == shared::kViewShaded &&
+           (materials.of(material).alphaMode == SUPPLE_ALPHA_BLEND || isGlass(materials, material));
+}
+/// What blends, and is solid somewhere.
+bool maybeSolid(const FigureMaterials& materials, uint32_t material) {
+    const SuppleMaterialInfo& info = materials.of(material);
+    return isGlass(materials, material) ? materials.layersOf(material).transmission.image != SUPPLE_NO_IMAGE
+                                        : info.baseColorFactor[3] >= shared::kSolidAlpha;
+}
+/// The draws that make a material blend, in their order.
+std::vector<Blend> blendsOf(const Scene& scene, uint32_t material) {
+    return isGlass(scene.group->figure().materials(), material) ? std::vector{Blend::multiply, Blend::add}
+                                                                : std::vector{Blend::over};
 }
 VkCullModeFlags culled(const Scene& scene, uint32_t material) {
     return scene.view == shared::kViewShaded && scene.group->figure().materials().isOneSided(material)
@@ -383,6 +407,13 @@ Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& 
         textures[shared::kOcclusion] = &info.occlusion;
         textures[shared::kEmissive] = &info.emissive;
         textures[shared::kTrim] = &info.trim;
+        const SuppleMaterialLayers& layers = materials.layersAt(i);
+        textures[shared::kClearcoat] = &layers.clearcoat;
+        textures[shared::kClearcoatRoughness] = &layers.clearcoatRoughness;
+        textures[shared::kClearcoatNormal] = &layers.clearcoatNormal;
+        textures[shared::kSheenColor] = &layers.sheenColor;
+        textures[shared::kSheenRoughness] = &layers.sheenRoughness;
+        textures[shared::kTransmission] = &layers.transmission;
         for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot) {
             if (const Status status = writeTexture(binding, i, shared::kFirstTextureBinding + slot,
                                                    materials.texture(i, slot), *textures[slot]);
@@ -404,7 +435,8 @@ Status SurfaceRenderer::writeMaterialUniforms(FigureBinding& binding, const Figu
     binding.uniforms_ = std::move(*uniforms);
     const bool uv1 = !figure.cage().uvSets[1].empty();
     for (size_t i = 0; i < binding.materials_.size(); ++i) {
-        const shared::MaterialUniforms values = materialUniforms(figure.materials().infos()[i], uv1);
+        const shared::MaterialUniforms values =
+            materialUniforms(figure.materials().infos()[i], figure.materials().layersAt(i), uv1);
         std::memcpy(static_cast<std::byte*>(binding.uniforms_.mapped()) + stride * i, &values, kSize);
         const VkDescriptorBufferInfo described{binding.uniforms_.handle(), stride * i, kSize};
         VkWriteDescriptorSet write =
@@ -430,7 +462,7 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
     return success();
 }
 
-DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun& run, bool blend) const {
+DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun& run, Blend blend) const {
     const bool isFlat = scene.view >= shared::kViewTangents;
     const bool hasMaps = scene.group->figure().materials().hasMaps(run.material);
     const uint32_t edgeRate = scene.group->surfaces()[run.surface].edgeRate;
@@ -458,9 +490,9 @@ std::vector<DrawPipelines::Faces> SurfaceRenderer::allFaces(const Scene& scene) 
         return all;
     for (const DrawRun& run : runsOf(scene)) {
         const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
-        all.push_back(facesOf(scene, run, false));
-        if (isBlended(scene, material))
-            all.push_back(facesOf(scene, run, true));
+        all.push_back(facesOf(scene, run, Blend::none));
+        for (const Blend blend : isBlended(scene, run.material) ? blendsOf(scene, run.material) : std::vector<Blend>())
+            all.push_back(facesOf(scene, run, blend));
         if (scene.cageFaces ? isMasked(material) : isTrimmed(material))
             all.push_back(shadowFaces(scene, run.material));
     }
@@ -677,7 +709,7 @@ void SurfaceRenderer::drawSurfaceShadow(VkCommandBuffer commands, const Scene& s
     VkPipeline bound = VK_NULL_HANDLE;
     for (size_t i = 0; i < surface.draws.size(); ++i) {
         const SurfaceDraw& draw = surface.draws[i];
-        if (!scene.group->isPartVisible(draw.part))
+        if (!scene.group->isPartVisible(draw.part) || castsNoShadow(materials, draw.material))
             continue;
         const bool trimmed = isTrimmed(materials.of(draw.material));
         const VkPipeline wanted =
@@ -707,7 +739,7 @@ std::vector<SurfaceRenderer::DrawRun> SurfaceRenderer::runsOf(const Scene& scene
 
 void SurfaceRenderer::keepBlended(std::vector<DrawRun>& runs, const Scene& scene) const {
     const Figure& figure = scene.group->figure();
-    std::erase_if(runs, [&](const DrawRun& run) { return !isBlended(scene, figure.materials().of(run.material)); });
+    std::erase_if(runs, [&](const DrawRun& run) { return !isBlended(scene, run.material); });
     const glm::vec3 eye = scene.camera.eye();
     const glm::vec3 ahead = scene.camera.target - eye;
     const auto distance = [&](const DrawRun& run) {
@@ -723,14 +755,10 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
     VkPipeline bound = VK_NULL_HANDLE;
     const FigureSurface* surface = nullptr;
     for (const DrawRun& run : runs) {
-        const bool blended = isBlended(scene, materials.of(run.material));
-        if (blend ? !blended : blended && materials.of(run.material).baseColorFactor[3] < shared::kSolidAlpha)
+        const bool blended = isBlended(scene, run.material);
+        if (blend ? !blended : blended && !maybeSolid(materials, run.material))
             continue;
         const FigureSurface& own = scene.group->surfaces()[run.surface];
-        const VkPipeline wanted = (*pipelines_)[facesOf(scene, run, blend)];
-        if (bound != wanted)
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
-        bound = wanted;
         if (surface != &own) {
             bindSurface(commands, scene, run.surface);
             if (!scene.cageFaces)
@@ -738,12 +766,25 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
         }
         surface = &own;
         bindMaterial(commands, scene, run.material);
-        // What blends shows its far side through its near side.
+        const auto draw = [&](Blend how, VkCullModeFlags cull, uint32_t flags) {
+            const VkPipeline wanted = (*pipelines_)[facesOf(scene, run, how)];
+            if (bound != wanted)
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted);
+            bound = wanted;
+            drawRun(commands, scene, run, cull, flags);
+        };
         const VkCullModeFlags cull = culled(scene, run.material);
-        if (blend && cull == VK_CULL_MODE_NONE)
-            drawRun(commands, scene, run, VK_CULL_MODE_FRONT_BIT, 0);
-        drawRun(commands, scene, run, blend ? VkCullModeFlags{VK_CULL_MODE_BACK_BIT} : cull,
-                blended && !blend ? shared::kDrawSolid : 0);
+        if (!blend) {
+            draw(Blend::none, cull, blended ? shared::kDrawSolid : 0);
+            continue;
+        }
+        // What blends shows its far side through its near side.
+        for (const VkCullModeFlagBits side : {VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT}) {
+            if (side == VK_CULL_MODE_FRONT_BIT && cull != VK_CULL_MODE_NONE)
+                continue;
+            for (const Blend how : blendsOf(scene, run.material))
+                draw(how, side, 0);
+        }
     }
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
 }
@@ -774,7 +815,7 @@ void SurfaceRenderer::drawCageShadow(VkCommandBuffer commands, const Scene& scen
     const FigureMaterials& materials = scene.group->figure().materials();
     shared::DrawPush push = completed({}, scene.group->surfaces().front(), light);
     for (const Figure::CageRange& range : scene.group->figure().cageRanges()) {
-        if (!scene.group->isPartVisible(range.part))
+        if (!scene.group->isPartVisible(range.part) || castsNoShadow(materials, range.material))
             continue;
         const bool mask = isMasked(materials.of(range.material));
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,

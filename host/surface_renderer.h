@@ -128,7 +128,7 @@ private:
         uint32_t material = SUPPLE_NO_MATERIAL;
     };
     [[nodiscard]] std::vector<DrawRun> runsOf(const Scene& scene) const;
-    [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const DrawRun& run, bool blend) const;
+    [[nodiscard]] DrawPipelines::Faces facesOf(const Scene& scene, const DrawRun& run, Blend blend) const;
     /// What the scene, of one pane, draws with.
     [[nodiscard]] std::vector<DrawPipelines::Faces> allFaces(const Scene& scene) const;
     /// Leaves the runs that blend, the farthest first.

@@ -17,6 +17,8 @@ inline constexpr size_t kFirstSize = sizeof(T);
 template <>
 inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, scene);
 template <>
+inline constexpr size_t kFirstSize<SuppleCharacterDesc> = offsetof(SuppleCharacterDesc, materialLayers);
+template <>
 inline constexpr size_t kFirstSize<SuppleCageDesc> = offsetof(SuppleCageDesc, faceMaterials);
 template <>
 inline constexpr size_t kFirstSize<SupplePrimitiveDesc> = offsetof(SupplePrimitiveDesc, creaseScalarCount);

@@ -6,7 +6,7 @@ supple_packages=(
     g++ cmake ninja-build
     libvulkan-dev mesa-vulkan-drivers
     glslang-tools spirv-tools
-    libglm-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev libpng-dev libjpeg62-turbo-dev libcli11-dev
+    libglm-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libstb-dev libpng-dev libjpeg62-turbo-dev libcli11-dev
     libnanoflann-dev libxxhash-dev
     libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev
 )

@@ -35,6 +35,9 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
             return Error{ErrorCode::argument, name + ": " + options.clipFiles.front().name +
                                                   ": an OBJ file has no nodes that clips of other files could move"};
         }
+        if (!options.variant.empty()) {
+            return Error{ErrorCode::argument, name + ": an OBJ file has no material variants"};
+        }
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
         return readObj(bytes, name,
                        {.finish = {options.sewParts, options.creasesFromNormals, options.strict},

@@ -1,6 +1,7 @@
 #include "cage/gltf/document.h"
 
 #include "cage/gltf/container.h"
+#include "cage/gltf/draco.h"
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/meshopt.h"
 #include "cage/gltf/resources.h"
@@ -74,6 +75,7 @@ Document loadDocument(std::span<const std::byte> bytes, const FileReader& readFi
         nameUnreadLook(root, document.warnings);
         nameUnusedVrm(root, document.warnings);
         document.materials = table(root, "materials");
+        decodeDraco(document);
     }
     document.meshes = table(root, "meshes");
     return document;

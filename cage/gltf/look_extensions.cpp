@@ -2,6 +2,7 @@
 
 #include "cage/gltf/node_extensions.h"
 #include "cage/gltf/specular_glossiness.h"
+#include "cage/material_layers.h"
 
 #include <algorithm>
 #include <array>
@@ -79,6 +80,11 @@ void addMaterial(const Json& material, const std::string& element, UnreadExtensi
         addTextures(*pbr);
     }
     addTextures(material.at("extensions").at(kSpecularGlossiness));
+    for (const LayerTexture& row : kLayerTextures) {
+        if (const Json* info = member(material.at("extensions").at(row.extension), row.name)) {
+            unread.addAllOf(*info, within(element, row.name));
+        }
+    }
 }
 
 } // namespace
@@ -99,14 +105,6 @@ void nameUnreadLook(const Json& root, Warnings& warnings) {
     for (size_t i = 0; i < nodes.size(); ++i) {
         if (member(nodes[i], "mesh") != nullptr) {
             unread.addAllOf(nodes[i], at("node", i), kNodeExtensions);
-        }
-    }
-    const Json meshes = table(root, "meshes");
-    for (size_t i = 0; i < meshes.size(); ++i) {
-        for (const Json& primitive : meshes[i].at("primitives")) {
-            if (hasExtension(primitive, "KHR_materials_variants")) {
-                unread.add("KHR_materials_variants", at("mesh", i));
-            }
         }
     }
     unread.name(warnings);

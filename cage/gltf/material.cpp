@@ -49,6 +49,7 @@ public:
         }
         readEmission();
         material_.unlit = hasExtension(from_, "KHR_materials_unlit");
+        readLayers();
         return std::move(material_);
     }
 
@@ -139,6 +140,40 @@ private:
         }
     }
 
+    void readLayers() {
+        for (const char* extension : kLayerExtensions) {
+            const Json* from = hasExtension(from_, extension) ? part(from_.at("extensions"), extension) : nullptr;
+            if (from != nullptr) {
+                readLayer(*from, extension);
+            }
+        }
+    }
+
+    void readLayer(const Json& from, std::string_view extension) {
+        MaterialLayers& layers = material_.layers;
+        for (const LayerNumber& row : kLayerNumbers) {
+            if (row.extension == extension) {
+                layers.*row.member = readNumber(from, row.name, layers.*row.member, {row.low, row.high});
+            }
+        }
+        for (const LayerColor& row : kLayerColors) {
+            if (row.extension == extension) {
+                readColor(from, row.name, layers.*row.member, {0.0f, row.high});
+            }
+        }
+        for (const LayerTexture& row : kLayerTextures) {
+            if (row.extension != extension) {
+                continue;
+            }
+            layers.*row.member = readTexture(from, row.name);
+            const Json* info = member(from, row.name);
+            if (info != nullptr && row.scale != nullptr) {
+                layers.*row.scale =
+                    readNumber(*info, "scale", 1.0f, {-kUnbounded, kUnbounded}, " clearcoatNormalTexture");
+            }
+        }
+    }
+
     bool readFlag(const char* key) {
         const Json* value = member(from_, key);
         leaveOut([&] {
@@ -166,13 +201,14 @@ private:
     }
 
     template <class Color>
-    void readColor(const Json& object, const char* key, Color& color) {
+    void readColor(const Json& object, const char* key, Color& color, Range range = {}) {
         leaveOut([&] {
             checkNumbers(object, key, element_, static_cast<size_t>(Color::length()));
             if (const Json* values = member(object, key)) {
                 for (int k = 0; k < Color::length(); ++k) {
                     const auto channel = static_cast<size_t>(k);
-                    color[k] = clamped((*values)[channel].real(), {}, item(within(element_, key), channel), warnings_);
+                    color[k] =
+                        clamped((*values)[channel].real(), range, item(within(element_, key), channel), warnings_);
                 }
             }
         });

@@ -140,8 +140,13 @@ private:
     /// A malformed SUPPLE_mesh_cage is left out alone: the triangles are taken.
     void addExtension(const Primitive& from, split::Primitive& primitive) {
         std::optional<CageExtension>& extension = extensions_.emplace_back();
-        const bool isRead = document_.leniency->leaveOut(
-            [&] { extension = findCageExtension(document_, from.json, primitive.element, warnings_); });
+        const bool isRead = document_.leniency->leaveOut([&] {
+            if (from.isReordered && hasExtension(from.json, "SUPPLE_mesh_cage")) {
+                refuse(primitive.element + " SUPPLE_mesh_cage",
+                       "it counts vertices, and Draco has reordered them; let it encode the mesh sequentially");
+            }
+            extension = findCageExtension(document_, from.json, primitive.element, warnings_);
+        });
         isExtensionLeftOut_.push_back(isRead ? 0 : 1);
         if (extension) {
             primitive.roundCorners = extension->roundCorners;
@@ -223,10 +228,6 @@ private:
         primitive.material = from.material;
 
         const auto position = from.attributes.find("POSITION");
-        if (hasExtension(from.json, "KHR_draco_mesh_compression") &&
-            model_.accessors[static_cast<size_t>(position->second)].bufferView < 0) {
-            refuse(element, "compressed with KHR_draco_mesh_compression; export the mesh uncompressed");
-        }
 
         // Primitives over the same accessors share their vertices.
         SkinSets sets;
@@ -251,7 +252,8 @@ private:
         primitive.vertexCount = static_cast<uint32_t>(count);
 
         primitive.triangles = readTriangles(document_, from, primitive.vertexCount, element);
-        if (isExtensionLeftOut_[number] == 0) {
+        // Draco begins triangles anywhere, so fans that it did not know would look like others.
+        if (isExtensionLeftOut_[number] == 0 && !from.isReordered) {
             document_.leniency->leaveOut([&] {
                 primitive.faces = readPolygons(document_, from.json, from.mode, extension, primitive.triangles,
                                                primitive.vertexCount, element, warnings_);

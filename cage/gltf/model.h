@@ -70,7 +70,8 @@ struct Primitive {
     int indices = -1;
     int material = -1;
     int mode = kTriangles;
-    Json json; ///< with the extensions
+    bool isReordered = false; ///< decoded in another order of vertices and triangles than it was encoded in
+    Json json;                ///< with the extensions
 };
 
 struct Mesh {

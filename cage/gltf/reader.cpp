@@ -11,6 +11,7 @@
 #include "cage/gltf/nodes.h"
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
+#include "cage/gltf/variants.h"
 #include "cage/message.h"
 #include "cage/part_amount.h"
 #include "cage/parts.h"
@@ -210,10 +211,11 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
                            const GltfOptions& options) {
     try {
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
-        const gltf::Document document = gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder,
-                                                           options.memoryLimit, options.strict);
+        gltf::Document document = gltf::loadDocument(bytes, options.readFile ? options.readFile : readFolder,
+                                                     options.memoryLimit, options.strict);
         Character character;
         character.name = name;
+        character.materialVariants = gltf::chooseVariant(document, options.variant);
         std::vector<PartCage> parts = gltf::readInto(document, options, character);
         finishCharacter(std::move(parts), {options.sewParts, options.creasesFromNormals, options.strict}, character);
         return character;

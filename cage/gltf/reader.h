@@ -27,6 +27,8 @@ struct ClipFile {
 struct GltfOptions {
     /// Which scene's meshes are read: the file's own choice if it is not given.
     std::optional<uint32_t> scene;
+    /// Which of KHR_materials_variants the materials are; empty: the file's own. The error lists the variants there are.
+    std::string variant;
     /// Sew parts together where their boundaries coincide.
     bool sewParts = true;
     /// Make vertices of a part of an OBJ file one where they lie in one place (cage/obj/reader.h).

@@ -1,5 +1,6 @@
 #include "cage/gltf/structure.h"
 
+#include "cage/gltf/draco.h"
 #include "cage/gltf/look_extensions.h"
 #include "cage/gltf/model.h"
 #include "cage/gltf/node_extensions.h"
@@ -37,7 +38,7 @@ void checkAsset(const Json& root) {
 
 /// Extensions a file may require, besides kLookExtensions and kVrmExtensions. (Of the two that allow restart values,
 /// lines and strips alone make use.)
-constexpr std::array<std::string_view, 12> kUnderstood{
+constexpr std::array<std::string_view, 13> kUnderstood{
     "SUPPLE_mesh_cage",
     "EXT_mesh_polygon",
     "FB_ngon_encoding",
@@ -50,6 +51,7 @@ constexpr std::array<std::string_view, 12> kUnderstood{
     "EXT_mesh_primitive_restart",
     kNodeVisibility,
     "KHR_animation_pointer",
+    kDraco,
 };
 
 void checkExtensions(const Json& root) {
@@ -74,10 +76,6 @@ void checkExtensions(const Json& root) {
             std::find(kLookExtensions.begin(), kLookExtensions.end(), name) != kLookExtensions.end() ||
             std::find(kVrmExtensions.begin(), kVrmExtensions.end(), name) != kVrmExtensions.end()) {
             continue;
-        }
-        if (name == "KHR_draco_mesh_compression") {
-            refuse("extensionsRequired", name + " is not supported: it may reorder or drop polygons; export the mesh "
-                                                "uncompressed");
         }
         refuse("extensionsRequired", name + " is not supported");
     }
@@ -340,10 +338,8 @@ void StructureCheck::checkPrimitive(const Json& primitive, const std::string& el
     checkIndexMember(primitive, "indices", element, "accessor", accessors_.size());
     const Json* indices = member(primitive, "indices");
     if (indices != nullptr && !broken_.contains(accessors_[indices->index()]) &&
-        member(accessors_[indices->index()], "bufferView") == nullptr) {
-        refuse(element + " indices", hasExtension(primitive, "KHR_draco_mesh_compression")
-                                         ? "compressed with KHR_draco_mesh_compression; export the mesh uncompressed"
-                                         : at("accessor", indices->index()) + " has no bufferView");
+        member(accessors_[indices->index()], "bufferView") == nullptr && !hasExtension(primitive, kDraco)) {
+        refuse(element + " indices", at("accessor", indices->index()) + " has no bufferView");
     }
     checkMember(primitive, "material",
                 [&] { checkIndexMember(primitive, "material", element, "material", materials_.size()); });

@@ -87,12 +87,15 @@ Texture readTexture(const Json& from, const std::string& element, std::span<cons
     const Json* sampler = member(from, "sampler");
     Texture texture = sampler == nullptr ? Texture{} : sampled[sampler->index()];
     texture.image = readSource(from, element, imageCount);
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+    const auto readOther = [&](const char* name) {
         const Json* extension = extensionOf(from, name, element);
-        if (extension != nullptr && texture.alternateImage == kNone) {
-            texture.alternateImage = readSource(*extension, within(element, name), imageCount);
-        }
+        return extension == nullptr ? kNone : readSource(*extension, within(element, name), imageCount);
+    };
+    const uint32_t basis = readOther("KHR_texture_basisu"), webp = readOther("EXT_texture_webp");
+    if (texture.image == kNone && basis != kNone) {
+        texture.image = webp; // which more programs decode
     }
+    texture.alternateImage = basis != kNone ? basis : webp;
     return texture;
 }
 

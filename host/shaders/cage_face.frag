@@ -4,6 +4,7 @@
 #include "studio.glsl"
 #include "material.glsl"
 #include "material_textures.glsl"
+#include "layers.glsl"
 #include "flat_views.glsl"
 
 layout(location = 0) in vec3 inPosition;
@@ -25,6 +26,12 @@ void main() {
         vec2 uv = placed(kNormal, inUvs);
         mapped = mappedNormalHere(front, inPosition, uv, normalTexelAt(uv));
     }
+    vec3 coat = front;
+    if (shaded && materialHas(kMaterialClearcoat) && hasTexture(kClearcoatNormal)) {
+        vec2 uv = placed(kClearcoatNormal, inUvs);
+        coat = mappedNormalHere(front, inPosition, uv, clearcoatTexelAt(uv));
+    }
+    Layers layers = layersAt(inUvs);
     vec3 flatly = vec3(0.0);
     if (isFlatView(kView)) {
         vec3 tangent = mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
@@ -32,7 +39,8 @@ void main() {
         if (isShadedFlat(kView))
             flatly *= formShade(kView, n, v);
     }
-    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a))
+    float opacity = materialHas(kMaterialTranslucent) ? base.a : 1.0;
+    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(opacity * (1.0 - layers.transmission)))
         discard;
     if (kView == kViewNormals) {
         outColor = vec4(fromSrgb(front * 0.5 + 0.5), 1.0);
@@ -50,6 +58,11 @@ void main() {
     if (!gl_FrontFacing && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
     Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
-    vec3 lit = studioShade(material, light, gl_FrontFacing ? mapped : -mapped, n, v);
-    outColor = vec4(studioTone(material, lit), alpha);
+    vec3 bumps = gl_FrontFacing ? mapped : -mapped;
+    vec3 color;
+    if (shaded && isLayered())
+        color = layeredColor(material, layeredShade(material, layers, light, bumps, gl_FrontFacing ? coat : -coat, n, v), alpha);
+    else
+        color = studioTone(material, studioShade(material, light, bumps, n, v));
+    outColor = vec4(color, alpha);
 }

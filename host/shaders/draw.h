@@ -46,7 +46,14 @@ SUPPLE_HOST_CONST kNormal = 2u;
 SUPPLE_HOST_CONST kOcclusion = 3u;
 SUPPLE_HOST_CONST kEmissive = 4u;
 SUPPLE_HOST_CONST kTrim = 5u;
-SUPPLE_HOST_CONST kTextureCount = 6u;
+// Those of its layers (layers.glsl).
+SUPPLE_HOST_CONST kClearcoat = 6u;
+SUPPLE_HOST_CONST kClearcoatRoughness = 7u;
+SUPPLE_HOST_CONST kClearcoatNormal = 8u;
+SUPPLE_HOST_CONST kSheenColor = 9u;
+SUPPLE_HOST_CONST kSheenRoughness = 10u;
+SUPPLE_HOST_CONST kTransmission = 11u;
+SUPPLE_HOST_CONST kTextureCount = 12u;
 
 // The map of the studio (host/environment.h).
 SUPPLE_HOST_CONST kEnvironmentSize = 256u;
@@ -118,6 +125,10 @@ SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a fa
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
 SUPPLE_HOST_CONST kMaterialUvs1 = 128u;      // a texture lies on the second texture coordinates
 SUPPLE_HOST_CONST kMaterialTexture = 256u;   // << kBaseColor: the texture of that place; and so on
+SUPPLE_HOST_CONST kMaterialClearcoat = 1u << 20;
+SUPPLE_HOST_CONST kMaterialSheen = 1u << 21;
+SUPPLE_HOST_CONST kMaterialTransmission = 1u << 22;
+SUPPLE_HOST_CONST kMaterialSpecular = 1u << 23; // MaterialUniforms::dielectric differs from what it usually is
 
 // From here on a translucent material is solid.
 SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;
@@ -182,7 +193,9 @@ struct TexturePlace {
 
 struct MaterialUniforms {
     vec4 baseColor;
-    vec4 emissive; // with its strength
+    vec4 emissive;   // with its strength
+    vec4 sheen;      // w: its roughness
+    vec4 dielectric; // what it mirrors if it is looked at straight; w: and along the surface
     TexturePlace places[kTextureCount];
     float metallic;
     float roughness;
@@ -191,6 +204,10 @@ struct MaterialUniforms {
     float cutoff; // the trim's, or the mask's
     float trimTiles;
     uint trimChannel;
+    float clearcoat;
+    float clearcoatRoughness;
+    float clearcoatNormalScale;
+    float transmission;
     float unused;
 };
 

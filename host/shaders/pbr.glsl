@@ -26,10 +26,12 @@ vec2 environmentShare(float roughness, float nv) {
 }
 
 /// The same as one color, with what leaves after more than one reflection: rough metals would be too dark without it.
-vec3 mirroredShare(vec3 f0, float roughness, float nv) {
+/// grazing: what is mirrored along the surface.
+vec3 mirroredShareOf(vec3 f0, float grazing, float roughness, float nv) {
     vec2 share = environmentShare(roughness, nv);
-    return (f0 * share.x + share.y) * (1.0 + f0 * (1.0 / (share.x + share.y) - 1.0));
+    return (f0 * share.x + share.y * grazing) * (1.0 + f0 * (1.0 / (share.x + share.y) - 1.0));
 }
+vec3 mirroredShare(vec3 f0, float roughness, float nv) { return mirroredShareOf(f0, 1.0, roughness, nv); }
 
 /// GGX under one small light, with the height-correlated Smith term and Schlick's Fresnel; times n.l. The light's color is
 /// the radiance of a white surface that faces it, so pi is left out of both terms.

@@ -151,30 +151,52 @@ float mirrorsOpen(float open, float nv, float roughness) {
     return clamp(pow(nv + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
 }
 
-/// Radiance towards the eye, before the exposure and without emission. n: the normal that is shaded; surface: that of
-/// the surface itself, for which the light was gathered. Both face the viewer's side.
-vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v) {
-    vec3 keyLight = frame.keyColor.rgb * light.key, rimLight = frame.rimColor.rgb * light.rim;
+/// Light from all round. n: the normal that is shaded; surface: that of the surface itself, for which the light was
+/// gathered. Both face the viewer's side.
+vec3 studioAmbient(Incident light, vec3 n, vec3 surface) {
     // The sky above a normal map's bumps: an even half sphere, turned.
     vec3 sky = light.sky * ((1.2 + n.y) / (1.2 + surface.y));
-    vec3 ambient = sky + frame.bounce.rgb * ((0.5 - 0.5 * n.y) * mix(0.35, 1.0, light.open));
-    vec3 diffuse = keyLight * softLambert(dot(n, frame.keyDirection.xyz)) +
-                   rimLight * softLambert(dot(n, frame.rimDirection.xyz)) + ambient * material.occlusion;
+    return sky + frame.bounce.rgb * ((0.5 - 0.5 * n.y) * mix(0.35, 1.0, light.open));
+}
 
+/// What a white surface scatters.
+vec3 studioScattered(float occlusion, Incident light, vec3 n, vec3 surface) {
+    return frame.keyColor.rgb * light.key * softLambert(dot(n, frame.keyDirection.xyz)) +
+           frame.rimColor.rgb * light.rim * softLambert(dot(n, frame.rimDirection.xyz)) +
+           studioAmbient(light, n, surface) * occlusion;
+}
+
+/// Radiance of the studio itself, besides key and rim; seen: environmentAt().
+vec3 studioWalls(vec3 r, vec4 seen) {
+    return kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w);
+}
+
+/// What a mirror of that roughness shows.
+vec3 studioMirrored(float roughness, float occlusion, Incident light, vec3 n, vec3 surface, vec3 v) {
     vec3 r = reflect(-v, n);
-    vec4 seen = environmentAt(r, material.roughness);
+    vec4 seen = environmentAt(r, roughness);
     // What looks into the surface, or out of a corner that sees little of the sky, mirrors the figure itself.
     float outwards = clamp(1.0 + dot(r, surface), 0.0, 1.0);
-    float open = mirrorsOpen(mix(0.15, 1.0, light.open) * material.occlusion, max(dot(n, v), 0.0), material.roughness) *
-                 outwards * outwards;
+    float open = mirrorsOpen(mix(0.15, 1.0, light.open) * occlusion, max(dot(n, v), 0.0), roughness) * outwards * outwards;
     // The boxes rise above the surface's own horizon. What is below, the figure hides, however blurred it is mirrored: without
     // this, dark materials had a milky veil where they are looked at from aside.
     vec2 risen = smoothstep(-0.2, 0.2, vec2(dot(surface, frame.keyDirection.xyz), dot(surface, frame.rimDirection.xyz)));
     seen.xy *= risen * frame.environment.zw;
-    vec3 mirrored = keyLight * seen.x + rimLight * seen.y +
-                    (kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w)) *
-                        open;
+    return frame.keyColor.rgb * light.key * seen.x + frame.rimColor.rgb * light.rim * seen.y + studioWalls(r, seen) * open;
+}
 
+/// What ground glass sends on of the light behind it: of the studio there about half, as the other half goes back.
+vec3 studioBehind(Incident light, vec3 surface, vec3 v) {
+    vec3 ahead = -v;
+    return studioWalls(ahead, environmentAt(ahead, 1.0)) * (0.5 * mix(0.35, 1.0, light.open)) +
+           frame.keyColor.rgb * light.key * softLambert(-dot(surface, frame.keyDirection.xyz)) +
+           frame.rimColor.rgb * light.rim * softLambert(-dot(surface, frame.rimDirection.xyz));
+}
+
+/// Radiance towards the eye, before the exposure and without emission.
+vec3 studioShade(Material material, Incident light, vec3 n, vec3 surface, vec3 v) {
+    vec3 diffuse = studioScattered(material.occlusion, light, n, surface);
+    vec3 mirrored = studioMirrored(material.roughness, material.occlusion, light, n, surface, v);
     vec3 share = mirroredShare(mirrorColor(material), material.roughness, clamp(dot(n, v), 1e-3, 1.0));
     return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + share * mirrored;
 }

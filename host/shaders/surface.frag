@@ -5,6 +5,7 @@
 #include "lines.glsl"
 #include "material.glsl"
 #include "material_textures.glsl"
+#include "layers.glsl"
 #include "surface_trim.glsl"
 #include "flat_views.glsl"
 #include "stripes.glsl"
@@ -110,8 +111,16 @@ void main() {
     vec4 base = baseColorAt(inUvs, inColor);
     Material material = paintedMaterial(base.rgb);
     vec3 mapped = kView == kViewShaded ? normalFromMap(front) : front;
-    if (back)
+    vec3 coat = front;
+    if (kView == kViewShaded && materialHas(kMaterialClearcoat) && hasTexture(kClearcoatNormal)) {
+        vec2 uv = placed(kClearcoatNormal, inUvs);
+        coat = mappedNormalHere(front, inPosition, uv, clearcoatTexelAt(uv));
+    }
+    if (back) {
         mapped = -mapped; // seen from behind, a bump is a dent
+        coat = -coat;
+    }
+    Layers layers = layersAt(inUvs);
     vec3 segments = fwidth(inGrid);
     vec3 flatly = vec3(0.0);
     if (isFlatView(kView)) {
@@ -128,7 +137,8 @@ void main() {
             covered = suppleTrimCoverage(trim, materialData.cutoff);
     }
     // All that asks for neighbouring pixels is done: some may end here.
-    if (isLeftOut(base.a))
+    float opacity = materialHas(kMaterialTranslucent) ? base.a : 1.0;
+    if (isLeftOut(opacity * (1.0 - layers.transmission)))
         discard;
     float alpha = kView == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (materialHas(kMaterialTrim)) {
@@ -155,7 +165,10 @@ void main() {
             light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
         else if (areCones() && verticesDisagree())
             light = gatherLight(inPosition, n, kLookIntoCones, pixelNoise(gl_FragCoord.xy));
-        color = studioTone(material, studioShade(material, light, mapped, n, v));
+        if (kView == kViewShaded && isLayered())
+            color = layeredColor(material, layeredShade(material, layers, light, mapped, coat, n, v), alpha);
+        else
+            color = studioTone(material, studioShade(material, light, mapped, n, v));
     }
 
     bool lines = push.domain != kDrawMesh;

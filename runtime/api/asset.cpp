@@ -4,6 +4,7 @@
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
 #include "runtime/cooked/file.h"
+#include "runtime/material_layers.h"
 #include "skinning/pose.h"
 
 #include <cstddef>
@@ -29,6 +30,7 @@ static_assert(SUPPLE_MAX_TRIM_TILES == cage::kMaxTrimTiles);
 static_assert(SUPPLE_MAX_COORDINATE == cage::kMaxCoordinate);
 // A struct within a struct can never grow, and no field may come to lie where there was padding.
 static_assert(sizeof(SuppleTextureInfo) == 12 * sizeof(uint32_t));
+static_assert(sizeof(SuppleMaterialLayers) == offsetof(SuppleMaterialLayers, anisotropy) + sizeof(SuppleTextureInfo));
 static_assert(sizeof(SuppleMaterialInfo) == offsetof(SuppleMaterialInfo, trim) + sizeof(SuppleTextureInfo));
 
 SuppleTextureInfo toTextureInfo(const cage::Texture& from) {
@@ -114,6 +116,32 @@ void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     info.occlusion = toTextureInfo(from.occlusionTexture);
     info.emissive = toTextureInfo(from.emissiveTexture);
     tellTrim(from, info);
+}
+
+void tell(const cage::MaterialLayers& from, SuppleMaterialLayers& layers) {
+    for (size_t i = 0; i < cage::kLayerNumbers.size(); ++i) {
+        layers.*runtime::kLayerNumberMembers[i] = from.*cage::kLayerNumbers[i].member;
+    }
+    for (size_t i = 0; i < cage::kLayerColors.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            (layers.*runtime::kLayerColorMembers[i])[channel] = (from.*cage::kLayerColors[i].member)[channel];
+        }
+    }
+    for (size_t i = 0; i < cage::kLayerTextures.size(); ++i) {
+        layers.*runtime::kLayerTextureMembers[i] = toTextureInfo(from.*cage::kLayerTextures[i].member);
+    }
+    layers.clearcoatNormalScale = from.clearcoatNormalScale;
+}
+
+/// Names that the asset has, into the room that there is for them.
+SuppleResult tellNames(const std::vector<std::string>& names, const char** out, uint32_t& count) {
+    const auto total = static_cast<uint32_t>(names.size());
+    const uint32_t n = out == nullptr ? 0 : std::min(count, total);
+    for (uint32_t i = 0; i < n; ++i) {
+        out[i] = names[i].c_str();
+    }
+    count = total;
+    return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
 }
 
 } // namespace
@@ -278,14 +306,7 @@ SuppleResult suppleGetCreaseSets(SuppleContext handle, SuppleAsset asset, const 
         if (count == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "count is null");
         }
-        const std::vector<std::string>& names = found.character.cage.creaseSets;
-        const auto total = static_cast<uint32_t>(names.size());
-        const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
-        for (uint32_t set = 0; set < n; ++set) {
-            out[set] = names[set].c_str();
-        }
-        *count = total;
-        return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+        return tellNames(found.character.cage.creaseSets, out, *count);
     });
 }
 
@@ -341,6 +362,25 @@ SuppleResult suppleGetMaterialInfo(SuppleContext handle, SuppleAsset asset, uint
         const auto& materials = found.character.materials;
         return describePart(context, "suppleGetMaterialInfo", "material", material, materials.size(), out,
                             [&](SuppleMaterialInfo& info) { tell(materials[material], info); });
+    });
+}
+
+SuppleResult suppleGetMaterialLayers(SuppleContext handle, SuppleAsset asset, uint32_t material,
+                                     SuppleMaterialLayers* out) {
+    return withAsset(handle, asset, "suppleGetMaterialLayers", [&](Context& context, const Asset& found) {
+        const auto& materials = found.character.materials;
+        return describePart(context, "suppleGetMaterialLayers", "material", material, materials.size(), out,
+                            [&](SuppleMaterialLayers& layers) { tell(materials[material].layers, layers); });
+    });
+}
+
+SuppleResult suppleGetMaterialVariants(SuppleContext handle, SuppleAsset asset, const char** out, uint32_t* count) {
+    constexpr const char* kHere = "suppleGetMaterialVariants";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        if (count == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "count is null");
+        }
+        return tellNames(found.character.materialVariants, out, *count);
     });
 }
 

@@ -210,10 +210,11 @@ bool isCooked(const SuppleAssetDesc& desc) {
 
 Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc& desc) {
     const std::string name = nameOf(desc);
-    if ((desc.flags & ~uint32_t{SUPPLE_ASSET_STRICT}) != 0 || desc.scene != 0 || desc.clipFileCount != 0) {
-        return Error{ErrorCode::argument, name +
-                                              ": it is cooked, and flags other than SUPPLE_ASSET_STRICT, a scene and "
-                                              "clip files are for the file that it is cooked from"};
+    if ((desc.flags & ~uint32_t{SUPPLE_ASSET_STRICT}) != 0 || desc.scene != 0 || desc.clipFileCount != 0 ||
+        !orEmpty(desc.materialVariant).empty()) {
+        return Error{ErrorCode::argument,
+                     name + ": it is cooked, and flags other than SUPPLE_ASSET_STRICT, a scene, a material variant and "
+                            "clip files are for the file that it is cooked from"};
     }
     Result<std::shared_ptr<runtime::Prepared>> prepared =
         runtime::readCooked({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name);
@@ -231,6 +232,9 @@ Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& d
     const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
     const cage::FinishOptions finish{!has(SUPPLE_ASSET_PARTS_APART), has(SUPPLE_ASSET_CREASES_FROM_NORMALS),
                                      has(SUPPLE_ASSET_STRICT)};
+    if ((desc.cage != nullptr || desc.character != nullptr) && !orEmpty(desc.materialVariant).empty()) {
+        return Error{ErrorCode::argument, name + ": arrays have no material variants"};
+    }
     if (desc.cage != nullptr) {
         return readArrays(function, "desc.cage", *desc.cage, name, finish);
     }
@@ -249,6 +253,7 @@ Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& d
     if (desc.scene != 0) {
         options.scene = desc.scene - 1;
     }
+    options.variant = orEmpty(desc.materialVariant);
     options.memoryLimit = desc.memoryLimit;
     options.readFile = reader(desc.files);
     for (uint32_t i = 0; i < desc.clipFileCount; ++i) {

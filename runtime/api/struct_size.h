@@ -30,6 +30,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleJointInfo)                                                                                                 \
     X(SuppleMorphTargetInfo)                                                                                           \
     X(SuppleMaterialInfo)                                                                                              \
+    X(SuppleMaterialLayers)                                                                                            \
     X(SuppleImageInfo)                                                                                                 \
     X(SupplePrepOptions)                                                                                               \
     X(SuppleBlendOptions)                                                                                              \

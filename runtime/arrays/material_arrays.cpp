@@ -3,6 +3,7 @@
 #include "cage/image_header.h"
 #include "cage/materials.h"
 #include "cage/trim.h"
+#include "runtime/material_layers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,26 @@ public:
         material.emissiveTexture = texture(from_.emissive, "emissive");
         readTrim(material);
         return material;
+    }
+
+    /// What the host says beyond that.
+    void readLayers(const SuppleMaterialLayers& from, cage::MaterialLayers& layers) {
+        for (size_t i = 0; i < cage::kLayerNumbers.size(); ++i) {
+            const cage::LayerNumber& row = cage::kLayerNumbers[i];
+            layers.*row.member = number(from.*kLayerNumberMembers[i], row.name, row.low, row.high);
+        }
+        layers.clearcoatNormalScale =
+            number(from.clearcoatNormalScale, "clearcoatNormalScale", -kUnbounded, kUnbounded);
+        for (size_t i = 0; i < cage::kLayerColors.size(); ++i) {
+            const cage::LayerColor& row = cage::kLayerColors[i];
+            for (int c = 0; c < 3; ++c) {
+                (layers.*row.member)[c] = number((from.*kLayerColorMembers[i])[c], row.name, 0.0f, row.high);
+            }
+        }
+        for (size_t i = 0; i < cage::kLayerTextures.size(); ++i) {
+            const cage::LayerTexture& row = cage::kLayerTextures[i];
+            layers.*row.member = texture(from.*kLayerTextureMembers[i], row.name);
+        }
     }
 
 private:
@@ -174,9 +195,17 @@ std::vector<cage::Material> readMaterialArrays(const SuppleCharacterDesc& desc, 
                                                cage::Refusals& refusals, cage::Warnings& warnings) {
     Faults all(refusals, "");
     std::vector<cage::Material> materials;
+    std::vector<SuppleMaterialLayers> layers;
+    if (desc.materialLayers != nullptr) {
+        layers = takeArray(desc.materialLayers, desc.materialCount, "materialLayers", all);
+    }
     for (const SuppleMaterialInfo& from : takeArray(desc.materials, desc.materialCount, "materials", all)) {
         Faults faults(refusals, cage::at("material", materials.size()));
-        materials.push_back(MaterialArrayReader(from, images, faults, warnings).read());
+        MaterialArrayReader reader(from, images, faults, warnings);
+        materials.push_back(reader.read());
+        if (materials.size() <= layers.size()) {
+            reader.readLayers(layers[materials.size() - 1], materials.back().layers);
+        }
     }
     return materials;
 }

@@ -77,13 +77,24 @@ template <class A, Is<Trim> T>
 void fields(A& a, T& trim) {
     a(trim.domain, trim.texture, trim.channel, trim.cutoff, trim.tiles);
 }
+template <class A, Is<MaterialLayers> T>
+void fields(A& a, T& layers) {
+    a(layers.clearcoatFactor, layers.clearcoatTexture, layers.clearcoatRoughnessFactor,
+      layers.clearcoatRoughnessTexture, layers.clearcoatNormalTexture, layers.clearcoatNormalScale,
+      layers.sheenColorFactor, layers.sheenColorTexture, layers.sheenRoughnessFactor, layers.sheenRoughnessTexture,
+      layers.transmissionFactor, layers.transmissionTexture, layers.ior, layers.specularFactor, layers.specularTexture,
+      layers.specularColorFactor, layers.specularColorTexture, layers.iridescenceFactor, layers.iridescenceTexture,
+      layers.iridescenceIor, layers.iridescenceThicknessMinimum, layers.iridescenceThicknessMaximum,
+      layers.iridescenceThicknessTexture, layers.anisotropyStrength, layers.anisotropyRotation,
+      layers.anisotropyTexture);
+}
 template <class A, Is<Material> T>
 void fields(A& a, T& material) {
     a(material.name, material.baseColorFactor, material.baseColorTexture, material.metallicFactor,
       material.roughnessFactor, material.metallicRoughnessTexture, material.normalTexture, material.normalScale,
       material.occlusionTexture, material.occlusionStrength, material.emissiveTexture, material.emissiveFactor,
       material.emissiveStrength, material.unlit, material.alphaMode, material.alphaCutoff, material.doubleSided,
-      material.trim);
+      material.layers, material.trim);
 }
 template <class A, Is<Part> T>
 void fields(A& a, T& part) {
@@ -99,8 +110,8 @@ void fields(A& a, T& character) {
     a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.clips,
-      character.materials, character.images, character.warnings, character.damages, character.sourceVertexCount,
-      character.seamVertexCount);
+      character.materials, character.materialVariants, character.images, character.warnings, character.damages,
+      character.sourceVertexCount, character.seamVertexCount);
 }
 
 } // namespace supple::cage

@@ -330,6 +330,12 @@ private:
                              [&](auto* out) { return suppleGetJointInfo(handle(), tube_, 0, out); });
         get<SuppleMaterialInfo>("suppleGetMaterialInfo",
                                 [&](auto* out) { return suppleGetMaterialInfo(handle(), tube_, 0, out); });
+        get<SuppleMaterialLayers>("suppleGetMaterialLayers",
+                                  [&](auto* out) { return suppleGetMaterialLayers(handle(), tube_, 0, out); });
+        call("suppleGetMaterialVariants", [&] {
+            uint32_t count = 0;
+            return suppleGetMaterialVariants(handle(), tube_, nullptr, &count);
+        });
         get<SuppleImageInfo>("suppleGetImageInfo",
                              [&](auto* out) { return suppleGetImageInfo(handle(), tube_, 0, out); });
         get<SuppleGroupInfo>("suppleGetGroupInfo",

@@ -60,9 +60,35 @@ TEST(Pictures, AreasBeyondTheLimitAreRefusedByTheirHeader) {
 
 TEST(Pictures, WhatIsCutOffOrNoPictureIsRefused) {
     EXPECT_EQ(refusalOf(pngOf(4, 4)), "p: truncated");
-    EXPECT_EQ(refusalOf("GIF89a"), "p: not a PNG or JPEG");
-    EXPECT_EQ(refusalOf(""), "p: not a PNG or JPEG");
+    EXPECT_EQ(refusalOf("GIF89a"), "p: not a PNG, JPEG or WebP");
+    EXPECT_EQ(refusalOf(""), "p: not a PNG, JPEG or WebP");
+    EXPECT_EQ(refusalOf("\xABKTX 20\xBB\r\n\x1A\n"), "p: KTX2 is not decoded");
     EXPECT_NE(refusalOf("\xFF\xD8\xFF"), "decoded");
+}
+
+/// Two pixels, lossless: red, and half covered blue.
+const std::string kTwoPixels("RIFF\x20\x00\x00\x00WEBPVP8L\x14\x00\x00\x00\x2F\x01\x00\x00\x10\x0F\x30\x40\xFB\x3F\xFF"
+                             "\x0F\xFC\x0F\x2D\x54\x20\xA2\xFF\x01",
+                             40);
+
+TEST(Pictures, WebP) {
+    const Result<host::Picture> picture = host::decodePicture(bytesOf(kTwoPixels), "p");
+    if (!picture && picture.error().message.find("built without libwebp") != std::string::npos) {
+        GTEST_SKIP() << "left out: built without libwebp";
+    }
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    EXPECT_EQ(picture->width, 2u);
+    EXPECT_EQ(picture->height, 1u);
+    EXPECT_EQ(picture->rgba, (std::vector<uint8_t>{255, 0, 0, 255, 0, 64, 255, 128}));
+    EXPECT_EQ(refusalOf(kTwoPixels.substr(0, 30)), "p: damaged");
+    EXPECT_EQ(refusalOf(kTwoPixels.substr(0, 12)), "p: damaged");
+    std::string large = kTwoPixels; // 14 bits each, less one
+    large.replace(21, 4, "\xFF\xFF\xFF\x1F");
+    EXPECT_EQ(refusalOf(large), "p: more than 67108864 pixels");
+    // An extended header whose flags say that it moves.
+    const std::string moving("RIFF\x16\x00\x00\x00WEBPVP8X\x0A\x00\x00\x00\x02\x00\x00\x00\x01\x00\x00\x00\x00\x00",
+                             30);
+    EXPECT_EQ(refusalOf(moving), "p: an animated WebP");
 }
 
 } // namespace

@@ -55,7 +55,7 @@ ONLY = {
 LIBRARY = ["base/", "shaders/", "gpu/", "cage/", "skinning/", "surface/", "runtime/"]
 FOREIGN = {
     ("vulkan/",): ["gpu/", "skinning/", "surface/", "runtime/"],  # a character knows nothing of the GPU
-    ("tiny_gltf", "nlohmann/", "meshoptimizer"): ["cage/gltf/"],
+    ("tiny_gltf", "nlohmann/", "meshoptimizer", "draco/"): ["cage/gltf/"],
     ("fstream", "filesystem", "iostream"): ["cage/gltf/", "cage/obj/"],  # nothing else reads files or prints
     ("chrono", "ctime"): ["runtime/timings."],
     ("GLFW/", "SDL", "imgui", "backends/", "EGL/", "GL/", "unistd", "windows."): [],  # no windows, no system

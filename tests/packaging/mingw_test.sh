@@ -22,7 +22,7 @@ fi
 
 # Without any optimization the objects are seven times as large, and linking COFF takes minutes.
 quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
-    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=OFF -DSUPPLE_BUILD_TESTS=OFF \
+    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=OFF -DSUPPLE_BUILD_TESTS=OFF \
     -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_CXX_FLAGS=-O1 -DSUPPLE_UNITY_BATCH=30
 quietly cmake --build "$work/build" --target supple supple_other
 rm -rf "$work/prefix"

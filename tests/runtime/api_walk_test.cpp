@@ -859,6 +859,13 @@ void creaseSets(Rows& r) {
     });
     r.refuse(kSets, "count null", SUPPLE_MESSAGE_NULL_POINTER,
              [](World& w) { return suppleGetCreaseSets(w.handle(), w.mine.asset, w.plain<const char*>(), nullptr); });
+    constexpr const char* kVariants = "suppleGetMaterialVariants";
+    r.assets(kVariants, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetMaterialVariants(c, a, w.plain<const char*>(), w.number(1));
+    });
+    r.refuse(kVariants, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetMaterialVariants(w.handle(), w.mine.asset, w.plain<const char*>(), nullptr);
+    });
     constexpr const char* kClip = "suppleGetClipSharpness";
     const auto clip = [](World& w, SuppleAsset asset, uint32_t number) {
         return suppleGetClipSharpness(w.handle(), asset, number, 0, 0.0, w.plain<float>());
@@ -941,6 +948,7 @@ void assetGetters(Rows& r) {
     part("suppleGetJointInfo", kJoints, &suppleGetJointInfo);
     part("suppleGetMorphTargetInfo", kTargets, &suppleGetMorphTargetInfo);
     part("suppleGetMaterialInfo", kMaterials, &suppleGetMaterialInfo);
+    part("suppleGetMaterialLayers", kMaterials, &suppleGetMaterialLayers);
     part("suppleGetImageInfo", kImages, &suppleGetImageInfo);
 
     constexpr const char* kClipBounds = "suppleGetClipBounds";

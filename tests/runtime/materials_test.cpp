@@ -1,10 +1,12 @@
 // Materials through the public interface: every field as the file has it, glTF's defaults, and the images behind them.
-#include "tests/cage/gltf/builder.h"
+#include "runtime/material_layers.h"
+#include "tests/cage/gltf/layered.h"
 #include "tests/support/logged_context.h"
 
 #include <cstring>
 #include <gtest/gtest.h>
 #include <string>
+#include <supple/supple.hpp>
 #include <vector>
 
 namespace supple::test {
@@ -163,6 +165,86 @@ TEST_F(MaterialInfo, ImagesAreEncodedAndNamed) {
     EXPECT_STREQ(image.mimeType, "image/webp");
     EXPECT_EQ(image.byteCount, 12u);
     EXPECT_EQ(std::memcmp(image.bytes, "RIFF....WEBP", 12), 0);
+}
+
+/// An asset of layeredQuad().
+SuppleResult createLayered(const LoggedContext& context, const char* variant, SuppleAsset& asset) {
+    const std::vector<std::byte> glb = layeredQuad().glb();
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.name = "layered";
+    desc.bytes = glb.data();
+    desc.byteCount = glb.size();
+    desc.materialVariant = variant;
+    return suppleCreateAsset(context.handle(), &desc, &asset);
+}
+
+TEST_F(MaterialInfo, LayersHaveEveryFieldOfTheFile) {
+    SuppleAsset asset{};
+    ASSERT_EQ(createLayered(*context_, nullptr, asset), SUPPLE_OK);
+    SuppleMaterialLayers layers;
+    std::memset(&layers, 0xA5, sizeof layers);
+    layers.structSize = sizeof layers;
+    ASSERT_EQ(suppleGetMaterialLayers(context_->handle(), asset, 0, &layers), SUPPLE_OK);
+    EXPECT_EQ(layers.clearcoatFactor, 0.5f);
+    EXPECT_EQ(layers.clearcoatRoughnessFactor, 0.25f);
+    EXPECT_EQ(layers.clearcoatNormalScale, 2.0f);
+    EXPECT_EQ(layers.sheenColorFactor[1], 0.5f);
+    EXPECT_EQ(layers.sheenRoughnessFactor, 0.75f);
+    EXPECT_EQ(layers.transmissionFactor, 0.875f);
+    EXPECT_EQ(layers.ior, 1.25f);
+    EXPECT_EQ(layers.specularFactor, 0.125f);
+    EXPECT_EQ(layers.specularColorFactor[0], 2.0f);
+    EXPECT_EQ(layers.iridescenceFactor, 0.375f);
+    EXPECT_EQ(layers.iridescenceIor, 1.625f);
+    EXPECT_EQ(layers.iridescenceThicknessMinimum, 50.0f);
+    EXPECT_EQ(layers.iridescenceThicknessMaximum, 600.0f);
+    EXPECT_EQ(layers.anisotropyStrength, 0.625f);
+    EXPECT_EQ(layers.anisotropyRotation, -1.5f);
+    const uint32_t images[] = {0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 1};
+    for (size_t i = 0; i < runtime::kLayerTextureMembers.size(); ++i) {
+        EXPECT_EQ((layers.*runtime::kLayerTextureMembers[i]).image, images[i]) << cage::kLayerTextures[i].name;
+    }
+    expectTransform(layers.transmission, {0.5f, -1, 0.75f, 2, 3});
+
+    ASSERT_EQ(suppleGetMaterialLayers(context_->handle(), asset, 1, &layers), SUPPLE_OK);
+    const SuppleMaterialLayers none = defaultMaterialLayers();
+    EXPECT_EQ(std::memcmp(&layers, &none, sizeof none), 0) << "a material without any";
+}
+
+TEST_F(MaterialInfo, VariantsAreChosenByName) {
+    SuppleAsset asset{};
+    ASSERT_EQ(createLayered(*context_, "", asset), SUPPLE_OK);
+    const char* names[2]{};
+    uint32_t count = 1;
+    EXPECT_EQ(suppleGetMaterialVariants(context_->handle(), asset, names, &count), SUPPLE_INCOMPLETE);
+    EXPECT_EQ(count, 2u);
+    EXPECT_EQ(suppleGetMaterialVariants(context_->handle(), asset, names, &count), SUPPLE_OK);
+    EXPECT_STREQ(names[0], "day");
+    EXPECT_STREQ(names[1], "night");
+    const auto drawn = [&](const char* variant) {
+        SuppleAsset chosen{};
+        EXPECT_EQ(createLayered(*context_, variant, chosen), SUPPLE_OK);
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.asset = chosen;
+        desc.capacity = 1;
+        desc.scheme = SUPPLE_SCHEME_POLYGONS;
+        SuppleGroup group{};
+        EXPECT_EQ(suppleCreateGroup(context_->handle(), &desc, &group), SUPPLE_OK);
+        SuppleGridOutput grid{};
+        grid.structSize = sizeof grid;
+        EXPECT_EQ(suppleGetGridOutput(context_->handle(), group, 0, &grid), SUPPLE_OK);
+        return grid.drawRangeCount == 1 ? grid.drawRanges[0].material : SUPPLE_NO_MATERIAL;
+    };
+    EXPECT_EQ(drawn(nullptr), 0u);
+    EXPECT_EQ(drawn("day"), 0u) << "the first primitive has no other material by day";
+    EXPECT_EQ(drawn("night"), 1u);
+    context_->takeLines();
+    EXPECT_EQ(createLayered(*context_, "dusk", asset), SUPPLE_ERROR_ARGUMENT);
+    const std::vector<LogLine> lines = context_->takeLines();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].text.find("no material variant \"dusk\"; it has \"day\", \"night\""), std::string::npos);
 }
 
 } // namespace

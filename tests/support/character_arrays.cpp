@@ -37,6 +37,37 @@ SuppleTextureInfo textureInfo(const cage::Texture& from) {
             {from.scale.x, from.scale.y}};
 }
 
+SuppleMaterialLayers layersOf(const cage::MaterialLayers& from) {
+    auto to = sizedStruct<SuppleMaterialLayers>();
+    to.clearcoatFactor = from.clearcoatFactor;
+    to.clearcoatRoughnessFactor = from.clearcoatRoughnessFactor;
+    to.clearcoatNormalScale = from.clearcoatNormalScale;
+    std::copy_n(&from.sheenColorFactor.x, 3, to.sheenColorFactor);
+    to.sheenRoughnessFactor = from.sheenRoughnessFactor;
+    to.transmissionFactor = from.transmissionFactor;
+    to.ior = from.ior;
+    to.specularFactor = from.specularFactor;
+    std::copy_n(&from.specularColorFactor.x, 3, to.specularColorFactor);
+    to.iridescenceFactor = from.iridescenceFactor;
+    to.iridescenceIor = from.iridescenceIor;
+    to.iridescenceThicknessMinimum = from.iridescenceThicknessMinimum;
+    to.iridescenceThicknessMaximum = from.iridescenceThicknessMaximum;
+    to.anisotropyStrength = from.anisotropyStrength;
+    to.anisotropyRotation = from.anisotropyRotation;
+    to.clearcoat = textureInfo(from.clearcoatTexture);
+    to.clearcoatRoughness = textureInfo(from.clearcoatRoughnessTexture);
+    to.clearcoatNormal = textureInfo(from.clearcoatNormalTexture);
+    to.sheenColor = textureInfo(from.sheenColorTexture);
+    to.sheenRoughness = textureInfo(from.sheenRoughnessTexture);
+    to.transmission = textureInfo(from.transmissionTexture);
+    to.specular = textureInfo(from.specularTexture);
+    to.specularColor = textureInfo(from.specularColorTexture);
+    to.iridescence = textureInfo(from.iridescenceTexture);
+    to.iridescenceThickness = textureInfo(from.iridescenceThicknessTexture);
+    to.anisotropy = textureInfo(from.anisotropyTexture);
+    return to;
+}
+
 /// What a part has of a character.
 class PartTaker {
 public:
@@ -227,6 +258,7 @@ CharacterArrays::CharacterArrays(const cage::Character& character) {
     desc.clips = clips.data();
     desc.materialCount = countOf(materials);
     desc.materials = materials.data();
+    desc.materialLayers = layers.empty() ? nullptr : layers.data();
     desc.imageCount = countOf(images);
     desc.images = images.data();
     desc.copyright = character.copyright.c_str();
@@ -345,6 +377,7 @@ void CharacterArrays::addMaterials(const cage::Character& character) {
             to.trim = textureInfo(from.trim->texture);
         }
         materials.push_back(to);
+        layers.push_back(layersOf(from.layers));
     }
     for (const cage::Image& from : character.images) {
         auto to = sizedStruct<SuppleImageInfo>();

@@ -46,6 +46,7 @@ struct CharacterArrays {
     std::deque<Clip> clipArrays;
     std::vector<SuppleClipDesc> clips;
     std::vector<SuppleMaterialInfo> materials;
+    std::vector<SuppleMaterialLayers> layers;
     std::vector<SuppleImageInfo> images;
     SuppleCharacterDesc desc{};
 

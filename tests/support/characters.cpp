@@ -201,12 +201,17 @@ void expectSameMaterials(const Character& a, const Character& b) {
             SCOPED_TRACE("texture " + std::to_string(k));
             expectSameTexture(a, *cage::texturesOf(x)[k], b, *cage::texturesOf(y)[k]);
         }
+        cage::MaterialLayers numbered = y.layers;
+        for (const cage::LayerTexture& row : cage::kLayerTextures) {
+            numbered.*row.member = x.layers.*row.member;
+        }
+        EXPECT_TRUE(x.layers == numbered);
         ASSERT_EQ(x.trim.has_value(), y.trim.has_value());
         if (x.trim) {
             expectSameTexture(a, x.trim->texture, b, y.trim->texture);
-            Trim numbered = *y.trim;
-            numbered.texture = x.trim->texture;
-            EXPECT_TRUE(*x.trim == numbered);
+            Trim trim = *y.trim;
+            trim.texture = x.trim->texture;
+            EXPECT_TRUE(*x.trim == trim);
         }
     }
 }

@@ -157,6 +157,7 @@ private:
         compare(at + ".alphaMode", a.alphaMode, b.alphaMode);
         compare(at + ".alphaCutoff", a.alphaCutoff, b.alphaCutoff);
         compare(at + ".doubleSided", a.doubleSided, b.doubleSided);
+        check(at + ".layers", a.layers == b.layers);
         check(at + ".trim", a.trim == b.trim);
     }
     void compareImages(const std::string& at, const cage::Image& a, const cage::Image& b) {

@@ -45,7 +45,7 @@ TEST_F(Cook, AnotherVersionIsToldHowToMakeItAnew) {
     const Outcome outcome = run("inspect pip.supple");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err,
-              "supple: pip.supple: a cooked file of version 77, and this is version 4: make it anew: supple cook "
+              "supple: pip.supple: a cooked file of version 77, and this is version 5: make it anew: supple cook "
               "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --parts-apart --scene 0\n");
 }
 
@@ -53,7 +53,8 @@ TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
     ASSERT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme pm --for grids").exitCode, 0);
     Outcome outcome = run("inspect pip.supple --pair-quads");
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_EQ(outcome.err, "supple: pip.supple: it is cooked: its polygons, parts, scene and clips were chosen then\n");
+    EXPECT_EQ(outcome.err,
+              "supple: pip.supple: it is cooked: its polygons, parts, scene, variant and clips were chosen then\n");
     writeText(file("half.supple"), readText(file("pip.supple")).substr(0, 4000));
     outcome = run("inspect half.supple");
     EXPECT_EQ(outcome.exitCode, 1);

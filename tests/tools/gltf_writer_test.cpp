@@ -1,6 +1,7 @@
 #include "tools/gltf/writer.h"
 
 #include "cage/formats/reader.h"
+#include "cage/material_layers.h"
 #include "cage/obj/reader.h"
 #include "cage/polygons.h"
 #include "tests/cage/gltf/builder.h"
@@ -236,6 +237,34 @@ TEST(GltfWriter, EverythingComesBack) {
     expectSame(character, again);
     EXPECT_EQ(again.images.size(), 3u) << "what no material uses is left out";
     EXPECT_TRUE(writeWell(again) == bytes) << "a file that was written is written again byte by byte";
+}
+
+TEST(GltfWriter, LayersOfMaterialsComeBack) {
+    Character character = richCharacter();
+    MaterialLayers& layers = character.materials[1].layers;
+    float number = 0.125f;
+    for (const LayerNumber& row : kLayerNumbers) {
+        layers.*row.member = row.low + number; // none is the usual one
+        number += 0.0625f;
+    }
+    layers.anisotropyRotation = -0.5f;
+    layers.sheenColorFactor = {1.0f, 0.5f, 0.25f};
+    layers.specularColorFactor = {2.0f, 0.5f, 0.25f};
+    for (const LayerTexture& row : kLayerTextures) {
+        layers.*row.member = {.image = 1};
+    }
+    layers.clearcoatNormalScale = 3.0f;
+    layers.transmissionTexture.uvSet = 1;
+    layers.ior = 1.25f;
+    const std::vector<std::byte> bytes = writeWell(character);
+    const Character again = readWell(bytes);
+    EXPECT_EQ(again.warnings, Strings());
+    expectSame(character, again);
+    EXPECT_TRUE(writeWell(again) == bytes);
+    const json used = Glb(bytes).root["extensionsUsed"];
+    for (const char* extension : kLayerExtensions) {
+        EXPECT_NE(std::find(used.begin(), used.end(), json(extension)), used.end()) << extension;
+    }
 }
 
 TEST(GltfWriter, SharpnessOfClipsComesBack) {

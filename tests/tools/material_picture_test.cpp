@@ -383,6 +383,115 @@ TEST_F(MaterialPictureTest, TexturesThatCannotBeReadAreLeftOut) {
     EXPECT_EQ(broken.rgba, draw(square(flatColor("[0.5,0.5,0.5,1]", none)), facing()).rgba);
 }
 
+TEST_F(MaterialPictureTest, TexturesInWebPAreShownWhereTheFirstImageCannotBe) {
+    // Two pixels, lossless: red, and half covered blue.
+    const unsigned char bytes[] = {0x52, 0x49, 0x46, 0x46, 0x20, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42, 0x50, 0x56, 0x50,
+                                   0x38, 0x4C, 0x14, 0x00, 0x00, 0x00, 0x2F, 0x01, 0x00, 0x00, 0x10, 0x0F, 0x30, 0x40,
+                                   0xFB, 0x3F, 0xFF, 0x0F, 0xFC, 0x0F, 0x2D, 0x54, 0x20, 0xA2, 0xFF, 0x01};
+    SceneFile file = square(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"extensions":)"
+                            R"({"KHR_materials_unlit":{}}})",
+                            {Picture{}});
+    file.samplers = {R"({"magFilter":9728,"minFilter":9728})"};
+    file.webps = {{reinterpret_cast<const char*>(bytes), sizeof bytes}};
+    const Picture picture = draw(file, facing());
+    if (colorAt(picture, 80, 100) == glm::ivec3(255))
+        GTEST_SKIP() << "left out: built without libwebp";
+    EXPECT_LE(furthest(colorAt(picture, 70, 100), glm::ivec3(255, 0, 0)), 2);
+    EXPECT_LE(furthest(colorAt(picture, 170, 100), glm::ivec3(0, 64, 255)), 2);
+}
+
+std::string layered(const std::string& color, const std::string& name, const std::string& members) {
+    return flatColor(color, R"(,"extensions":{"KHR_materials_)" + name + R"(":{)" + members + "}}");
+}
+
+TEST_F(MaterialPictureTest, ACoatMirrorsOverARoughMaterial) {
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    for (const bool cage : {false, true}) {
+        const auto drawn = [&](const std::string& material) {
+            ball.materials = {material};
+            return draw(ball, facing(), cage);
+        };
+        const auto brightest = [&](const Picture& picture) {
+            int most = 0;
+            for (uint32_t y = 60; y < 140; ++y) {
+                for (uint32_t x = 80; x < 160; ++x)
+                    most = std::max(most, colorAt(picture, x, y).y);
+            }
+            return most;
+        };
+        const std::string red = "[0.5,0,0,1]";
+        const Picture bare = drawn(flatColor(red));
+        EXPECT_GT(brightest(drawn(layered(red, "clearcoat", R"("clearcoatFactor":1)"))), brightest(bare) + 60);
+        EXPECT_EQ(drawn(layered(red, "clearcoat", R"("clearcoatRoughnessFactor":1)")).rgba, bare.rgba)
+            << "no coat changes no pixel";
+        EXPECT_LT(brightest(drawn(layered(red, "specular", R"("specularFactor":0)"))), 40) << "what mirrors nothing";
+    }
+}
+
+TEST_F(MaterialPictureTest, SheenBrightensWhatIsLookedAtFromAside) {
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    const auto at = [&](const std::string& material, uint32_t y) {
+        ball.materials = {material};
+        return colorAt(draw(ball, facing()), 120, y);
+    };
+    const std::string black = "[0.01,0.01,0.01,1]";
+    const std::string sheen = layered(black, "sheen", R"("sheenColorFactor":[0.1,0.9,0.1],"sheenRoughnessFactor":0.3)");
+    const glm::ivec3 edge = at(sheen, 26), middle = at(sheen, 100);
+    EXPECT_GT(edge.y, middle.y + 40);
+    EXPECT_GT(edge.y, edge.x + 40) << "in its own color";
+    EXPECT_LE(furthest(middle, at(flatColor(black), 100)), 25);
+}
+
+TEST_F(MaterialPictureTest, GlassShowsWhatIsBehindInItsColor) {
+    const std::string pane = R"("transmissionFactor":1)";
+    const auto scene = [&](const std::string& glass, const std::vector<Picture>& images = {}) {
+        SceneFile file = square(unlitColor("[0.5,0.5,0.5,1]"), images);
+        file.materials.push_back(glass);
+        file.meshes.push_back(test::squareMesh(glm::vec3(0.0f, 0.0f, 0.3f), kSquareHalf, 4, 1));
+        return file;
+    };
+    const std::string smooth = R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0.2,0.2,1],"metallicFactor":0,)"
+                               R"("roughnessFactor":0},"extensions":{"KHR_materials_transmission":{)";
+    for (const auto& [cage, multisample] : {std::pair(false, false), {false, true}, {true, false}}) {
+        const glm::ivec3 red = middleOf(draw(scene(smooth + pane + "}}}"), facing(), cage, multisample));
+        EXPECT_NEAR(red.x, byteOf(0.5f), 25) << "what is behind, and a little that is mirrored";
+        EXPECT_LT(red.y, byteOf(0.15f) + 25);
+    }
+    // Where a texture says that nothing goes through, it hides all.
+    const Picture left = texels(
+        [](uint32_t x, uint32_t) { return x < 4 ? glm::u8vec4(255, 255, 255, 255) : glm::u8vec4(0, 0, 0, 255); });
+    const std::string half = smooth + pane + R"(,"transmissionTexture":{"index":0}}}})";
+    SceneFile file = scene(half, {left});
+    file.materials[0] = unlitColor("[0,0,1,1]");
+    const Picture picture = draw(file, facing());
+    EXPECT_LT(colorAt(picture, 70, 100).x, 120) << "blue through red";
+    EXPECT_GT(colorAt(picture, 170, 100).x, 120);
+}
+
+TEST_F(MaterialPictureTest, GroundGlassBlursWhatIsBehind) {
+    const Picture stripes = texels(
+        [](uint32_t x, uint32_t) { return x % 2 == 0 ? glm::u8vec4(255, 255, 255, 255) : glm::u8vec4(0, 0, 0, 255); });
+    const auto contrast = [&](const std::string& roughness) {
+        SceneFile file = square(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"extensions":)"
+                                R"({"KHR_materials_unlit":{}}})",
+                                {stripes});
+        file.materials.push_back(R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":)" + roughness +
+                                 R"(},"extensions":{"KHR_materials_transmission":{"transmissionFactor":1}}})");
+        file.meshes.push_back(test::squareMesh(glm::vec3(0.0f, 0.0f, 0.3f), kSquareHalf, 4, 1));
+        const Picture picture = draw(file, facing());
+        int least = 255, most = 0;
+        for (uint32_t x = 70; x < 170; ++x) {
+            least = std::min(least, colorAt(picture, x, 100).y);
+            most = std::max(most, colorAt(picture, x, 100).y);
+        }
+        return most - least;
+    };
+    EXPECT_GT(contrast("0"), 150);
+    EXPECT_LT(contrast("0.8"), 40);
+}
+
 TEST_F(MaterialPictureTest, OcclusionDimsLightFromAllRound) {
     const Picture left = texels([](uint32_t x, uint32_t) { return glm::u8vec4(x < 4 ? 255 : 0, 0, 0, 255); });
     const auto at = [&](const std::string& strength, uint32_t x) {

@@ -289,6 +289,54 @@ SceneFile ballScene() {
     return scene;
 }
 
+SceneFile layerScene() {
+    SceneFile scene;
+    scene.images = {studMap(), checker(4, {255, 255, 255, 255}, {0, 0, 0, 255})};
+    const auto add = [&](const std::string& material, uint32_t column, uint32_t row) {
+        scene.materials.push_back(material);
+        scene.meshes.push_back(ballMesh(glm::vec3(column, 3.0f - static_cast<float>(row), 0.0f) * 1.1f, 0.47f, 10,
+                                        scene.materials.size() - 1));
+    };
+    const auto extended = [](const std::string& name, const std::string& members) {
+        return R"(,"extensions":{"KHR_materials_)" + name + R"(":{)" + members + "}}";
+    };
+    const auto coat = [&](const std::string& members) { return extended("clearcoat", members); };
+    const std::string paint = "[0.45,0.01,0.02,1]";
+    add(surface(paint, 0.0f, 0.6f), 0, 0);
+    add(surface(paint, 0.0f, 0.6f, coat(R"("clearcoatFactor":1)")), 1, 0);
+    add(surface(paint, 0.0f, 0.6f, coat(R"("clearcoatFactor":1,"clearcoatRoughnessFactor":0.35)")), 2, 0);
+    add(surface("[0.9,0.55,0.2,1]", 1.0f, 0.5f, coat(R"("clearcoatFactor":1)")), 3, 0);
+    add(surface(paint, 0.0f, 0.6f, coat(R"("clearcoatFactor":1,"clearcoatNormalTexture":{"index":0})")), 4, 0);
+    const auto sheen = [&](const std::string& members) { return extended("sheen", members); };
+    const std::string cloth = "[0.05,0.06,0.16,1]";
+    add(surface(cloth, 0.0f, 0.9f), 0, 1);
+    add(surface(cloth, 0.0f, 0.9f, sheen(R"("sheenColorFactor":[0.6,0.65,0.9],"sheenRoughnessFactor":0.2)")), 1, 1);
+    add(surface(cloth, 0.0f, 0.9f, sheen(R"("sheenColorFactor":[0.6,0.65,0.9],"sheenRoughnessFactor":0.5)")), 2, 1);
+    add(surface(cloth, 0.0f, 0.9f, sheen(R"("sheenColorFactor":[0.6,0.65,0.9],"sheenRoughnessFactor":0.9)")), 3, 1);
+    add(surface("[0.25,0.01,0.02,1]", 0.0f, 0.9f,
+                sheen(R"("sheenColorFactor":[0.9,0.2,0.2],"sheenRoughnessFactor":0.4)")),
+        4, 1);
+    const auto glass = [&](const std::string& members) { return extended("transmission", members); };
+    const std::string clear = R"("transmissionFactor":1)";
+    add(surface("[1,1,1,1]", 0.0f, 0.0f, glass(clear)), 0, 2);
+    add(surface("[0.25,0.75,0.45,1]", 0.0f, 0.0f, glass(clear) + R"(,"doubleSided":true)"), 1, 2);
+    add(surface("[1,1,1,1]", 0.0f, 0.3f, glass(clear)), 2, 2);
+    add(surface("[0.9,0.95,1,1]", 0.0f, 0.7f, glass(clear)), 3, 2);
+    add(surface("[0.95,0.6,0.2,1]", 0.0f, 0.1f, glass(clear + R"(,"transmissionTexture":{"index":1})")), 4, 2);
+    const std::string dark = "[0.02,0.02,0.02,1]";
+    add(surface(dark, 0.0f, 0.25f, extended("specular", R"("specularFactor":0)")), 0, 3);
+    add(surface(dark, 0.0f, 0.25f, extended("ior", R"("ior":1.2)")), 1, 3);
+    add(surface(dark, 0.0f, 0.25f), 2, 3);
+    add(surface(dark, 0.0f, 0.25f, extended("ior", R"("ior":2.4)")), 3, 3);
+    add(surface(dark, 0.0f, 0.25f, extended("specular", R"("specularColorFactor":[4,1.5,0.2])")), 4, 3);
+    scene.materials.push_back(surface("[0.8,0.8,0.8,1]", 0.0f, 0.8f));
+    scene.materials.back().insert(scene.materials.back().find("{\"base") + 1, R"("baseColorTexture":{"index":1},)");
+    scene.meshes.push_back(squareMesh(glm::vec3(2.2f, 1.1f, -0.9f), 0.55f, 4, scene.materials.size() - 1));
+    for (glm::vec3& position : scene.meshes.back().positions)
+        position.x = 2.2f + 5.0f * (position.x - 2.2f);
+    return scene;
+}
+
 bool writeScene(const SceneFile& scene, const std::string& path) {
     Accessors accessors;
     Json root = {
@@ -315,6 +363,11 @@ bool writeScene(const SceneFile& scene, const std::string& path) {
         root["textures"].push_back({{"source", i}});
         if (i < scene.samplers.size())
             root["textures"][i]["sampler"] = i;
+    }
+    for (size_t i = 0; i < scene.webps.size(); ++i) {
+        const std::string& bytes = scene.webps[i];
+        root["textures"][i]["extensions"]["EXT_texture_webp"]["source"] = root["images"].size();
+        root["images"].push_back({{"uri", "data:image/webp;base64," + encoded(bytes.data(), bytes.size())}});
     }
     accessors.writeTo(root);
     std::ofstream stream(path);

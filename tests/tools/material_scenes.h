@@ -30,6 +30,7 @@ struct SceneFile {
     std::vector<std::string> materials; ///< JSON
     std::vector<host::Picture> images;
     std::vector<std::string> samplers; ///< JSON
+    std::vector<std::string> webps;    ///< bytes: texture i has them as EXT_texture_webp, behind its image
 };
 
 /// A square of `cells` cells a side, facing +Z, the whole of a picture on it.
@@ -50,6 +51,10 @@ constexpr float kBumpRadius = 0.40f;
 /// Balls from smooth to rough, of plastic and metals; below them one each that glows, is unlit, masked, blended,
 /// mapped.
 [[nodiscard]] SceneFile ballScene();
+
+/// Balls with a coat, with sheen, of glass, and of dielectrics that mirror more and less, row by row, before a
+/// checkerboard.
+[[nodiscard]] SceneFile layerScene();
 
 /// Writes a .gltf that holds everything. False if it cannot.
 [[nodiscard]] bool writeScene(const SceneFile& scene, const std::string& path);

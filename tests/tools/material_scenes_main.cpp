@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
     const std::string folder = std::string(argv[1]) + "/";
     const bool written = writeScene(bumpScene(false), folder + "bumps.gltf") &&
                          writeScene(bumpScene(true), folder + "bumps_tangents.gltf") &&
-                         writeScene(ballScene(), folder + "balls.gltf");
+                         writeScene(ballScene(), folder + "balls.gltf") && writeScene(layerScene(), folder + "layers.gltf");
     if (!written)
         std::fprintf(stderr, "supple_material_scenes: %s cannot be written to\n", argv[1]);
     return written ? 0 : 1;

@@ -44,9 +44,9 @@ Result<FileInMemory> load(const std::string& path) {
 /// The character of a cooked file.
 Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags) {
     if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.partsApart || flags.verticesApart ||
-        flags.scene || !flags.clipFiles.empty()) {
+        flags.scene || !flags.variant.empty() || !flags.clipFiles.empty()) {
         return Error{ErrorCode::argument,
-                     file.path + ": it is cooked: its polygons, parts, scene and clips were chosen then"};
+                     file.path + ": it is cooked: its polygons, parts, scene, variant and clips were chosen then"};
     }
     // Its tables are read with the asset.
     Result<cage::Character> character = runtime::readCookedCharacter(file.bytes, file.path);
@@ -71,6 +71,7 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
         return file.error();
     }
     cage::GltfOptions options{.scene = flags.scene,
+                              .variant = flags.variant,
                               .sewParts = !flags.partsApart,
                               .weldObj = !flags.verticesApart,
                               .pairing = flags.pairQuads       ? cage::Pairing::always
@@ -110,6 +111,7 @@ AssetDescription::AssetDescription(const CharacterFile& file) {
     desc_.memoryLimit = memoryLimit(file.flags);
     desc_.scene = file.flags.scene ? *file.flags.scene + 1 : 0;
     desc_.name = file.path.c_str();
+    desc_.materialVariant = file.bytes.empty() ? nullptr : file.flags.variant.c_str();
     if (file.bytes.empty()) {
         cage_ = std::make_unique<const CageArrays>(file.character.cage);
         desc_.cage = &cage_->desc;

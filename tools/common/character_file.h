@@ -25,6 +25,7 @@ struct ReadOptions {
     bool verticesApart = false;         ///< SUPPLE_ASSET_VERTICES_APART
     uint32_t memoryLimit = 0;           ///< SuppleAssetDesc.memoryLimit in MiB
     std::optional<uint32_t> scene;      ///< the file's own choice if it is not given
+    std::string variant;                ///< SuppleAssetDesc.materialVariant
     std::vector<std::string> clipFiles; ///< paths of files whose clips the character takes
 };
 

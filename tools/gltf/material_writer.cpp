@@ -1,6 +1,7 @@
 #include "tools/gltf/material_writer.h"
 
 #include "cage/image_header.h"
+#include "cage/material_layers.h"
 
 #include <algorithm>
 #include <array>
@@ -112,8 +113,33 @@ private:
         if (from.unlit) {
             addExtension(material, "KHR_materials_unlit");
         }
+        for (const std::string_view extension : kLayerExtensions) {
+            if (hasLayer(from.layers, extension)) {
+                writeLayer(from.layers, extension, material);
+            }
+        }
         writeVisibility(from, material);
         return material;
+    }
+
+    void writeLayer(const MaterialLayers& from, std::string_view extension, json& material) {
+        const MaterialLayers none;
+        json& layer = addExtension(material, std::string(extension).c_str());
+        for (const LayerNumber& row : kLayerNumbers) {
+            if (row.extension == extension) {
+                writeNumber(layer, row.name, from.*row.member, none.*row.member);
+            }
+        }
+        for (const LayerColor& row : kLayerColors) {
+            if (row.extension == extension && from.*row.member != none.*row.member) {
+                layer[row.name] = numbers(from.*row.member);
+            }
+        }
+        for (const LayerTexture& row : kLayerTextures) {
+            if (row.extension == extension && writeInfo(layer, row.name, from.*row.member) && row.scale != nullptr) {
+                writeNumber(layer[row.name], "scale", from.*row.scale, 1.0f);
+            }
+        }
     }
 
     void writeVisibility(const Material& from, json& material) {

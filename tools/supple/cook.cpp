@@ -155,6 +155,7 @@ std::string readingOf(const host::ReadOptions& reading) {
     add(reading.strict, "strict");
     add(reading.memoryLimit != 0, "memory-limit " + std::to_string(reading.memoryLimit));
     add(reading.scene.has_value(), "scene " + std::to_string(reading.scene.value_or(0)));
+    add(!reading.variant.empty(), "variant " + reading.variant);
     add(!reading.clipFiles.empty(), "clips");
     for (const std::string& clips : reading.clipFiles) {
         line += " " + fs::path(clips).filename().string();

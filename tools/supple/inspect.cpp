@@ -287,6 +287,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     for (const cage::Material& material : character.materials) {
         json["materials"].push_back(materialJson(material));
     }
+    json["materialVariants"] = character.materialVariants;
     json["images"] = Json::array();
     for (const cage::Image& image : character.images) {
         json["images"].push_back({{"name", image.name}, {"mimeType", image.mimeType}, {"bytes", image.bytes.size()}});
@@ -432,6 +433,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     printLine("materials", std::to_string(character.materials.size()));
     for (const cage::Material& material : character.materials) {
         printLine("", materialText(material));
+    }
+    if (!character.materialVariants.empty()) {
+        printLine("variants", std::to_string(character.materialVariants.size()));
+        for (const std::string& name : character.materialVariants) {
+            printLine("", name);
+        }
     }
     printLine("images", std::to_string(character.images.size()));
     for (const cage::Image& image : character.images) {

@@ -117,6 +117,55 @@ std::string toText(const cage::Texture& texture) {
     return text;
 }
 
+/// By extension, those that the material has.
+Json toJson(const cage::MaterialLayers& layers) {
+    Json json = Json::object();
+    for (const std::string_view extension : cage::kLayerExtensions) {
+        if (!cage::hasLayer(layers, extension)) {
+            continue;
+        }
+        Json& members = json[std::string(extension)];
+        const auto add = [&](const auto& table, auto&& told) {
+            for (const auto& row : table) {
+                if (row.extension == extension) {
+                    members[row.name] = told(layers.*row.member);
+                }
+            }
+        };
+        add(cage::kLayerNumbers, [](float number) { return Json(number); });
+        add(cage::kLayerColors, [](const glm::vec3& color) { return numbers(color); });
+        add(cage::kLayerTextures, [](const cage::Texture& texture) { return toJson(texture); });
+    }
+    if (layers.clearcoatNormalTexture.exists()) {
+        json[cage::kLayerExtensions[0]]["clearcoatNormalScale"] = layers.clearcoatNormalScale;
+    }
+    return json;
+}
+
+/// "clearcoat: factor 1, roughness factor 0.1, texture image 2 on UV set 0"; empty without the extension.
+std::string toText(const cage::MaterialLayers& layers, std::string_view extension) {
+    constexpr std::string_view kFamily = "KHR_materials_";
+    if (!cage::hasLayer(layers, extension)) {
+        return {};
+    }
+    std::string text;
+    const auto add = [&](const std::string& name, const std::string& value) {
+        text += (text.empty() ? "" : ", ") + name + " " + value;
+    };
+    const cage::MaterialLayers none;
+    const auto addTable = [&](const auto& table, auto&& told) {
+        for (const auto& row : table) {
+            if (row.extension == extension && !(layers.*row.member == none.*row.member)) {
+                add(row.name, told(layers.*row.member));
+            }
+        }
+    };
+    addTable(cage::kLayerNumbers, [](float number) { return shortNumber(number); });
+    addTable(cage::kLayerColors, [](const glm::vec3& color) { return shortNumbers(color); });
+    addTable(cage::kLayerTextures, [](const cage::Texture& texture) { return toText(texture); });
+    return std::string(extension.substr(kFamily.size())) + ": " + text;
+}
+
 } // namespace
 
 Json materialJson(const cage::Material& material) {
@@ -138,6 +187,9 @@ Json materialJson(const cage::Material& material) {
     json["emissiveFactor"] = numbers(material.emissiveFactor);
     json["emissiveStrength"] = material.emissiveStrength;
     json["emissiveTexture"] = toJson(material.emissiveTexture);
+    if (const Json layers = toJson(material.layers); !layers.empty()) {
+        json["layers"] = layers;
+    }
     if (const std::optional<cage::Trim> trim = cage::trimOf(material)) {
         json["trim"] = toJson(*trim);
     }
@@ -155,10 +207,15 @@ std::string materialText(const cage::Material& material) {
             (material.emissiveStrength != 1.0f ? " times " + shortNumber(material.emissiveStrength) : ""));
     }
     constexpr std::array kUses{"base color", "metallic and roughness", "normals", "occlusion", "emission"};
-    const auto textures = cage::texturesOf(material);
-    for (size_t i = 0; i < textures.size(); ++i) {
+    const auto textures = cage::texturesOf(material); // those of layers are behind the core's
+    for (size_t i = 0; i < kUses.size(); ++i) {
         if (textures[i]->exists()) {
             add(std::string(kUses[i]) + ": " + toText(*textures[i]));
+        }
+    }
+    for (const std::string_view extension : cage::kLayerExtensions) {
+        if (const std::string layer = toText(material.layers, extension); !layer.empty()) {
+            add(layer);
         }
     }
     if (material.unlit) {

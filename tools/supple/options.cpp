@@ -43,6 +43,10 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
                     "glTF files whose clips the character takes: they move the nodes of their names")
         ->type_name("CLIPS.glb");
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
+    command
+        .add_option("--variant", reading.variant,
+                    "Take the materials of this variant of a glTF file; inspect lists the variants")
+        ->type_name("NAME");
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
     command.add_flag("--vertices-apart", reading.verticesApart,
                      "Do not weld vertices of an OBJ file that lie in one place");

@@ -71,6 +71,8 @@ void addReading(Words& words, const host::ReadOptions& reading) {
         words.add("--memory-limit").add(std::to_string(reading.memoryLimit));
     if (reading.scene)
         words.add("--scene").add(std::to_string(*reading.scene));
+    if (!reading.variant.empty())
+        words.add("--variant").add(reading.variant);
     if (!reading.clipFiles.empty())
         words.add("--clips");
     for (const std::string& clips : reading.clipFiles)

@@ -461,6 +461,11 @@ typedef struct SuppleAssetDesc {
      * It need not outlive the call. */
     SupplePrepared prepared;
     const SuppleCharacterDesc* character; /**< instead of bytes or cage */
+    /** The name of one of the file's variants of materials (KHR_materials_variants, suppleGetMaterialVariants): what
+     * draws name (SuppleDrawRange.material) are its materials. Null or empty: the file's own. To show another variant,
+     * load the asset anew with suppleReloadAsset: instances, poses and playback stay. glTF files alone: cooked files
+     * have the variant that they were cooked with. Errors: no such variant; the message lists those there are. */
+    const char* materialVariant;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -649,6 +654,42 @@ typedef struct SuppleMaterialInfo {
     SuppleTextureInfo trim; /**< linear numbers. FACE: uvSet and the transform are not used */
 } SuppleMaterialInfo;
 
+/** What a material has beyond the metallic-roughness model, as glTF's extensions describe it. A material without one of
+ * these extensions has the value in brackets, and textures without an image. Factors are linear and multiply their
+ * textures. Images of sheenColor and specularColor hold sRGB colors, all others linear numbers. */
+typedef struct SuppleMaterialLayers {
+    uint32_t structSize;
+    float clearcoatFactor;          /**< 0..1: how much of a clear layer lies over all; KHR_materials_clearcoat (0) */
+    float clearcoatRoughnessFactor; /**< 0..1, as roughnessFactor (0) */
+    float clearcoatNormalScale;     /**< multiplies x and y of the layer's normal map (1) */
+    float sheenColorFactor[3];      /**< RGB, 0..1: what fibers scatter, as those of velvet; KHR_materials_sheen (0) */
+    float sheenRoughnessFactor;     /**< 0..1 (0) */
+    float transmissionFactor;       /**< 0..1: the share of light that goes through, as through thin glass, and takes
+                                     * on the base color; KHR_materials_transmission (0) */
+    float ior;                      /**< 1 and more; 0: infinite; KHR_materials_ior (1.5) */
+    float specularFactor;           /**< 0..1: what a dielectric mirrors; KHR_materials_specular (1) */
+    float specularColorFactor[3];   /**< RGB, 0 and more: its color where it is looked at straight (1) */
+    float iridescenceFactor;        /**< 0..1: how much a thin film colors what is mirrored; KHR_materials_iridescence
+                                     * (0) */
+    float iridescenceIor;           /**< 1 and more: of the film (1.3) */
+    float iridescenceThicknessMinimum; /**< nanometres, where the texture is 0 (100) */
+    float iridescenceThicknessMaximum; /**< nanometres, where the texture is 1, or without one (400) */
+    float anisotropyStrength;    /**< 0..1: highlights are stretched, as on brushed metal; KHR_materials_anisotropy
+                                  * (0) */
+    float anisotropyRotation;    /**< radians, counter-clockwise from the tangent (0) */
+    SuppleTextureInfo clearcoat; /**< red */
+    SuppleTextureInfo clearcoatRoughness;   /**< green */
+    SuppleTextureInfo clearcoatNormal;      /**< in tangent space, as SuppleMaterialInfo.normal */
+    SuppleTextureInfo sheenColor;           /**< RGB, sRGB */
+    SuppleTextureInfo sheenRoughness;       /**< alpha */
+    SuppleTextureInfo transmission;         /**< red */
+    SuppleTextureInfo specular;             /**< alpha */
+    SuppleTextureInfo specularColor;        /**< RGB, sRGB */
+    SuppleTextureInfo iridescence;          /**< red */
+    SuppleTextureInfo iridescenceThickness; /**< green */
+    SuppleTextureInfo anisotropy;           /**< red and green: 2 * RG - 1 is a direction; blue: strength */
+} SuppleMaterialLayers;
+
 /** An image as the file holds it. The host decodes it. */
 typedef struct SuppleImageInfo {
     uint32_t structSize;
@@ -716,6 +757,14 @@ SUPPLE_API SuppleResult suppleGetCreaseSets(SuppleContext context, SuppleAsset a
 /** Fills out. Materials have the order of the file. Errors: material is not below materialCount. */
 SUPPLE_API SuppleResult suppleGetMaterialInfo(SuppleContext context, SuppleAsset asset, uint32_t material,
                                               SuppleMaterialInfo* out);
+/** Fills out with what a material has beyond suppleGetMaterialInfo. Errors: material is not below materialCount. */
+SUPPLE_API SuppleResult suppleGetMaterialLayers(SuppleContext context, SuppleAsset asset, uint32_t material,
+                                                SuppleMaterialLayers* out);
+/** Names the variants of materials that an asset's file has (KHR_materials_variants), for
+ * SuppleAssetDesc.materialVariant. `out` has room for *count names, which live as long as the asset, or is null. *count
+ * becomes the number of variants. SUPPLE_INCOMPLETE: there are more than fit. */
+SUPPLE_API SuppleResult suppleGetMaterialVariants(SuppleContext context, SuppleAsset asset, const char** out,
+                                                  uint32_t* count);
 /** Fills out. Images have the order of the file. Errors: image is not below imageCount. */
 SUPPLE_API SuppleResult suppleGetImageInfo(SuppleContext context, SuppleAsset asset, uint32_t image,
                                            SuppleImageInfo* out);

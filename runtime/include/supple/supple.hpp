@@ -38,6 +38,27 @@ template <class T>
     return material;
 }
 
+/// A material that has no more than its SuppleMaterialInfo, to begin with for SuppleCharacterDesc.materialLayers.
+[[nodiscard]] inline SuppleMaterialLayers defaultMaterialLayers() {
+    SuppleMaterialLayers layers = sized<SuppleMaterialLayers>();
+    layers.clearcoatNormalScale = layers.specularFactor = 1.0f;
+    for (float& factor : layers.specularColorFactor) {
+        factor = 1.0f;
+    }
+    layers.ior = 1.5f;
+    layers.iridescenceIor = 1.3f;
+    layers.iridescenceThicknessMinimum = 100.0f;
+    layers.iridescenceThicknessMaximum = 400.0f;
+    for (SuppleTextureInfo* texture :
+         {&layers.clearcoat, &layers.clearcoatRoughness, &layers.clearcoatNormal, &layers.sheenColor,
+          &layers.sheenRoughness, &layers.transmission, &layers.specular, &layers.specularColor, &layers.iridescence,
+          &layers.iridescenceThickness, &layers.anisotropy}) {
+        texture->image = texture->alternateImage = SUPPLE_NO_IMAGE;
+        texture->scale[0] = texture->scale[1] = 1.0f;
+    }
+    return layers;
+}
+
 /// Values that lie in a row somewhere else. It is made of an array, a std::vector, a std::array, a std::span, whatever
 /// else has data() and size(), or a pointer and a count. (std::span itself is C++20.)
 template <class T>
@@ -367,6 +388,14 @@ public:
     [[nodiscard]] SuppleResult materialInfo(uint32_t material, SuppleMaterialInfo& out) const {
         out = sized<SuppleMaterialInfo>();
         return suppleGetMaterialInfo(context_, handle_, material, &out);
+    }
+    [[nodiscard]] SuppleResult materialLayers(uint32_t material, SuppleMaterialLayers& out) const {
+        out = sized<SuppleMaterialLayers>();
+        return suppleGetMaterialLayers(context_, handle_, material, &out);
+    }
+    /// `out` has room for `count` names; `count` becomes how many there are.
+    [[nodiscard]] SuppleResult materialVariants(const char** out, uint32_t& count) const {
+        return suppleGetMaterialVariants(context_, handle_, out, &count);
     }
     [[nodiscard]] SuppleResult imageInfo(uint32_t image, SuppleImageInfo& out) const {
         out = sized<SuppleImageInfo>();

@@ -237,6 +237,9 @@ struct SuppleCharacterDesc {
     uint32_t imageCount;
     const SuppleImageInfo* images; /**< encoded, in any format; with bytes null the image is missing */
     const char* copyright;
+    /** Optional: materialCount entries, what each material has beyond its SuppleMaterialInfo. Every member counts
+     * (supple::defaultMaterialLayers() of supple.hpp is a material without any). Null: no material has any. */
+    const SuppleMaterialLayers* materialLayers;
 };
 
 #ifdef __cplusplus

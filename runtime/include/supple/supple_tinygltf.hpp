@@ -11,12 +11,13 @@
 //
 // Carried over: the choice of the scene, nodes, skins, meshes with all their primitives (strips and fans too), morph
 // targets, sparse accessors, KHR_mesh_quantization, clips and markers, materials with their textures, transforms,
-// samplers and trims, encoded images, names, copyright, SUPPLE_mesh_cage, FB_ngon_encoding, _CAGE_VERTEX,
-// extras.creases and extras.corners. Welding and pairing happen in Supple, so the character is the one that
-// suppleCreateAsset makes of the file.
+// samplers, trims and layers (clearcoat and the like), encoded images, names, copyright, SUPPLE_mesh_cage,
+// FB_ngon_encoding, _CAGE_VERTEX, extras.creases and extras.corners. Welding and pairing happen in Supple, so the
+// character is the one that suppleCreateAsset makes of the file.
 //
 // Not carried over, each with a message: EXT_mesh_polygon, EXT_mesh_primitive_edge_visibility and EXT_mesh_manifold
-// (their meshes are welded and paired as plain ones), primitive restart, images that tinygltf has decoded. A file is
+// (their meshes are welded and paired as plain ones), primitive restart, images that tinygltf has decoded. Of
+// KHR_materials_variants nothing is read: primitives have the material that the model gives them. A file is
 // refused if tinygltf cannot decompress it: EXT_meshopt_compression, and KHR_draco_mesh_compression without
 // TINYGLTF_ENABLE_DRACO.
 #pragma once
@@ -73,6 +74,7 @@ public:
         desc_.clips = clips_.data();
         desc_.materialCount = countOf(materials_);
         desc_.materials = materials_.data();
+        desc_.materialLayers = layers_.empty() ? nullptr : layers_.data();
         desc_.imageCount = countOf(images_);
         desc_.images = images_.data();
         desc_.copyright = model.asset.copyright.c_str();
@@ -391,12 +393,15 @@ private:
         }
         const tinygltf::Texture& from = model_->textures[static_cast<std::size_t>(index)];
         info.image = from.source < 0 ? SUPPLE_NO_IMAGE : static_cast<uint32_t>(from.source);
-        for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+        const auto other = [&](const char* name) {
             const Value* extension = extensionOf(from.extensions, name);
-            if (extension != nullptr && info.alternateImage == SUPPLE_NO_IMAGE) {
-                info.alternateImage = static_cast<uint32_t>(indexIn(*extension, "source"));
-            }
+            return extension == nullptr ? SUPPLE_NO_IMAGE : static_cast<uint32_t>(indexIn(*extension, "source"));
+        };
+        const uint32_t basis = other("KHR_texture_basisu"), webp = other("EXT_texture_webp");
+        if (info.image == SUPPLE_NO_IMAGE && basis != SUPPLE_NO_IMAGE) {
+            info.image = webp;
         }
+        info.alternateImage = basis != SUPPLE_NO_IMAGE ? basis : webp;
         if (from.sampler >= 0 && static_cast<std::size_t>(from.sampler) < model_->samplers.size()) {
             const tinygltf::Sampler& sampler = model_->samplers[static_cast<std::size_t>(from.sampler)];
             info.wrap[0] = wrapOf(sampler.wrapS);
@@ -467,7 +472,69 @@ private:
                 readTrim(*trim, element + " extras.trim", material);
             }
             materials_.push_back(material);
+            layers_.push_back(layersOf(from, element));
         }
+    }
+
+    /// What the extensions of a material say.
+    SuppleMaterialLayers layersOf(const tinygltf::Material& from, const std::string& element) {
+        SuppleMaterialLayers layers = defaultMaterialLayers();
+        const auto numbers = [&](const char* extension, std::initializer_list<std::pair<const char*, float*>> all) {
+            const Value* values = extensionOf(from.extensions, extension);
+            for (const auto& [name, number] : all) {
+                *number = values == nullptr ? *number : numberIn(*values, name, *number);
+            }
+        };
+        const auto color = [&](const char* extension, const char* name, float(&to)[3]) {
+            const Value* values = extensionOf(from.extensions, extension);
+            const Value* list = values == nullptr ? nullptr : member(*values, name);
+            for (int c = 0; list != nullptr && list->ArrayLen() == 3 && c < 3; ++c) {
+                to[c] = static_cast<float>(list->Get(c).GetNumberAsDouble());
+            }
+        };
+        const auto textures = [&](const char* extension,
+                                  std::initializer_list<std::pair<const char*, SuppleTextureInfo*>> all) {
+            const Value* values = extensionOf(from.extensions, extension);
+            for (const auto& [name, texture] : all) {
+                const Value* info = values == nullptr ? nullptr : member(*values, name);
+                if (info != nullptr && info->IsObject()) {
+                    const Value* extensions = member(*info, "extensions");
+                    *texture = textureOf(indexIn(*info, "index"), std::max(indexIn(*info, "texCoord"), 0),
+                                         extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform"),
+                                         element + " " + name);
+                }
+            }
+        };
+        numbers("KHR_materials_clearcoat", {{"clearcoatFactor", &layers.clearcoatFactor},
+                                            {"clearcoatRoughnessFactor", &layers.clearcoatRoughnessFactor}});
+        textures("KHR_materials_clearcoat", {{"clearcoatTexture", &layers.clearcoat},
+                                             {"clearcoatRoughnessTexture", &layers.clearcoatRoughness},
+                                             {"clearcoatNormalTexture", &layers.clearcoatNormal}});
+        if (const Value* coat = extensionOf(from.extensions, "KHR_materials_clearcoat")) {
+            const Value* normal = member(*coat, "clearcoatNormalTexture");
+            layers.clearcoatNormalScale = normal == nullptr ? 1.0f : numberIn(*normal, "scale", 1.0f);
+        }
+        numbers("KHR_materials_sheen", {{"sheenRoughnessFactor", &layers.sheenRoughnessFactor}});
+        color("KHR_materials_sheen", "sheenColorFactor", layers.sheenColorFactor);
+        textures("KHR_materials_sheen",
+                 {{"sheenColorTexture", &layers.sheenColor}, {"sheenRoughnessTexture", &layers.sheenRoughness}});
+        numbers("KHR_materials_transmission", {{"transmissionFactor", &layers.transmissionFactor}});
+        textures("KHR_materials_transmission", {{"transmissionTexture", &layers.transmission}});
+        numbers("KHR_materials_ior", {{"ior", &layers.ior}});
+        numbers("KHR_materials_specular", {{"specularFactor", &layers.specularFactor}});
+        color("KHR_materials_specular", "specularColorFactor", layers.specularColorFactor);
+        textures("KHR_materials_specular",
+                 {{"specularTexture", &layers.specular}, {"specularColorTexture", &layers.specularColor}});
+        numbers("KHR_materials_iridescence", {{"iridescenceFactor", &layers.iridescenceFactor},
+                                              {"iridescenceIor", &layers.iridescenceIor},
+                                              {"iridescenceThicknessMinimum", &layers.iridescenceThicknessMinimum},
+                                              {"iridescenceThicknessMaximum", &layers.iridescenceThicknessMaximum}});
+        textures("KHR_materials_iridescence", {{"iridescenceTexture", &layers.iridescence},
+                                               {"iridescenceThicknessTexture", &layers.iridescenceThickness}});
+        numbers("KHR_materials_anisotropy", {{"anisotropyStrength", &layers.anisotropyStrength},
+                                             {"anisotropyRotation", &layers.anisotropyRotation}});
+        textures("KHR_materials_anisotropy", {{"anisotropyTexture", &layers.anisotropy}});
+        return layers;
     }
 
     void readTrim(const Value& trim, const std::string& element, SuppleMaterialInfo& material) {
@@ -1193,6 +1260,7 @@ private:
     std::vector<SuppleNodeDesc> nodes_;
     std::vector<SuppleImageInfo> images_;
     std::vector<SuppleMaterialInfo> materials_;
+    std::vector<SuppleMaterialLayers> layers_; // one per material
     std::deque<SuppleSkinDesc> skins_;
     std::deque<std::vector<SuppleMorphTargetDesc>> targets_;
     std::deque<std::vector<SuppleDisplacements>> displacements_;

@@ -255,20 +255,95 @@ TEST(GltfMaterial, SpecularGlossinessBesideMetallicRoughness) {
 
 TEST(GltfMaterial, UnreadExtensionsAreNamedOnceAKind) {
     GltfBuilder b =
-        quadWith(R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":1.4}}},)"
-                 R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":99}}},)"
+        quadWith(R"({"extensions":{"KHR_materials_volume":{},"KHR_materials_dispersion":{"dispersion":1.4}}},)"
+                 R"({"extensions":{"KHR_materials_volume":{"thicknessTexture":{"index":99}}},)"
                  R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"ACME_noise":{}}}}},)"
-                 R"({"extensions":{"KHR_materials_clearcoat":7}})",
+                 R"({"extensions":{"KHR_materials_volume":7,"KHR_materials_sheen":{"sheenColorTexture":)"
+                 R"({"index":0,"extensions":{"ACME_noise":{}}}}}})",
                  R"({"source":0,"extensions":{"EXT_texture_avif":{"source":0}}})",
-                 R"(,"extensionsUsed":["KHR_materials_clearcoat","KHR_materials_sheen"])");
-    b.meshes = replaced(b.meshes, R"("mode":4)", R"("extensions":{"KHR_materials_variants":{}})");
+                 R"(,"extensionsUsed":["KHR_materials_volume","KHR_materials_sheen"])");
     EXPECT_EQ(warningsOf(b),
-              (Strings{"material 1 baseColorTexture: ACME_noise is not read", "texture 0: EXT_texture_avif is not read",
-                       "material 0: KHR_materials_clearcoat is not read, here and in 2 other places",
-                       "material 0: KHR_materials_ior is not read", "mesh 0: KHR_materials_variants is not read"}))
+              (Strings{"material 1 baseColorTexture: ACME_noise is not read, here and in 1 other place",
+                       "texture 0: EXT_texture_avif is not read", "material 0: KHR_materials_dispersion is not read",
+                       "material 0: KHR_materials_volume is not read, here and in 2 other places"}))
         << "what is declared and not there is nothing to name";
-    EXPECT_EQ(messageOf(quadWith("", "", R"(,"extensionsRequired":["KHR_materials_clearcoat"])")),
-              "t.glb: extensionsRequired: KHR_materials_clearcoat is not supported");
+    EXPECT_EQ(messageOf(quadWith("", "", R"(,"extensionsRequired":["KHR_materials_volume"])")),
+              "t.glb: extensionsRequired: KHR_materials_volume is not supported");
+}
+
+TEST(GltfMaterial, LayersAreReadWhole) {
+    const GltfBuilder b = quadWith(
+        R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.5,"clearcoatTexture":{"index":0},)"
+        R"("clearcoatRoughnessFactor":0.25,"clearcoatRoughnessTexture":{"index":0,"texCoord":1},)"
+        R"("clearcoatNormalTexture":{"index":0,"scale":2}},"KHR_materials_sheen":{"sheenColorFactor":[1,0.5,0.25],)"
+        R"("sheenColorTexture":{"index":0},"sheenRoughnessFactor":0.75,"sheenRoughnessTexture":{"index":0}},)"
+        R"("KHR_materials_transmission":{"transmissionFactor":0.875,"transmissionTexture":{"index":0}},)"
+        R"("KHR_materials_ior":{"ior":1.25},"KHR_materials_specular":{"specularFactor":0.125,)"
+        R"("specularTexture":{"index":0},"specularColorFactor":[2,1,0],"specularColorTexture":{"index":0}},)"
+        R"("KHR_materials_iridescence":{"iridescenceFactor":0.5,"iridescenceTexture":{"index":0},)"
+        R"("iridescenceIor":1.5,"iridescenceThicknessMinimum":50,"iridescenceThicknessMaximum":600,)"
+        R"("iridescenceThicknessTexture":{"index":0}},"KHR_materials_anisotropy":{"anisotropyStrength":0.625,)"
+        R"("anisotropyRotation":-1.5,"anisotropyTexture":{"index":0}}}})",
+        R"({"source":0})",
+        R"(,"extensionsRequired":["KHR_materials_clearcoat","KHR_materials_sheen","KHR_materials_transmission",)"
+        R"("KHR_materials_ior","KHR_materials_specular","KHR_materials_iridescence","KHR_materials_anisotropy"])");
+    EXPECT_EQ(warningsOf(b), Strings());
+    const Texture first{.image = 0};
+    MaterialLayers expected;
+    expected.clearcoatFactor = 0.5f;
+    expected.clearcoatRoughnessFactor = 0.25f;
+    expected.clearcoatNormalScale = 2.0f;
+    expected.sheenColorFactor = {1, 0.5f, 0.25f};
+    expected.sheenRoughnessFactor = 0.75f;
+    expected.transmissionFactor = 0.875f;
+    expected.ior = 1.25f;
+    expected.specularFactor = 0.125f;
+    expected.specularColorFactor = {2, 1, 0};
+    expected.iridescenceFactor = 0.5f;
+    expected.iridescenceIor = 1.5f;
+    expected.iridescenceThicknessMinimum = 50.0f;
+    expected.iridescenceThicknessMaximum = 600.0f;
+    expected.anisotropyStrength = 0.625f;
+    expected.anisotropyRotation = -1.5f;
+    for (const LayerTexture& row : kLayerTextures) {
+        expected.*row.member = first;
+    }
+    expected.clearcoatRoughnessTexture.uvSet = 1;
+    EXPECT_TRUE(only(b).layers == expected);
+    for (const char* extension : kLayerExtensions) {
+        EXPECT_TRUE(hasLayer(expected, extension)) << extension;
+        EXPECT_FALSE(hasLayer(MaterialLayers{}, extension)) << extension;
+    }
+}
+
+TEST(GltfMaterial, WrongLayersAreMendedOrLeftOut) {
+    const GltfBuilder b =
+        quadWith(R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":7},"KHR_materials_sheen":3,)"
+                 R"("KHR_materials_specular":{"specularColorFactor":[1,2]},"KHR_materials_transmission":)"
+                 R"({"transmissionTexture":{"index":9},"transmissionFactor":1}}})",
+                 R"({"source":0})");
+    EXPECT_EQ(warningsOf(b), (Strings{"material 0 clearcoatFactor: 7 is out of range; 1 taken",
+                                      "material 0 KHR_materials_sheen: not an object; left out",
+                                      "material 0 transmissionTexture index: texture 9 is out of range: the file has "
+                                      "1; left out",
+                                      "material 0 specularColorFactor: 2 numbers instead of 3; left out"}));
+    const MaterialLayers layers = only(b).layers;
+    EXPECT_EQ(layers.clearcoatFactor, 1.0f);
+    EXPECT_EQ(layers.transmissionFactor, 1.0f);
+    EXPECT_FALSE(layers.transmissionTexture.exists());
+    EXPECT_EQ(layers.specularColorFactor, glm::vec3(1.0f));
+}
+
+TEST(GltfMaterial, OfTwoFormatsTheWebPIsTheFirstImage) {
+    const Material m =
+        only(quadWith(R"({"normalTexture":{"index":0},"occlusionTexture":{"index":1}})",
+                      R"({"extensions":{"KHR_texture_basisu":{"source":2},"EXT_texture_webp":{"source":1}}},)"
+                      R"({"source":0,"extensions":{"KHR_texture_basisu":{"source":2},)"
+                      R"("EXT_texture_webp":{"source":1}}})"));
+    EXPECT_EQ(m.normalTexture.image, 1u);
+    EXPECT_EQ(m.normalTexture.alternateImage, 2u);
+    EXPECT_EQ(m.occlusionTexture.image, 0u);
+    EXPECT_EQ(m.occlusionTexture.alternateImage, 2u);
 }
 
 TEST(GltfMaterial, Refusals) {

@@ -605,14 +605,6 @@ std::vector<Nasty> validatorShapes() {
 std::vector<Nasty> extensionShapes() {
     return {
         refused(
-            "KHR_draco_mesh_compression",
-            [] {
-                return quadReplacing(R"("scene":0)",
-                                     R"("scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])");
-            },
-            "extensionsRequired: KHR_draco_mesh_compression is not supported: it may reorder or drop polygons; "
-            "export the mesh uncompressed"),
-        refused(
             "unknown extension, required",
             [] { return quadReplacing(R"("scene":0)", R"("scene":0,"extensionsRequired":["ACME_soft_body"])"); },
             "extensionsRequired: ACME_soft_body is not supported"),

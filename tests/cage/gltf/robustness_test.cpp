@@ -4,6 +4,7 @@
 #include "cage/topology.h"
 #include "tests/cage/gltf/builder.h"
 #include "tests/cage/gltf/compressed.h"
+#include "tests/cage/gltf/draco.h"
 #include "tests/cage/named_lines.h"
 #include "tests/support/shared_assets.h"
 
@@ -124,8 +125,13 @@ Bytes compressedFile() {
     return compressed(b, "EXT_meshopt_compression", {.exponential = {7}, .quaternions = {6}});
 }
 
+/// The mesh compressed, its joints and weights as well.
+Bytes dracoFile() {
+    return dracoCompressed(skinnedQuad());
+}
+
 const std::vector<Bytes>& richFiles() {
-    static const std::vector<Bytes> files = {richFile(), cageFile(), polygonFile(), compressedFile()};
+    static const std::vector<Bytes> files = {richFile(), cageFile(), polygonFile(), compressedFile(), dracoFile()};
     return files;
 }
 

@@ -3,6 +3,7 @@
 #include "cage/gltf/reader.h"
 #include "runtime/api/descriptions.h"
 #include "runtime/arrays/character_arrays.h"
+#include "tests/cage/gltf/layered.h"
 #include "tests/support/character_arrays.h"
 #include "tests/support/meshes.h"
 #include "tests/support/same_character.h"
@@ -75,6 +76,22 @@ TEST(CharacterArrays, AreTheCharacterOfTheFile) {
         EXPECT_EQ(CharacterDifferences(apart, handed, kOfArrays).found(), Strings());
         expectTellsArrays(handed);
     }
+}
+
+TEST(CharacterArrays, HaveAllLayersOfMaterials) {
+    const Result<cage::Character> file = cage::readGltf(layeredQuad().glb(), "layered.glb", "");
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ(CharacterDifferences(*file, throughArrays(*file, false), kOfArrays).found(), Strings());
+    // A host that knows no layers.
+    CharacterArrays arrays(*file);
+    arrays.desc.structSize = offsetof(SuppleCharacterDesc, materialLayers);
+    SuppleAssetDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.name = "layered.glb";
+    desc.character = &arrays.desc;
+    const Result<cage::Character> old = api::readAsset("suppleCreateAsset", desc);
+    ASSERT_TRUE(old.ok()) << old.error().message;
+    EXPECT_TRUE(old->materials[0].layers == cage::MaterialLayers{});
 }
 
 TEST(CharacterArrays, AreSewnAsTheFileIs) {

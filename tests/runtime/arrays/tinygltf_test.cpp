@@ -1,6 +1,7 @@
 // A character that tinygltf has parsed and supple_tinygltf.hpp hands over is the one that the reader makes of the file.
 #include "cage/gltf/reader.h"
 #include "runtime/arrays/character_arrays.h"
+#include "tests/cage/gltf/layered.h"
 #include "tests/support/same_character.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
@@ -88,6 +89,27 @@ TEST(TinygltfCharacters, AreThoseOfTheReader) {
     }
     EXPECT_GT(compared, 1u);
     std::printf("%zu files compared\n", compared);
+}
+
+TEST(TinygltfCharacters, HaveAllLayersOfMaterials) {
+    const std::vector<std::byte> glb = layeredQuad().glb();
+    const Result<cage::Character> file = cage::readGltf(glb, "layered.glb", "");
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(keepTinygltfImage, nullptr);
+    tinygltf::Model model;
+    std::string errors, warnings;
+    ASSERT_TRUE(loader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                            reinterpret_cast<const unsigned char*>(glb.data()),
+                                            static_cast<unsigned int>(glb.size())))
+        << errors;
+    TinygltfCharacter read;
+    ASSERT_TRUE(read.read(model));
+    const Result<cage::Character> handed = runtime::characterFromArrays(read.desc(), "layered.glb");
+    ASSERT_TRUE(handed.ok()) << handed.error().message;
+    ASSERT_EQ(handed->materials.size(), 2u);
+    EXPECT_TRUE(handed->materials[0].layers == file->materials[0].layers);
+    EXPECT_TRUE(handed->materials[1].layers == cage::MaterialLayers{});
 }
 
 /// What is not carried over is said, and the rest is.

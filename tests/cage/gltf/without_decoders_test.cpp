@@ -1,5 +1,7 @@
-// The reader of a build without meshoptimizer: compressed files are refused by name, all others are read as ever.
+// The reader of a build without meshoptimizer and Draco: compressed files are refused by name, all others are read as
+// ever.
 #include "tests/cage/gltf/compressed.h"
+#include "tests/cage/gltf/draco.h"
 #include "tests/cage/gltf/reading.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +18,7 @@ GltfBuilder triangle() {
     return b;
 }
 
-TEST(GltfWithoutMeshopt, RefusesCompressedFiles) {
+TEST(GltfWithoutDecoders, RefusesMeshopt) {
     for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         EXPECT_EQ(messageOf(compressed(triangle(), extension)),
                   std::string("t.glb: bufferView 0 ") + extension +
@@ -24,7 +26,15 @@ TEST(GltfWithoutMeshopt, RefusesCompressedFiles) {
     }
 }
 
-TEST(GltfWithoutMeshopt, ReadsOthers) {
+TEST(GltfWithoutDecoders, RefusesDraco) {
+    const GltfBuilder b = plainMesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
+    EXPECT_EQ(messageOf(dracoCompressed(b)),
+              "t.glb: mesh 0 primitive 0 KHR_draco_mesh_compression: this build of Supple reads no Draco-compressed "
+              "files (SUPPLE_WITH_DRACO is off)");
+    EXPECT_EQ(readWell(dracoCompressed(b, {.fallback = true})).cage.positions.size(), 3u);
+}
+
+TEST(GltfWithoutDecoders, ReadsOthers) {
     EXPECT_EQ(readWell(triangle().glb()).cage.positions.size(), 3u);
 }
 
