@@ -140,7 +140,7 @@ struct FigureSurface {
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     uint32_t edgeRate = 0;
-    Buffer patchClasses; ///< per patch: which of the colors of the view of patch classes it has
+    Buffer patches; ///< shared::kPatchWords per patch
     /// Coarser grids over the same samples, by SuppleDomain: shadows need no more.
     struct CoarseGrid {
         uint32_t firstIndex = 0, indexCount = 0;

@@ -10,13 +10,15 @@ layout(location = 0) in vec3 inPosition;
 layout(location = 1) flat in vec3 inNormal;
 layout(location = 2) in vec4 inUvs;
 layout(location = 3) in vec4 inColor;
+layout(location = 4) flat in uint inMirrored;
 
 layout(location = 0) out vec4 outColor;
 
 void main() {
     vec3 v = normalize(frame.eye.xyz - inPosition);
     vec3 front = inNormal * inversesqrt(max(dot(inNormal, inNormal), 1e-30));
-    vec3 n = gl_FrontFacing ? front : -front;
+    bool back = gl_FrontFacing == (inMirrored != 0u);
+    vec3 n = back ? -front : front;
     vec4 base = baseColorAt(inUvs, inColor);
     bool shaded = kView == kViewShaded;
     Material material = shaded || isFlatView(kView) ? materialAt(base.rgb, inUvs) : plainMaterial(vec3(0.50, 0.47, 0.44), 0.6);
@@ -32,7 +34,7 @@ void main() {
         if (isShadedFlat(kView))
             flatly *= formShade(kView, n, v);
     }
-    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a))
+    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(base.a) || isOtherSide(back))
         discard;
     if (kView == kViewNormals) {
         outColor = vec4(fromSrgb(front * 0.5 + 0.5), 1.0);
@@ -47,9 +49,9 @@ void main() {
         outColor = vec4(base.rgb, alpha);
         return;
     }
-    if (!gl_FrontFacing && !materialHas(kMaterialDoubleSided))
+    if (back && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
     Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
-    vec3 lit = studioShade(material, light, gl_FrontFacing ? mapped : -mapped, n, v);
+    vec3 lit = studioShade(material, light, back ? -mapped : mapped, n, v);
     outColor = vec4(studioTone(material, lit), alpha);
 }

@@ -944,8 +944,9 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
- * determinant) reverses the winding and the normals: both then show the inside as the outside. Errors: not finite,
- * another last row, or the host fills the group's poses (SupplePoseSource). */
+ * determinant) reverses the winding and the normals: both then show the inside as the outside, as they do where joints
+ * mirror. SuppleGroupInfo.deformedCage says where. Errors: not finite, another last row, or the host fills the group's
+ * poses (SupplePoseSource). */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
 /** Sets the translation of an instance's transform alone, with the precision that large worlds need. position: three
  * doubles. The next suppleSetTransform replaces it. Errors: as suppleSetTransform. */
@@ -1190,7 +1191,10 @@ typedef struct SuppleGroupInfo {
     uint32_t capacity;                /**< instances that it has room for */
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
-    /** float4 (x, y, z, 1) per cage vertex: slot * cageVerticesPerInstance + vertex. */
+    /** float4 (x, y, z, side) per cage vertex: slot * cageVerticesPerInstance + vertex. side is -1 if the joint that moves
+     * the vertex most mirrors it (the determinant of its matrix in `poses`, with the transform, is negative), else 1.
+     * docs/integration.md says what hosts do with it. With SUPPLE_POSES_CAGE_BUFFER the host writes 1, or -1 where it
+     * mirrors: SUPPLE_SCHEME_POLYGONS reads it. */
     SuppleBufferRange deformedCage;
     /** Per slot (stride bytes): per joint three rows of four floats, the 3x4 matrix transform * joint * inverse bind,
      * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With
@@ -1268,8 +1272,8 @@ typedef struct SuppleVertexStreams {
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
      * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map
-     * whose green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
-     * (suppleSetTransform) keeps w: negate it. */
+     * whose green points up in the picture, as in glTF. w is the same all over a face. Where a pose or a transform
+     * mirrors, w belongs to the normal that the vertex has. Hosts that turn that normal round negate w. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
@@ -1280,8 +1284,8 @@ SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGrou
 /** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
  * patch is corner i of the domain. Triangles of all domains are counter-clockwise seen from outside, in the space of
  * the surface vertices, and their normals point outside, as the faces of the cage do: in Vulkan that is
- * VK_FRONT_FACE_COUNTER_CLOCKWISE, if the projection shows the world unmirrored. A mirroring transform reverses both
- * (suppleSetTransform).
+ * VK_FRONT_FACE_COUNTER_CLOCKWISE, if the projection shows the world unmirrored. Where a pose or a transform mirrors,
+ * both are reversed (SuppleGroupInfo.deformedCage).
  * - QUAD: (R+1)^2 samples. Sample (i, j) is number j (R+1) + i. u = i/R runs from corner 0 to 1, v = j/R from corner 0
  *   to 3.
  * - POLAR: the same samples. The row j = R is one point, corner 2.
