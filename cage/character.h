@@ -4,6 +4,7 @@
 
 #include "cage/shared_bytes.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -162,7 +163,7 @@ struct Clip {
 
 /// Displacements of cage vertices, added with a weight before skinning. Only vertices that move are listed.
 struct MorphTarget {
-    std::string name;               ///< mesh.extras.targetNames, or empty
+    std::string name;               ///< targetNames in the extras of the mesh, else of a primitive; or empty
     std::vector<uint32_t> vertices; ///< rising cage vertices
     std::vector<glm::vec3> deltas;  ///< one per entry of `vertices`
 };
@@ -170,6 +171,52 @@ struct MorphTarget {
 struct Morphs {
     std::vector<MorphTarget> targets;
     std::vector<float> weights; ///< one a target: node.weights, else mesh.weights, else 0
+};
+
+/// What an expression does, for those that hold others back. VRM 1.0 tells by the preset.
+enum class ExpressionKind : uint8_t { other, blink, look, mouth };
+inline constexpr size_t kExpressionKinds = 4;
+/// Whether an expression holds back those of a kind: not at all, by its own weight, or wholly.
+enum class ExpressionHold : uint8_t { none, blend, block };
+
+/// A named set of weights of morph targets: "happy", "blink".
+struct Expression {
+    std::string name; ///< never empty, and unlike all others
+    ExpressionKind kind = ExpressionKind::other;
+    bool isBinary = false;                                ///< a weight above 0.5 counts as 1, any other as 0
+    std::vector<uint32_t> targets;                        ///< rising: Morphs::targets
+    std::vector<float> weights;                           ///< one per target, where the expression's own weight is 1
+    std::array<ExpressionHold, kExpressionKinds> holds{}; ///< by kind
+};
+
+/// A bone that swings. Without numbers of its own it has VRM's.
+struct SpringJoint {
+    uint32_t node = 0;
+    float hitRadius = 0.0f; ///< against colliders
+    float stiffness = 1.0f;
+    float gravityPower = 0.0f;
+    float drag = 0.5f;
+    glm::vec3 gravityDirection{0.0f, -1.0f, 0.0f};
+};
+struct SpringCollider {
+    uint32_t node = 0;
+    bool isCapsule = false;
+    glm::vec3 offset{0.0f}; ///< in the node's space: a sphere's center, or one of a capsule's two
+    glm::vec3 tail{0.0f};   ///< a capsule's other one
+    float radius = 0.0f;
+};
+/// Hair, a skirt, an ear: joints with those above before those below.
+struct Spring {
+    std::string name;
+    uint32_t center = kNone; ///< the node in whose space it moves, or kNone: the world
+    std::vector<SpringJoint> joints;
+    std::vector<uint32_t> colliderGroups;
+};
+/// The spring bones of a file, as data: no pose moves by them yet.
+struct SpringBones {
+    std::vector<Spring> springs;
+    std::vector<std::vector<uint32_t>> colliderGroups; ///< of colliders
+    std::vector<SpringCollider> colliders;
 };
 
 /// Encoded image bytes as the file holds them; decoding is the host's.
@@ -354,6 +401,8 @@ struct Character {
     Skin skin;
     SkinWeights weights;
     Morphs morphs;
+    std::vector<Expression> expressions;
+    SpringBones springBones;
     std::vector<Clip> clips;
     std::vector<Material> materials;
     std::vector<std::string> materialVariants; ///< names of KHR_materials_variants; one may have been chosen

@@ -66,6 +66,7 @@ public:
     void skeleton();
     void skin();
     void morphs();
+    void expressions();
     void clips();
     void materials();
 
@@ -246,6 +247,34 @@ void Check::channel(const Channel& channel, const std::string& name) {
             name + "not as many values as keys");
 }
 
+void Check::expressions() {
+    const size_t targets = character_.morphs.targets.size(), nodes = character_.skeleton.nodes.size();
+    for (size_t e = 0; e < character_.expressions.size(); ++e) {
+        const Expression& own = character_.expressions[e];
+        const std::string name = at("expression", e) + ": ";
+        require(own.targets.size() == own.weights.size() && isFinite(own.weights), name + "no finite weight a target");
+        require(below(own.targets, targets) && rises(own.targets), name + "targets do not rise, or are none");
+    }
+    const SpringBones& bones = character_.springBones;
+    const bool colliders = std::ranges::all_of(bones.colliders, [&](const SpringCollider& c) {
+        return c.node < nodes && std::isfinite(c.radius) && isFinite({&c.offset.x, 3}) && isFinite({&c.tail.x, 3});
+    });
+    require(colliders, "a collider of spring bones names no node, or is not finite");
+    for (const std::vector<uint32_t>& group : bones.colliderGroups) {
+        require(below(group, bones.colliders.size()), "a collider group of spring bones names no collider");
+    }
+    for (size_t s = 0; s < bones.springs.size(); ++s) {
+        const Spring& spring = bones.springs[s];
+        const bool joints = std::ranges::all_of(spring.joints, [&](const SpringJoint& j) {
+            const float numbers[] = {j.hitRadius, j.stiffness, j.gravityPower, j.drag};
+            return j.node < nodes && isFinite(numbers) && isFinite({&j.gravityDirection.x, 3});
+        });
+        require(joints && belowOrNone({&spring.center, 1}, nodes) &&
+                    below(spring.colliderGroups, bones.colliderGroups.size()),
+                at("spring", s) + ": it names no node or collider group, or is not finite");
+    }
+}
+
 void Check::clips() {
     for (size_t c = 0; c < character_.clips.size(); ++c) {
         const Clip& clip = character_.clips[c];
@@ -293,6 +322,7 @@ Status checkCharacter(const Character& character) {
         check.parts();
         check.skin();
         check.morphs();
+        check.expressions();
         check.clips();
         check.materials();
     }

@@ -25,8 +25,10 @@ void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, 
         throw Refusal{repaired.error().code, {repaired.error().message}};
     }
     findFirstFaces(character);
-    if (options.creasesFromNormals) {
+    if (options.normalCreases == NormalCreases::all) {
         creaseSplitNormals(character.cage);
+    } else if (options.normalCreases == NormalCreases::wherePartly) {
+        creasePartlySplitNormals(character);
     }
     reportDamages(character, options.strict);
     character.warnings = readableLines(character.warnings);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/normal_creases.h"
 #include "cage/parts.h"
 
 #include <vector>
@@ -9,9 +10,9 @@
 namespace supple::cage {
 
 struct FinishOptions {
-    bool sewParts = true;            ///< sew parts together where their boundaries coincide
-    bool creasesFromNormals = false; ///< make edges with split normals infinitely sharp (cage/normal_creases.h)
-    bool strict = false;             ///< refuse a damaged cage instead of repairing it (cage/repair.h)
+    bool sewParts = true; ///< sew parts together where their boundaries coincide
+    NormalCreases normalCreases = NormalCreases::never;
+    bool strict = false; ///< refuse a damaged cage instead of repairing it (cage/repair.h)
 };
 
 /// Makes a character of its parts, one or more: joins and sews them, repairs the cage, and says what was found. The

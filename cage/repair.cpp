@@ -105,6 +105,8 @@ void report(const CageDamage& damage, size_t part, Reporter reporter) {
                  "faces have fewer than three different vertices or bound nothing", "left out");
     reporter.add(faces.repeating.of(part), "face passes a vertex twice", "faces pass a vertex twice",
                  "cut into simple faces");
+    reporter.add(faces.ringed.of(part), "face goes round a hole over a bridge", "faces go round holes over bridges",
+                 "cut into quads and triangles round " + std::string(faces.ringed.of(part).count > 1 ? "them" : "it"));
     reporter.add(faces.duplicated.of(part), "face is there twice", "faces are there twice", "left out");
     reporter.add(tCorners.corners.of(part), "T-corner", "T-corners", facetsMade(tCorners.sides.at(part)));
     // Copies at cut edges are told once: of the crowded ones if there are any.

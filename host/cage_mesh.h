@@ -16,6 +16,8 @@ struct CageMesh {
     std::vector<uint32_t> parts;      ///< per face; or empty, if there is one part
     std::vector<glm::vec2> uvSets[2];
     std::vector<glm::vec4> colors; ///< linear
+    /// Some pose may mirror the cage or a part of it. Then winding does not tell front faces from back faces.
+    bool mayMirror = false;
 
     [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faceStarts.size()) - 1; }
     [[nodiscard]] uint32_t sides(uint32_t face) const { return faceStarts[face + 1] - faceStarts[face]; }

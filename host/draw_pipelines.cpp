@@ -66,7 +66,7 @@ Status DrawPipelines::createLayouts() {
         {shared::kSurfaceUv1Binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceFaceUvBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kInstancesBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-        {shared::kPatchClassBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+        {shared::kPatchBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex | kFragment},
         {shared::kDeformedCageBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kCageCornerBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kCageEdgeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},

@@ -97,6 +97,8 @@ Status Figure::readLists() {
              [&](const SuppleMorphTargetInfo& target) {
                  morphTargets_.push_back({target.name, target.weight});
              });
+    readEach(asset.expressionCount, suppleGetExpressionInfo, "suppleGetExpressionInfo",
+             [&](const SuppleExpressionInfo& expression) { expressions_.emplace_back(expression.name); });
     readEach(asset.partCount, suppleGetPartInfo, "suppleGetPartInfo", [&](const SupplePartInfo& part) {
         partNames_.emplace_back(part.name);
         parts_.push_back(part);
@@ -106,6 +108,16 @@ Status Figure::readLists() {
         jointParents_.push_back(joint.parent);
     });
     return status;
+}
+
+Result<std::vector<float>> Figure::expressionWeights(const std::vector<float>& weights) const {
+    std::vector<float> all(morphTargets_.size());
+    const SuppleResult result =
+        suppleFillExpressionWeights(context_.handle(), asset_, weights.data(), static_cast<uint32_t>(weights.size()),
+                                    all.data(), static_cast<uint32_t>(all.size()));
+    if (const Status status = context_.check(result, "suppleFillExpressionWeights"); !status)
+        return status.error();
+    return all;
 }
 
 float Figure::averageLuminance() const {

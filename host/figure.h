@@ -58,6 +58,10 @@ public:
     [[nodiscard]] const CageMesh& cage() const { return cage_; }
     [[nodiscard]] const std::vector<Clip>& clips() const { return clips_; }
     [[nodiscard]] const std::vector<MorphTarget>& morphTargets() const { return morphTargets_; }
+    /// Of a VRM file, by name.
+    [[nodiscard]] const std::vector<std::string>& expressions() const { return expressions_; }
+    /// What expressions make of the weights of all morph targets. `weights`: one per expression.
+    [[nodiscard]] Result<std::vector<float>> expressionWeights(const std::vector<float>& weights) const;
     /// 0 for the bind pose.
     [[nodiscard]] double clipDuration(uint32_t clip) const;
     /// Of every part, in the asset's order; names may be empty.
@@ -96,6 +100,7 @@ private:
     SuppleAsset asset_{};
     std::vector<Clip> clips_;
     std::vector<MorphTarget> morphTargets_;
+    std::vector<std::string> expressions_;
     std::vector<std::string> jointNames_;
     std::vector<uint32_t> jointParents_;
     std::vector<std::string> partNames_;
@@ -140,7 +145,7 @@ struct FigureSurface {
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     uint32_t edgeRate = 0;
-    Buffer patchClasses; ///< per patch: which of the colors of the view of patch classes it has
+    Buffer patches; ///< shared::kPatchWords per patch
     /// Coarser grids over the same samples, by SuppleDomain: shadows need no more.
     struct CoarseGrid {
         uint32_t firstIndex = 0, indexCount = 0;

@@ -75,6 +75,12 @@ std::vector<SurfaceDraw> drawsOf(const SuppleLevelOutput& levels) {
     return draws;
 }
 
+/// Of the first face of a part.
+uint32_t firstVertexOf(const CageMesh& cage, uint32_t part) {
+    const auto face = std::find(cage.parts.begin(), cage.parts.end(), part);
+    return cage.corners[face == cage.parts.end() ? 0 : cage.faceStarts[face - cage.parts.begin()]];
+}
+
 /// With tangents for normal maps, if the group can have them.
 Status createWithTangents(Context& context, SuppleGroupDesc desc, bool tangents, SuppleGroup& group) {
     if (tangents) {
@@ -210,15 +216,26 @@ Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
     const Result<std::vector<SupplePatchInfo>> patches = patchesOf(context, group_, index);
     if (!patches)
         return patches.error();
-    std::vector<uint32_t> classes(std::max<size_t>(patches->size(), 1));
-    for (size_t i = 0; i < patches->size(); ++i)
-        classes[i] = static_cast<uint32_t>((*patches)[i].patchClass);
-    Result<Buffer> classBuffer =
-        device.uploadBuffer(classes.data(), classes.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    if (!classBuffer)
-        return classBuffer.error();
-    surface.patchClasses = std::move(*classBuffer);
-
+    const CageMesh& cage = figure_.cage();
+    std::vector<uint32_t> words;
+    words.reserve(shared::kPatchWords * patches->size() + 1);
+    for (const SupplePatchInfo& patch : *patches) {
+        const uint32_t first = cage.faceStarts[patch.face], sides = cage.sides(patch.face);
+        words.push_back(static_cast<uint32_t>(patch.patchClass));
+        const uint32_t count = std::min(sides, shared::kPatchVertices);
+        for (uint32_t i = 0; i < shared::kPatchVertices; ++i)
+            words.push_back(i < count ? cage.corners[first + i * sides / count] : SUPPLE_NO_VERTEX);
+    }
+    words.resize(std::max<size_t>(words.size(), 1));
+    Result<Buffer> buffer =
+        device.uploadBuffer(words.data(), words.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!buffer)
+        return buffer.error();
+    surface.patches = std::move(*buffer);
+    for (SurfaceDraw& draw : surface.draws) {
+        if (draw.push.domain == shared::kDrawMesh)
+            draw.push.primitive = firstVertexOf(cage, draw.part);
+    }
     return uploadCoarseGrids(surface);
 }
 

@@ -119,10 +119,24 @@ std::vector<Blend> blendsOf(const Scene& scene, uint32_t material) {
     return isGlass(scene.group->figure().materials(), material) ? std::vector{Blend::multiply, Blend::add}
                                                                 : std::vector{Blend::over};
 }
+/// Which side is not drawn, where winding tells the sides apart.
 VkCullModeFlags culled(const Scene& scene, uint32_t material) {
     return scene.view == shared::kViewShaded && scene.group->figure().materials().isOneSided(material)
                ? VK_CULL_MODE_BACK_BIT
                : VK_CULL_MODE_NONE;
+}
+
+/// What tells the shader to leave out what is culled.
+uint32_t sideFlags(VkCullModeFlags cull) {
+    return cull == VK_CULL_MODE_BACK_BIT ? shared::kDrawFrontSide
+                                         : (cull == VK_CULL_MODE_FRONT_BIT ? shared::kDrawBackSide : 0u);
+}
+
+/// A pose may mirror a limb of a part of the scheme polygons. Its vertices belong to no patch that would tell, as those
+/// of other schemes do: there the shader knows of whole parts alone.
+bool mirrorsWithinParts(const Scene& scene, uint32_t part) {
+    return scene.group->figure().cage().mayMirror && !scene.cageFaces && part != kManyParts &&
+           scene.group->isMeshPart(part);
 }
 
 /// The viewport of the whole picture, with y up. `shift` moves the picture to the right, in pixels.
@@ -377,7 +391,7 @@ void SurfaceRenderer::writeFigureSet(VkDescriptorSet set, const FigureGroup& gro
         {shared::kSurfaceUv1Binding, orCage(output.streams.uvs1)},
         {shared::kSurfaceFaceUvBinding, orCage(output.streams.faceUvs)},
         {shared::kInstancesBinding, viewInfo(output.info.instances)},
-        {shared::kPatchClassBinding, wholeInfo(surface.patchClasses)},
+        {shared::kPatchBinding, wholeInfo(surface.patches)},
         {shared::kDeformedCageBinding, viewInfo(output.info.deformedCage)},
         {shared::kCageCornerBinding, wholeInfo(figure.cageCorners())},
         {shared::kCageEdgeBinding, wholeInfo(figure.cageEdges())},
@@ -773,9 +787,10 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
             bound = wanted;
             drawRun(commands, scene, run, cull, flags);
         };
-        const VkCullModeFlags cull = culled(scene, run.material);
+        const bool bothSides = !blend && mirrorsWithinParts(scene, run.part);
+        const VkCullModeFlags cull = bothSides ? VkCullModeFlags{VK_CULL_MODE_NONE} : culled(scene, run.material);
         if (!blend) {
-            draw(Blend::none, cull, blended ? shared::kDrawSolid : 0);
+            draw(Blend::none, cull, (blended ? shared::kDrawSolid : 0) | (bothSides ? shared::kDrawBothSides : 0));
             continue;
         }
         // What blends shows its far side through its near side.
@@ -792,11 +807,12 @@ void SurfaceRenderer::drawFaces(VkCommandBuffer commands, const Scene& scene, co
 void SurfaceRenderer::drawRun(VkCommandBuffer commands, const Scene& scene, const DrawRun& run, VkCullModeFlags cull,
                               uint32_t flags) const {
     const FigureSurface& surface = scene.group->surfaces()[run.surface];
-    vkCmdSetCullMode(commands, cull);
+    const bool byShader = scene.group->figure().cage().mayMirror;
+    vkCmdSetCullMode(commands, byShader ? VkCullModeFlags{VK_CULL_MODE_NONE} : cull);
     if (!scene.group->isPartVisible(run.part))
         return;
     shared::DrawPush push = completed(scene.cageFaces ? shared::DrawPush{} : surface.draws[run.range].push, surface, 0);
-    push.flags |= flags;
+    push.flags |= flags | (byShader ? shared::kDrawMayMirror | sideFlags(cull) : 0u);
     if (scene.cageFaces) {
         const Figure::CageRange& range = scene.group->figure().cageRanges()[run.range];
         push.primitive = range.firstCorner;

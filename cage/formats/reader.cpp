@@ -40,7 +40,7 @@ Result<Character> readCharacter(std::span<const std::byte> bytes, const std::str
         }
         const FileReader readFolder = [&](const std::string& path) { return gltf::readBelow(baseDirectory, path); };
         return readObj(bytes, name,
-                       {.finish = {options.sewParts, options.creasesFromNormals, options.strict},
+                       {.finish = {options.sewParts, options.normalCreases, options.strict},
                         .weld = options.weldObj,
                         .readFile = options.readFile ? options.readFile : readFolder});
     }

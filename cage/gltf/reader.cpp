@@ -12,6 +12,8 @@
 #include "cage/gltf/skin.h"
 #include "cage/gltf/uri.h"
 #include "cage/gltf/variants.h"
+#include "cage/gltf/vrm_expressions.h"
+#include "cage/gltf/vrm_springs.h"
 #include "cage/message.h"
 #include "cage/part_amount.h"
 #include "cage/parts.h"
@@ -168,8 +170,14 @@ ClipSet readClipSet(const ClipFile& file, const GltfOptions& options) {
     }
 }
 
-/// All of a character but what is done to every one at last, and its parts.
-std::vector<PartCage> readInto(const Document& document, const GltfOptions& options, Character& character) {
+/// What is done to every character at last comes behind.
+struct ReadParts {
+    std::vector<PartCage> parts;
+    std::vector<UnplacedExpression> expressions;
+};
+
+/// All of a character but that.
+ReadParts readInto(const Document& document, const GltfOptions& options, Character& character) {
     Warnings& warnings = character.warnings;
     warnings = document.warnings;
     character.copyright = document.model.copyright;
@@ -185,6 +193,8 @@ std::vector<PartCage> readInto(const Document& document, const GltfOptions& opti
     for (const PartCage& part : parts) {
         targetCounts[part.part.node] = part.morphs.targets.size();
     }
+    std::vector<UnplacedExpression> expressions = readExpressions(document, targetCounts, warnings);
+    character.springBones = readSpringBones(document, character.skeleton, warnings);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
         leniency.gather([&] { takeClips(readClipSet(file, options), parts, character); });
@@ -193,7 +203,7 @@ std::vector<PartCage> readInto(const Document& document, const GltfOptions& opti
     for (Damage& damage : leniency.takeDamages()) {
         character.damages.push_back(std::move(damage));
     }
-    return parts;
+    return {std::move(parts), std::move(expressions)};
 }
 
 } // namespace
@@ -216,8 +226,9 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
         Character character;
         character.name = name;
         character.materialVariants = gltf::chooseVariant(document, options.variant);
-        std::vector<PartCage> parts = gltf::readInto(document, options, character);
-        finishCharacter(std::move(parts), {options.sewParts, options.creasesFromNormals, options.strict}, character);
+        gltf::ReadParts read = gltf::readInto(document, options, character);
+        finishCharacter(std::move(read.parts), {options.sewParts, options.normalCreases, options.strict}, character);
+        placeExpressions(read.expressions, character);
         return character;
     } catch (const Refusal& refusal) {
         return asError(refusal, name);

@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "cage/file_reader.h"
+#include "cage/normal_creases.h"
 #include "cage/skeleton.h"
 #include "cage/split/cage.h"
 
@@ -35,8 +36,8 @@ struct GltfOptions {
     bool weldObj = true;
     /// Whether triangles are paired into quads where the file carries no polygons.
     Pairing pairing = Pairing::whereClean;
-    /// Make edges with split normals infinitely sharp (cage/normal_creases.h).
-    bool creasesFromNormals = false;
+    /// Which edges with split normals become infinitely sharp.
+    NormalCreases normalCreases = NormalCreases::never;
     /// Refuse a file with faults (cage/leniency.h), and a damaged cage (cage/repair.h), instead of mending them. The
     /// error has one line for each fault and each kind of damage.
     bool strict = false;

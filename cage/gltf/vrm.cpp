@@ -10,13 +10,11 @@ namespace {
 /// What an extension of the file, or a member of it, would do.
 constexpr struct {
     const char* extension;
-    const char* member; ///< null: the extension itself
+    const char* member;
     const char* what;
 } kVrmUses[] = {
-    {"VRM", "blendShapeMaster", "expressions"},
-    {"VRMC_vrm", "expressions", "expressions"},
     {"VRM", "secondaryAnimation", "spring bones"},
-    {"VRMC_springBone", nullptr, "spring bones"},
+    {"VRMC_springBone", "springs", "spring bones"},
     {"VRM", "firstPerson", "first-person flags"},
     {"VRMC_vrm", "firstPerson", "first-person flags"},
     {"VRMC_vrm", "lookAt", "gaze"},
@@ -34,8 +32,7 @@ bool hasNodeConstraints(const Json& root) {
 void nameUnusedVrm(const Json& root, Warnings& warnings) {
     std::vector<std::string> unused;
     for (const auto& [extension, part, what] : kVrmUses) {
-        if (hasExtension(root, extension) &&
-            (part == nullptr || member(root.at("extensions").at(extension), part) != nullptr) &&
+        if (hasExtension(root, extension) && member(root.at("extensions").at(extension), part) != nullptr &&
             std::find(unused.begin(), unused.end(), what) == unused.end()) {
             unused.emplace_back(what);
         }

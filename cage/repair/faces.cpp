@@ -1,5 +1,7 @@
 #include "cage/repair/faces.h"
 
+#include "cage/repair/rings.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -11,6 +13,19 @@ namespace {
 class LoopCutter {
 public:
     LoopCutter(const Cage& cage, Draft& draft) : cage_(cage), draft_(draft), places_(cage.vertexCount(), kNone) {}
+
+    [[nodiscard]] bool passesTwice(uint32_t face) {
+        bool twice = false;
+        for (uint32_t c = cage_.faceStarts[face]; c < cage_.faceStarts[face + 1]; ++c) {
+            uint32_t& place = places_[cage_.faceVertices[c]];
+            twice = twice || place != kNone;
+            place = 0;
+        }
+        for (uint32_t c = cage_.faceStarts[face]; c < cage_.faceStarts[face + 1]; ++c) {
+            places_[cage_.faceVertices[c]] = kNone;
+        }
+        return twice;
+    }
 
     /// Adds the face's simple loops; returns whether the face passed a vertex twice.
     bool add(uint32_t face) {
@@ -76,8 +91,12 @@ Draft simpleFaces(const Cage& cage, const Places& places, FaceDamage& damage) {
     LoopCutter cutter(cage, draft);
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t before = draft.faceCount();
-        const bool repeated = cutter.add(face);
         const auto name = [&] { return places.face(face); };
+        if (cutter.passesTwice(face) && addRing(cage, face, draft)) {
+            damage.ringed.add(places, face, name);
+            continue;
+        }
+        const bool repeated = cutter.add(face);
         if (draft.faceCount() == before) {
             damage.empty.add(places, face, name);
         } else if (repeated) {

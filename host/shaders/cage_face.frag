@@ -11,13 +11,15 @@ layout(location = 0) in vec3 inPosition;
 layout(location = 1) flat in vec3 inNormal;
 layout(location = 2) in vec4 inUvs;
 layout(location = 3) in vec4 inColor;
+layout(location = 4) flat in uint inMirrored;
 
 layout(location = 0) out vec4 outColor;
 
 void main() {
     vec3 v = normalize(frame.eye.xyz - inPosition);
     vec3 front = inNormal * inversesqrt(max(dot(inNormal, inNormal), 1e-30));
-    vec3 n = gl_FrontFacing ? front : -front;
+    bool back = gl_FrontFacing == (inMirrored != 0u);
+    vec3 n = back ? -front : front;
     vec4 base = baseColorAt(inUvs, inColor);
     bool shaded = kView == kViewShaded;
     Material material = shaded || isFlatView(kView) ? materialAt(base.rgb, inUvs) : plainMaterial(vec3(0.50, 0.47, 0.44), 0.6);
@@ -40,7 +42,8 @@ void main() {
             flatly *= formShade(kView, n, v);
     }
     float opacity = materialHas(kMaterialTranslucent) ? base.a : 1.0;
-    if ((materialHas(kMaterialMask) && base.a < materialData.cutoff) || isLeftOut(opacity * (1.0 - layers.transmission)))
+    bool masked = materialHas(kMaterialMask) && base.a < materialData.cutoff;
+    if (masked || isLeftOut(opacity * (1.0 - layers.transmission)) || isOtherSide(back))
         discard;
     if (kView == kViewNormals) {
         outColor = vec4(fromSrgb(front * 0.5 + 0.5), 1.0);
@@ -55,13 +58,13 @@ void main() {
         outColor = vec4(base.rgb, alpha);
         return;
     }
-    if (!gl_FrontFacing && !materialHas(kMaterialDoubleSided))
+    if (back && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
     Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
-    vec3 bumps = gl_FrontFacing ? mapped : -mapped;
+    vec3 bumps = back ? -mapped : mapped;
     vec3 color;
     if (shaded && isLayered())
-        color = layeredColor(material, layeredShade(material, layers, light, bumps, gl_FrontFacing ? coat : -coat, n, v), alpha);
+        color = layeredColor(material, layeredShade(material, layers, light, bumps, back ? -coat : coat, n, v), alpha);
     else
         color = studioTone(material, studioShade(material, light, bumps, n, v));
     outColor = vec4(color, alpha);

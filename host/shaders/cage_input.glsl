@@ -3,6 +3,8 @@
 
 layout(set = 1, binding = kDeformedCageBinding, std430) readonly buffer DeformedCage { vec4 deformedCage[]; };
 
-vec3 cagePosition(uint vertex) {
-    return deformedCage[instanceSlots[gl_InstanceIndex] * push.cageVerticesPerInstance + vertex].xyz;
+vec4 cageVertex(uint vertex) {
+    return deformedCage[instanceSlots[gl_InstanceIndex] * push.cageVerticesPerInstance + vertex];
 }
+
+vec3 cagePosition(uint vertex) { return cageVertex(vertex).xyz; }

@@ -24,7 +24,7 @@ SUPPLE_HOST_CONST kShadowDepthBinding = 3u; // the image of kShadowBinding
 // Set 1, the figure: what Supple hands out, and two tables the host makes of the cage.
 SUPPLE_HOST_CONST kSurfaceVertexBinding = 0u;
 SUPPLE_HOST_CONST kSurfaceAttributeBinding = 1u;
-SUPPLE_HOST_CONST kPatchClassBinding = 2u;
+SUPPLE_HOST_CONST kPatchBinding = 2u;
 SUPPLE_HOST_CONST kDeformedCageBinding = 3u;
 SUPPLE_HOST_CONST kCageCornerBinding = 4u;
 SUPPLE_HOST_CONST kCageEdgeBinding = 5u;
@@ -114,6 +114,10 @@ SUPPLE_HOST_CONST kDrawCoverage = 4u;   // alpha becomes coverage of the pixel's
 SUPPLE_HOST_CONST kDrawTangents = 8u;   // the surface has tangents
 SUPPLE_HOST_CONST kDrawSolid = 16u;     // of a translucent material: only where it is solid
 SUPPLE_HOST_CONST kDrawLevels = 32u;    // a SuppleLevelDraw
+SUPPLE_HOST_CONST kDrawFrontSide = 64u; // the shader leaves back faces out: poses may mirror, so winding does not tell them
+SUPPLE_HOST_CONST kDrawBackSide = 128u; // the shader leaves front faces out
+SUPPLE_HOST_CONST kDrawBothSides = 256u; // nothing tells the sides apart: both are shown alike
+SUPPLE_HOST_CONST kDrawMayMirror = 512u; // poses may mirror
 
 // What a material has: a constant of its shaders.
 SUPPLE_HOST_CONST kMaterialDoubleSided = 1u; // back faces are meant to be seen
@@ -129,6 +133,12 @@ SUPPLE_HOST_CONST kMaterialClearcoat = 1u << 20;
 SUPPLE_HOST_CONST kMaterialSheen = 1u << 21;
 SUPPLE_HOST_CONST kMaterialTransmission = 1u << 22;
 SUPPLE_HOST_CONST kMaterialSpecular = 1u << 23; // MaterialUniforms::dielectric differs from what it usually is
+
+// A patch in kPatchBinding: its class, then vertices of its face, which say whether the pose mirrors it, or SUPPLE_NO_VERTEX.
+SUPPLE_HOST_CONST kPatchVertices = 4u;
+SUPPLE_HOST_CONST kPatchWords = 5u;
+// The patch that the vertex shader hands on: set where the pose mirrors it.
+SUPPLE_HOST_CONST kPatchIsMirrored = 0x80000000u;
 
 // From here on a translucent material is solid.
 SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;
@@ -182,7 +192,7 @@ struct DrawPush {
     uint cageVerticesPerInstance;
     uint flags;
     uint light;     // whose shadow map is being drawn
-    uint primitive; // first cage corner or edge of the draw
+    uint primitive; // first cage corner or edge of the draw; kDrawMesh: a cage vertex of its part
 };
 
 // Of a texture on texture coordinates (x, y): it is looked up at (dot(u.xyz, (x, y, 1)), dot(v.xyz, (x, y, 1))).

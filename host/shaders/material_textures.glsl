@@ -18,6 +18,7 @@ vec4 baseColorAt(vec4 uvs, vec4 vertexColor) {
 
 /// A translucent material is drawn twice. Where it is solid, it hides what is behind it, as anything else does.
 bool isLeftOut(float alpha) { return (push.flags & kDrawSolid) != 0u && alpha < kSolidAlpha; }
+bool isOtherSide(bool back) { return (push.flags & (back ? kDrawFrontSide : kDrawBackSide)) != 0u; }
 
 Material materialAt(vec3 albedo, vec4 uvs) {
     vec2 metallicRoughness = texture(metallicRoughnessTexture, placed(kMetallicRoughness, uvs)).bg;

@@ -10,7 +10,7 @@
 #include "flat_views.glsl"
 #include "stripes.glsl"
 
-layout(set = 1, binding = kPatchClassBinding, std430) readonly buffer PatchClasses { uint patchClasses[]; };
+layout(set = 1, binding = kPatchBinding, std430) readonly buffer Patches { uint patchWords[]; };
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -95,8 +95,9 @@ vec3 shownTangent(vec3 front) {
 /// The material, or what the view paints in its place.
 Material paintedMaterial(vec3 albedo) {
     if (kView == kViewPatches && push.domain != kDrawMesh) {
-        vec3 color = fromSrgb(kClassColors[patchClasses[inPatch]] / 255.0);
-        return plainMaterial(color * (1.0 + 0.34 * (patchHash(inPatch) - 0.5)), 0.5);
+        uint number = inPatch & ~kPatchIsMirrored;
+        vec3 color = fromSrgb(kClassColors[patchWords[kPatchWords * number]] / 255.0);
+        return plainMaterial(color * (1.0 + 0.34 * (patchHash(number) - 0.5)), 0.5);
     }
     return kView == kViewShaded || isFlatView(kView) ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);
 }
@@ -106,7 +107,7 @@ void main() {
     // A vanishing normal (a collapsed pole) takes the triangle's own.
     vec3 flatNormal = cross(dFdx(inPosition), dFdy(inPosition));
     vec3 front = normalize(dot(inNormal, inNormal) > 1e-6 ? inNormal : flatNormal);
-    bool back = !gl_FrontFacing;
+    bool back = gl_FrontFacing == ((inPatch & kPatchIsMirrored) != 0u);
     vec3 n = back ? -front : front;
     vec4 base = baseColorAt(inUvs, inColor);
     Material material = paintedMaterial(base.rgb);
@@ -138,7 +139,7 @@ void main() {
     }
     // All that asks for neighbouring pixels is done: some may end here.
     float opacity = materialHas(kMaterialTranslucent) ? base.a : 1.0;
-    if (isLeftOut(opacity * (1.0 - layers.transmission)))
+    if (isLeftOut(opacity * (1.0 - layers.transmission)) || isOtherSide(back))
         discard;
     float alpha = kView == kViewShaded && materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (materialHas(kMaterialTrim)) {
@@ -158,7 +159,7 @@ void main() {
         color = base.rgb;
     } else {
         // The inside of a skin that is not meant to be seen: still there, but plainly inside.
-        if (back && !materialHas(kMaterialDoubleSided))
+        if (back && !materialHas(kMaterialDoubleSided) && (push.flags & kDrawBothSides) == 0u)
             material.albedo *= 0.35;
         Incident light = Incident(inSky, inKeyRimOpen.x, inKeyRimOpen.y, inKeyRimOpen.z);
         if (!kLightPerVertex)

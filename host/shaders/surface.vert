@@ -12,12 +12,15 @@ layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
 #include "material.glsl"
 #include "surface_attributes.glsl"
 
+layout(set = 1, binding = kPatchBinding, std430) readonly buffer Patches { uint patchWords[]; };
+layout(set = 1, binding = kDeformedCageBinding, std430) readonly buffer DeformedCage { vec4 deformedCage[]; };
+
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec4 outUvs; // the first and the second
 layout(location = 3) out vec4 outColor;
 layout(location = 4) out vec3 outGrid; // in segments: see gridPosition
-layout(location = 5) flat out uint outPatch;
+layout(location = 5) flat out uint outPatch; // with kPatchIsMirrored
 layout(location = 6) out vec3 outSky;
 layout(location = 7) out vec3 outKeyRimOpen;
 layout(location = 8) out vec3 outTrim;    // see surfaceTrim
@@ -60,12 +63,30 @@ float shownValue() {
     return log2(hasLevels() ? largestLevel() : float(push.rate)) / log2(kScaledLevel);
 }
 
+// Winding and normals follow the deformed faces, so where the pose mirrors, both show the inside as the outside.
+bool isMirrored(uint patchNumber) {
+    if ((push.flags & kDrawMayMirror) == 0u) return false;
+    uint first = drawnSlot() * push.cageVerticesPerInstance;
+    if (push.domain == kDrawMesh) return deformedCage[first + push.primitive].w < 0.0;
+    float sides = 0.0;
+    for (uint i = 1u; i <= kPatchVertices; ++i) {
+        uint vertex = patchWords[kPatchWords * patchNumber + i];
+        if (vertex != 0xFFFFFFFFu) sides += deformedCage[first + vertex].w;
+    }
+    return sides <= 0.0;
+}
+
 void main() {
     uint word = surfaceWord();
     vec3 position = surfacePosition(word);
     outPosition = position;
     outNormal = surfaceNormal(word);
     outPatch = drawnPatch();
+    bool mirrored = isMirrored(outPatch);
+    if (mirrored) {
+        outNormal = -outNormal;
+        outPatch |= kPatchIsMirrored;
+    }
     outGrid = gridPosition(gl_VertexIndex);
     outUvs = vec4(0.0);
     outColor = vec4(1.0);
@@ -77,7 +98,7 @@ void main() {
     if (kMaps && kView >= kViewWeights)
         outTangent.x = shownValue();
     else if (kMaps && (push.flags & kDrawTangents) != 0u)
-        outTangent = surfaceTangent();
+        outTangent = surfaceTangent() * vec4(1.0, 1.0, 1.0, mirrored ? -1.0 : 1.0);
     outTrim = surfaceTrim();
     outSky = vec3(0.0);
     outKeyRimOpen = outSquares = vec3(0.0);

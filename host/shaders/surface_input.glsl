@@ -57,10 +57,14 @@ uint surfaceVertex() {
                        : suppleSharedVertex(drawnRange(), gl_InstanceIndex, gl_VertexIndex);
 }
 
+uint drawnSlot() {
+    return hasLevels() ? levelPatches[levelRecord()].y & 0x0FFFFFFFu
+                       : instanceSlots[suppleDrawnInstance(drawnRange(), gl_InstanceIndex)];
+}
+
 uint posedVertex() {
     if (hasLevels()) return surfaceVertex();
-    uint slot = instanceSlots[suppleDrawnInstance(drawnRange(), gl_InstanceIndex)];
-    return suppleSurfaceVertex(drawnRange(), slot, surfaceVertex());
+    return suppleSurfaceVertex(drawnRange(), drawnSlot(), surfaceVertex());
 }
 
 uint surfaceWord() { return posedVertex() * ((push.flags & kDrawVertex24) != 0u ? 6u : 4u); }

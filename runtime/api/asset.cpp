@@ -1,4 +1,5 @@
 // supple.h, asset.
+#include "cage/expressions.h"
 #include "cage/limits.h"
 #include "cage/trim.h"
 #include "runtime/api/descriptions.h"
@@ -7,6 +8,8 @@
 #include "runtime/material_layers.h"
 #include "skinning/pose.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -216,6 +219,7 @@ SuppleResult suppleGetAssetInfo(SuppleContext handle, SuppleAsset asset, SuppleA
             info.clipCount = static_cast<uint32_t>(character.clips.size());
             info.materialCount = static_cast<uint32_t>(character.materials.size());
             info.morphTargetCount = static_cast<uint32_t>(character.morphs.targets.size());
+            info.expressionCount = static_cast<uint32_t>(character.expressions.size());
             info.imageCount = static_cast<uint32_t>(character.images.size());
             info.partCount = static_cast<uint32_t>(character.parts.size());
             info.sourceVertices = character.cage.sourceVertices.data();
@@ -353,6 +357,46 @@ SuppleResult suppleGetMorphTargetInfo(SuppleContext handle, SuppleAsset asset, u
                                 info.weight = morphs.weights[target];
                                 info.vertexCount = static_cast<uint32_t>(morphs.targets[target].vertices.size());
                             });
+    });
+}
+
+SuppleResult suppleGetExpressionInfo(SuppleContext handle, SuppleAsset asset, uint32_t expression,
+                                     SuppleExpressionInfo* out) {
+    return withAsset(handle, asset, "suppleGetExpressionInfo", [&](Context& context, const Asset& found) {
+        const auto& expressions = found.character.expressions;
+        return describePart(context, "suppleGetExpressionInfo", "expression", expression, expressions.size(), out,
+                            [&](SuppleExpressionInfo& info) {
+                                const cage::Expression& from = expressions[expression];
+                                info.name = from.name.c_str();
+                                info.isBinary = from.isBinary ? 1 : 0;
+                                info.targetCount = static_cast<uint32_t>(from.targets.size());
+                                info.targets = from.targets.data();
+                                info.weights = from.weights.data();
+                            });
+    });
+}
+
+SuppleResult suppleFillExpressionWeights(SuppleContext handle, SuppleAsset asset, const float* weights,
+                                         uint32_t expressionCount, float* out, uint32_t morphTargetCount) {
+    constexpr const char* kHere = "suppleFillExpressionWeights";
+    return withAsset(handle, asset, kHere, [&](Context& context, const Asset& found) {
+        const size_t expressions = found.character.expressions.size(), targets = found.character.morphs.targets.size();
+        if ((weights == nullptr && expressions > 0) || (out == nullptr && targets > 0)) {
+            return refuse(context, ErrorCode::nullPointer, kHere,
+                          weights == nullptr ? "weights is null" : "out is null");
+        }
+        if (expressionCount != expressions || morphTargetCount != targets) {
+            return refuse(context, ErrorCode::range, kHere,
+                          "expressionCount " + std::to_string(expressionCount) + ", morphTargetCount " +
+                              std::to_string(morphTargetCount) + ": the asset has " + std::to_string(expressions) +
+                              " and " + std::to_string(targets));
+        }
+        if (std::any_of(weights, weights + expressionCount, [](float weight) { return std::isnan(weight); })) {
+            return refuse(context, ErrorCode::notFinite, kHere, "a weight is not a number");
+        }
+        const std::vector<float> filled = cage::expressionWeights(found.character, {weights, expressionCount});
+        std::copy(filled.begin(), filled.end(), out);
+        return SUPPLE_OK;
     });
 }
 

@@ -65,12 +65,16 @@ std::string nameOf(const SuppleClipFile& file, size_t index) {
 std::optional<Error> faultOfFlags(uint32_t flags) {
     constexpr uint32_t kPairing = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES;
     constexpr uint32_t kKnown = kPairing | SUPPLE_ASSET_STRICT | SUPPLE_ASSET_PARTS_APART |
-                                SUPPLE_ASSET_CREASES_FROM_NORMALS | SUPPLE_ASSET_VERTICES_APART;
+                                SUPPLE_ASSET_CREASES_FROM_NORMALS | SUPPLE_ASSET_VERTICES_APART | SUPPLE_ASSET_SMOOTH;
+    constexpr uint32_t kCreases = SUPPLE_ASSET_CREASES_FROM_NORMALS | SUPPLE_ASSET_SMOOTH;
     if ((flags & ~kKnown) != 0) {
         return Error{ErrorCode::range, "unknown flags"};
     }
     if ((flags & kPairing) == kPairing) {
         return Error{ErrorCode::argument, "both SUPPLE_ASSET_PAIR_QUADS and SUPPLE_ASSET_KEEP_TRIANGLES"};
+    }
+    if ((flags & kCreases) == kCreases) {
+        return Error{ErrorCode::argument, "both SUPPLE_ASSET_CREASES_FROM_NORMALS and SUPPLE_ASSET_SMOOTH"};
     }
     return std::nullopt;
 }
@@ -230,8 +234,10 @@ Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc
 Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc) {
     const std::string name = nameOf(desc);
     const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
-    const cage::FinishOptions finish{!has(SUPPLE_ASSET_PARTS_APART), has(SUPPLE_ASSET_CREASES_FROM_NORMALS),
-                                     has(SUPPLE_ASSET_STRICT)};
+    const cage::NormalCreases creases = has(SUPPLE_ASSET_CREASES_FROM_NORMALS) ? cage::NormalCreases::all
+                                        : has(SUPPLE_ASSET_SMOOTH)             ? cage::NormalCreases::never
+                                                                               : cage::NormalCreases::wherePartly;
+    const cage::FinishOptions finish{!has(SUPPLE_ASSET_PARTS_APART), creases, has(SUPPLE_ASSET_STRICT)};
     if ((desc.cage != nullptr || desc.character != nullptr) && !orEmpty(desc.materialVariant).empty()) {
         return Error{ErrorCode::argument, name + ": arrays have no material variants"};
     }
@@ -247,7 +253,7 @@ Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& d
     cage::GltfOptions options;
     options.pairing = pairing;
     options.strict = finish.strict;
-    options.creasesFromNormals = finish.creasesFromNormals;
+    options.normalCreases = finish.normalCreases;
     options.sewParts = finish.sewParts;
     options.weldObj = !has(SUPPLE_ASSET_VERTICES_APART);
     if (desc.scene != 0) {

@@ -29,6 +29,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleClipInfo)                                                                                                  \
     X(SuppleJointInfo)                                                                                                 \
     X(SuppleMorphTargetInfo)                                                                                           \
+    X(SuppleExpressionInfo)                                                                                            \
     X(SuppleMaterialInfo)                                                                                              \
     X(SuppleMaterialLayers)                                                                                            \
     X(SuppleImageInfo)                                                                                                 \

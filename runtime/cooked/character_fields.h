@@ -26,6 +26,10 @@ template <>
 inline constexpr auto kLast<cage::UvMode> = cage::UvMode::all;
 template <>
 inline constexpr auto kLast<cage::MadeFor> = cage::MadeFor::none;
+template <>
+inline constexpr auto kLast<cage::ExpressionKind> = cage::ExpressionKind::mouth;
+template <>
+inline constexpr auto kLast<cage::ExpressionHold> = cage::ExpressionHold::block;
 
 } // namespace supple::runtime
 
@@ -63,6 +67,23 @@ void fields(A& a, T& curve) {
 template <class A, Is<MorphTarget> T>
 void fields(A& a, T& target) {
     a(target.name, target.vertices, target.deltas);
+}
+template <class A, Is<Expression> T>
+void fields(A& a, T& expression) {
+    a(expression.name, expression.kind, expression.isBinary, expression.targets, expression.weights,
+      expression.holds[0], expression.holds[1], expression.holds[2], expression.holds[3]);
+}
+template <class A, Is<SpringJoint> T>
+void fields(A& a, T& joint) {
+    a(joint.node, joint.hitRadius, joint.stiffness, joint.gravityPower, joint.drag, joint.gravityDirection);
+}
+template <class A, Is<SpringCollider> T>
+void fields(A& a, T& collider) {
+    a(collider.node, collider.isCapsule, collider.offset, collider.tail, collider.radius);
+}
+template <class A, Is<Spring> T>
+void fields(A& a, T& spring) {
+    a(spring.name, spring.center, spring.joints, spring.colliderGroups);
 }
 template <class A, Is<Image> T>
 void fields(A& a, T& image) {
@@ -109,8 +130,9 @@ template <class A, Is<Character> T>
 void fields(A& a, T& character) {
     a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
-      character.weights.influences, character.morphs.targets, character.morphs.weights, character.clips,
-      character.materials, character.materialVariants, character.images, character.warnings, character.damages,
+      character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
+      character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
+      character.clips, character.materials, character.materialVariants, character.images, character.warnings, character.damages,
       character.sourceVertexCount, character.seamVertexCount);
 }
 

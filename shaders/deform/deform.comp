@@ -1,5 +1,6 @@
 // Deform pass: morph targets, then skinning of the control cage. One invocation a cage vertex and instance.
 // Whatever feeds the position is `precise`: both mappings must give the same cage, bit for bit.
+// w is the vertex's side: -1 if the joint that moves it most mirrors, with the instance's transform, else 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/deform.h"
@@ -117,6 +118,17 @@ vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
     return p;
 }
 
+// Whether the matrix whose rows begin at pose element `i` mirrors: -1 if it does, else 1. A matrix that flattens does not.
+float sideOf(uint i) {
+    vec3 a = pose(i).xyz, b = pose(i + 1u).xyz, c = pose(i + 2u).xyz;
+    vec3 sizes = max(max(abs(a), abs(b)), abs(c));
+    float size = max(max(sizes.x, sizes.y), sizes.z); // of one scale, so that tiny figures have a determinant
+    precise vec3 across = crossed(a / size, b / size);
+    precise vec3 products = across * (c / size);
+    precise float determinant = (products.x + products.y) + products.z;
+    return determinant < 0.0 ? -1.0 : 1.0;
+}
+
 void main() {
     // Clamped, not returned early: a divergent return makes every later load slow on CPU devices.
     uint id = min(invocationIndex(), push.vertexCount * push.instanceCount - 1u);
@@ -132,12 +144,16 @@ void main() {
         rest = morphed(rest, first, influences, joints + push.morphWeights);
         first = influences;
     }
+    uint heaviest = table(first).x;
     precise vec3 p;
+    float side;
     if (kDualQuaternions) {
+        side = sideOf(joints) * sideOf(joints + kDualQuaternionTransform + kDualQuaternionElements * heaviest);
         p = blendedAsDualQuaternions(rest, first, end, joints + kDualQuaternionTransform);
         p = transformed(joints, p);
     } else {
+        side = sideOf(joints + kLinearElements * heaviest);
         p = blendedLinearly(rest, first, end, joints);
     }
-    deformedCage[instance * push.cageStride + index] = vec4(p, 1.0);
+    deformedCage[instance * push.cageStride + index] = vec4(p, side);
 }

@@ -1,5 +1,5 @@
 // Polygons, assemble stage: the frames of the cage's vertices. One invocation per frame and instance. The position is stored as
-// it is, to the bit.
+// it is, to the bit. Behind it stands the vertex's side (shaders/deform/deform.comp).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define PUSH_CONSTANTS ConstructPush
@@ -14,7 +14,8 @@ void main() {
     uint item = itemOfLane(), index = elementOf(item), instance = instanceOf(item);
     uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
     uvec4 record = tableElement(push.table + index);
-    vec3 position = cageVertex(cageBase + record.x);
+    vec4 vertex = cage(cageBase + record.x);
+    vec3 position = vertex.xyz;
     precise vec3 area = vec3(0.0);
     for (uint k = 0u; k < record.w; ++k) area = area + poolVector(base + tableWord(record.z + k));
     vec3 normal = directionOf(area);
@@ -27,7 +28,7 @@ void main() {
         tangent = vec3(1.0, 0.0, 0.0);
     }
     uint frame = base + header.frames + kFrameElements * index;
-    pool[frame] = vec4(position, 0.0);
+    pool[frame] = vec4(position, vertex.w < 0.0 ? -1.0 : 1.0);
     storePool(frame + kFrameNormal, normal);
     storePool(frame + kFrameTangent, tangent);
 }

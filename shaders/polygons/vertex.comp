@@ -20,6 +20,12 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
     y = vec3(b, s + n.y * n.y * a, -n.y);
 }
 
+// -1 where the pose mirrors, else 1.
+float sideOfFrame(uint frame) {
+    if (kWide) return pool[frame].w;
+    return texelFetch(poolTexels, int(frame)).w;
+}
+
 void main() {
     uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = slotOf(entry);
     uvec4 record = tableElement(push.table + index);
@@ -36,10 +42,13 @@ void main() {
     }
     vec3 coordinates = uintBitsToFloat(record.yzw);
     vec3 z = poolVector(frame + kFrameNormal), x = poolVector(frame + kFrameTangent), y = crossProduct(z, x);
-    precise vec3 normal = (coordinates.x * x + coordinates.y * y) + coordinates.z * z;
+    // Where the pose mirrors, the faces' normal is the mirror image's turned round, and x and y are images. The normal goes with the
+    // faces, the tangent with the image.
+    float side = sideOfFrame(frame);
+    precise vec3 normal = ((side * coordinates.x) * x + (side * coordinates.y) * y) + coordinates.z * z;
     storeSurfaceVertex(vertex, poolVector(frame), normal);
     if (kTangents) {
-        const mat3 axes = mat3(x, y, z);
+        const mat3 axes = mat3(x, y, side * z);
         vec3 du, dv;
         axesAcross(coordinates, du, dv);
         tangents[vertex] = tangentWord(tableWord(header.directions + index), Frame(axes * du, axes * dv, normal));

@@ -3,7 +3,8 @@
 // its coordinates.
 //
 // Coefficient pool, an instance: for every face of the cage twice its area vector; then (TableHeader::frames) for every frame
-// three elements: the position of its vertex, its unit normal, which is the area-weighted mean of its faces, and a unit tangent.
+// three elements: the position of its vertex, and in w -1 if the pose mirrors it, else 1; its unit normal, which is the area-weighted
+// mean of its faces; and a unit tangent.
 //
 // Tables
 //   faces       of up to four sides: four cage vertices i; twice the area vector is (i1 - i0) x (i3 - i2)

@@ -6,6 +6,7 @@
 #include "tests/cage/gltf/builder.h"
 #include "tests/support/meshes.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -80,6 +81,40 @@ TEST(NormalCreases, CreasesThatAreThereAreKept) {
     }
 }
 
+/// Six squares in a row, each bent against the one before; (i i+1 i+8 i+7). Normals are split at edges i < `split`.
+Character bentStrip(uint32_t split, PolygonSource source) {
+    Character character;
+    character.cage = supple::test::grid(6, 1);
+    for (glm::vec3& p : character.cage.positions) {
+        p.z = 0.3f * p.x * p.x;
+    }
+    for (uint32_t face = 0; face < 6; ++face) {
+        const float step = static_cast<float>(std::min(face, split));
+        character.cage.cornerNormals.resize(size_t{4} * (face + 1), glm::normalize(glm::vec3(step, 0, 1)));
+    }
+    character.parts[0].polygonSource = source;
+    return character;
+}
+
+TEST(NormalCreases, PlainTrianglesThatAreHardInPlacesKeepTheirEdges) {
+    for (const PolygonSource source : {PolygonSource::triangles, PolygonSource::pairedTriangles}) {
+        Character some = bentStrip(2, source);
+        creasePartlySplitNormals(some);
+        EXPECT_EQ(hardCreases(some.cage), (Edges{{1, 8}, {2, 9}}));
+        EXPECT_EQ(some.warnings,
+                  std::vector<std::string>{"file: 2 edges of 1 of 1 part made hard creases: their normals are split"});
+        for (const uint32_t split : {0u, 3u, 5u}) {
+            Character other = bentStrip(split, source);
+            creasePartlySplitNormals(other);
+            EXPECT_TRUE(other.cage.creases.empty()) << "none, or everywhere: " << split << " of 5";
+            EXPECT_TRUE(other.warnings.empty());
+        }
+    }
+    Character drawn = bentStrip(2, PolygonSource::obj);
+    creasePartlySplitNormals(drawn);
+    EXPECT_TRUE(drawn.cage.creases.empty()) << "somebody drew its polygons, and its creases";
+}
+
 TEST(NormalCreases, ReadersAddThemIfAsked) {
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\nvn 0 0 1\nvn -1 0 1\n"
                             "f 1//1 2//1 3//1 4//1\nf 2//2 5//2 6//2 3//2\n";
@@ -93,7 +128,8 @@ TEST(NormalCreases, ReadersAddThemIfAsked) {
                                                                                {"a.glb", gltf.glb()}};
     for (const auto& [name, bytes] : files) {
         for (const bool asked : {false, true}) {
-            const Result<Character> character = readCharacter(bytes, name, "", {.creasesFromNormals = asked});
+            const Result<Character> character =
+                readCharacter(bytes, name, "", {.normalCreases = asked ? NormalCreases::all : NormalCreases::never});
             ASSERT_TRUE(character) << character.error().message;
             EXPECT_EQ(hardCreases(character->cage), (asked ? Edges{{1, 2}} : Edges{})) << name;
         }

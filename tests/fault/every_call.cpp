@@ -351,6 +351,18 @@ private:
         call("suppleGetGroupClipBounds", [&] { return suppleGetGroupClipBounds(handle(), groups_[0], 0, &bounds); });
         float mask[3] = {};
         call("suppleFillJointMask", [&] { return suppleFillJointMask(handle(), tube_, 0, 1.0f, mask, 3); });
+        SuppleExpressionInfo expression{};
+        expression.structSize = sizeof expression;
+        call(
+            "suppleGetExpressionInfo, of none",
+            [&] { return suppleGetExpressionInfo(handle(), tube_, 0, &expression); }, SUPPLE_ERROR_ARGUMENT);
+        SuppleAssetInfo asset{};
+        asset.structSize = sizeof asset;
+        EXPECT_EQ(suppleGetAssetInfo(handle(), tube_, &asset), SUPPLE_OK);
+        std::vector<float> weights(asset.morphTargetCount);
+        call("suppleFillExpressionWeights", [&] {
+            return suppleFillExpressionWeights(handle(), tube_, nullptr, 0, weights.data(), asset.morphTargetCount);
+        });
         float socket[16];
         call("suppleGetJointTransform", [&] { return suppleGetJointTransform(handle(), instances_[0][0], 1, socket); });
         uint32_t count = 0;

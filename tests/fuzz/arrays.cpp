@@ -251,7 +251,7 @@ struct Arrays {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Arrays arrays(data, size);
-    const cage::FinishOptions options{size % 2 == 0, size % 3 == 0, size % 5 == 0};
+    const cage::FinishOptions options{size % 2 == 0, static_cast<cage::NormalCreases>(size % 3), size % 5 == 0};
     const Result<cage::Character> character = runtime::characterFromArrays(
         arrays.desc, "fuzz", options, size % 7 == 0 ? cage::Pairing::always : cage::Pairing::whereClean);
     if (!character) {

@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                       : choice % 3 == 1 ? cage::Pairing::always
                                         : cage::Pairing::never;
     options.strict = choice / 3 % 4 == 0;
-    options.creasesFromNormals = choice / 12 % 2 == 0;
+    options.normalCreases = static_cast<cage::NormalCreases>(choice / 12 % 3);
     options.sewParts = choice / 24 % 2 == 0;
     options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {
         fuzz::demand(!path.empty() && path.front() != '/' && ("/" + path + "/").find("/../") == std::string::npos,

@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace supple;
     cage::GltfOptions options;
-    options.creasesFromNormals = size % 2 == 0;
+    options.normalCreases = static_cast<cage::NormalCreases>(size % 3);
     options.weldObj = size % 5 != 0;
     options.sewParts = size % 7 != 0;
     options.readFile = [&](const std::string& path) -> Result<std::vector<std::byte>> {

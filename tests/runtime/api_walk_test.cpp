@@ -743,9 +743,11 @@ void createAsset(Rows& r) {
         d.cage = &kNoCage;
         d.character = &kNoCharacter;
     });
-    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 64; });
+    spoiled("flags", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE, [](Desc& d) { d.flags = 128; });
     spoiled("pairs and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
             [](Desc& d) { d.flags = SUPPLE_ASSET_PAIR_QUADS | SUPPLE_ASSET_KEEP_TRIANGLES; });
+    spoiled("all creases and none", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_CONFLICT,
+            [](Desc& d) { d.flags = SUPPLE_ASSET_CREASES_FROM_NORMALS | SUPPLE_ASSET_SMOOTH; });
     spoiled("files->read null", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_NULL_POINTER,
             [](Desc& d) { d.files = &kNoRead; });
     static const SuppleClipFile kNoBytes{};
@@ -969,6 +971,35 @@ void assetGetters(Rows& r) {
     }
     markers(r);
     creaseSets(r);
+
+    // The asset has no expressions.
+    constexpr const char *kExpression = "suppleGetExpressionInfo", *kFill = "suppleFillExpressionWeights";
+    r.assets(kExpression, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetExpressionInfo(c, a, 0, w.watched<SuppleExpressionInfo>(sizeof(SuppleExpressionInfo)));
+    });
+    for (const uint32_t index : {0u, ~0u}) {
+        r.refuse(kExpression, "index " + std::to_string(index), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetExpressionInfo(w.handle(), w.mine.asset, index,
+                                           w.watched<SuppleExpressionInfo>(sizeof(SuppleExpressionInfo)));
+        });
+    }
+    r.assets(kFill, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleFillExpressionWeights(c, a, nullptr, 0, w.plain<float>(kTargets), kTargets);
+    });
+    r.accept(kFill, "valid", [](World& w) {
+        return suppleFillExpressionWeights(w.handle(), w.mine.asset, nullptr, 0, w.plain<float>(kTargets), kTargets);
+    });
+    r.refuse(kFill, "out null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleFillExpressionWeights(w.handle(), w.mine.asset, nullptr, 0, nullptr, kTargets);
+    });
+    for (const auto& [expressions, targets] : {std::pair{1u, kTargets}, {0u, kTargets - 1}, {0u, kTargets + 1}}) {
+        r.refuse(kFill, "counts " + std::to_string(expressions) + ", " + std::to_string(targets),
+                 SUPPLE_MESSAGE_OUT_OF_RANGE, [expressions = expressions, targets = targets](World& w) {
+                     static const float kOne = 1.0f;
+                     return suppleFillExpressionWeights(w.handle(), w.mine.asset, &kOne, expressions,
+                                                        w.plain<float>(kTargets + 1), targets);
+                 });
+    }
 
     constexpr const char* kMask = "suppleFillJointMask";
     r.assets(kMask, [](World& w, SuppleContext c, SuppleAsset a) {

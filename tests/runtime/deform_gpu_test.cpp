@@ -148,6 +148,49 @@ TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
     }
 }
 
+/// By vertex: whether the joint of most weight, the first of several, is `joint`.
+std::vector<bool> hangsOn(const cage::SkinWeights& weights, uint32_t vertexCount, uint32_t joint) {
+    std::vector<bool> hangs;
+    for (uint32_t v = 0; v < vertexCount; ++v) {
+        const auto own =
+            std::span(weights.influences).subspan(weights.starts[v], weights.starts[v + 1] - weights.starts[v]);
+        const auto heaviest =
+            std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
+        hangs.push_back(heaviest->joint == joint);
+    }
+    return hangs;
+}
+
+TEST_F(DeformOnGpu, VerticesSayWhetherThePoseMirrorsThem) {
+    const ValidationGuard guard;
+    constexpr uint32_t kLimb = 2;
+    for (const SuppleMapping mapping : kMappings) {
+        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+            PosedGroup gpu(context(mapping), riggedTube({.segments = 9, .joints = 4}), {skinning, 4});
+            ASSERT_TRUE(gpu.valid());
+            const cage::Character& character = gpu.character();
+            std::vector<glm::mat4> joints = noisyJoints(character, 5, {.stretch = 0.5f});
+            gpu.poses().setMatrixPose(0, glm::value_ptr(joints[0]));
+            joints[kLimb] = joints[kLimb] * glm::scale(glm::mat4(1.0f), {1.0f, 1.0f, -1.0f});
+            gpu.poses().setMatrixPose(1, glm::value_ptr(joints[0]));
+            gpu.poses().setMatrixPose(2, glm::value_ptr(joints[0]));
+            gpu.poses().setTransform(2, glm::scale(glm::mat4(1.0f), {-1e-13f, 1e-13f, 1e-13f}));
+            joints[kLimb] = glm::mat4(0.0f); // flat: not mirrored
+            joints[kLimb][3][3] = 1.0f;
+            gpu.poses().setMatrixPose(3, glm::value_ptr(joints[0]));
+            gpu.deform();
+            const std::vector<bool> limb = hangsOn(character.weights, character.cage.vertexCount(), kLimb);
+            ASSERT_GT(std::count(limb.begin(), limb.end(), true), 0);
+            for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
+                EXPECT_EQ(gpu.sides(0)[v], 1.0f) << v;
+                EXPECT_EQ(gpu.sides(1)[v], limb[v] ? -1.0f : 1.0f) << v;
+                EXPECT_EQ(gpu.sides(2)[v], limb[v] ? 1.0f : -1.0f) << v;
+                EXPECT_EQ(gpu.sides(3)[v], 1.0f) << v;
+            }
+        }
+    }
+}
+
 TEST_F(DeformOnGpu, WeightsOfZeroLeaveTheBits) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {

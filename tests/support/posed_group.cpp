@@ -66,9 +66,12 @@ void PosedGroup::deform() {
     const Result<std::vector<std::byte>> bytes = shared_.device.readBuffer(output.info.deformedCage);
     ASSERT_TRUE(bytes.ok());
     cages_.assign(output.info.capacity, std::vector<glm::vec3>(output.info.cageVertexCount));
+    sides_.assign(output.info.capacity, std::vector<float>(output.info.cageVertexCount));
     for (uint32_t i = 0; i < output.info.capacity; ++i) {
         for (uint32_t v = 0; v < output.info.cageVertexCount; ++v) {
-            std::memcpy(&cages_[i][v], bytes->data() + 16 * (size_t{i} * output.info.cageVerticesPerInstance + v), 12);
+            const std::byte* const vertex = bytes->data() + 16 * (size_t{i} * output.info.cageVerticesPerInstance + v);
+            std::memcpy(&cages_[i][v], vertex, 12);
+            std::memcpy(&sides_[i][v], vertex + 12, 4);
         }
     }
 }

@@ -40,6 +40,8 @@ public:
     /// Runs a frame and reads the cages back.
     void deform();
     [[nodiscard]] const std::vector<glm::vec3>& cage(uint32_t instance) const { return cages_[instance]; }
+    /// By vertex: -1 where the pose mirrors, else 1.
+    [[nodiscard]] const std::vector<float>& sides(uint32_t instance) const { return sides_[instance]; }
 
 private:
     void create(cage::Character character, const PosedOptions& options);
@@ -49,6 +51,7 @@ private:
     SuppleGroup handle_{};
     std::shared_ptr<runtime::Group> group_;
     std::vector<std::vector<glm::vec3>> cages_;
+    std::vector<std::vector<float>> sides_;
 };
 
 } // namespace supple::test

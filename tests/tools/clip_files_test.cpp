@@ -146,8 +146,8 @@ GltfBuilder twoFaces() {
 
 TEST_F(ClipFiles, MorphTargetsAreSetByName) {
     writeText(file("faces.glb"), textOf(twoFaces().glb()));
-    const auto bake = [&](const std::string& flags) {
-        const Outcome outcome = runOnDevice("bake faces.glb -o out.obj --scheme cage " + flags);
+    const auto bake = [&](const std::string& flags, const std::string& name = "faces.glb") {
+        const Outcome outcome = runOnDevice("bake " + name + " -o out.obj --scheme cage " + flags);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return vertices("out.obj");
     };
@@ -163,6 +163,16 @@ TEST_F(ClipFiles, MorphTargetsAreSetByName) {
     EXPECT_EQ(both[2], glm::vec3(1, 1, -1));
     EXPECT_EQ(bake("--morph 3=1")[6], rest[6] + glm::vec3(0, 8, 0)) << "one without a name, by its number";
 
+    // Expressions, and targets that are set by themselves.
+    GltfBuilder vrm = twoFaces();
+    vrm.more = R"(,"extensions":{"VRMC_vrm":{"expressions":{"preset":{"happy":{"morphTargetBinds":[)"
+               R"({"node":0,"index":0,"weight":0.5}]}}}}})";
+    writeText(file("vrm.glb"), textOf(vrm.glb()));
+    EXPECT_EQ(bake("--expression happy=0.5", "vrm.glb")[0], glm::vec3(0, 0, 0.25f));
+    EXPECT_EQ(bake("--expression happy=1 --morph rise=0.75", "vrm.glb")[0], glm::vec3(0, 0, 0.75f))
+        << "the target's own";
+    expectFailure(run("bake vrm.glb -o out.obj --expression sad=1"), 1, "no expression \"sad\"; it has happy");
+    expectFailure(run("bake faces.glb -o out.obj --expression sad=1"), 1, "no expression \"sad\"; it has none");
     expectFailure(run("bake faces.glb -o out.obj --morph smile=1"), 1,
                   "faces.glb: no morph target \"smile\"; it has rise, long, 3");
     for (const char* wrong : {"rise", "=1", "rise=", "rise=x", "rise=nan", "rise=1x"}) {

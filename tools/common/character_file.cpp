@@ -43,8 +43,8 @@ Result<FileInMemory> load(const std::string& path) {
 
 /// The character of a cooked file.
 Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags) {
-    if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.partsApart || flags.verticesApart ||
-        flags.scene || !flags.variant.empty() || !flags.clipFiles.empty()) {
+    if (flags.pairQuads || flags.keepTriangles || flags.creasesFromNormals || flags.smooth || flags.partsApart ||
+        flags.verticesApart || flags.scene || !flags.variant.empty() || !flags.clipFiles.empty()) {
         return Error{ErrorCode::argument,
                      file.path + ": it is cooked: its polygons, parts, scene, variant and clips were chosen then"};
     }
@@ -77,7 +77,9 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
                               .pairing = flags.pairQuads       ? cage::Pairing::always
                                          : flags.keepTriangles ? cage::Pairing::never
                                                                : cage::Pairing::whereClean,
-                              .creasesFromNormals = flags.creasesFromNormals,
+                              .normalCreases = flags.creasesFromNormals ? cage::NormalCreases::all
+                                               : flags.smooth           ? cage::NormalCreases::never
+                                                                        : cage::NormalCreases::wherePartly,
                               .strict = flags.strict,
                               .memoryLimit = memoryLimit(flags)};
     std::vector<FileInMemory> clipFiles;
@@ -105,6 +107,7 @@ AssetDescription::AssetDescription(const CharacterFile& file) {
     flag(file.flags.pairQuads, SUPPLE_ASSET_PAIR_QUADS);
     flag(file.flags.keepTriangles, SUPPLE_ASSET_KEEP_TRIANGLES);
     flag(file.flags.creasesFromNormals, SUPPLE_ASSET_CREASES_FROM_NORMALS);
+    flag(file.flags.smooth, SUPPLE_ASSET_SMOOTH);
     flag(file.flags.strict, SUPPLE_ASSET_STRICT);
     flag(file.flags.partsApart, SUPPLE_ASSET_PARTS_APART);
     flag(file.flags.verticesApart, SUPPLE_ASSET_VERTICES_APART);

@@ -20,6 +20,7 @@ struct ReadOptions {
     bool pairQuads = false;             ///< SUPPLE_ASSET_PAIR_QUADS
     bool keepTriangles = false;         ///< SUPPLE_ASSET_KEEP_TRIANGLES
     bool creasesFromNormals = false;    ///< SUPPLE_ASSET_CREASES_FROM_NORMALS
+    bool smooth = false;                ///< SUPPLE_ASSET_SMOOTH
     bool strict = false;                ///< SUPPLE_ASSET_STRICT
     bool partsApart = false;            ///< SUPPLE_ASSET_PARTS_APART
     bool verticesApart = false;         ///< SUPPLE_ASSET_VERTICES_APART

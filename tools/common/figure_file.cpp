@@ -9,12 +9,32 @@ namespace supple::host {
 
 namespace {
 
-CageMesh meshOf(cage::Cage cage) {
+/// Whether a pose may mirror anything: without a negative scale or matrix none does. Tangents of cubic keys may take a
+/// scale below 0.
+bool mayMirror(const cage::Character& character) {
+    const auto mirrors = [](const cage::Node& node) {
+        return node.hasMatrix ? glm::determinant(glm::mat3(node.matrix)) < 0.0f
+                              : std::min({node.scale.x, node.scale.y, node.scale.z}) < 0.0f;
+    };
+    const auto isScaleBelowZero = [](const cage::Channel& channel) {
+        return channel.path == cage::ChannelPath::scale &&
+               (channel.interpolation == cage::Interpolation::cubicSpline ||
+                *std::min_element(channel.values.begin(), channel.values.end()) < 0.0f);
+    };
+    return std::any_of(character.skeleton.nodes.begin(), character.skeleton.nodes.end(), mirrors) ||
+           std::any_of(character.clips.begin(), character.clips.end(), [&](const cage::Clip& clip) {
+               return std::any_of(clip.channels.begin(), clip.channels.end(), isScaleBelowZero);
+           });
+}
+
+CageMesh meshOf(cage::Character character) {
     static_assert(cage::kNone == SUPPLE_NO_MATERIAL);
+    const bool mirrors = mayMirror(character);
+    cage::Cage& cage = character.cage;
     return {std::move(cage.positions),    std::move(cage.faceStarts),
             std::move(cage.faceVertices), std::move(cage.faceMaterials),
             std::move(cage.faceParts),    {std::move(cage.cornerUvs), std::move(cage.cornerUvs1)},
-            std::move(cage.cornerColors)};
+            std::move(cage.cornerColors), mirrors};
 }
 
 } // namespace
@@ -24,7 +44,7 @@ Result<std::unique_ptr<Figure>> createFigure(Context& context, CharacterFile fil
     if (!asset)
         return asset.error();
     // Supple hands out no faces of the cage: to draw them, a host keeps its own.
-    return Figure::create(context, *asset, meshOf(std::move(file.character.cage)), file.path);
+    return Figure::create(context, *asset, meshOf(std::move(file.character)), file.path);
 }
 
 Result<std::unique_ptr<Figure>> openFigure(Context& context, const std::string& path, const ReadOptions& flags) {

@@ -15,13 +15,16 @@ namespace supple::host {
 struct MorphSetting {
     std::string target; ///< name, else number
     float weight = 0.0f;
+    bool isExpression = false; ///< then `target` is its name
 };
 
 /// "smile=0.5", cut at the last "=". The error says what is wrong in a few words.
 [[nodiscard]] Result<MorphSetting> parseMorph(const std::string& text);
+/// The same of an expression.
+[[nodiscard]] Result<MorphSetting> parseExpression(const std::string& text);
 
-/// The weights of all targets, as suppleSetMorphWeights takes them: those that the settings name, else those that the
-/// file gives. Empty without settings. The error lists the names there are.
+/// The weights of all targets, as suppleSetMorphWeights takes them: those that the settings name, else what expressions
+/// make of those that the file gives. Empty without settings. The error lists the names there are.
 [[nodiscard]] Result<std::vector<float>> morphWeights(const Figure& figure, const std::vector<MorphSetting>& settings);
 [[nodiscard]] Result<std::vector<float>> morphWeights(const cage::Character& character,
                                                       const std::vector<MorphSetting>& settings);

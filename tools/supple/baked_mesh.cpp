@@ -137,28 +137,39 @@ private:
         mesh.baked.colors = colors_;
         mesh.baked.tangents = !surface_.tangents.empty();
         const cage::Polygons faces = gridFaces(surface_, range, content_.polygons);
-        std::vector<uint32_t> numbers, corners;
+        std::array<std::vector<uint32_t>, 2> numbers; // by whether the pose mirrors the face: normals differ
+        std::vector<uint32_t> corners;
         for (uint64_t patch = 0; patch < range.patchCount; ++patch) {
             const uint64_t first = range.firstVertex + patch * range.samplesPerPatch;
-            numbers.assign(range.samplesPerPatch, cage::kNone);
+            for (std::vector<uint32_t>& own : numbers) {
+                own.assign(range.samplesPerPatch, cage::kNone);
+            }
             for (size_t face = 0; face < faces.faceCount(); ++face) {
+                const bool mirrored = surface_.isMirrored(range, patch, face);
                 corners.clear();
                 for (uint32_t corner = faces.starts[face]; corner < faces.starts[face + 1]; ++corner) {
                     const uint32_t sample = faces.vertices[corner];
-                    if (numbers[sample] == cage::kNone) {
-                        numbers[sample] = gatherer.addVertex(mesh, vertex(mesh.baked, first + sample));
+                    uint32_t& number = numbers[mirrored ? 1 : 0][sample];
+                    if (number == cage::kNone) {
+                        number = gatherer.addVertex(mesh, vertex(mesh.baked, first + sample, mirrored));
                     }
-                    corners.push_back(numbers[sample]);
+                    corners.push_back(number);
+                }
+                if (mirrored) {
+                    turnRound(corners);
                 }
                 MeshGatherer::addFace(mesh, corners);
             }
         }
     }
 
-    [[nodiscard]] BakedVertex vertex(const BakedMesh& mesh, uint64_t index) const {
+    /// `mirrored`: normal and tangent of a face that the pose mirrors, as it is seen from outside.
+    [[nodiscard]] BakedVertex vertex(const BakedMesh& mesh, uint64_t index, bool mirrored) const {
+        constexpr uint32_t kTangentSign = 0x80000000u;
         BakedVertex vertex;
         vertex.position = element<glm::vec3>(surface_.vertices, streams_.vertices, index);
         vertex.normal = element<glm::vec3>(surface_.vertices, streams_.vertices, index, sizeof(glm::vec3));
+        vertex.normal = mirrored ? -vertex.normal : vertex.normal;
         if (mesh.uvs[0]) {
             vertex.uvs[0] = element<glm::vec2>(surface_.attributes, streams_.attributes, index);
         }
@@ -171,7 +182,8 @@ private:
             vertex.color[1] = color.y;
         }
         if (mesh.tangents) {
-            vertex.tangent = element<uint32_t>(surface_.tangents, streams_.tangents, index);
+            vertex.tangent =
+                element<uint32_t>(surface_.tangents, streams_.tangents, index) ^ (mirrored ? kTangentSign : 0);
         }
         return vertex;
     }
@@ -259,6 +271,10 @@ cage::Polygons gridFaces(const EvaluatedSurface& surface, const SuppleDrawRange&
     return faces;
 }
 
+void turnRound(std::span<uint32_t> corners) {
+    std::reverse(corners.begin() + 1, corners.end());
+}
+
 std::array<uint16_t, 4> bakedColor(const BakedVertex& vertex) {
     const auto half = [&](size_t word, uint32_t shift) { return static_cast<uint16_t>(vertex.color[word] >> shift); };
     return {half(0, 0), half(0, 16), half(1, 0), half(1, 16)};
@@ -281,14 +297,14 @@ Result<std::vector<BakedMesh>> bakedCage(const Evaluation& baked, const cage::Ch
         positions == cage.positions ? cage::cornerNormals(cage) : cage::deformedCornerNormals(cage, positions);
     const std::vector<uint32_t> triangles = content.polygons ? std::vector<uint32_t>{} : cage::triangulate(cage);
     MeshGatherer gatherer(character);
-    const auto addFace = [&](MeshGatherer::Mesh& mesh, auto&& cornerOf, uint32_t count) {
+    const auto addFace = [&](MeshGatherer::Mesh& mesh, bool mirrored, auto&& cornerOf, uint32_t count) {
         std::vector<uint32_t> vertices;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t corner = cornerOf(i);
             BakedVertex vertex;
             vertex.cageVertex = cage.faceVertices[corner];
             vertex.position = positions[vertex.cageVertex];
-            vertex.normal = normals[corner];
+            vertex.normal = mirrored ? -normals[corner] : normals[corner];
             vertex.uvs[0] = mesh.baked.uvs[0] ? cage.cornerUvs[corner] : glm::vec2(0.0f);
             vertex.uvs[1] = mesh.baked.uvs[1] ? cage.cornerUvs1[corner] : glm::vec2(0.0f);
             if (mesh.baked.colors) {
@@ -297,6 +313,9 @@ Result<std::vector<BakedMesh>> bakedCage(const Evaluation& baked, const cage::Ch
                 vertex.color[1] = unorm16Pair(color.b, color.a);
             }
             vertices.push_back(gatherer.addVertex(mesh, vertex));
+        }
+        if (mirrored) {
+            turnRound(vertices);
         }
         MeshGatherer::addFace(mesh, vertices);
     };
@@ -307,15 +326,16 @@ Result<std::vector<BakedMesh>> bakedCage(const Evaluation& baked, const cage::Ch
         mesh.baked.uvs[0] = !cage.cornerUvs.empty();
         mesh.baked.uvs[1] = content.uvs1 && !cage.cornerUvs1.empty();
         mesh.baked.colors = !cage.cornerColors.empty();
+        const bool mirrored = baked.mirroredFaces[face] != 0;
         if (content.polygons) {
             addFace(
-                mesh, [&](uint32_t i) { return first + i; }, sides);
+                mesh, mirrored, [&](uint32_t i) { return first + i; }, sides);
             continue;
         }
         const size_t firstTriangle = size_t{first} - size_t{2} * face;
         for (size_t triangle = firstTriangle; triangle < firstTriangle + sides - 2; ++triangle) {
             addFace(
-                mesh, [&](uint32_t i) { return triangles[3 * triangle + i]; }, 3);
+                mesh, mirrored, [&](uint32_t i) { return triangles[3 * triangle + i]; }, 3);
         }
     }
     return std::move(gatherer).take();

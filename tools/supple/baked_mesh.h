@@ -36,6 +36,9 @@ struct BakedMesh {
 /// The faces of a patch's grid as samples: as the device draws them, or with quads on quads.
 [[nodiscard]] cage::Polygons gridFaces(const EvaluatedSurface& surface, const SuppleDrawRange& range, bool quads);
 
+/// Turns the corners of a face round. The first stays the first.
+void turnRound(std::span<uint32_t> corners);
+
 /// Linear RGBA, 65535 is 1.
 [[nodiscard]] std::array<uint16_t, 4> bakedColor(const BakedVertex& vertex);
 

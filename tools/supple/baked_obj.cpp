@@ -4,7 +4,9 @@
 #include "tools/supple/baked_mesh.h"
 #include "tools/supple/text_file.h"
 
+#include <algorithm>
 #include <glm/glm.hpp>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -40,8 +42,12 @@ private:
     [[nodiscard]] bool isMesh() const {
         return surface_.output.surface.tessellation == SUPPLE_TESSELLATION_INDEXED_MESH;
     }
-    void writeVertices(uint64_t first, uint64_t count, uint64_t& written);
+    /// `mirrored`: of each vertex; its normal is that of a face that the pose mirrors.
+    void writeVertices(uint64_t first, std::span<const uint8_t> mirrored, uint64_t& written);
     void writeFaces(const cage::Polygons& faces, uint64_t first);
+    /// Of a mesh's triangles and vertices, which ones the pose mirrors. A vertex is its first triangle's.
+    [[nodiscard]] std::vector<uint8_t> mirroredVertices() const;
+    [[nodiscard]] cage::Polygons facesOf(const SuppleDrawRange& range, uint64_t patch) const;
     void writeTriangles(const SuppleDrawRange& range);
     void writePatches(const SuppleDrawRange& range, uint64_t& written);
 
@@ -63,20 +69,49 @@ void SurfaceWriter::write(uint32_t part, uint64_t& written) {
         }
         if (!meshVertex_) {
             meshVertex_ = written;
-            writeVertices(0, grid.vertexCount, written);
+            writeVertices(0, mirroredVertices(), written);
         }
         writeTriangles(range);
     }
 }
 
-/// The elements first .. first + count - 1 of the surface's streams.
-void SurfaceWriter::writeVertices(uint64_t first, uint64_t count, uint64_t& written) {
+std::vector<uint8_t> SurfaceWriter::mirroredVertices() const {
+    constexpr uint8_t kUnknown = 2;
+    const SuppleGridOutput& grid = surface_.output.grid;
+    std::vector<uint8_t> mirrored(grid.vertexCount, kUnknown);
+    for (const SuppleDrawRange& range : std::span(grid.drawRanges, grid.drawRangeCount)) {
+        const cage::Polygons triangles = gridFaces(surface_, range, false);
+        for (size_t corner = 0; corner < triangles.vertices.size(); ++corner) {
+            uint8_t& own = mirrored[triangles.vertices[corner]];
+            own = own == kUnknown ? uint8_t{surface_.isMirrored(range, 0, corner / 3)} : own;
+        }
+    }
+    std::replace(mirrored.begin(), mirrored.end(), kUnknown, uint8_t{0});
+    return mirrored;
+}
+
+/// As they are seen from outside.
+cage::Polygons SurfaceWriter::facesOf(const SuppleDrawRange& range, uint64_t patch) const {
+    cage::Polygons faces = gridFaces(surface_, range, !isMesh());
+    for (size_t face = 0; face < faces.faceCount(); ++face) {
+        if (surface_.isMirrored(range, patch, face)) {
+            turnRound(
+                std::span(faces.vertices).subspan(faces.starts[face], faces.starts[face + 1] - faces.starts[face]));
+        }
+    }
+    return faces;
+}
+
+/// An element of the surface's streams for each of `mirrored`, from `first` on.
+void SurfaceWriter::writeVertices(uint64_t first, std::span<const uint8_t> mirrored, uint64_t& written) {
     const SuppleVertexStreams& streams = surface_.output.streams;
+    const uint64_t count = mirrored.size();
     for (uint64_t i = first; i < first + count; ++i) {
         writeVector(file_, "v", element<glm::vec3>(surface_.vertices, streams.vertices, i));
     }
     for (uint64_t i = first; i < first + count; ++i) {
-        writeVector(file_, "vn", element<glm::vec3>(surface_.vertices, streams.vertices, i, sizeof(glm::vec3)));
+        const auto normal = element<glm::vec3>(surface_.vertices, streams.vertices, i, sizeof(glm::vec3));
+        writeVector(file_, "vn", mirrored[i - first] != 0 ? -normal : normal);
     }
     for (uint64_t i = first; !surface_.attributes.empty() && i < first + count; ++i) {
         writeVector(file_, "vt", turned(element<glm::vec2>(surface_.attributes, streams.attributes, i)));
@@ -107,17 +142,19 @@ void SurfaceWriter::writeTriangles(const SuppleDrawRange& range) {
     } else {
         file_.number(uint64_t{range.material}).text("\n");
     }
-    writeFaces(gridFaces(surface_, range, false), *meshVertex_);
+    writeFaces(facesOf(range, 0), *meshVertex_);
 }
 
 /// Each with its vertices.
 void SurfaceWriter::writePatches(const SuppleDrawRange& range, uint64_t& written) {
-    const cage::Polygons faces = gridFaces(surface_, range, true);
+    const cage::Polygons asDrawn = gridFaces(surface_, range, true);
     for (uint64_t patch = range.firstPatch; patch < range.firstPatch + range.patchCount; ++patch) {
         const uint64_t samples = range.samplesPerPatch, first = written;
         file_.text("g patch_").number(firstPatch_ + patch).text("\n");
-        writeVertices(range.firstVertex + (patch - range.firstPatch) * samples, samples, written);
-        writeFaces(faces, first);
+        const uint64_t own = patch - range.firstPatch;
+        const bool mirrored = surface_.isMirrored(range, own, 0);
+        writeVertices(range.firstVertex + own * samples, std::vector<uint8_t>(samples, mirrored ? 1 : 0), written);
+        writeFaces(mirrored ? facesOf(range, own) : asDrawn, first);
     }
 }
 
@@ -164,9 +201,15 @@ Status writeCageObj(const std::string& path, const Evaluation& baked, const cage
     for (const glm::vec2& uv : cage.cornerUvs) {
         writeVector(file, "vt", turned(uv));
     }
+    std::vector<uint32_t> corners;
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         file.text("f");
-        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+        corners.resize(cage.sides(face));
+        std::iota(corners.begin(), corners.end(), cage.faceStarts[face]);
+        if (baked.mirroredFaces[face] != 0) {
+            turnRound(corners);
+        }
+        for (const uint32_t corner : corners) {
             file.text(" ").number(uint64_t{cage.faceVertices[corner]} + 1);
             if (!cage.cornerUvs.empty()) {
                 file.text("/").number(uint64_t{corner} + 1);

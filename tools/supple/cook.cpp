@@ -150,6 +150,7 @@ std::string readingOf(const host::ReadOptions& reading) {
     add(reading.pairQuads, "pair-quads");
     add(reading.keepTriangles, "keep-triangles");
     add(reading.creasesFromNormals, "creases-from-normals");
+    add(reading.smooth, "smooth");
     add(reading.partsApart, "parts-apart");
     add(reading.verticesApart, "vertices-apart");
     add(reading.strict, "strict");

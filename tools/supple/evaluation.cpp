@@ -83,6 +83,23 @@ Status checkCage(const Evaluation& evaluation, const cage::Character& character)
     return success();
 }
 
+/// What the pose mirrors, by the sides of the cage's vertices.
+void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
+    const SuppleBufferRange& range = evaluation.surfaces.front().output.info.deformedCage;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        float sides = 0.0f;
+        for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
+            sides += element<glm::vec4>(evaluation.deformedCage, range, cage.faceVertices[corner]).w;
+        }
+        evaluation.mirroredFaces.push_back(sides <= 0.0f ? 1 : 0);
+    }
+    for (EvaluatedSurface& surface : evaluation.surfaces) {
+        for (const SupplePatchInfo& patch : surface.patches) {
+            surface.mirrored.push_back(evaluation.mirroredFaces[patch.face]);
+        }
+    }
+}
+
 } // namespace
 
 Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
@@ -125,6 +142,7 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     Result<Evaluation> evaluation = readGroup(session, group);
     if (evaluation) {
         status = checkCage(*evaluation, character);
+        findMirrored(*evaluation, character.cage);
     }
     return status ? std::move(evaluation) : status.error();
 }

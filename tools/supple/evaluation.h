@@ -15,16 +15,27 @@ namespace supple::tools {
 struct EvaluatedSurface {
     host::GroupOutput output{};
     std::vector<SupplePatchInfo> patches;
+    std::vector<uint8_t> mirrored;     ///< per patch: 1 if the pose mirrors it (Evaluation::mirroredFaces)
     std::vector<std::byte> vertices;   ///< SUPPLE_VERTEX_24
     std::vector<std::byte> attributes; ///< these are empty where the group was made without
     std::vector<std::byte> uvs1;
     std::vector<std::byte> tangents;
     std::vector<std::byte> gridIndices;
     std::vector<std::byte> coefficients;
+
+    /// Of patch `patch` of a range, or of triangle `triangle` of a mesh of SUPPLE_SCHEME_POLYGONS, whose patches are
+    /// its triangles.
+    [[nodiscard]] bool isMirrored(const SuppleDrawRange& range, uint64_t patch, size_t triangle) const {
+        const bool mesh = range.domain == SUPPLE_DOMAIN_MESH;
+        return mirrored[mesh ? range.firstIndex / 3 + triangle : range.firstPatch + patch] != 0;
+    }
 };
 struct Evaluation {
     std::vector<EvaluatedSurface> surfaces; ///< one or more
     std::vector<std::byte> deformedCage;
+    /// Per face of the cage: 1 if the pose mirrors half of its vertices or more. Winding and normals of what the
+    /// device wrote show the inside of such a face as the outside.
+    std::vector<uint8_t> mirroredFaces;
 };
 
 /// The first floats of element `index` of a buffer that was read back.

@@ -272,6 +272,15 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     for (const cage::MorphTarget& target : character.morphs.targets) {
         json["morphTargets"].push_back({{"name", target.name}, {"vertices", target.vertices.size()}});
     }
+    json["expressions"] = Json::array();
+    for (const cage::Expression& expression : character.expressions) {
+        json["expressions"].push_back({{"name", expression.name}, {"morphTargets", expression.targets.size()}});
+    }
+    json["springs"] = Json::array();
+    for (const cage::Spring& spring : character.springBones.springs) {
+        json["springs"].push_back({{"name", spring.name}, {"joints", spring.joints.size()}});
+    }
+    json["springColliders"] = character.springBones.colliders.size();
     json["colors"] = !cage.cornerColors.empty();
     json["joints"] = character.skin.joints.size();
     json["mostInfluences"] = findings.mostInfluences;
@@ -352,6 +361,25 @@ void printLine(const char* label, const std::string& text) {
     std::printf("%-18s %s\n", label, printable(text).c_str());
 }
 
+/// What VRM files have besides.
+void printVrm(const cage::Character& character) {
+    if (!character.expressions.empty()) {
+        printLine("expressions", std::to_string(character.expressions.size()));
+    }
+    for (const cage::Expression& expression : character.expressions) {
+        printLine("", expression.name + "  " + std::to_string(expression.targets.size()) + " morph targets");
+    }
+    const cage::SpringBones& bones = character.springBones;
+    if (!bones.springs.empty()) {
+        printLine("spring bones", std::to_string(bones.springs.size()) + ", with " +
+                                      std::to_string(bones.colliders.size()) + " colliders; nothing moves by them");
+    }
+    for (const cage::Spring& spring : bones.springs) {
+        printLine("", (spring.name.empty() ? character.skeleton.nodes[spring.joints[0].node].name : spring.name) +
+                          "  " + std::to_string(spring.joints.size()) + " joints");
+    }
+}
+
 void printText(const InspectOptions& options, const Comparison& comparison) {
     const auto pose = [&] {
         char time[32];
@@ -417,6 +445,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("", "set " + cage::quoted(name) + ": " + std::to_string(edges) + (edges == 1 ? " edge" : " edges"));
     }
     printLine("morph targets", std::to_string(character.morphs.targets.size()));
+    printVrm(character);
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");
     printLine("clips", std::to_string(character.clips.size()));

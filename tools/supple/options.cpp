@@ -50,8 +50,12 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
     command.add_flag("--parts-apart", reading.partsApart, "Do not sew parts together where their boundaries coincide");
     command.add_flag("--vertices-apart", reading.verticesApart,
                      "Do not weld vertices of an OBJ file that lie in one place");
-    command.add_flag("--creases-from-normals", reading.creasesFromNormals,
-                     "Make edges hard creases where the normals of the file are split");
+    CLI::Option* const creases =
+        command.add_flag("--creases-from-normals", reading.creasesFromNormals,
+                         "Make all edges hard creases where the normals of the file are split. Without it this is done "
+                         "for parts of plain triangles of which some edges are split");
+    command.add_flag("--smooth", reading.smooth, "Make no edge a crease because its normals are split")
+        ->excludes(creases);
     command
         .add_option("--memory-limit", reading.memoryLimit,
                     "Most memory that reading a glTF file may take at a time; without it 16 MiB, and 64 bytes for each "
@@ -211,6 +215,9 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
     bindSettings(command, "--morph", morphs, host::parseMorph,
                  "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in "
                  "clips. May be given again",
+                 "NAME=WEIGHT");
+    bindSettings(command, "--expression", morphs, host::parseExpression,
+                 "Weight of an expression of a VRM file (supple inspect lists them), from 0 to 1. May be given again",
                  "NAME=WEIGHT");
 }
 

@@ -66,6 +66,7 @@ void addReading(Words& words, const host::ReadOptions& reading) {
     words.flag("--parts-apart", reading.partsApart);
     words.flag("--vertices-apart", reading.verticesApart);
     words.flag("--creases-from-normals", reading.creasesFromNormals);
+    words.flag("--smooth", reading.smooth);
     words.flag("--strict", reading.strict);
     if (reading.memoryLimit != 0)
         words.add("--memory-limit").add(std::to_string(reading.memoryLimit));
@@ -104,7 +105,8 @@ void addDraw(Words& words, const DrawOptions& draw) {
     for (const std::string& part : draw.parts)
         words.add("--part").add(part);
     for (const host::MorphSetting& morph : draw.morphs)
-        words.add("--morph").add(morph.target + formatted("=%.9g", double{morph.weight}));
+        words.add(morph.isExpression ? "--expression" : "--morph")
+            .add(morph.target + formatted("=%.9g", double{morph.weight}));
     words.option("--device", draw.device, usual.device);
     words.option("--mapping", draw.mapping, usual.mapping);
     addReading(words, draw.reading);

@@ -387,12 +387,16 @@ typedef enum SuppleAssetFlags {
     /** Plain triangles of a glTF file or of SupplePrimitiveDesc stay as they are. Not together with
        SUPPLE_ASSET_PAIR_QUADS. */
     SUPPLE_ASSET_KEEP_TRIANGLES = 8,
-    /** Edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth schemes
-     * keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are. */
+    /** All edges of a file or of arrays whose normals are split become hard creases (sharpness 10), so that smooth
+     * schemes keep the hard edges of the file. Edges of the boundary and corners without a normal are left as they are.
+     * Without this flag that is done for parts of plain triangles of which some edges are split (docs/gltf.md), and a
+     * warning says so. */
     SUPPLE_ASSET_CREASES_FROM_NORMALS = 16,
     /** Vertices of an OBJ file stay as they are. Without this flag, those of one part that lie in one place become one
      * vertex where faces meet edge by edge, and a warning counts them. Files of other kinds are not touched by it. */
-    SUPPLE_ASSET_VERTICES_APART = 32
+    SUPPLE_ASSET_VERTICES_APART = 32,
+    /** No edge becomes a crease because its normals are split. Not together with SUPPLE_ASSET_CREASES_FROM_NORMALS. */
+    SUPPLE_ASSET_SMOOTH = 64
 } SuppleAssetFlags;
 
 /** The content of a file, from the host's own file system. */
@@ -487,6 +491,7 @@ typedef struct SuppleAssetInfo {
      * and add copies behind all others: those who write the deformed cage themselves (SUPPLE_POSES_CAGE_BUFFER) put
      * vertex sourceVertices[i] in place i. */
     const uint32_t* sourceVertices;
+    uint32_t expressionCount;
 } SuppleAssetInfo;
 
 /** How the deformed cage becomes a surface. docs/schemes.md says which one to choose. */
@@ -569,6 +574,16 @@ typedef struct SuppleMorphTargetInfo {
     float weight;         /**< the weight that the file gives it */
     uint32_t vertexCount; /**< cage vertices that it moves */
 } SuppleMorphTargetInfo;
+
+/** An expression of a VRM file, such as "happy" or "blink": a named set of weights of morph targets. */
+typedef struct SuppleExpressionInfo {
+    uint32_t structSize;
+    const char* name;        /**< lives as long as the asset, as the lists do; never empty, and unlike all others */
+    uint32_t isBinary;       /**< 0 or 1: it is there or not. A weight above 0.5 counts as 1, any other as 0 */
+    uint32_t targetCount;    /**< may be 0: what it does besides, to materials, is not read */
+    const uint32_t* targets; /**< numbers of morph targets, rising */
+    const float* weights;    /**< one per target: its weight where the expression's is 1 */
+} SuppleExpressionInfo;
 
 /** Trimming: the surface exists where a channel of an image is at least a cutoff. The host's fragment shaders must test
  * this in every pass that draws the surface, shadows too. docs/trimming.md has the test as a GLSL include. */
@@ -749,6 +764,15 @@ SUPPLE_API SuppleResult suppleGetJointInfo(SuppleContext context, SuppleAsset as
 /** Fills out. Errors: target is not below morphTargetCount. */
 SUPPLE_API SuppleResult suppleGetMorphTargetInfo(SuppleContext context, SuppleAsset asset, uint32_t target,
                                                  SuppleMorphTargetInfo* out);
+/** Fills out. Expressions have the order of the file. Errors: expression is not below expressionCount. */
+SUPPLE_API SuppleResult suppleGetExpressionInfo(SuppleContext context, SuppleAsset asset, uint32_t expression,
+                                                SuppleExpressionInfo* out);
+/** Makes weights of morph targets of expressions, for suppleSetMorphWeights. weights has a weight per expression of the
+ * asset; it counts from 0 to 1. out has morphTargetCount weights and is filled: those that the file gives the targets,
+ * and what expressions add to each. As VRM 1.0 says, an expression may hold back those that blink, look or speak; their
+ * weights then count less, or not at all. Errors: a count is not the asset's, or a weight is not a number. */
+SUPPLE_API SuppleResult suppleFillExpressionWeights(SuppleContext context, SuppleAsset asset, const float* weights,
+                                                    uint32_t expressionCount, float* out, uint32_t morphTargetCount);
 /** Names the crease sets of an asset, at most SUPPLE_MAX_CREASE_SETS, for suppleSetSharpness. `out` has room for *count
  * names, which live as long as the asset, or is null. *count becomes the number of sets. SUPPLE_INCOMPLETE: there are
  * more than fit. */
@@ -997,8 +1021,9 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
- * determinant) reverses the winding and the normals: both then show the inside as the outside. Errors: not finite,
- * another last row, or the host fills the group's poses (SupplePoseSource). */
+ * determinant) reverses the winding and the normals: both then show the inside as the outside, as they do where joints
+ * mirror. SuppleGroupInfo.deformedCage says where. Errors: not finite, another last row, or the host fills the group's
+ * poses (SupplePoseSource). */
 SUPPLE_API SuppleResult suppleSetTransform(SuppleContext context, SuppleInstance instance, const float* transform);
 /** Sets the translation of an instance's transform alone, with the precision that large worlds need. position: three
  * doubles. The next suppleSetTransform replaces it. Errors: as suppleSetTransform. */
@@ -1243,7 +1268,10 @@ typedef struct SuppleGroupInfo {
     uint32_t capacity;                /**< instances that it has room for */
     uint32_t cageVertexCount;         /**< per instance */
     uint32_t cageVerticesPerInstance; /**< >= cageVertexCount: the stride of deformedCage between slots */
-    /** float4 (x, y, z, 1) per cage vertex: slot * cageVerticesPerInstance + vertex. */
+    /** float4 (x, y, z, side) per cage vertex: slot * cageVerticesPerInstance + vertex. side is -1 if the joint that
+     * moves the vertex most mirrors it (the determinant of its matrix in `poses`, with the transform, is negative),
+     * else 1. docs/integration.md says what hosts do with it. With SUPPLE_POSES_CAGE_BUFFER the host writes 1, or -1
+     * where it mirrors: SUPPLE_SCHEME_POLYGONS reads it. */
     SuppleBufferRange deformedCage;
     /** Per slot (stride bytes): per joint three rows of four floats, the 3x4 matrix transform * joint * inverse bind,
      * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With
@@ -1321,8 +1349,8 @@ typedef struct SuppleVertexStreams {
      * of the frame in the highest bit, 1 if it is -1. suppleTangent in supple_surface.glsl decodes it, and
      * docs/tangents.md says where tangents point: as the normal map of the face's material lies (its uvSet, rotation
      * and scale), or the first UV set if it has none. The bitangent is w * cross(normal, tangent), for a normal map
-     * whose green points up in the picture, as in glTF. w is the same all over a face. A transform that mirrors
-     * (suppleSetTransform) keeps w: negate it. */
+     * whose green points up in the picture, as in glTF. w is the same all over a face. Where a pose or a transform
+     * mirrors, w belongs to the normal that the vertex has. Hosts that turn that normal round negate w. */
     SuppleBufferRange tangents;
 } SuppleVertexStreams;
 
@@ -1333,8 +1361,8 @@ SUPPLE_API SuppleResult suppleGetVertexStreams(SuppleContext context, SuppleGrou
 /** The shape that a patch is sampled over. R is the rate. Samples are numbered row by row, from 0. Corner i of the
  * patch is corner i of the domain. Triangles of all domains are counter-clockwise seen from outside, in the space of
  * the surface vertices, and their normals point outside, as the faces of the cage do: in Vulkan that is
- * VK_FRONT_FACE_COUNTER_CLOCKWISE, if the projection shows the world unmirrored. A mirroring transform reverses both
- * (suppleSetTransform).
+ * VK_FRONT_FACE_COUNTER_CLOCKWISE, if the projection shows the world unmirrored. Where a pose or a transform mirrors,
+ * both are reversed (SuppleGroupInfo.deformedCage).
  * - QUAD: (R+1)^2 samples. Sample (i, j) is number j (R+1) + i. u = i/R runs from corner 0 to 1, v = j/R from corner 0
  *   to 3.
  * - POLAR: the same samples. The row j = R is one point, corner 2.

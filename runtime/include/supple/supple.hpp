@@ -385,6 +385,15 @@ public:
         out = sized<SuppleMorphTargetInfo>();
         return suppleGetMorphTargetInfo(context_, handle_, target, &out);
     }
+    [[nodiscard]] SuppleResult expressionInfo(uint32_t expression, SuppleExpressionInfo& out) const {
+        out = sized<SuppleExpressionInfo>();
+        return suppleGetExpressionInfo(context_, handle_, expression, &out);
+    }
+    /// One weight per expression; weights of all morph targets.
+    [[nodiscard]] SuppleResult fillExpressionWeights(Span<const float> weights, Span<float> out) const {
+        return suppleFillExpressionWeights(context_, handle_, weights.data(), static_cast<uint32_t>(weights.size()),
+                                           out.data(), static_cast<uint32_t>(out.size()));
+    }
     [[nodiscard]] SuppleResult materialInfo(uint32_t material, SuppleMaterialInfo& out) const {
         out = sized<SuppleMaterialInfo>();
         return suppleGetMaterialInfo(context_, handle_, material, &out);

@@ -80,6 +80,56 @@ TEST(RepairFaces, RepeatedVerticesCutAFace) {
     EXPECT_EQ(marksOf(r.cage), (Indices{0, 1, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14, 15, 16, 17}));
 }
 
+/// Twice the area that the faces have in the xy plane.
+double areaOf(const Cage& cage) {
+    double area = 0.0;
+    for (uint32_t f = 0; f < cage.faceCount(); ++f) {
+        for (uint32_t c = cage.faceStarts[f]; c < cage.faceStarts[f + 1]; ++c) {
+            const glm::vec3 a = cage.positions[cage.faceVertices[c]];
+            const glm::vec3 b =
+                cage.positions[cage.faceVertices[c + 1 < cage.faceStarts[f + 1] ? c + 1 : cage.faceStarts[f]]];
+            area += double{a.x} * b.y - double{a.y} * b.x;
+        }
+    }
+    return area;
+}
+
+/// Two squares of side 4 beside each other, and a square of side 2 in the middle of the first.
+const std::vector<glm::vec3> kSquares{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {1, 1, 0}, {3, 1, 0},
+                                      {3, 3, 0}, {1, 3, 0}, {6, 0, 0}, {9, 0, 0}, {9, 4, 0}, {6, 4, 0}};
+
+TEST(RepairFaces, AFaceThatGoesRoundAHoleBecomesARing) {
+    // Along the square, over the bridge from 0 to 4, round the hole and back; once with a spike at 2.
+    for (const std::vector<uint32_t>& face :
+         Faces{{0, 1, 2, 3, 0, 4, 7, 6, 5, 4}, {5, 4, 0, 1, 2, 8, 2, 3, 0, 4, 7, 6}}) {
+        Cage cage = supple::test::makeCage(kSquares, {face});
+        const Repaired r = repaired(withMarkedCorners(cage));
+        ASSERT_EQ(r.found.size(), 2u) << "and vertices without a face";
+        EXPECT_EQ(r.found[1], "cage: 1 face goes round a hole over a bridge: face 0");
+        EXPECT_EQ(r.repairs[1], "cut into quads and triangles round it");
+        EXPECT_EQ(r.cage.faceCount(), 4u);
+        EXPECT_EQ(r.cage.cornerCount(), 16u) << "quads";
+        EXPECT_EQ(r.cage.vertexCount(), 8u);
+        EXPECT_EQ(areaOf(r.cage), 2.0 * (16 - 4));
+        const Result<Topology> topology = buildTopology(r.cage);
+        ASSERT_TRUE(topology.ok());
+        EXPECT_EQ(topology->edges.size(), 12u) << "one piece with one hole";
+    }
+}
+
+TEST(RepairFaces, OnlyHolesMakeRings) {
+    // Two squares with a bridge between them; a square whose hole would lie outside of it; a hole that turns as the
+    // face.
+    for (const std::vector<uint32_t>& face :
+         Faces{{0, 1, 8, 9, 10, 11, 8, 1, 2, 3}, {0, 1, 8, 11, 10, 9, 8, 1, 2, 3}, {0, 1, 2, 3, 0, 4, 5, 6, 7, 4}}) {
+        Cage cage = supple::test::makeCage(kSquares, {face});
+        const Repaired r = repaired(withMarkedCorners(cage));
+        ASSERT_GE(r.found.size(), 2u) << "and vertices without a face";
+        EXPECT_EQ(r.found[1], "cage: 1 face passes a vertex twice: face 0");
+        EXPECT_EQ(r.cage.faceCount(), 2u);
+    }
+}
+
 TEST(RepairFaces, DuplicatesAreLeftOut) {
     // Once more, begun elsewhere, and turned round; the same vertices in another order are another face.
     Faces polygons = facesOf(supple::test::cube());
