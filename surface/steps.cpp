@@ -64,22 +64,34 @@ uint32_t samplesOf(const ProgramBuilder& builder, PatchClass patchClass) {
 bool isAtOwnRate(const ProgramBuilder& builder) {
     return builder.evaluation.rate == builder.options.rate;
 }
-/// Wide mapping: there is a kernel at the group's own rate whose lanes take a whole patch each (evaluate/bicubic.comp).
+/// Lanes that share a patch where a lane takes as much of it as it can.
+uint32_t lanesOfPatch(PatchClass patchClass) {
+    const PatchClassRow& row = rowOf(patchClass);
+    if (!row.hasSectors()) {
+        return 1;
+    }
+    return row.domain == Domain::triangle ? 3 : row.domain == Domain::quad ? 4 : 5;
+}
+/// Wide mapping: there is a kernel at the group's own rate whose lanes take a whole patch each (evaluate/bicubic.comp,
+/// loop/evaluate.comp, blend/evaluate.comp), or a sector (pm/evaluate.comp).
 bool hasLanePatch(const ProgramBuilder& builder, PatchClass patchClass, uint32_t format) {
     const uint32_t rate = builder.options.rate;
-    return builder.device.mapping.wide && patchClass == PatchClass::regular && format == kVertex16 && rate > 0 &&
-           rate <= kMaxLanePatchRate;
+    const PatchClassRow& row = rowOf(patchClass);
+    return builder.device.mapping.wide &&
+           (row.isBicubic() || row.hasSectors() || row.borders == Borders::splines || row.borders == Borders::charts) &&
+           format == kVertex16 && rate > 0 && rate <= kMaxLanePatchRate;
 }
 /// It is chosen where a group that is full has work for all lanes of the device.
 bool prefersLanePatch(const ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
     return hasLanePatch(builder, range.patchClass, format) &&
-           uint64_t{range.section.count} * builder.options.instances >= builder.device.mapping.lanesToFill;
+           uint64_t{range.section.count} * lanesOfPatch(range.patchClass) * builder.options.instances >=
+               builder.device.mapping.lanesToFill;
 }
 
 /// Patches a workgroup takes in the wide mapping.
 uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
     if (isAtOwnRate(builder) && prefersLanePatch(builder, range, format)) {
-        return kPatchLanes;
+        return kPatchLanes / lanesOfPatch(range.patchClass);
     }
     const PatchClassRow& row = rowOf(range.patchClass);
     const uint32_t lanes = builder.device.mapping.localSize, rate = builder.evaluation.rate;
@@ -97,7 +109,10 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                            bool lanePatch) {
     const bool indexed = builder.tables.hasIndexedMesh();
     const std::string name = (indexed ? "supple evaluate inside, " : "supple evaluate, ") +
-                             std::string(className(patchClass)) + (lanePatch ? ", a lane a patch" : "");
+                             std::string(className(patchClass)) +
+                             (!lanePatch                      ? ""
+                              : lanesOfPatch(patchClass) == 1 ? ", a lane a patch"
+                                                              : ", a lane a sector");
     return builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
                           {{kKindConstant, static_cast<uint32_t>(patchClass)},
                            {kVertexFormatConstant, format},

@@ -17,6 +17,7 @@ const uint kForm = kLodQuadForm;
 const uint kParts = 4u * kChartCoefficients; // coefficients
 #ifndef LEVELS
 #define CHOOSES_WIDE
+#define LANE_PATCH
 #endif
 #include "shaders/evaluate/harness.glsl"
 
@@ -32,7 +33,7 @@ Along alongOf(vec2 pair) {
     return Along(pair.x, pair.y, eta.x, hermite(pair.y).x, eta.y);
 }
 
-#ifndef WIDE
+#if !defined(WIDE) || !defined(LEVELS)
 Corner[4] loadCorners(const PatchPlace at) {
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
@@ -179,13 +180,14 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
 }
 
 #endif
-#else
+#endif
+#ifdef WIDE
 
 const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighbouring faces in different banks
 #ifdef LEVELS
 shared vec4 localElements[kMaxPatchesPerGroup * kLocalStride];
 #else
-shared vec4 localElements[kRegular ? SUPPLE_WIDE_ELEMENTS(kVertexFormat) : kMaxPatchesPerGroup * kLocalStride];
+shared vec4 localElements[kLanePatch ? 1u : kRegular ? SUPPLE_WIDE_ELEMENTS(kVertexFormat) : kMaxPatchesPerGroup * kLocalStride];
 #endif
 
 void loadCoefficient(uint place, const PatchPlace at, uint c) {
@@ -276,7 +278,8 @@ const bool kHasRows = kRegular, kInterior = false;
 #include "shaders/evaluate/wide_rows.glsl"
 
 void evaluateWide() {
-    if (kRegular) evaluateWideRows();
+    if (kLanePatch) evaluateLanePatch();
+    else if (kRegular) evaluateWideRows();
     else evaluateWideSamples();
 }
 #endif

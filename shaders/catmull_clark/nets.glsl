@@ -53,18 +53,27 @@ IrregularQuad turnedQuad(IrregularQuad quad, uint corner) {
                          (flags >> corner | flags << (4u - corner)) << kCubicSide, quad.first, turned(quad.normals, corner));
 }
 
+// The same, as offsets from its middle.
+struct NetOffsets {
+    vec3 middle, p[kNetPoints];
+};
+NetOffsets offsetsOf(Net net) {
+    NetOffsets offsets;
+    offsets.middle = net.p[kNetMiddle];
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) offsets.p[k] = offsetFrom(net.p[kNetMiddle], net.p[k]);
+    return offsets;
+}
+
 // All columns of a net at one y, in the lower or the upper cells; from the net's middle.
 struct NetRow {
     vec3 point[kNetSide], slope[kNetSide];
 };
-NetRow netRow(Net net, bool upper, LeafWeights y) {
+NetRow netRow(NetOffsets net, bool upper, LeafWeights y) {
     NetRow row;
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
         vec3 p[4];
-        [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            p[j] = offsetFrom(net.p[kNetMiddle], SELECT3(upper, net.p[kNetSide * (j + 1u) + i], net.p[kNetSide * j + i]));
-        }
-        row.point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
+        [[unroll]] for (uint j = 0u; j < 4u; ++j) p[j] = SELECT3(upper, net.p[kNetSide * (j + 1u) + i], net.p[kNetSide * j + i]);
+        row.point[i] = sumInside(y.w, p[0], p[1], p[2], p[3]);
         row.slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
     }
     return row;
@@ -81,7 +90,7 @@ CellRow cellRow(NetRow row, bool right) {
     }
     return cell;
 }
-vec3 rowPoint(CellRow row, vec4 w) { return sum4(w, row.point[0], row.point[1], row.point[2], row.point[3]); }
+vec3 rowPoint(CellRow row, vec4 w) { return sumInside(w, row.point[0], row.point[1], row.point[2], row.point[3]); }
 vec3 rowAlongX(CellRow row, vec4 d) { return blend4(d, row.point[0], row.point[1], row.point[2], row.point[3]); }
 vec3 rowAlongY(CellRow row, vec4 w) { return blend4(w, row.slope[0], row.slope[1], row.slope[2], row.slope[3]); }
 vec3 rowAlongX(NetRow row, bool right, vec4 d) { return rowAlongX(cellRow(row, right), d); }
@@ -152,7 +161,7 @@ void storeInQuarter(const PatchPlace at, bool own, uint corner, uint a, uint b, 
 // A quarter without a chain: of the quad's own net, turned.
 struct OwnQuarter {
     IrregularQuad quad;
-    Net net;
+    NetOffsets net;
     Half first, second; // of the two edges
     QuarterPlace place;
     vec3 limit;
@@ -200,7 +209,7 @@ void storeOwnQuarter(const PatchPlace at, OwnQuarter q, bool onA, bool onB) {
                 do {
                     vec2 pair = pairOf(alongA, a);
                     LeafWeights x = ownAlong(q, pair.x);
-                    vec3 position = placed(vec3(0.0), q.net.p[kNetMiddle], rowPoint(cellRow(row, false), x.w));
+                    vec3 position = placed(vec3(0.0), q.net.middle, rowPoint(cellRow(row, false), x.w));
                     position = orLimit(q.limit, max(pair.x, across.x), position);
                     storeInQuarter(at, own && a < q.place.countA, corner, a, b, position, rowAlongX(row, false, x.d), rowAlongY(row, false, x.w));
                 } while (++a < q.place.countA);
@@ -217,7 +226,7 @@ void storeOwnQuarter(const PatchPlace at, OwnQuarter q, bool onA, bool onB) {
 OwnQuarter ownQuarter(const PatchPlace at, IrregularQuad quad, Net net, uint corner) {
     OwnQuarter q;
     q.quad = quad;
-    q.net = net;
+    q.net = offsetsOf(net);
     q.place = quarterPlace(corner);
     q.limit = poolPoint(at, quad.points.x);
     q.own = !kChains || !hasChain(quad, 0u);
@@ -276,7 +285,7 @@ Half chainLine(Net net, uint along, uint across, float share) {
 
 // What a level of a chain has, and which samples are its own: from `first` to before `end`.
 struct ChainLevel {
-    Net net;
+    NetOffsets net;
     Half lineA, lineB;
     float scale, sharpA, sharpB;
     uint firstA, endA, firstB, endB;
@@ -327,7 +336,7 @@ void storeInLevel(const PatchPlace at, Quarter q, ChainLevel l, NetRow row, bool
     bool right = a >= l.firstA;
     LeafWeights x = chainWeights(right, parameterOf(l, pairOf(q.place.corner & 1u, a).x), l.sharpB);
     CellRow cell = cellRow(row, right);
-    vec3 position = placed(q.origin, l.net.p[kNetMiddle], rowPoint(cell, x.w));
+    vec3 position = placed(q.origin, l.net.middle, rowPoint(cell, x.w));
     Frame frame = turnedFrame(q.place.corner, rowAlongX(cell, x.d), rowAlongY(cell, x.w));
     uvec2 place = placeInQuad(q.place.corner, a, b);
     store(at, own && a < l.endA, place.x, place.y, position, frame);
@@ -362,11 +371,12 @@ void storeAlongB(const PatchPlace at, Quarter q, ChainLevel l, uint pattern) {
 ChainLevel chainLevel(const PatchPlace at, IrregularQuad quad, Quarter q, uint level, uint endA, uint endB) {
     uint corner = q.place.corner, before = (corner + 3u) & 3u;
     ChainLevel l;
-    l.net = chainNet(at, q.chain, level);
+    Net net = chainNet(at, q.chain, level);
+    l.net = offsetsOf(net);
     l.scale = powerOfTwo(float(level));
     l.sharpA = sharpnessOf(quad, corner, level), l.sharpB = sharpnessOf(quad, before, level);
-    l.lineA = chainLine(l.net, 1u, kNetSide, besideLine(l.sharpA));
-    l.lineB = chainLine(l.net, kNetSide, 1u, besideLine(l.sharpB));
+    l.lineA = chainLine(net, 1u, kNetSide, besideLine(l.sharpA));
+    l.lineB = chainLine(net, kNetSide, 1u, besideLine(l.sharpB));
     l.endA = endA, l.endB = endB;
     l.firstA = firstOfLevel(corner & 1u, endA, level);
     l.firstB = firstOfLevel(1u - (corner & 1u), endB, level);
@@ -398,7 +408,7 @@ void storeInCone(const PatchPlace at, Quarter q, ChainLevel l, uvec2 end) {
     precise float inX = right ? 1.0 : a / far, inY = upper ? 1.0 : b / far;
     LeafWeights x = chainWeights(right, inX, l.sharpB), y = chainWeights(upper, inY, l.sharpA);
     CellRow cell = cellRow(netRow(l.net, upper, y), right);
-    storeOnCone(at, q, uvec2(1u), end, parameterOf(l, far), placed(q.origin, l.net.p[kNetMiddle], rowPoint(cell, x.w)),
+    storeOnCone(at, q, uvec2(1u), end, parameterOf(l, far), placed(q.origin, l.net.middle, rowPoint(cell, x.w)),
                 turnedFrame(q.place.corner, rowAlongX(cell, x.d), rowAlongY(cell, x.w)));
 }
 // `row`: of the first edge; `end`: of the samples on the two edges.

@@ -83,10 +83,10 @@ Leaf leafAt(const PatchPlace at, NetSource net, bool secondX, bool secondY, Leaf
             precise vec3 d = sourcePoint(at, net, begin + kNetSide * j + i) - first;
             p[j] = d;
         }
-        point[i] = sum4(y.w, p[0], p[1], p[2], p[3]);
+        point[i] = sumInside(y.w, p[0], p[1], p[2], p[3]);
         slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
     }
-    return Leaf(first, sum4(x.w, point[0], point[1], point[2], point[3]), blend4(x.d, point[0], point[1], point[2], point[3]),
+    return Leaf(first, sumInside(x.w, point[0], point[1], point[2], point[3]), blend4(x.d, point[0], point[1], point[2], point[3]),
                 blend4(x.w, slope[0], slope[1], slope[2], slope[3]));
 }
 

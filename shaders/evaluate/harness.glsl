@@ -9,6 +9,8 @@
 //   kParts            wide mapping: parts per patch
 //   OWN_WIDE          a macro, if its own evaluateWide() is faster than evaluateWideSamples()
 //   CHOOSES_WIDE      a macro, if its own evaluateWide() chooses between that and another way
+//   LANE_PATCH        a macro, if evaluatePatch() is there in the wide mapping, too: where a rate has patches enough for all lanes of a
+//                     GPU (kLanePatch), a lane takes one, and workgroups have kPatchLanes lanes
 // and behind it the functions that are declared here.
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/todays_pool.glsl"
@@ -82,6 +84,14 @@ Share shareOfGroup() {
 #endif
 
 void evaluateWide();
+#ifdef LANE_PATCH
+layout(constant_id = kLanePatchConstant) const bool kLanePatch = false;
+void evaluatePatch(const PatchPlace at);
+void evaluateLanePatch() {
+    Share share = shareOfGroup();
+    if (gl_LocalInvocationID.x < share.count) evaluatePatch(PATCH_IN_PLACE(share, gl_LocalInvocationID.x));
+}
+#endif
 #ifndef OWN_WIDE
 void loadPart(uint to, const PatchPlace at, uint part); // a part of a patch into part `to` of the workgroup's memory
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame);
@@ -104,7 +114,15 @@ void evaluateWideSamples() {
     }
 }
 #ifndef CHOOSES_WIDE
-void evaluateWide() { evaluateWideSamples(); }
+void evaluateWide() {
+#ifdef LANE_PATCH
+    if (kLanePatch) {
+        evaluateLanePatch();
+        return;
+    }
+#endif
+    evaluateWideSamples();
+}
 #endif
 #endif
 

@@ -138,16 +138,36 @@ Row borderRow(Patch c, bool isTop) {
 }
 
 // The perturbation is added to the bicubic total last.
+vec3 perturbed(Row row, Basis5 b5, vec3 position) {
+    precise vec3 h = sum2(b5.inner, row.inner[0], row.inner[1]) +
+                     sum4(b5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
+    return placed(position, h);
+}
 void perturb(Row row, vec2 u, inout vec3 position, inout vec3 du, inout vec3 dv) {
     if (!kPerturbed) return;
     Basis5 b5 = bernstein5(u), d5 = bernsteinDerivative5(u);
-    precise vec3 h = sum2(b5.inner, row.inner[0], row.inner[1]) +
-                     sum4(b5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
-    position = placed(position, h);
+    position = perturbed(row, b5, position);
     du += blend2(d5.inner, row.inner[0], row.inner[1]) +
           blend4(d5.outer, row.outer[0], row.outer[1], row.outer[2], row.outer[3]);
     dv += blend2(b5.inner, row.innerV[0], row.innerV[1]) +
           blend4(b5.outer, row.outerV[0], row.outerV[1], row.outerV[2], row.outerV[3]);
+}
+
+// Halves of a row's perturbation, for derivatives: of h_0 and h_5, h_1 and h_4, h_2 and h_3.
+struct PerturbationHalves {
+    vec3 even[3], odd[3];
+};
+PerturbationHalves perturbationHalves(vec3 outer[4], vec3 inner[2]) {
+    return PerturbationHalves(vec3[3](outer[0] + outer[3], outer[1] + outer[2], inner[0] + inner[1]),
+                              vec3[3](outer[3] - outer[0], outer[2] - outer[1], inner[1] - inner[0]));
+}
+vec3 evenPerturbation(Basis5 b, PerturbationHalves h) {
+    return 0.5 * (b.outer.x + b.outer.w) * h.even[0] + 0.5 * (b.outer.y + b.outer.z) * h.even[1] +
+           0.5 * (b.inner.x + b.inner.y) * h.even[2];
+}
+vec3 oddPerturbation(Basis5 b, PerturbationHalves h) {
+    return 0.5 * (b.outer.w - b.outer.x) * h.odd[0] + 0.5 * (b.outer.z - b.outer.y) * h.odd[1] +
+           0.5 * (b.inner.y - b.inner.x) * h.odd[2];
 }
 
 // Halves of a row inside the patch: sums and differences of what is mirrored.
@@ -161,10 +181,13 @@ PointHalves pointHalves(Row row) {
 struct SlopeHalves {
     vec3 evenV[2], oddV[2];
     vec3 evenU, middleU, oddU;
+    PerturbationHalves point, slope;
 };
 SlopeHalves slopeHalves(Row row) {
+    PerturbationHalves point, slope;
+    if (kPerturbed) point = perturbationHalves(row.outer, row.inner), slope = perturbationHalves(row.outerV, row.innerV);
     return SlopeHalves(vec3[2](row.gv[0] + row.gv[3], row.gv[1] + row.gv[2]), vec3[2](row.gv[3] - row.gv[0], row.gv[2] - row.gv[1]),
-                       row.gu[0] + row.gu[2], row.gu[1], row.gu[2] - row.gu[0]);
+                       row.gu[0] + row.gu[2], row.gu[1], row.gu[2] - row.gu[0], point, slope);
 }
 
 // Their weights, of Bernstein weights. At the swapped pair the even ones are the same, and the odd ones have the other sign.
@@ -228,9 +251,15 @@ void mirroredSamples(Row row, PointHalves h, SlopeHalves s, vec2 u, bool isInsid
     }
     vec3 evenU = fma(vec3(0.5 * (d.x + d.z)), s.evenU, d.y * s.middleU), oddU = 0.5 * (d.z - d.x) * s.oddU;
     vec3 evenV = fma(vec3(even.x), s.evenV[0], even.y * s.evenV[1]), oddV = fma(vec3(odd.x), s.oddV[0], odd.y * s.oddV[1]);
+    if (kPerturbed) {
+        Basis5 b5 = bernstein5(u), d5 = bernsteinDerivative5(u);
+        p = perturbed(row, b5, p);
+        q = perturbed(row, bernstein5(u.yx), q);
+        // The derivative's weights have the other sign at the swapped pair.
+        oddU += evenPerturbation(d5, s.point), evenU += oddPerturbation(d5, s.point);
+        evenV += evenPerturbation(b5, s.slope), oddV += oddPerturbation(b5, s.slope);
+    }
     vec3 du = evenU + oddU, dv = evenV + oddV, farU = evenU - oddU, farV = evenV - oddV;
-    perturb(row, u, p, du, dv);
-    perturb(row, u.yx, q, farU, farV);
     position = p;
     frame = frameOf(du, dv);
     farPosition = q;

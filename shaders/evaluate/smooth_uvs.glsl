@@ -112,7 +112,7 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     bool singular = at.corner && (c.singular >> at.sector & 1u) != 0u;
     vec3 position;
     Frame frame;
-    finishInside(s, singular ? kSingularWeights : at.weights, position, frame);
+    finishInside(cubicsOf(halvesOf(s)), singular ? kSingularWeights : at.weights, position, frame);
     if (at.weights.z == 1.0) position = c.centre;
     if (at.border) position = borderPosition(bernstein3(at.along), s.border);
     return smoothUv(position, frame);

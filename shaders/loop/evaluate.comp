@@ -1,12 +1,15 @@
 // Evaluates Loop patches (docs/loop.md): every sample is that of a leaf.
 //
-// Narrow mapping: leaf by leaf, first what lies inside of it, then what lies on its sides. Wide mapping, and irregular triangles at
-// levels: sample by sample.
+// Narrow mapping, and the wide one where a rate has patches enough for all lanes of a GPU (kLanePatch): a lane a triangle, leaf by leaf,
+// first what lies inside of it, then what lies on its sides. Else the wide mapping, and irregular triangles at levels: sample by sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
+#ifndef LEVELS
+#define LANE_PATCH
+#endif
 #include "shaders/surface/tables.glsl"
 #include "shaders/shared/chains.h"
 #include "shaders/shared/lod.h"
@@ -27,7 +30,10 @@ vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at
 #endif
 
 #ifdef WIDE
-shared vec4 localPoints[kMaxPatchesPerGroup * kParts];
+#ifdef LEVELS
+const bool kLanePatch = false;
+#endif
+shared vec4 localPoints[kLanePatch ? 1u : kMaxPatchesPerGroup * kParts];
 uint localPlace; // of the lane's patch
 
 vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
@@ -68,7 +74,8 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
     frame = ofSector(frame);
 #endif
 }
-#elif defined(LEVELS)
+#endif
+#if !defined(WIDE) && defined(LEVELS)
 void evaluatePatch(const PatchPlace at, uint lodRecord) {
     Triangle t = triangleOf(at.record, kIrregular);
     uint last = at.capacity, rings = (last + 1u) / 2u;
@@ -97,7 +104,8 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         } while (++ring < rings);
     } while (++sector < 3u);
 }
-#else
+#endif
+#ifndef LEVELS
 uint last; // segments along a side
 
 vec2 pairOf(uint k) { return parameterPair(k, last); }
