@@ -69,7 +69,6 @@ TEST_F(LanePatches, OfPm) {
             compare(zoo.cage, SUPPLE_SCHEME_PM, 4, 0);
         } else if (zoo.name == "fan over quads 5, hard ring" || zoo.name == "fan over pentagons 5, hard ring") {
             compare(zoo.cage, SUPPLE_SCHEME_PM, 9, kMesh);
-            compare(zoo.cage, SUPPLE_SCHEME_PM, 4, 0);
         }
     }
     expectClasses(5);
@@ -85,7 +84,7 @@ TEST_F(LanePatches, OfPrep) {
 TEST_F(LanePatches, OfLoopAndBlend) {
     const ValidationGuard guard;
     const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
-    for (size_t z = 0; z < zoo.size(); z += 24) {
+    for (size_t z = 0; z < zoo.size(); z += 48) {
         compare(zoo[z].cage, SUPPLE_SCHEME_LOOP, 4, z == 0 ? kMesh : 0);
         compare(zoo[z].cage, SUPPLE_SCHEME_BLEND, 3, 0);
     }
