@@ -16,8 +16,6 @@
 namespace supple::test {
 namespace {
 
-using surface::loop::LimitSurface;
-
 GpuOptions loopOptions(SuppleMapping mapping, uint32_t rate) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_LOOP;
@@ -41,7 +39,7 @@ protected:
         gpu.evaluate();
         ASSERT_EQ(gpu.output().grid.rate, rate);
         const std::vector<glm::dvec3> positions = doublePositions(cage);
-        const LimitSurface limit(triangles.isolation.mesh, positions);
+        const surface::loop::LimitSurface limit(triangles.isolation.mesh, positions);
         const PatchFaces found = triangles.patches(gpu.patches());
         ASSERT_EQ(found.faces.size(), gpu.patches().size());
         const double size = extent(positions);

@@ -4,6 +4,7 @@
 #include "runtime/played_bounds.h"
 #include "skinning/joints.h"
 #include "skinning/played_pose.h"
+#include "tests/support/boxes.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
@@ -33,13 +34,11 @@ cage::Character walker() {
     return tube;
 }
 
-skinning::Box boxOf(const std::vector<glm::dvec3>& points, const glm::dmat4& place) {
-    skinning::Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
-    for (const glm::dvec3& p : points) {
-        const glm::dvec3 at(place * glm::dvec4(p, 1.0));
-        box = {glm::min(box.low, at), glm::max(box.high, at)};
+std::vector<glm::dvec3> moved(std::vector<glm::dvec3> points, const glm::dmat4& place) {
+    for (glm::dvec3& p : points) {
+        p = glm::dvec3(place * glm::dvec4(p, 1.0));
     }
-    return box;
+    return points;
 }
 
 TEST(PlayedBounds, HoldWhatPlays) {
@@ -71,11 +70,10 @@ TEST(PlayedBounds, HoldWhatPlays) {
         std::vector<skinning::Affine> palette(tube.skin.joints.size());
         skinning::jointPalette(tube.skin, memory.nodes, glm::mat4(1.0f), palette);
         const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
-        const skinning::Box own =
-            boxOf(skinning::deformOnCpu(skinning::morphOnCpu(tube.cage, tube.morphs, weights), tube.weights, palette),
-                  skinning::toMatrix(skinning::traveledBy(tube, desc, time)));
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(box->low, own.low)));
-        EXPECT_TRUE(glm::all(glm::greaterThanEqual(box->high, own.high)));
+        const skinning::Box own = boxAround(
+            moved(skinning::deformOnCpu(skinning::morphOnCpu(tube.cage, tube.morphs, weights), tube.weights, palette),
+                  skinning::toMatrix(skinning::traveledBy(tube, desc, time))));
+        EXPECT_TRUE(holds(*box, own));
         EXPECT_LT(glm::length(box->high - box->low), 150.0) << "it travels along, whatever the time";
         ++held;
     }
@@ -87,9 +85,7 @@ TEST(PlayedBounds, HoldWhatPlays) {
     const float weight = 3.0f;
     const auto bind = bounds.of(0, 0.0, reach, {&weight, 1});
     ASSERT_TRUE(bind.has_value());
-    const skinning::Box morphed = boxOf(skinning::morphOnCpu(tube.cage, tube.morphs, {&weight, 1}), glm::dmat4(1.0));
-    EXPECT_TRUE(glm::all(glm::lessThanEqual(bind->low, morphed.low)));
-    EXPECT_TRUE(glm::all(glm::greaterThanEqual(bind->high, morphed.high)));
+    EXPECT_TRUE(holds(*bind, boxAround(skinning::morphOnCpu(tube.cage, tube.morphs, {&weight, 1}))));
 }
 
 /// The corners of all triangles that are drawn, sorted: places come in any order.

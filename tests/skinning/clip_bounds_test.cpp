@@ -4,6 +4,7 @@
 #include "cage/gltf/reader.h"
 #include "skinning/chord.h"
 #include "skinning/pose.h"
+#include "tests/support/boxes.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
@@ -23,14 +24,9 @@ using cage::ChannelPath;
 using cage::Character;
 using cage::Clip;
 using cage::Interpolation;
-
-Box boxAround(const std::vector<glm::dvec3>& points) {
-    Box box{points.at(0), points.at(0)};
-    for (const glm::dvec3& p : points) {
-        box = {glm::min(box.low, p), glm::max(box.high, p)};
-    }
-    return box;
-}
+using test::boxAround;
+using test::diagonal;
+using test::holds;
 
 std::vector<glm::dvec3> posed(const Character& character, const Pose& pose, bool dualQuaternions) {
     if (!dualQuaternions) {
@@ -67,15 +63,6 @@ Box sampledBox(const Character& character, const Clip& clip, size_t count, bool 
         box = k == 0 ? own : Box{glm::min(box.low, own.low), glm::max(box.high, own.high)};
     }
     return box;
-}
-
-bool holds(const Box& outer, const Box& inner) {
-    return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
-           glm::all(glm::greaterThanEqual(outer.high, inner.high));
-}
-
-double diagonal(const Box& box) {
-    return glm::length(box.high - box.low);
 }
 
 /// Checks the box of a clip against samples; the ratio of the diagonals.

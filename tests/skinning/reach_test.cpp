@@ -3,6 +3,7 @@
 
 #include "cage/gltf/reader.h"
 #include "skinning/played_pose.h"
+#include "tests/support/boxes.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
@@ -18,23 +19,9 @@ namespace {
 
 using cage::ChannelPath;
 using cage::Character;
-
-Box boxOf(const std::vector<glm::dvec3>& points) {
-    Box box{points.at(0), points.at(0)};
-    for (const glm::dvec3& p : points) {
-        box = {glm::min(box.low, p), glm::max(box.high, p)};
-    }
-    return box;
-}
-
-bool holds(const Box& outer, const Box& inner) {
-    return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
-           glm::all(glm::greaterThanEqual(outer.high, inner.high));
-}
-
-double diagonal(const Box& box) {
-    return glm::length(box.high - box.low);
-}
+using test::boxAround;
+using test::diagonal;
+using test::holds;
 
 /// A pose of one to three layers at random times and weights, with masks that let some joints through.
 void mixedPose(const Character& character, const Rig& rig, test::Noise& noise, PoseMemory& memory) {
@@ -71,17 +58,17 @@ TEST(Reach, HoldsEveryMixOfClips) {
         PoseMemory memory(*character);
         std::vector<Affine> palette(character->skin.joints.size());
         const size_t count = std::clamp<size_t>(40'000 / character->cage.positions.size(), 3, 12);
-        Box seen = boxOf(deformOnCpu(*character, memory.pose));
+        Box seen = boxAround(deformOnCpu(*character, memory.pose));
         for (size_t k = 0; k < count; ++k) {
             mixedPose(*character, rig, noise, memory);
-            const Box own = boxOf(deformOnCpu(*character, memory.pose));
+            const Box own = boxAround(deformOnCpu(*character, memory.pose));
             ASSERT_TRUE(holds(reach.blended, own)) << path;
             seen = {glm::min(seen.low, own.low), glm::max(seen.high, own.high)};
             posePalette(*character, memory.pose, memory.nodes, palette);
             const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
             ASSERT_TRUE(holds(paletteBounds(reach, palette, weights), own)) << path;
             if (k == 0 && character->cage.positions.size() < 1500) {
-                const Box turned = boxOf(test::skinWithDualQuaternions(
+                const Box turned = boxAround(test::skinWithDualQuaternions(
                     morphOnCpu(character->cage, character->morphs, weights), character->weights, palette));
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, reach.blended), turned)) << path;
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, paletteBounds(reach, palette, weights)), turned));
@@ -144,7 +131,7 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
         Box seen{glm::dvec3(0.0), glm::dvec3(0.0)};
         for (int k = 0; k < 60; ++k) {
             mixedPose(tube, rig, noise, memory);
-            const Box own = boxOf(deformOnCpu(tube, memory.pose));
+            const Box own = boxAround(deformOnCpu(tube, memory.pose));
             ASSERT_TRUE(holds(reach.blended, own));
             seen = {glm::min(seen.low, own.low), glm::max(seen.high, own.high)};
             posePalette(tube, memory.pose, memory.nodes, palette);
@@ -160,7 +147,7 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
 TEST(Reach, AnAnchorIsWhatMovesFirst) {
     Character tube = test::riggedTube({.segments = 4, .sides = 4, .joints = 3});
     EXPECT_EQ(reachOf(tube).anchor, cage::kNone) << "nothing moves";
-    const Box rest = boxOf(deformOnCpu(tube, PoseMemory(tube).pose));
+    const Box rest = boxAround(deformOnCpu(tube, PoseMemory(tube).pose));
     EXPECT_NEAR(diagonal(reachOf(tube).blended), diagonal(rest), 1e-2 * diagonal(rest)) << "so that it is exact";
     const glm::vec3 still = tube.skeleton.nodes[1].translation;
     tube.clips.push_back(test::clipOf(

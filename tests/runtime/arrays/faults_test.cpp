@@ -301,7 +301,7 @@ TEST(ArrayRepairs, WhatHasNoFaceIsLeftOut) {
     EXPECT_EQ(read->cage.positions, tube().cage.positions);
     EXPECT_EQ(read->warnings, (Strings{"part 0: 1 face has fewer than three corners: face 3; left out",
                                        "part 0: 1 vertex has no face: vertex 0; left out"}));
-    const Result<cage::Character> strict = readTube(spoil, {true, false, true});
+    const Result<cage::Character> strict = readTube(spoil, {true, cage::NormalCreases::never, true});
     ASSERT_FALSE(strict.ok());
     EXPECT_EQ(strict.error().message, "tube: part 0: 1 face has fewer than three corners: face 3\n"
                                       "tube: part 0: 1 vertex has no face: vertex 0");

@@ -47,7 +47,8 @@ cage::Character readFile(const std::string& path, bool sewParts) {
 /// Handed over as arrays.
 cage::Character throughArrays(const cage::Character& from, bool sewParts) {
     const CharacterArrays arrays(from);
-    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, from.name, {sewParts, false, false});
+    Result<cage::Character> character =
+        runtime::characterFromArrays(arrays.desc, from.name, {sewParts, cage::NormalCreases::never, false});
     EXPECT_TRUE(character.ok()) << (character.ok() ? "" : character.error().message);
     return character.ok() ? std::move(*character) : cage::Character{};
 }
@@ -139,7 +140,8 @@ TEST(CharacterArrays, AreSewnWhereBoundariesCoincide) {
     desc.nodes = nodes;
     desc.parts = parts;
     for (const bool sewParts : {true, false}) {
-        const Result<cage::Character> read = runtime::characterFromArrays(desc, "pair", {sewParts, false, false});
+        const Result<cage::Character> read =
+            runtime::characterFromArrays(desc, "pair", {sewParts, cage::NormalCreases::never, false});
         ASSERT_TRUE(read.ok()) << read.error().message;
         EXPECT_EQ(read->cage.vertexCount(), sewParts ? 6u : 8u);
         EXPECT_EQ(read->seamVertexCount, sewParts ? 2u : 0u);
