@@ -1,6 +1,7 @@
 #include "cage/expressions.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -9,14 +10,21 @@
 namespace supple::cage {
 namespace {
 
-/// A name that no expression before has.
-std::string freeName(const std::string& name, const std::set<std::string>& taken) {
-    std::string wanted = name;
-    for (uint32_t number = 2; taken.contains(wanted); ++number) {
-        wanted = name + "_" + std::to_string(number);
+/// Names that no expression before has.
+class NumberedNames {
+public:
+    std::string of(const std::string& name) {
+        std::string wanted = name;
+        for (uint32_t& number = numbers_.try_emplace(name, 1).first->second; !taken_.insert(wanted).second;) {
+            wanted = name + "_" + std::to_string(++number);
+        }
+        return wanted;
     }
-    return wanted;
-}
+
+private:
+    std::set<std::string> taken_;
+    std::map<std::string, uint32_t> numbers_; ///< that each name was given last
+};
 
 /// How much is left of those that expressions hold back, by kind.
 struct Shares {
@@ -43,11 +51,10 @@ void placeExpressions(std::span<const UnplacedExpression> expressions, Character
     for (const Part& part : character.parts) {
         partOf.emplace(part.node, &part);
     }
-    std::set<std::string> taken;
+    NumberedNames names;
     for (const UnplacedExpression& given : expressions) {
         Expression placed = given.expression;
-        placed.name = freeName(placed.name, taken);
-        taken.insert(placed.name);
+        placed.name = names.of(placed.name);
         std::map<uint32_t, float> weights; // by target; the first bind of one counts
         for (const ExpressionBind& bind : given.binds) {
             const auto part = partOf.find(bind.node);
@@ -85,6 +92,9 @@ std::vector<float> expressionWeights(const Character& character, std::span<const
         for (size_t i = 0; i < expression.targets.size(); ++i) {
             result[expression.targets[i]] += weight * expression.weights[i];
         }
+    }
+    for (float& weight : result) { // sums of large binds may leave the floats
+        weight = std::clamp(weight, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
     }
     return result;
 }

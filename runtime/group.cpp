@@ -154,7 +154,7 @@ Status Group::createListing(const GroupShared& shared) {
     const bool windowed = windows->count() > 1;
     listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? &drawnParts_ : nullptr);
     constexpr uint32_t kPosesAll = SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_BOUNDS;
-    if (view_ != nullptr && view_->culls() && !follows() && (desc_.flags & kPosesAll) == 0) {
+    if (view_ != nullptr && view_->culls() && !follows() && (desc_.flags & kPosesAll) == 0 && stages_.keepReach()) {
         outOfSight_ = OutOfSight(asset_->reach(), boundsMargin(), capacity);
         listing_.leaveOut(&outOfSight_);
     }

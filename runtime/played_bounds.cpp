@@ -7,6 +7,14 @@
 
 namespace supple::runtime {
 
+namespace {
+
+/// From so many loops on nobody knows where the instance is: no clip of any length has them.
+constexpr double kMostLoops = 2147483648.0;
+constexpr uint32_t kUnboundedLoop = 0x80000000u;
+
+} // namespace
+
 void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     Played& own = played_[slot];
     own = {};
@@ -24,8 +32,8 @@ void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
 
 uint32_t PlayedBounds::loopOf(uint32_t slot, double time) const {
     const Played& own = played_[slot];
-    return own.travels ? static_cast<uint32_t>(static_cast<int64_t>(skinning::loopsAt(*character_, own.first, time)))
-                       : 0;
+    const double loops = own.travels ? skinning::loopsAt(*character_, own.first, time) : 0.0;
+    return std::abs(loops) < kMostLoops ? static_cast<uint32_t>(static_cast<int32_t>(loops)) : kUnboundedLoop;
 }
 
 std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,
@@ -49,6 +57,9 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
     const double across = std::hypot(reach.anchorPath.x, reach.anchorPath.z);
     const glm::dvec3 within(across, reach.anchorPath.y, across);
     const double loops = skinning::loopsAt(*character_, own.first, time);
+    if (!(std::abs(loops) < kMostLoops)) {
+        return std::nullopt;
+    }
     return skinning::movedBy(skinning::toMatrix(skinning::traveledToLoop(*character_, own.first, own.root, loops)),
                              {box.low - within, box.high + within});
 }

@@ -106,8 +106,9 @@ private:
         for (const auto& [name, value] : attributes->members()) {
             const uint64_t id = toUnsigned(value, within(element + " attributes", std::string(name)));
             const auto own = primitive.attributes.find(name);
-            // One that the primitive does not have is not read, whatever it is.
-            if (own != primitive.attributes.end() && !hasBytes(own->second)) {
+            // One that the primitive does not have is not read, whatever it is. One that has bytes as well is decoded
+            // with the others: the encoder may have changed the order of vertices.
+            if (own != primitive.attributes.end() && !model_.accessors[static_cast<size_t>(own->second)].broken) {
                 key.second.emplace_back(name, static_cast<uint32_t>(id), own->second);
             }
         }
@@ -118,7 +119,12 @@ private:
         const Key key = keyOf(primitive, element);
         auto known = decoded_.find(key);
         if (known == decoded_.end()) {
+            if (failed_.contains(key)) { // decoding it again would take as long
+                refuse(element, "cannot be decoded, as said of another primitive");
+            }
+            failed_.insert(key);
             known = decoded_.emplace(key, decodeNew(key, primitive, element)).first;
+            failed_.erase(key);
         }
         ++count_;
         primitive.indices = known->second.indices;
@@ -192,6 +198,7 @@ private:
     file::Model& model_;
     const size_t viewCount_; ///< of the file's own
     std::map<Key, Decoded> decoded_;
+    std::set<Key> failed_;
     std::set<size_t> counted_; ///< bufferViews that count as more bytes of the file
     size_t count_ = 0;         ///< primitives that were decoded
 };

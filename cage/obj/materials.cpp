@@ -304,6 +304,7 @@ void readMaterials(const File& file, const FileReader& readFile, Character& char
     }
     Converter converter(readFile, character);
     Found missing;
+    character.materials.reserve(file.materials.size());
     for (const std::string& name : file.materials) {
         if (const Known* known = libraries.find(name)) {
             character.materials.push_back(converter.convert(*known));

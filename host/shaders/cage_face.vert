@@ -29,7 +29,7 @@ void main() {
     outPosition = cagePosition(corner.vertex);
     float sides;
     outNormal = faceNormal(corner, sides);
-    outMirrored = sides <= 0.0 ? 1u : 0u;
+    outMirrored = (push.flags & kDrawMayMirror) != 0u && sides <= 0.0 ? 1u : 0u;
     if (outMirrored != 0u)
         outNormal = -outNormal;
     outUvs = vec4(corner.u0, corner.v0, corner.u1, corner.v1);

@@ -383,7 +383,7 @@ SuppleResult suppleFillExpressionWeights(SuppleContext handle, SuppleAsset asset
         const size_t expressions = found.character.expressions.size(), targets = found.character.morphs.targets.size();
         if ((weights == nullptr && expressions > 0) || (out == nullptr && targets > 0)) {
             return refuse(context, ErrorCode::nullPointer, kHere,
-                          weights == nullptr ? "weights is null" : "out is null");
+                          weights == nullptr && expressions > 0 ? "weights is null" : "out is null");
         }
         if (expressionCount != expressions || morphTargetCount != targets) {
             return refuse(context, ErrorCode::range, kHere,

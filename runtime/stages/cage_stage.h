@@ -107,6 +107,9 @@ struct CageStageRow {
     /// Makes the pipelines of a group that is to come, if it will have the stage: on any thread, also beside recording.
     /// Null: they are made with the kernels.
     Status (*makePipelines)(const PlannedStages&, const CageKernels&) = nullptr;
+    /// The cages that it leaves lie within what joint palettes bound (skinning/reach.h), and it keeps nothing from
+    /// frame to frame. Of groups with other stages all instances are posed, in sight or not.
+    bool keepsReach = false;
 };
 
 } // namespace supple::runtime

@@ -65,6 +65,7 @@ Status CageStages::create(CageStageTable& table, gpu::Pipelines& pipelines, cons
             return stage.error();
         }
         stages_[row] = std::move(*stage);
+        keepReach_ = keepReach_ && rows[row].keepsReach;
         addMember(*stages_[row]);
     }
     stride_ = desc.instances->cageStride();

@@ -51,6 +51,8 @@ public:
     /// The deformed cages that a surface is made from.
     [[nodiscard]] const gpu::PlannedBuffer& cagesOf(uint32_t surface) const;
     [[nodiscard]] bool has(size_t row) const { return stages_[row] != nullptr; }
+    /// Whether instances may be left out by what is known of them before they are posed (CageStageRow::keepsReach).
+    [[nodiscard]] bool keepReach() const { return keepReach_; }
 
     /// Begins a frame of the group at the host's time: finds who is new, then records the uploads of all stages.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, const InstanceSlots& slots);
@@ -67,7 +69,8 @@ private:
     }
 
     std::vector<std::unique_ptr<CageStage>> stages_; ///< by row; null: the group does not have it
-    VkDeviceSize cageBytes_ = 0;                     ///< of all instances
+    bool keepReach_ = true;
+    VkDeviceSize cageBytes_ = 0; ///< of all instances
     uint32_t stride_ = 0;
     gpu::PlannedBuffer cages_, between_; ///< `between_` if some stage writes apart
     const InstanceWindows* windows_ = nullptr;

@@ -17,7 +17,7 @@ struct DeformStageKernels final : CageKernels {
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels);
 [[nodiscard]] Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM, false,      wantsDeform,
-                                         makeDeformKernels,  makeDeform, makeDeformPipelines};
+inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM,  false, wantsDeform, makeDeformKernels, makeDeform,
+                                         makeDeformPipelines, true};
 
 } // namespace supple::runtime

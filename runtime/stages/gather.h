@@ -9,7 +9,7 @@ namespace supple::runtime {
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels);
 [[nodiscard]] Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM, true,       wantsGather,
-                                         makeDeformKernels,  makeGather, makeGatherPipelines};
+inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM,  true, wantsGather, makeDeformKernels, makeGather,
+                                         makeGatherPipelines, true};
 
 } // namespace supple::runtime

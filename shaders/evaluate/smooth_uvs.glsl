@@ -101,6 +101,24 @@ SmoothPatch loadSmooth(uint first) {
     c.singular = tableElement(first + 3u * kSides).z;
     return c;
 }
+// The sample of these weights as sums in one order, not of halves as finishInside() makes it: on the line between two sectors, where
+// the weight of one corner is 0, both have the same bits.
+void finishPlainly(Sector s, vec3 w, out vec3 position, out Frame frame) {
+    precise float x = w.x, y = w.y, z = w.z;
+    precise float b[10] = float[10](x * x * x, 3.0 * (x * x * y), 3.0 * (x * y * y), y * y * y, 3.0 * (x * x * z),
+                                    6.0 * (x * y * z), 3.0 * (y * y * z), 3.0 * (x * z * z), 3.0 * (y * z * z), z * z * z);
+    // One step of de Casteljau's algorithm short of the point: rows of the cubics' coefficients in the quartic's, from 400, 310, 301.
+    precise vec3 p = ((b[0] * s.c[0] + b[1] * s.c[1]) + (b[2] * s.c[2] + b[3] * s.c[3])) +
+                     ((b[4] * s.c[5] + b[5] * s.c[6]) + b[6] * s.c[7]) + ((b[7] * s.c[9] + b[8] * s.c[10]) + b[9] * s.c[12]);
+    precise vec3 q = ((b[0] * s.c[1] + b[1] * s.c[2]) + (b[2] * s.c[3] + b[3] * s.c[4])) +
+                     ((b[4] * s.c[6] + b[5] * s.c[7]) + b[6] * s.c[8]) + ((b[7] * s.c[10] + b[8] * s.c[11]) + b[9] * s.c[13]);
+    precise vec3 r = ((b[0] * s.c[5] + b[1] * s.c[6]) + (b[2] * s.c[7] + b[3] * s.c[8])) +
+                     ((b[4] * s.c[9] + b[5] * s.c[10]) + b[6] * s.c[11]) + (b[7] * s.c[12] + b[8] * s.c[13]); // 004 is 0
+    precise vec3 sum = s.centre + ((x * p + y * q) + z * r);
+    position = sum;
+    frame = frameOf(q - p, r - p);
+}
+
 SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     SectorSide last = c.sides[0], own = c.sides[0], next = c.sides[0];
     for (uint i = 0u; i < kSides; ++i) { // lanes ask for different ones: GPUs keep arrays that they index in memory
@@ -112,7 +130,7 @@ SmoothUv smoothAt(SmoothPatch c, SmoothPlace at) {
     bool singular = at.corner && (c.singular >> at.sector & 1u) != 0u;
     vec3 position;
     Frame frame;
-    finishInside(cubicsOf(halvesOf(s)), singular ? kSingularWeights : at.weights, position, frame);
+    finishPlainly(s, singular ? kSingularWeights : at.weights, position, frame);
     if (at.weights.z == 1.0) position = c.centre;
     if (at.border) position = borderPosition(bernstein3(at.along), s.border);
     return smoothUv(position, frame);

@@ -329,8 +329,8 @@ TEST(BenchReport, PassesOfAViewAreShownAndJudged) {
          {"## The crowd in a view",
           "| scheme | characters | vertices | frame, ms | all unseen, ms | evaluate | level | place | (level + "
           "place + attributes) / evaluate |",
-          "| pm     |        100 |     5000 |      30.0 |          0.250 |     20.0 |  8.50 |       |",
-          "| prep   |        100 |     5000 |      30.0 |          0.250 |     20.0 |       |  8.50 |"}) {
+          "| pm     |        100 |     5000 |      30.0 |           0.25 |     20.0 |  8.50 |       |",
+          "| prep   |        100 |     5000 |      30.0 |           0.25 |     20.0 |       |  8.50 |"}) {
         EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
     }
     std::vector<bool> met;

@@ -9,8 +9,8 @@ namespace supple::host {
 
 namespace {
 
-/// Whether a pose may mirror anything: without a negative scale or matrix none does. Tangents of cubic keys may take a
-/// scale below 0.
+/// Whether a pose may mirror anything: without a negative scale, matrix or inverse bind none does. Tangents of cubic
+/// keys may take a scale below 0.
 bool mayMirror(const cage::Character& character) {
     const auto mirrors = [](const cage::Node& node) {
         return node.hasMatrix ? glm::determinant(glm::mat3(node.matrix)) < 0.0f
@@ -21,7 +21,9 @@ bool mayMirror(const cage::Character& character) {
                (channel.interpolation == cage::Interpolation::cubicSpline ||
                 *std::min_element(channel.values.begin(), channel.values.end()) < 0.0f);
     };
+    const auto bindMirrors = [](const glm::mat4& bind) { return glm::determinant(glm::mat3(bind)) < 0.0f; };
     return std::any_of(character.skeleton.nodes.begin(), character.skeleton.nodes.end(), mirrors) ||
+           std::any_of(character.skin.inverseBinds.begin(), character.skin.inverseBinds.end(), bindMirrors) ||
            std::any_of(character.clips.begin(), character.clips.end(), [&](const cage::Clip& clip) {
                return std::any_of(clip.channels.begin(), clip.channels.end(), isScaleBelowZero);
            });

@@ -142,6 +142,8 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     Result<Evaluation> evaluation = readGroup(session, group);
     if (evaluation) {
         status = checkCage(*evaluation, character);
+    }
+    if (evaluation && status) {
         findMirrored(*evaluation, character.cage);
     }
     return status ? std::move(evaluation) : status.error();
