@@ -134,7 +134,7 @@ private:
             SpringCollider collider;
             Numbers numbers(from);
             numbers.index("node", nodes_, collider.node, true);
-            const Fault fault = numbers.fault() ? numbers.fault() : readShape(from, collider);
+            Fault fault = numbers.fault() ? numbers.fault() : readShape(from, collider);
             if (!fault) {
                 colliders.back() = static_cast<uint32_t>(bones_.colliders.size());
                 bones_.colliders.push_back(collider);
@@ -289,7 +289,7 @@ private:
     static Fault indices(std::span<const Json> from, const char* what, const std::vector<uint32_t>& kept,
                          std::vector<uint32_t>& into) {
         std::vector<uint32_t> numbers;
-        const Fault fault = indices(from, what, kept.size(), numbers);
+        Fault fault = indices(from, what, kept.size(), numbers);
         for (const uint32_t number : numbers) {
             if (kept[number] != kNone) {
                 into.push_back(kept[number]);
