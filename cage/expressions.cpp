@@ -70,12 +70,6 @@ void placeExpressions(std::span<const UnplacedExpression> expressions, Character
     }
 }
 
-uint32_t findExpression(const Character& character, const std::string& name) {
-    const auto found = std::find_if(character.expressions.begin(), character.expressions.end(),
-                                    [&](const Expression& expression) { return expression.name == name; });
-    return found == character.expressions.end() ? kNone : static_cast<uint32_t>(found - character.expressions.begin());
-}
-
 std::vector<float> expressionWeights(const Character& character, std::span<const float> weights) {
     std::vector<float> result = character.morphs.weights;
     std::vector<float> own;

@@ -25,9 +25,6 @@ struct UnplacedExpression {
 /// without a part would move is left out. Names that are taken get a number.
 void placeExpressions(std::span<const UnplacedExpression> expressions, Character& character);
 
-/// The expression of that name, or kNone.
-[[nodiscard]] uint32_t findExpression(const Character& character, const std::string& name);
-
 /// Weights of all morph targets: those of the file, and what expressions add. `weights`: one per expression, which
 /// counts from 0 to 1. Expressions hold back others as VRM 1.0 says.
 [[nodiscard]] std::vector<float> expressionWeights(const Character& character, std::span<const float> weights);

@@ -58,7 +58,7 @@ public:
     [[nodiscard]] const CageMesh& cage() const { return cage_; }
     [[nodiscard]] const std::vector<Clip>& clips() const { return clips_; }
     [[nodiscard]] const std::vector<MorphTarget>& morphTargets() const { return morphTargets_; }
-    /// Of a VRM file, by name.
+    /// The names of the expressions that a VRM file has.
     [[nodiscard]] const std::vector<std::string>& expressions() const { return expressions_; }
     /// What expressions make of the weights of all morph targets. `weights`: one per expression.
     [[nodiscard]] Result<std::vector<float>> expressionWeights(const std::vector<float>& weights) const;

@@ -75,7 +75,7 @@ std::vector<SurfaceDraw> drawsOf(const SuppleLevelOutput& levels) {
     return draws;
 }
 
-/// Of the first face of a part.
+/// The first cage vertex of the first face of a part.
 uint32_t firstVertexOf(const CageMesh& cage, uint32_t part) {
     const auto face = std::find(cage.parts.begin(), cage.parts.end(), part);
     return cage.corners[face == cage.parts.end() ? 0 : cage.faceStarts[face - cage.parts.begin()]];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <supple/supple.hpp>
 #include <utility>
 
@@ -114,10 +115,12 @@ bool maybeSolid(const FigureMaterials& materials, uint32_t material) {
     return isGlass(materials, material) ? materials.layersOf(material).transmission.image != SUPPLE_NO_IMAGE
                                         : info.baseColorFactor[3] >= shared::kSolidAlpha;
 }
-/// The draws that make a material blend, in their order.
-std::vector<Blend> blendsOf(const Scene& scene, uint32_t material) {
-    return isGlass(scene.group->figure().materials(), material) ? std::vector{Blend::multiply, Blend::add}
-                                                                : std::vector{Blend::over};
+/// The draws that make a material blend, in their order; none if it does not.
+std::span<const Blend> blendsOf(const Scene& scene, uint32_t material) {
+    static constexpr Blend kGlass[] = {Blend::multiply, Blend::add}, kOver[] = {Blend::over};
+    if (!isBlended(scene, material))
+        return {};
+    return isGlass(scene.group->figure().materials(), material) ? std::span<const Blend>(kGlass) : kOver;
 }
 /// Which side is not drawn, where winding tells the sides apart.
 VkCullModeFlags culled(const Scene& scene, uint32_t material) {
@@ -505,7 +508,7 @@ std::vector<DrawPipelines::Faces> SurfaceRenderer::allFaces(const Scene& scene) 
     for (const DrawRun& run : runsOf(scene)) {
         const SuppleMaterialInfo& material = scene.group->figure().materials().of(run.material);
         all.push_back(facesOf(scene, run, Blend::none));
-        for (const Blend blend : isBlended(scene, run.material) ? blendsOf(scene, run.material) : std::vector<Blend>())
+        for (const Blend blend : blendsOf(scene, run.material))
             all.push_back(facesOf(scene, run, blend));
         if (scene.cageFaces ? isMasked(material) : isTrimmed(material))
             all.push_back(shadowFaces(scene, run.material));

@@ -61,7 +61,7 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
         return std::nullopt;
     }
     return skinning::movedBy(skinning::toMatrix(skinning::traveledToLoop(*character_, own.first, own.root, loops)),
-                             {box.low - within, box.high + within});
+                             skinning::grownBy(box, within));
 }
 
 } // namespace supple::runtime

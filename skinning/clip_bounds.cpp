@@ -15,20 +15,6 @@ constexpr int kMostHalvings = 8;
 /// Poses on the device are floats: of the products that lead to a vertex, and of the extent (docs/playback.md).
 constexpr double kProductSlack = 1e-6, kExtentSlack = 2e-5;
 
-Box nothing() {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
-}
-
-void include(Box& box, const glm::dvec3& point, double around) {
-    box.low = glm::min(box.low, point - around);
-    box.high = glm::max(box.high, point + around);
-}
-
-Box grown(const Box& box, const glm::dvec3& by) {
-    return {box.low - by, box.high + by};
-}
-
 /// Finds the box of intervals, one after the other.
 class BoundsFinder {
 public:
@@ -65,7 +51,7 @@ public:
         }
         takeJoints();
         morph();
-        Box box = nothing();
+        Box box = emptyBox();
         if (desc_.dualQuaternions || morphs_) {
             for (size_t v = 0; v < positions_.size(); ++v) {
                 addVertex(v, box);
@@ -75,8 +61,8 @@ public:
             addPlain(first, last, box);
         }
         const glm::dvec3 size = box.high - box.low;
-        box = grown(box, glm::dvec3(kProductSlack * products_ + kExtentSlack * glm::length(size)));
-        box = grown(box, desc_.margin * (box.high - box.low));
+        box = grownBy(box, kProductSlack * products_ + kExtentSlack * glm::length(size));
+        box = grownBy(box, desc_.margin * (box.high - box.low));
         box_.low = glm::min(box_.low, box.low);
         box_.high = glm::max(box_.high, box.high);
         isSound_ = isSound_ && std::isfinite(sum_) && std::isfinite(glm::length(box.high - box.low));
@@ -217,8 +203,8 @@ private:
     }
 
     void take(const glm::dvec3 (&ends)[2], double error, Box& box) {
-        include(box, ends[0], error);
-        include(box, ends[1], error);
+        extend(box, ends[0], error);
+        extend(box, ends[1], error);
         sum_ += error + glm::dot(ends[0] + ends[1], glm::dvec3(1.0));
     }
 
@@ -294,7 +280,7 @@ private:
     std::vector<double> morphErrors_;
     std::vector<Moved> moved_;
     double products_ = 0.0; ///< the largest length among what is added up to a vertex
-    Box box_ = nothing();
+    Box box_ = emptyBox();
     bool isSound_ = true;
 };
 
@@ -329,11 +315,11 @@ Box clipBounds(const cage::Character& character, const cage::Clip* clip, const C
 }
 
 Box bindBounds(const cage::Character& character, const ClipBoundsDesc& desc) {
-    Box box = nothing();
+    Box box = emptyBox();
     for (const glm::vec3& position : character.cage.positions) {
-        include(box, glm::dvec3(position), 0.0);
+        extend(box, glm::dvec3(position));
     }
-    return grown(box, desc.margin * (box.high - box.low));
+    return grownBy(box, desc.margin * (box.high - box.low));
 }
 
 } // namespace supple::skinning

@@ -2,14 +2,9 @@
 #pragma once
 
 #include "cage/character.h"
-
-#include <glm/glm.hpp>
+#include "skinning/box.h"
 
 namespace supple::skinning {
-
-struct Box {
-    glm::dvec3 low{0.0}, high{0.0};
-};
 
 /// What a box is to hold.
 struct ClipBoundsDesc {

@@ -5,30 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace supple::skinning {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The device poses in floats (docs/playback.md).
 constexpr double kFloatSlack = 5e-5;
-
-Box emptyBox() {
-    return {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
-}
-void extend(Box& box, const glm::dvec3& point) {
-    box.low = glm::min(box.low, point);
-    box.high = glm::max(box.high, point);
-}
-void extend(Box& box, const Box& other) {
-    box.low = glm::min(box.low, other.low);
-    box.high = glm::max(box.high, other.high);
-}
-bool isEmpty(const Box& box) {
-    return box.low.x > box.high.x;
-}
 
 /// What the clips and the rest pose give to a node.
 struct NodeRange {
@@ -302,19 +285,6 @@ Box paletteBounds(const Reach& reach, std::span<const Affine> palette, std::span
         extend(box, {at - around, at + around});
     }
     return grownBy(box, kFloatSlack * (glm::length(box.high - box.low) + longest(box)));
-}
-
-Box grownBy(const Box& box, double distance) {
-    return {box.low - distance, box.high + distance};
-}
-
-Box movedBy(const glm::dmat4& matrix, const Box& box) {
-    const glm::dvec3 half = 0.5 * (box.high - box.low);
-    const glm::dvec3 at(matrix * glm::dvec4(0.5 * (box.low + box.high), 1.0));
-    const glm::dmat3 linear(matrix);
-    const glm::dvec3 around =
-        glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y + glm::abs(linear[2]) * half.z;
-    return {at - around, at + around};
 }
 
 } // namespace supple::skinning

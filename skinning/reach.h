@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
-#include "skinning/clip_bounds.h"
+#include "skinning/box.h"
 #include "skinning/pose.h"
 
 #include <cstdint>
@@ -42,8 +42,5 @@ struct Reach {
                                 std::span<const float> morphWeights);
 /// The sum of weights by what each adds: Reach::targets or Reach::deltas.
 [[nodiscard]] double reachedBy(std::span<const float> morphWeights, std::span<const double> targets);
-[[nodiscard]] Box grownBy(const Box& box, double distance);
-/// The box of a box that a matrix has moved.
-[[nodiscard]] Box movedBy(const glm::dmat4& matrix, const Box& box);
 
 } // namespace supple::skinning

@@ -63,6 +63,11 @@ const Json* member(const Json& object, const char* key) {
     return value == nullptr || value->isNull() ? nullptr : value;
 }
 
+const Json* objectIn(const Json* object, const char* key) {
+    const Json* found = object != nullptr && object->isObject() ? member(*object, key) : nullptr;
+    return found != nullptr && found->isObject() ? found : nullptr;
+}
+
 const Json* objectMember(const Json& object, const char* key, const std::string& element) {
     const Json* value = member(object, key);
     if (value != nullptr && !value->isObject()) {

@@ -23,6 +23,8 @@ inline constexpr int kMaxJsonDepth = 64;
 
 /// Null where absent.
 [[nodiscard]] const Json* member(const Json& object, const char* key);
+/// The member, if it is an object, else null: of what nobody checks. `object` may be null or no object.
+[[nodiscard]] const Json* objectIn(const Json* object, const char* key);
 const Json* objectMember(const Json& object, const char* key, const std::string& element);
 [[nodiscard]] const Json* arrayMember(const Json& object, const char* key, const std::string& element);
 

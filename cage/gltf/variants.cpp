@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
+#include <string_view>
 
 namespace supple::cage::gltf {
 namespace {
@@ -53,8 +55,9 @@ int mappedMaterial(const Json& extension, size_t variant, size_t variantCount, s
 std::vector<std::string> chooseVariant(Document& document, const std::string& name) {
     const std::vector<std::string> all = namesIn(document);
     std::vector<std::string> names;
+    std::set<std::string_view> known;
     for (const std::string& each : all) {
-        if (!each.empty() && std::find(names.begin(), names.end(), each) == names.end()) {
+        if (!each.empty() && known.insert(each).second) {
             names.push_back(each);
         }
     }

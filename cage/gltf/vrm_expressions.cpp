@@ -55,9 +55,9 @@ public:
 
     std::vector<UnplacedExpression> read() && {
         const Json* extensions = member(document_.json.root(), "extensions");
-        if (const Json* vrm = of(extensions, "VRMC_vrm"); of(vrm, "expressions") != nullptr) {
-            readNew(*of(vrm, "expressions"));
-        } else if (const Json* master = of(of(extensions, "VRM"), "blendShapeMaster"); master != nullptr) {
+        if (const Json* vrm = objectIn(extensions, "VRMC_vrm"); objectIn(vrm, "expressions") != nullptr) {
+            readNew(*objectIn(vrm, "expressions"));
+        } else if (const Json* master = objectIn(objectIn(extensions, "VRM"), "blendShapeMaster"); master != nullptr) {
             readOld(*master);
         }
         if (movesMaterials_ > 0) {
@@ -69,20 +69,14 @@ public:
     }
 
 private:
-    /// The member, if it is an object.
-    static const Json* of(const Json* object, const char* key) {
-        const Json* found = object != nullptr && object->isObject() ? member(*object, key) : nullptr;
-        return found != nullptr && found->isObject() ? found : nullptr;
-    }
-
     void readNew(const Json& from) {
-        const Json* presets = of(&from, "preset");
+        const Json* presets = objectIn(&from, "preset");
         for (const auto& preset : kPresets) {
-            if (const Json* own = of(presets, std::string(preset.name).c_str()); own != nullptr) {
+            if (const Json* own = objectIn(presets, std::string(preset.name).c_str()); own != nullptr) {
                 readNew(*own, {.name = std::string(preset.name), .kind = preset.kind});
             }
         }
-        if (const Json* custom = of(&from, "custom"); custom != nullptr) {
+        if (const Json* custom = objectIn(&from, "custom"); custom != nullptr) {
             for (const JsonMember& own : custom->members()) {
                 if (!own.name.empty() && own.value.isObject()) {
                     readNew(own.value, {.name = std::string(own.name)});

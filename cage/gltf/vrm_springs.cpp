@@ -13,11 +13,6 @@ namespace {
 
 using Fault = std::optional<std::string>;
 
-/// The member, if it is an object.
-const Json* objectIn(const Json* object, const char* key) {
-    const Json* found = object != nullptr && object->isObject() ? member(*object, key) : nullptr;
-    return found != nullptr && found->isObject() ? found : nullptr;
-}
 std::span<const Json> itemsIn(const Json& object, const char* key) {
     const Json* found = object.isObject() ? member(object, key) : nullptr;
     return found != nullptr ? found->items() : std::span<const Json>();

@@ -11,7 +11,7 @@ layout(set = 2, binding = kFirstTextureBinding + kTransmission) uniform sampler2
 // Glass is drawn twice: what is behind it is multiplied by a color, then what it sends itself is added.
 layout(constant_id = 4) const bool kThrough = false;
 
-/// Of a material at one place.
+/// What layers a material has at one place.
 struct Layers {
     float coat; // its share
     float coatRoughness;

@@ -8,7 +8,7 @@ namespace supple::runtime {
 
 namespace {
 
-/// Of what is compared: more than floats lose, here and where the device compares.
+/// As a part of what is compared. Floats lose less, here and where the device compares.
 constexpr float kSlack = 1e-4f;
 
 /// Boxes that lie behind a plane, in vectors: no branches.
@@ -94,8 +94,7 @@ bool OutOfSight::find(const shared::CullView& view, const InstanceSlots& slots, 
         }
         versions_[slot] = version;
         if (const std::optional<skinning::Box> cage = poses.boundsOf(slot, *reach_)) {
-            const glm::dvec3 around = margin_ * (cage->high - cage->low);
-            boxes_.set(slot, {cage->low - around, cage->high + around});
+            boxes_.set(slot, skinning::grownBy(*cage, margin_ * (cage->high - cage->low)));
         } else {
             boxes_.setUnknown(slot);
         }

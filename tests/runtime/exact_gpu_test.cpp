@@ -110,7 +110,7 @@ TEST_P(ExactOnGpu, CharactersAreTheLimit) {
     ASSERT_NE(device, nullptr);
     const ValidationGuard guard;
     size_t characters = 0;
-    // Of the shared ones one half in each mapping.
+    // Each mapping takes one half of the shared ones.
     const std::vector<std::string> paths = sampledCharacters(2, GetParam() == SUPPLE_MAPPING_WIDE ? 1 : 0);
     forEachCharacter(paths, [&](const std::string& name, const cage::Character& character) {
         SCOPED_TRACE(name);

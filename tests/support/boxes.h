@@ -1,7 +1,7 @@
 // Boxes of posed cages, for tests of what bounds them.
 #pragma once
 
-#include "skinning/clip_bounds.h"
+#include "skinning/box.h"
 
 #include <glm/glm.hpp>
 #include <vector>
@@ -9,9 +9,9 @@
 namespace supple::test {
 
 inline skinning::Box boxAround(const std::vector<glm::dvec3>& points) {
-    skinning::Box box{points.at(0), points.at(0)};
+    skinning::Box box = skinning::emptyBox();
     for (const glm::dvec3& p : points) {
-        box = {glm::min(box.low, p), glm::max(box.high, p)};
+        skinning::extend(box, p);
     }
     return box;
 }

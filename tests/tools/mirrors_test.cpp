@@ -150,7 +150,7 @@ struct Corner {
     glm::vec4 tangent;
 };
 
-/// Of all triangles.
+/// The corners of all triangles.
 std::vector<Corner> cornersOf(const std::filesystem::path& path) {
     const Glb glb(path);
     const auto& primitive = glb.root["meshes"][0]["primitives"][0];

@@ -45,7 +45,7 @@ private:
     /// `mirrored`: of each vertex; its normal is that of a face that the pose mirrors.
     void writeVertices(uint64_t first, std::span<const uint8_t> mirrored, uint64_t& written);
     void writeFaces(const cage::Polygons& faces, uint64_t first);
-    /// Of a mesh's triangles and vertices, which ones the pose mirrors. A vertex is its first triangle's.
+    /// Which vertices of a mesh the pose mirrors: those whose first triangle it mirrors.
     [[nodiscard]] std::vector<uint8_t> mirroredVertices() const;
     [[nodiscard]] cage::Polygons facesOf(const SuppleDrawRange& range, uint64_t patch) const;
     void writeTriangles(const SuppleDrawRange& range);

@@ -23,8 +23,8 @@ struct EvaluatedSurface {
     std::vector<std::byte> gridIndices;
     std::vector<std::byte> coefficients;
 
-    /// Of patch `patch` of a range, or of triangle `triangle` of a mesh of SUPPLE_SCHEME_POLYGONS, whose patches are
-    /// its triangles.
+    /// Whether the pose mirrors a patch of a range; or a triangle of a mesh of SUPPLE_SCHEME_POLYGONS, whose patches
+    /// are its triangles.
     [[nodiscard]] bool isMirrored(const SuppleDrawRange& range, uint64_t patch, size_t triangle) const {
         const bool mesh = range.domain == SUPPLE_DOMAIN_MESH;
         return mirrored[mesh ? range.firstIndex / 3 + triangle : range.firstPatch + patch] != 0;

@@ -203,9 +203,8 @@ SUPPLE_API SuppleResult suppleGetLevelOutput(SuppleContext context, SuppleGroup 
 /** Bounds of the instances of a view's group, or of a group with SUPPLE_GROUP_BOUNDS. out gets a buffer of two float4
  * per slot, in the space of the surface vertices. The first has the least corner of a box round the surface, and in w
  * the level that the instance asks for as a whole (without a view: 0). The second has the greatest corner, and in w 1
- * if a cage vertex is not finite, else 0. suppleRecord writes the boxes of visible instances that
- * it poses. Errors: the group has no
- * bounds. */
+ * if a cage vertex is not finite, else 0. suppleRecord writes the boxes of visible instances that it poses. Errors: the
+ * group has no bounds. */
 SUPPLE_API SuppleResult suppleGetInstanceBounds(SuppleContext context, SuppleGroup group, SuppleBufferRange* out);
 
 /** Groups with SUPPLE_GROUP_BOUNDS: the box of an instance in the newest completed frame (suppleBeginFrame) that
