@@ -1,12 +1,10 @@
 #include "tools/bench/views.h"
 
 #include "tools/bench/crowd_character.h"
+#include "tools/bench/frame_times.h"
 #include "tools/common/schemes.h"
-#include "tools/common/statistics.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 namespace supple::bench {
 
@@ -16,45 +14,8 @@ namespace {
 
 constexpr uint32_t kWarmFrames = 3, kMaxVertices = 1u << 20;
 
-/// The passes of a frame in the order in which they came, and milliseconds.
-struct FrameTimes {
-    std::vector<std::pair<std::string, double>> passes;
-    double whole = 0.0;
-
-    explicit FrameTimes(const std::vector<SuppleTiming>& timings) {
-        double begin = 0.0, end = 0.0;
-        for (const SuppleTiming& one : timings) {
-            if (one.pass == SUPPLE_PASS_SHORTFALL) { // is no pass
-                continue;
-            }
-            begin = passes.empty() ? one.gpuBegin : std::min(begin, one.gpuBegin);
-            end = std::max(end, one.gpuEnd);
-            const char* const name = suppleGetPassName(one.pass);
-            const auto known =
-                std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == name; });
-            if (known == passes.end()) {
-                passes.emplace_back(name, 1e-6 * (one.gpuEnd - one.gpuBegin));
-            } else {
-                known->second += 1e-6 * (one.gpuEnd - one.gpuBegin);
-            }
-        }
-        whole = 1e-6 * (end - begin);
-    }
-    [[nodiscard]] double of(const std::string& name) const {
-        const auto found = std::find_if(passes.begin(), passes.end(), [&](const auto& p) { return p.first == name; });
-        return found == passes.end() ? 0.0 : found->second;
-    }
-    [[nodiscard]] double aroundEvaluate() const {
-        return (of("level") + of("place") + of("attributes")) / of("evaluate");
-    }
-};
-
-double medianOf(const std::vector<FrameTimes>& frames, const std::function<double(const FrameTimes&)>& value) {
-    std::vector<double> values;
-    for (const FrameTimes& frame : frames) {
-        values.push_back(value(frame));
-    }
-    return tools::summarize(values).median;
+double aroundEvaluate(const FrameTimes& frame) {
+    return (frame.of("level") + frame.of("place") + frame.of("attributes")) / frame.of("evaluate");
 }
 
 /// A frame's times are known when the next one begins.
@@ -95,7 +56,7 @@ Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const 
             {"frameMs", medianOf(frames, wholeOf)},
             {"unseenMs", medianOf(unseen, wholeOf)},
             {"passes", passes},
-            {"aroundEvaluate", medianOf(frames, &FrameTimes::aroundEvaluate)}};
+            {"aroundEvaluate", medianOf(frames, aroundEvaluate)}};
 }
 
 Result<Json> measureRow(host::Device& device, Workbench& workbench, const ViewsDesc& desc, SuppleAsset asset,
