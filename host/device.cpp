@@ -374,10 +374,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
     features_.features.multiDrawIndirect = manyDraws ? VK_TRUE : VK_FALSE;
     features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
-    const VkBool32 arrays =
-        supported.shaderStorageBufferArrayDynamicIndexing & supported.shaderSampledImageArrayDynamicIndexing;
-    features_.features.shaderStorageBufferArrayDynamicIndexing = arrays;
-    features_.features.shaderSampledImageArrayDynamicIndexing = arrays;
+    features_.features.shaderStorageBufferArrayDynamicIndexing = supported.shaderStorageBufferArrayDynamicIndexing;
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 
     constexpr float kPriority = 1.0f;

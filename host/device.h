@@ -124,9 +124,8 @@ public:
     [[nodiscard]] bool drawsMany() const { return features_.features.multiDrawIndirect == VK_TRUE; }
     /// drawIndirectCount: as many as a buffer says.
     [[nodiscard]] bool countsDraws() const { return requirements_.features12.drawIndirectCount == VK_TRUE; }
-    /// shaderStorageBufferArrayDynamicIndexing and shaderSampledImageArrayDynamicIndexing: a draw chooses its buffers
-    /// and textures from arrays.
-    [[nodiscard]] bool indexesArrays() const {
+    /// shaderStorageBufferArrayDynamicIndexing: a draw chooses its buffer from an array.
+    [[nodiscard]] bool indexesBuffers() const {
         return features_.features.shaderStorageBufferArrayDynamicIndexing == VK_TRUE;
     }
 

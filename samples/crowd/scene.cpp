@@ -52,7 +52,7 @@ ViewDraws drawsOf(Device& device, const Crowd& crowd) {
 
 Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
     : crowd_(crowd), draws_(drawsOf(device, crowd)), wall_(wall) {
-    if (!device.indexesArrays())
+    if (!device.indexesBuffers())
         fail("the device lacks arrays of buffers that a draw chooses from", 3);
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
