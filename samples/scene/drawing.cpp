@@ -33,18 +33,24 @@ struct Push {
     uint32_t paint; ///< 1: capacities as colors
 };
 
-/// All materials lie in buffers and one array of textures: one bin, so one call.
-ViewDraws drawsOf(Device& device, const Market& market) {
+/// Draws that share their textures share a bin.
+ViewDraws drawsOf(Device& device, const Market& market, const Looks& looks) {
+    const auto binOf = [&](uint32_t figure, const SuppleLevelDraw& draw) {
+        return looks.textureSetOf(figure, draw.material);
+    };
+    return must(ViewDraws::create(device, market.surfaces(), static_cast<uint32_t>(looks.textureSets().size()), binOf));
+}
+
+/// Shadows need no textures: all draws share one bin.
+ViewDraws shadowDrawsOf(Device& device, const Market& market) {
     return must(ViewDraws::create(device, market.surfaces(), 1, [](uint32_t, const SuppleLevelDraw&) { return 0u; }));
 }
 
 } // namespace
 
 Drawing::Drawing(Device& device, Graph& graph, const Market& market)
-    : device_(device), graph_(graph), market_(market), looks_(device, market), draws_(drawsOf(device, market)),
-      props_(makeProps()), samples_(VK_SAMPLE_COUNT_4_BIT) {
-    if (!device.indexesArrays())
-        fail("the device lacks arrays of textures that a draw chooses from", 3);
+    : device_(device), graph_(graph), market_(market), looks_(device, market), draws_(drawsOf(device, market, looks_)),
+      shadowDraws_(shadowDrawsOf(device, market)), props_(makeProps()), samples_(VK_SAMPLE_COUNT_4_BIT) {
     propBuffer_ = must(
         device.uploadBuffer(props_.all.data(), props_.all.size() * sizeof(Prop), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     sunMap_ =
@@ -76,10 +82,12 @@ void Drawing::createSets() {
                                                    {5, kStorage, kVertex},
                                                    {6, kStorage, kVertex},
                                                    {7, kStorage, kBoth},
-                                                   {8, kStorage, kFragment},
-                                                   {9, kImage, kFragment, kTextures}}));
-    layout_ = must(createPipelineLayout(device_, {sceneLayout_, figureLayout_}, sizeof(Push), kBoth));
-    DescriptorPool pool = must(DescriptorPool::create(device_, kFramesInFlight + kTextures));
+                                                   {8, kStorage, kFragment}}));
+    textureLayout_ = must(createSetLayout(device_, {{0, kImage, kFragment}, {1, kImage, kFragment}}));
+    layout_ = must(createPipelineLayout(device_, {sceneLayout_, figureLayout_, textureLayout_}, sizeof(Push), kBoth));
+    const std::vector<Looks::Textures>& textures = looks_.textureSets();
+    DescriptorPool pool =
+        must(DescriptorPool::create(device_, kFramesInFlight + 4 + static_cast<uint32_t>(textures.size())));
     const VkSampler compare = must(createSampler(device_, VK_FILTER_LINEAR, true));
     for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         uniforms_[slot] =
@@ -89,15 +97,18 @@ void Drawing::createSets() {
                                       storageBuffer(2, propBuffer_.handle(), 0, VK_WHOLE_SIZE)});
     }
     const SuppleVertexStreams streams = market_.streams();
-    std::vector<Write> writes = looks_.textureWrites(9);
-    for (const Write& write :
-         {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes), storageBuffer(4, draws_.buckets()),
-          storageBuffer(5, draws_.patches()), storageBuffer(6, draws_.drawn().handle(), 0, VK_WHOLE_SIZE),
-          storageBuffer(7, looks_.looks().handle(), 0, VK_WHOLE_SIZE),
-          storageBuffer(8, looks_.materials().handle(), 0, VK_WHOLE_SIZE)})
-        writes.push_back(write);
-    figureSet_ = must(pool.allocate(figureLayout_));
-    pool.write(figureSet_, writes);
+    for (const auto& [set, draws] : {std::pair(&figureSet_, &draws_), std::pair(&shadowSet_, &shadowDraws_)}) {
+        *set = must(pool.allocate(figureLayout_));
+        pool.write(*set, {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
+                          storageBuffer(4, draws->buckets()), storageBuffer(5, draws->patches()),
+                          storageBuffer(6, draws->drawn().handle(), 0, VK_WHOLE_SIZE),
+                          storageBuffer(7, looks_.looks().handle(), 0, VK_WHOLE_SIZE),
+                          storageBuffer(8, looks_.materials().handle(), 0, VK_WHOLE_SIZE)});
+    }
+    for (const Looks::Textures& pair : textures) {
+        textureSets_.push_back(must(pool.allocate(textureLayout_)));
+        pool.write(textureSets_.back(), {looks_.textureWrite(0, pair.color), looks_.textureWrite(1, pair.surface)});
+    }
 }
 
 void Drawing::createPipelines() {
@@ -159,20 +170,21 @@ void Drawing::update(uint32_t slot, const Camera& camera, double time) {
     std::memcpy(uniforms_[slot].mapped(), &uniforms, sizeof uniforms);
 }
 
-void Drawing::drawAll(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const {
-    const auto push = [&](uint32_t first) {
-        const Push values{first, sun ? 1u : 0u, paint ? 1u : 0u};
-        vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                           sizeof values, &values);
-    };
-    const VkDescriptorSet sets[] = {sceneSets_[slot], figureSet_};
+void Drawing::push(VkCommandBuffer commands, uint32_t first, bool sun, bool paint) const {
+    const Push values{first, sun ? 1u : 0u, paint ? 1u : 0u};
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof values,
+                       &values);
+}
+
+void Drawing::bindSets(VkCommandBuffer commands, uint32_t slot, VkDescriptorSet figures) const {
+    const VkDescriptorSet sets[] = {sceneSets_[slot], figures};
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? figureShadows_ : figures_);
-    push(draws_.firstDraw(0));
-    draws_.draw(commands, 0); // all figures
+}
+
+void Drawing::drawProps(VkCommandBuffer commands, bool sun) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? solidShadows_ : solids_);
     for (uint32_t shape = 0; shape < kShapes; ++shape) {
-        push(shape);
+        push(commands, shape, sun, false);
         vkCmdDraw(commands, kShapeVertices[shape], props_.runs[shape].count, 0, props_.runs[shape].first);
     }
 }
@@ -180,7 +192,11 @@ void Drawing::drawAll(VkCommandBuffer commands, uint32_t slot, bool sun, bool pa
 void Drawing::drawSun(VkCommandBuffer commands, uint32_t slot) const {
     beginRendering(commands, sunMap_.desc().extent, {},
                    attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
-    drawAll(commands, slot, true, false);
+    bindSets(commands, slot, shadowSet_);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, figureShadows_);
+    push(commands, shadowDraws_.firstDraw(0), true, false);
+    shadowDraws_.draw(commands, 0);
+    drawProps(commands, true);
     vkCmdEndRendering(commands);
 }
 
@@ -192,7 +208,15 @@ void Drawing::drawPicture(VkCommandBuffer commands, uint32_t slot, bool paint) c
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     beginRendering(commands, picture_.desc().extent, {&color, 1},
                    attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
-    drawAll(commands, slot, false, paint);
+    bindSets(commands, slot, figureSet_);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, figures_);
+    for (uint32_t bin = 0; bin < textureSets_.size(); ++bin) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 2, 1, &textureSets_[bin], 0,
+                                nullptr);
+        push(commands, draws_.firstDraw(bin), false, paint);
+        draws_.draw(commands, bin);
+    }
+    drawProps(commands, false);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, ground_);
     vkCmdDraw(commands, 6, 1, 0, 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_);
@@ -202,7 +226,10 @@ void Drawing::drawPicture(VkCommandBuffer commands, uint32_t slot, bool paint) c
 
 void Drawing::addToGraph(uint32_t slot, Resource buffers, bool paint) {
     graph_.add("gather", {reads(buffers, ViewDraws::kReads), writes(drawsUse_, ViewDraws::kWrites)},
-               [this](VkCommandBuffer commands) { draws_.record(commands); });
+               [this](VkCommandBuffer commands) {
+                   draws_.record(commands);
+                   shadowDraws_.record(commands);
+               });
     graph_.add("sun",
                {reads(buffers, kDrawn), reads(drawsUse_, kDrawn),
                 writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},

@@ -1,5 +1,5 @@
-// Draws the market place and all who are there into a picture: one indirect call for all figures, in each of two
-// passes.
+// Draws the market place and all who are there into a picture. All figures together take one indirect call in the sun's
+// map, and one for each pair of textures in the picture.
 #pragma once
 
 #include "host/view_draws.h"
@@ -33,13 +33,16 @@ public:
 
     [[nodiscard]] const Image& picture() const { return picture_; }
     [[nodiscard]] Resource pictureUse() const { return pictureUse_; }
-    /// Commands that the one call issues at most.
-    [[nodiscard]] uint32_t drawCount() const { return draws_.drawCount(0); }
+    /// Commands of the view, and indirect calls of the picture.
+    [[nodiscard]] uint32_t drawCount() const { return shadowDraws_.drawCount(0); }
+    [[nodiscard]] uint32_t callCount() const { return static_cast<uint32_t>(textureSets_.size()); }
 
 private:
     void createSets();
     void createPipelines();
-    void drawAll(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const;
+    void bindSets(VkCommandBuffer commands, uint32_t slot, VkDescriptorSet figures) const;
+    void push(VkCommandBuffer commands, uint32_t first, bool sun, bool paint) const;
+    void drawProps(VkCommandBuffer commands, bool sun) const;
     void drawSun(VkCommandBuffer commands, uint32_t slot) const;
     void drawPicture(VkCommandBuffer commands, uint32_t slot, bool paint) const;
 
@@ -47,17 +50,20 @@ private:
     Graph& graph_;
     const Market& market_;
     Looks looks_;
-    ViewDraws draws_;
+    ViewDraws draws_;       ///< a bin for each of Looks::textureSets
+    ViewDraws shadowDraws_; ///< one bin
     Props props_;
     Buffer propBuffer_;
     VkSampleCountFlagBits samples_;
     Image sunMap_, color_, depth_, picture_;
     Resource sunMapUse_, colorUse_, depthUse_, pictureUse_, drawsUse_;
     Buffer uniforms_[kFramesInFlight];
-    VkDescriptorSetLayout sceneLayout_ = VK_NULL_HANDLE, figureLayout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout sceneLayout_ = VK_NULL_HANDLE, figureLayout_ = VK_NULL_HANDLE,
+                          textureLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSet sceneSets_[kFramesInFlight]{};
-    VkDescriptorSet figureSet_ = VK_NULL_HANDLE;
+    VkDescriptorSet figureSet_ = VK_NULL_HANDLE, shadowSet_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> textureSets_;
     VkPipeline figures_ = VK_NULL_HANDLE, figureShadows_ = VK_NULL_HANDLE, solids_ = VK_NULL_HANDLE,
                solidShadows_ = VK_NULL_HANDLE, ground_ = VK_NULL_HANDLE, sky_ = VK_NULL_HANDLE;
 };

@@ -49,7 +49,6 @@ Image whiteTexture(Device& device) {
 Looks::Looks(Device& device, const Market& market) : sampler_(createTextureSampler(device)) {
     textures_.push_back(whiteTexture(device));
     std::array<std::optional<Look>, kKinds> ofKinds;
-    std::vector<Look> looks;
     for (size_t i = 0; i < market.cast().size(); ++i) {
         const Figure& figure = market.cast()[i];
         std::optional<Look>& ofKind = ofKinds[static_cast<size_t>(figure.kind)];
@@ -61,14 +60,12 @@ Looks::Looks(Device& device, const Market& market) : sampler_(createTextureSampl
                 materials_[m].tint = static_cast<uint32_t>(tintOf(info.name, figure.kind));
             }
         }
-        looks.push_back(*ofKind);
-        looks.back().tints = figure.tints;
+        looks_.push_back(*ofKind);
+        looks_.back().tints = figure.tints;
     }
-    if (textures_.size() > kTextures)
-        fail("the characters have more textures than the shader");
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     materialBuffer_ = must(device.uploadBuffer(materials_.data(), materials_.size() * sizeof(Material), kStorage));
-    lookBuffer_ = must(device.uploadBuffer(looks.data(), looks.size() * sizeof(Look), kStorage));
+    lookBuffer_ = must(device.uploadBuffer(looks_.data(), looks_.size() * sizeof(Look), kStorage));
 }
 
 Look Looks::addMaterials(Device& device, const supple::Asset& asset) {
@@ -84,12 +81,26 @@ Look Looks::addMaterials(Device& device, const supple::Asset& asset) {
         std::copy_n(from.baseColorFactor, 4, &material.baseColor[0]);
         material.metallic = from.metallicFactor;
         material.roughness = from.roughnessFactor;
-        material.colorTexture = addTexture(device, asset, from.baseColor, true);
-        material.surfaceTexture = addTexture(device, asset, from.metallicRoughness, false);
+        addTextureSet({addTexture(device, asset, from.baseColor, true),
+                       addTexture(device, asset, from.metallicRoughness, false)});
     }
     look.lastMaterial = static_cast<uint32_t>(materials_.size());
     materials_.emplace_back();
+    addTextureSet({});
     return look;
+}
+
+void Looks::addTextureSet(Textures textures) {
+    const auto known = std::find(textureSets_.begin(), textureSets_.end(), textures);
+    setOfMaterial_.push_back(static_cast<uint32_t>(known - textureSets_.begin()));
+    if (known == textureSets_.end())
+        textureSets_.push_back(textures);
+}
+
+uint32_t Looks::textureSetOf(uint32_t figure, uint32_t material) const {
+    const Look& look = looks_[figure];
+    const uint32_t count = look.lastMaterial - look.firstMaterial; // of those that the file has
+    return setOfMaterial_[look.firstMaterial + std::min(material, count)];
 }
 
 uint32_t Looks::addTexture(Device& device, const supple::Asset& asset, const SuppleTextureInfo& texture, bool isColor) {
@@ -108,13 +119,8 @@ uint32_t Looks::addTexture(Device& device, const supple::Asset& asset, const Sup
     return known_.back().second;
 }
 
-std::vector<Write> Looks::textureWrites(uint32_t binding) const {
-    std::vector<Write> writes;
-    for (uint32_t i = 0; i < kTextures; ++i) {
-        writes.push_back(sampledImage(binding, textures_[i < textures_.size() ? i : 0], sampler_));
-        writes.back().element = i;
-    }
-    return writes;
+Write Looks::textureWrite(uint32_t binding, uint32_t texture) const {
+    return sampledImage(binding, textures_[texture], sampler_);
 }
 
 } // namespace market

@@ -90,6 +90,7 @@ public:
         market::PanelFacts facts{.figures = static_cast<uint32_t>(market_.cast().size()),
                                  .mostVertices = mostVertices_,
                                  .drawCount = drawing_.drawCount(),
+                                 .callCount = drawing_.callCount(),
                                  .statistics = market_.statistics(),
                                  .memory = market_.memory(),
                                  .supple = market_.passTimes()};
@@ -128,9 +129,9 @@ private:
 
 void print(const market::PanelFacts& facts, uint32_t budget) {
     const SuppleViewStatistics& drawn = facts.statistics;
-    std::printf("figures %u\ndrawn %u\ndropped %u\nbudget %u\nvertices %u\npatches %u\nscale %.4f\n", facts.figures,
-                drawn.drawnInstanceCount, drawn.droppedInstanceCount, budget, drawn.vertexCount, drawn.patchCount,
-                static_cast<double>(drawn.levelScales[0]));
+    std::printf("figures %u\ndrawn %u\ndropped %u\nbudget %u\nvertices %u\npatches %u\nscale %.4f\ncalls %u\n",
+                facts.figures, drawn.drawnInstanceCount, drawn.droppedInstanceCount, budget, drawn.vertexCount,
+                drawn.patchCount, static_cast<double>(drawn.levelScales[0]), facts.callCount);
     for (const std::vector<market::PassMilliseconds>* const passes : {&facts.supple, &facts.drawing}) {
         for (const market::PassMilliseconds& pass : *passes)
             std::printf("%-10s %8.3f ms\n", pass.name.c_str(), pass.milliseconds);

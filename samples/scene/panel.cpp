@@ -40,7 +40,7 @@ void showPanel(const PanelFacts& facts, PanelSettings& settings) {
     ImGui::Text("%u vertices of %u patches", drawn.vertexCount, drawn.patchCount);
     ImGui::Text("levels scaled by %.3f%s", static_cast<double>(drawn.levelScales[0]),
                 drawn.shortfall != 0 ? ", too few" : "");
-    ImGui::Text("1 indirect call a pass, of %u draws", facts.drawCount);
+    ImGui::Text("%u draws by %u indirect calls", facts.drawCount, facts.callCount);
     ImGui::Text("%.0f MiB in %u pieces",
                 static_cast<double>(facts.memory.deviceLocal + facts.memory.hostVisible) / (1 << 20),
                 facts.memory.allocationCount);

@@ -11,7 +11,8 @@ namespace market {
 struct PanelFacts {
     uint32_t figures = 0;
     uint32_t mostVertices = 0; ///< of the budget
-    uint32_t drawCount = 0;    ///< commands of the one indirect call
+    uint32_t drawCount = 0;    ///< commands of the view
+    uint32_t callCount = 0;    ///< indirect calls that draw figures into the picture
     SuppleViewStatistics statistics{};
     SuppleMemoryUse memory{};
     std::vector<PassMilliseconds> supple, drawing; ///< on the device

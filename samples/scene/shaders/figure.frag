@@ -5,7 +5,8 @@
 #include "scene.glsl"
 
 layout(set = 1, binding = 8, std430) readonly buffer Materials { Material materials[]; };
-layout(set = 1, binding = 9) uniform sampler2D textures[16];
+layout(set = 2, binding = 0) uniform sampler2D colorTexture;
+layout(set = 2, binding = 1) uniform sampler2D surfaceTexture; // roughness in green, metal in blue
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -31,8 +32,8 @@ vec3 capacityColor(uint capacity) {
 void main() {
     Material material = materials[inDraw.y];
     vec3 n = normalize(gl_FrontFacing ? inNormal : -inNormal);
-    vec3 albedo = inColor * material.baseColor.rgb * texture(textures[material.colorTexture], inUv).rgb;
-    vec2 surface = texture(textures[material.surfaceTexture], inUv).gb;
+    vec3 albedo = inColor * material.baseColor.rgb * texture(colorTexture, inUv).rgb;
+    vec2 surface = texture(surfaceTexture, inUv).gb;
     if (material.tint < 4u)
         albedo = tinted(albedo, looks[inDraw.x].tints[material.tint].xyz);
     float metallic = material.metallic * surface.y, roughness = material.roughness * surface.x;

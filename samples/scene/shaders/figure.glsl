@@ -2,9 +2,8 @@
 struct Material {
     vec4 baseColor;
     float metallic, roughness;
-    uint colorTexture, surfaceTexture;
     uint tint; // of Look::tints; 4: none
-    uint unused0, unused1, unused2;
+    uint unused;
 };
 struct Look {
     vec4 tints[4];
