@@ -35,6 +35,8 @@ struct CharacterPush {
     uint32_t sun;
 };
 
+constexpr uint32_t kPushBytes = sizeof(glm::vec4); ///< the wall's, which are more
+
 struct TextCorner { // of stb_easy_font
     float x, y, z;
     uint32_t color;
@@ -84,8 +86,7 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
                                       {6, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
                                       {7, kStorage, VK_SHADER_STAGE_VERTEX_BIT, kKinds}}));
     const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
-    layout_ = must(
-        createPipelineLayout(device, {sceneLayout, crowdLayout}, sizeof(CharacterPush), VK_SHADER_STAGE_VERTEX_BIT));
+    layout_ = must(createPipelineLayout(device, {sceneLayout, crowdLayout}, kPushBytes, VK_SHADER_STAGE_VERTEX_BIT));
     textLayout_ = must(createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT));
 
     DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight + 2));

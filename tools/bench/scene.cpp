@@ -1,6 +1,6 @@
 #include "tools/bench/scene.h"
 
-#include "tools/bench/frame_times.h"
+#include "tools/bench/pass_times.h"
 #include "tools/bench/scene_stage.h"
 #include "tools/common/statistics.h"
 
@@ -51,7 +51,7 @@ Result<HostTimes> timeHost(SceneStage& stage, uint32_t count) {
 }
 
 struct SceneTimes {
-    std::vector<FrameTimes> frames;
+    std::vector<PassTimes> frames;
     /// Milliseconds of the views that were added: in the passes that a view has for itself, and in the others.
     std::vector<double> own, repeated;
 };
@@ -83,7 +83,7 @@ Result<SceneTimes> timePasses(SceneStage& stage, uint32_t count) {
     return times;
 }
 
-double wholeFrame(const FrameTimes& frame) {
+double wholeFrame(const PassTimes& frame) {
     return frame.whole;
 }
 
@@ -100,7 +100,7 @@ Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc, uint32_t all
     for (const auto& pass : times->frames.front().passes) {
         const std::string& name = pass.first;
         passes.push_back(
-            {{"pass", name}, {"ms", medianOf(times->frames, [&](const FrameTimes& f) { return f.of(name); })}});
+            {{"pass", name}, {"ms", medianOf(times->frames, [&](const PassTimes& f) { return f.of(name); })}});
     }
     return Json{{"dispatches", host->commands.dispatches},
                 {"barriers", host->commands.barriers},

@@ -1,7 +1,7 @@
 #include "tools/bench/views.h"
 
 #include "tools/bench/crowd_character.h"
-#include "tools/bench/frame_times.h"
+#include "tools/bench/pass_times.h"
 #include "tools/common/schemes.h"
 
 #include <nlohmann/json.hpp>
@@ -14,14 +14,14 @@ namespace {
 
 constexpr uint32_t kWarmFrames = 3, kMaxVertices = 1u << 20;
 
-double aroundEvaluate(const FrameTimes& frame) {
+double aroundEvaluate(const PassTimes& frame) {
     return (frame.of("level") + frame.of("place") + frame.of("attributes")) / frame.of("evaluate");
 }
 
 /// A frame's times are known when the next one begins.
-Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& workbench, SuppleGroup group,
-                                           uint32_t count) {
-    std::vector<FrameTimes> frames;
+Result<std::vector<PassTimes>> timeFrames(host::Device& device, Workbench& workbench, SuppleGroup group,
+                                          uint32_t count) {
+    std::vector<PassTimes> frames;
     for (uint32_t i = 0; i <= kWarmFrames + count; ++i) {
         Status recorded = success();
         const Status submitted = device.submitAndWait([&](VkCommandBuffer commands) {
@@ -37,17 +37,17 @@ Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& work
     return frames;
 }
 
-double wholeOf(const FrameTimes& frame) {
+double wholeOf(const PassTimes& frame) {
     return frame.whole;
 }
 
 /// `unseen`: the same frames, with all characters behind the camera.
-Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<FrameTimes>& frames,
-           const std::vector<FrameTimes>& unseen) {
+Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<PassTimes>& frames,
+           const std::vector<PassTimes>& unseen) {
     Json passes = Json::array();
     for (const auto& pass : frames.front().passes) {
         const std::string& name = pass.first;
-        passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const FrameTimes& f) { return f.of(name); })}});
+        passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const PassTimes& f) { return f.of(name); })}});
     }
     return {{"scheme", tools::schemeName(scheme)},
             {"characters", desc.characters},
@@ -77,10 +77,10 @@ Result<Json> measureRow(host::Device& device, Workbench& workbench, const ViewsD
     const Result<SuppleGroup> group = workbench.createGroup(groupDesc);
     Result<Json> row = Json();
     if (group) {
-        const Result<std::vector<FrameTimes>> frames = timeFrames(device, workbench, *group, desc.frames);
+        const Result<std::vector<PassTimes>> frames = timeFrames(device, workbench, *group, desc.frames);
         const uint32_t vertices = workbench.verticesOf(*view);
         workbench.lookAway(*view);
-        const Result<std::vector<FrameTimes>> unseen =
+        const Result<std::vector<PassTimes>> unseen =
             frames ? timeFrames(device, workbench, *group, desc.frames) : frames.error();
         row = unseen ? Result<Json>(rowOf(scheme, desc, vertices, *frames, *unseen)) : unseen.error();
         workbench.destroy(*group);

@@ -1,4 +1,4 @@
-#include "tools/bench/frame_times.h"
+#include "tools/bench/pass_times.h"
 
 #include "tools/common/statistics.h"
 
@@ -12,7 +12,7 @@ constexpr double kMillisecondsANanosecond = 1e-6;
 
 } // namespace
 
-FrameTimes::FrameTimes(std::span<const SuppleTiming> timings) {
+PassTimes::PassTimes(std::span<const SuppleTiming> timings) {
     double begin = 0.0, end = 0.0;
     for (const SuppleTiming& one : timings) {
         if (one.pass == SUPPLE_PASS_SHORTFALL) { // is no pass
@@ -33,14 +33,14 @@ FrameTimes::FrameTimes(std::span<const SuppleTiming> timings) {
     whole = kMillisecondsANanosecond * (end - begin);
 }
 
-double FrameTimes::of(const std::string& pass) const {
+double PassTimes::of(const std::string& pass) const {
     const auto found = std::find_if(passes.begin(), passes.end(), [&](const auto& p) { return p.first == pass; });
     return found == passes.end() ? 0.0 : found->second;
 }
 
-double medianOf(const std::vector<FrameTimes>& frames, const std::function<double(const FrameTimes&)>& value) {
+double medianOf(const std::vector<PassTimes>& frames, const std::function<double(const PassTimes&)>& value) {
     std::vector<double> values;
-    for (const FrameTimes& frame : frames) {
+    for (const PassTimes& frame : frames) {
         values.push_back(value(frame));
     }
     return tools::summarize(values).median;

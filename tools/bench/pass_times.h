@@ -12,17 +12,17 @@
 namespace supple::bench {
 
 /// The passes of a frame in the order in which they came, and milliseconds.
-struct FrameTimes {
+struct PassTimes {
     std::vector<std::pair<std::string, double>> passes; ///< those of all groups together
     double whole = 0.0;                                 ///< from the beginning of the first to the end of the last
 
-    FrameTimes() = default;
-    explicit FrameTimes(std::span<const SuppleTiming> timings);
+    PassTimes() = default;
+    explicit PassTimes(std::span<const SuppleTiming> timings);
     /// 0: there was no such pass.
     [[nodiscard]] double of(const std::string& pass) const;
 };
 
-[[nodiscard]] double medianOf(const std::vector<FrameTimes>& frames,
-                              const std::function<double(const FrameTimes&)>& value);
+[[nodiscard]] double medianOf(const std::vector<PassTimes>& frames,
+                              const std::function<double(const PassTimes&)>& value);
 
 } // namespace supple::bench
