@@ -29,7 +29,7 @@ public:
         // Dyes: madder, ochre, moss, woad, plum, undyed; hair from black to straw; leather from tan to black.
         constexpr float kDyes[] = {0.0f, 1.1f, 2.2f, 3.1f, -1.5f, -0.7f};
         const float dye = kDyes[figures.size() % std::size(kDyes)];
-        figure.tints = {glm::vec4(dye + uniform(-0.2f, 0.2f), uniform(0.7f, 1.25f), uniform(0.75f, 1.35f), 0.0f),
+        figure.tints = {glm::vec4(dye + uniform(-0.2f, 0.2f), uniform(0.8f, 1.5f), uniform(0.8f, 1.9f), 0.0f),
                         glm::vec4(uniform(-0.25f, 0.3f), uniform(0.5f, 1.2f), uniform(0.55f, 2.2f), 0.0f),
                         glm::vec4(uniform(-0.1f, 0.1f), uniform(0.6f, 1.1f), uniform(0.7f, 1.3f), 0.0f),
                         glm::vec4(0.0f, uniform(0.95f, 1.15f), uniform(0.55f, 1.02f), 0.0f)};
@@ -39,7 +39,7 @@ public:
     Figure& dragon(glm::vec2 place, float heading, const char* clip, float size) {
         Figure& figure = add(figures.size() % 2 == 0 ? Kind::pip : Kind::pipQuads, place, heading, clip);
         figure.size = size * uniform(0.92f, 1.08f);
-        figure.tints.fill(glm::vec4(uniform(-1.9f, 1.9f), uniform(0.8f, 1.15f), uniform(0.8f, 1.15f), 0.0f));
+        figure.tints.fill(glm::vec4(uniform(-1.9f, 1.9f), uniform(0.5f, 0.8f), uniform(0.8f, 1.1f), 0.0f));
         return figure;
     }
 

@@ -53,7 +53,7 @@ Options readOptions(int argc, char** argv) {
 market::Camera cameraAt(double time, VkExtent2D extent) {
     const float sway = 0.16f * std::sin(0.11f * static_cast<float>(time));
     market::Camera camera;
-    camera.eye = {11.6f * std::sin(sway), 3.1f, 11.6f * std::cos(sway)};
+    camera.eye = {11.2f * std::sin(sway), 2.9f, 11.2f * std::cos(sway)};
     const glm::vec3 target(0.0f, 0.95f, -1.0f);
     const float fovY = glm::radians(37.0f);
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -62,14 +63,18 @@ Market::Market(const Device& device, uint32_t figures, uint32_t mostVertices)
     viewDesc.maxVertices = mostVertices;
     must(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
     const std::array<Source, kKinds> sources = readSources();
+    const size_t wanted = cast_.size();
     for (size_t i = 0; i < cast_.size(); ++i) {
-        const Source& source = sources[static_cast<size_t>(cast_[i].kind)];
-        members_.push_back(makeMember(cast_[i], source, source.name + " " + std::to_string(i)));
+        if (!addMember(cast_[i], sources[static_cast<size_t>(cast_[i].kind)]))
+            cast_.resize(i);
     }
+    if (cast_.size() < wanted)
+        std::fprintf(stderr, "the view has room for %zu of %zu figures\n", cast_.size(), wanted);
 }
 
 /// All of it once: the device plays the clip from then on.
-Market::Member Market::makeMember(const Figure& figure, const Source& source, const std::string& name) const {
+bool Market::addMember(const Figure& figure, const Source& source) {
+    const std::string name = source.name + " " + std::to_string(members_.size());
     Member member;
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = name.c_str();
@@ -82,7 +87,10 @@ Market::Member Market::makeMember(const Figure& figure, const Source& source, co
     desc.scheme = source.scheme;
     desc.view = view_.handle();
     desc.poseSource = SUPPLE_POSES_PLAYBACK;
-    must(supple::Group::create(context_, desc, member.group), "suppleCreateGroup");
+    const SuppleResult created = supple::Group::create(context_, desc, member.group);
+    if (created == SUPPLE_ERROR_LIMIT)
+        return false;
+    must(created, "suppleCreateGroup");
     must(supple::Instance::create(member.group, member.instance), "suppleCreateInstance");
     dress(figure, member.asset, member.instance);
 
@@ -94,7 +102,8 @@ Market::Member Market::makeMember(const Figure& figure, const Source& source, co
     layer.speed = figure.speed;
     layer.offset = static_cast<double>(figure.phase) * clip.duration;
     must(member.instance.setPlayback({&layer, 1}), "suppleSetPlayback");
-    return member;
+    members_.push_back(std::move(member));
+    return true;
 }
 
 void Market::beginFrame(uint64_t frame, uint64_t completed) const {

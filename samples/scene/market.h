@@ -64,7 +64,8 @@ private:
         supple::Instance instance;
     };
 
-    [[nodiscard]] Member makeMember(const Figure& figure, const Source& source, const std::string& name) const;
+    /// False: the view has no room for another character.
+    [[nodiscard]] bool addMember(const Figure& figure, const Source& source);
 
     supple::Context context_;
     supple::View view_;

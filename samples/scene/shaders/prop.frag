@@ -90,7 +90,7 @@ Paint painted(uint surface) {
     case kStripes: {
         float s = fract(inLocal.x / 0.46 + 0.25) - 0.5, w = fwidth(inLocal.x / 0.46);
         float stripe = smoothstep(-0.7, 0.7, (abs(s) - 0.25) / max(w, 1e-4));
-        return Paint(mix(inColor.rgb, vec3(0.78, 0.72, 0.60), stripe), 0.95);
+        return Paint(mix(inColor.rgb, vec3(0.60, 0.55, 0.45), stripe), 0.95);
     }
     case kWood: return wood();
     case kTimbered: return timbered();

@@ -93,7 +93,7 @@ vec3 hazed(vec3 color, vec3 position) {
 
 // Linear to what the picture holds.
 vec4 shown(vec3 color) {
-    color *= 0.72;
+    color *= 0.6;
     vec3 mapped = clamp(color * (2.51 * color + 0.03) / (color * (2.43 * color + 0.59) + 0.14), 0.0, 1.0);
     vec3 low = 12.92 * mapped, high = 1.055 * pow(mapped, vec3(1.0 / 2.4)) - 0.055;
     return vec4(mix(high, low, lessThan(mapped, vec3(0.0031308))), 1.0);
