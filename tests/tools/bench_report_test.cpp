@@ -416,7 +416,7 @@ TEST(BenchReport, ScenesAreShown) {
     const std::string text = toTables(result);
     EXPECT_NE(text.find("## A scene of different characters, 3 of each"), std::string::npos) << text;
     EXPECT_NE(text.find("| rate 4 | posed  |          1 |         11 |       20 |"), std::string::npos) << text;
-    EXPECT_NE(text.find("|                0.25 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("|           0.25 |"), std::string::npos) << text;
     EXPECT_NE(text.find("levels and vertices of further views, ms"), std::string::npos) << text;
 }
 

@@ -62,7 +62,7 @@ std::vector<std::string> peerJobs(bool cpu, bool glsl) {
     return jobs;
 }
 
-/// One and three different characters, in both uses, posed and played, and one of them from several views.
+/// One and three different characters, posed at one rate and played in a view, and one of them from several views.
 void expectScene(const Json& scene, const std::string& out) {
     EXPECT_EQ(scene["instances"], 3);
     std::set<std::string> rows;

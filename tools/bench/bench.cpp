@@ -251,6 +251,7 @@ Status Run::scene() {
     desc.characters.push_back(most);
     desc.viewedCharacters = std::min(options_.quick ? 1 : kViewedCharacters, most);
     desc.frames = options_.rounds;
+    desc.everyUse = !options_.quick;
     desc.mapping = options_.mapping;
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rscene: %s   ", what.c_str()); };
     Result<Json> measured = measureScene(device_, desc);

@@ -177,6 +177,9 @@ Result<Json> measureScene(host::Device& device, const SceneDesc& desc) {
     Json result{{"instances", SceneStage::kInstances}, {"rows", Json::array()}, {"views", Json::array()}};
     for (const bool inView : {false, true}) {
         for (const bool played : {false, true}) {
+            if (!desc.everyUse && played != inView) {
+                continue;
+            }
             const Result<std::unique_ptr<SceneStage>> stage =
                 SceneStage::create(device, desc.mapping, {inView, played});
             if (!stage) {

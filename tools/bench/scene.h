@@ -18,6 +18,7 @@ struct SceneDesc {
     std::vector<uint32_t> characters; ///< different ones; a row each
     uint32_t viewedCharacters = 0;    ///< so many are seen from one, two and four views
     uint32_t frames = 0;              ///< that are measured
+    bool everyUse = true;             ///< else posed at one rate and played in a view: pipelines take seconds
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     std::function<void(const std::string& what)> progress;
 };
