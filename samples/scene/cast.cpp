@@ -30,7 +30,7 @@ public:
         constexpr float kDyes[] = {0.0f, 1.1f, 2.2f, 3.1f, -1.5f, -0.7f};
         const float dye = kDyes[figures.size() % std::size(kDyes)];
         figure.tints = {glm::vec4(dye + uniform(-0.2f, 0.2f), uniform(0.8f, 1.5f), uniform(0.8f, 1.9f), 0.0f),
-                        glm::vec4(uniform(-0.25f, 0.3f), uniform(0.5f, 1.2f), uniform(0.55f, 2.2f), 0.0f),
+                        glm::vec4(uniform(-0.05f, 0.3f), uniform(0.4f, 1.0f), uniform(0.45f, 1.6f), 0.0f),
                         glm::vec4(uniform(-0.1f, 0.1f), uniform(0.6f, 1.1f), uniform(0.7f, 1.3f), 0.0f),
                         glm::vec4(0.0f, uniform(0.95f, 1.15f), uniform(0.55f, 1.02f), 0.0f)};
         return figure;

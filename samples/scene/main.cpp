@@ -21,7 +21,7 @@ struct Options : PictureOptions {
     bool offscreen = false;
     bool paint = false;
     uint32_t figures = market::kMostFigures;
-    uint32_t budget = 1'500'000;
+    uint32_t budget = 2'500'000;
 };
 
 Options readOptions(int argc, char** argv) {

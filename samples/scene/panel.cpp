@@ -39,7 +39,9 @@ void showPanel(const PanelFacts& facts, PanelSettings& settings) {
                         ImGuiSliderFlags_Logarithmic);
     ImGui::Text("%u vertices of %u patches", drawn.vertexCount, drawn.patchCount);
     ImGui::Text("levels scaled by %.3f%s", static_cast<double>(drawn.levelScales[0]),
-                drawn.shortfall != 0 ? ", too few" : "");
+                drawn.shortfall != 0 ? ", and more" : "");
+    if (drawn.droppedInstanceCount > 0)
+        ImGui::Text("%u have no room", drawn.droppedInstanceCount);
     ImGui::Text("%u draws by %u indirect calls", facts.drawCount, facts.callCount);
     ImGui::Text("%.0f MiB in %u pieces",
                 static_cast<double>(facts.memory.deviceLocal + facts.memory.hostVisible) / (1 << 20),
