@@ -77,8 +77,9 @@ void HostPoses::setPose(uint32_t instance) {
 }
 
 void HostPoses::setBindPose(uint32_t instance) {
-    std::ranges::fill(palette(instance), skinning::toAffine(glm::mat4(1.0f)));
-    std::ranges::copy(asset_->jointFrames.bind, joints(instance).begin());
+    const std::span<skinning::Affine> own = palette(instance);
+    std::fill(own.begin(), own.end(), skinning::toAffine(glm::mat4(1.0f)));
+    std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
     finishPalette(instance);
 }
@@ -129,9 +130,9 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
     const std::span before =
         std::span(other.palettes_).subspan(size_t{instance} * other.layout_.jointCount, other.layout_.jointCount);
     const auto isIdentity = [&](const skinning::Affine& joint) {
-        return std::ranges::equal(joint.rows, identity.rows);
+        return std::equal(std::begin(joint.rows), std::end(joint.rows), std::begin(identity.rows));
     };
-    if (std::ranges::all_of(before, isIdentity)) {
+    if (std::all_of(before.begin(), before.end(), isIdentity)) {
         return; // in the bind pose, as here
     }
     const std::span<glm::mat4> own = joints(instance);

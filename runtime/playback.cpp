@@ -191,7 +191,7 @@ void Playback::evaluate(uint32_t slot) {
     const cage::Character& character = asset_->character;
     const skinning::PlaybackState own = state(slot);
     if (own.inBindPose()) {
-        std::ranges::copy(asset_->jointFrames.bind, evaluated_.joints.begin());
+        std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), evaluated_.joints.begin());
         evaluated_.traveled = glm::dmat4(1.0);
     } else {
         skinning::PlaybackState::Layers layers;
@@ -285,9 +285,9 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
                         std::span(masks_).subspan((mask - 1) * maskFloats(), maskFloats()));
     const std::span<float> own = std::span(jointMasks_).subspan(size_t{mask - 1} * push_.jointCount, push_.jointCount);
     if (joints.empty()) {
-        std::ranges::fill(own, 1.0f);
+        std::fill(own.begin(), own.end(), 1.0f);
     } else {
-        std::ranges::copy(joints, own.begin());
+        std::copy(joints.begin(), joints.end(), own.begin());
     }
     evaluated_.slot = kNoSlot;
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
@@ -379,7 +379,7 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     const VkDeviceSize run = frame % framesInFlight_;
     if (!changedSlots_.empty()) {
         // Packed in the order of slots: a region of the copy for every run of neighbors.
-        std::ranges::sort(changedSlots_);
+        std::sort(changedSlots_.begin(), changedSlots_.end());
         regions_.clear();
         const VkDeviceSize size = stateBytes(), first = run * capacity_ * size;
         VkDeviceSize from = first;

@@ -18,8 +18,9 @@ constexpr uint32_t kUnboundedLoop = 0x80000000u;
 void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     Played& own = played_[slot];
     own = {};
-    const bool adds = std::ranges::any_of(
-        desc.layers, [](const skinning::PlaybackLayer& layer) { return layer.mode == skinning::LayerMode::additive; });
+    const bool adds = std::any_of(desc.layers.begin(), desc.layers.end(), [](const skinning::PlaybackLayer& layer) {
+        return layer.mode == skinning::LayerMode::additive;
+    });
     // Where the yaw is taken and the way is not, the root stands anywhere on a circle.
     const bool circles = (desc.root.axes & skinning::kRootYaw) != 0 && (desc.root.axes & skinning::kRootGround) == 0;
     own.kind = adds || circles ? Kind::unbounded : Kind::blended;

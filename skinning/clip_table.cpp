@@ -50,7 +50,8 @@ public:
                 table_.nodes.push_back(node);
             }
         }
-        std::ranges::stable_sort(table_.nodes, {}, [&](uint32_t node) { return depths[node]; });
+        std::stable_sort(table_.nodes.begin(), table_.nodes.end(),
+                         [&](uint32_t a, uint32_t b) { return depths[a] < depths[b]; });
         table_.places.assign(skeleton.nodes.size(), cage::kNone);
         for (uint32_t place = 0; place < table_.nodes.size(); ++place) {
             table_.places[table_.nodes[place]] = place;
@@ -116,7 +117,8 @@ public:
                 }
             }
             const uint32_t clip[] = {first, weights, bits(duration.high), bits(duration.low)};
-            std::ranges::copy(clip, table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
+            std::copy(std::begin(clip), std::end(clip),
+                      table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
         }
     }
 
@@ -135,7 +137,7 @@ private:
     }
     uint32_t putPacked(std::span<const float> values) {
         const uint32_t first = next();
-        std::ranges::transform(values, std::back_inserter(table_.words), bits);
+        std::transform(values.begin(), values.end(), std::back_inserter(table_.words), bits);
         table_.words.resize((table_.words.size() + 3) / 4 * 4, 0u);
         return first;
     }
@@ -150,8 +152,9 @@ private:
         const uint32_t record = putChannel(channel, width);
         for (uint32_t target = 0; target < width; ++target) {
             const uint32_t element[] = {record, target, width, 0u};
-            std::ranges::copy(element, table_.words.begin() +
-                                           static_cast<ptrdiff_t>(4 * size_t{targets + channel.firstTarget + target}));
+            std::copy(std::begin(element), std::end(element),
+                      table_.words.begin() +
+                          static_cast<ptrdiff_t>(4 * size_t{targets + channel.firstTarget + target}));
         }
     }
     /// `width`: floats a value; four and three have an element each, others (morph weights) are packed.

@@ -37,7 +37,7 @@ uint32_t PlaybackState::elements(uint32_t morphCount) {
 
 void PlaybackState::put(uint32_t element, float x, float y, float z, float w) {
     const std::array<uint32_t, 4> values = {bits(x), bits(y), bits(z), bits(w)};
-    std::ranges::copy(values, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{element}));
+    std::copy(values.begin(), values.end(), words_.begin() + static_cast<ptrdiff_t>(4 * size_t{element}));
 }
 
 void PlaybackState::setBindPose() {
@@ -61,7 +61,7 @@ void PlaybackState::set(const cage::Character& character, const ClipTable& table
         const std::array<uint32_t, 4> ids = {
             layer.clip, (layer.loop ? kLayerLoops : 0u) | (layer.mode == LayerMode::additive ? kLayerAdds : 0u),
             layer.mask, 0u};
-        std::ranges::copy(ids, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
+        std::copy(ids.begin(), ids.end(), words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
         const SplitTime start = splitTime(layer.start), offset = splitTime(beginOf(character, layer)),
                         fade = splitTime(layer.fadeStart), reference = splitTime(layer.referenceTime);
         put(first + 1, start.high, start.low, offset.high, offset.low);

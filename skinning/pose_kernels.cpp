@@ -69,7 +69,7 @@ Status PoseKernels::prepare(SkinningMode mode) {
     if (!made) {
         return made.error();
     }
-    std::ranges::copy(made->locals, locals_);
+    std::copy(std::begin(made->locals), std::end(made->locals), locals_);
     roots_ = made->roots;
     palette_[static_cast<size_t>(mode)] = made->palette;
     return success();

@@ -346,7 +346,7 @@ private:
         const Displacements displacements = morphReader_.read(document_, targets, count, element);
         std::vector<uint32_t> numbers;
         if (cageNumbers >= 0 &&
-            !document_.leniency->leaveOut([&] { numbers = readCageNumbers(cageNumbers, count, element); })) {
+            !document_.leniency->leaveOut([&, from = cageNumbers] { numbers = readCageNumbers(from, count, element); })) {
             isNumberingLeftOut_ = true; // some vertices have no number
         }
         if (sets.joints.empty()) {
