@@ -1066,6 +1066,7 @@ void views(Rows& r) {
     spoiled("TANGENTS alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_TANGENTS; });
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
+    spoiled("too many runs", kBad, kRange, [](Desc& d) { d.maxRuns = SUPPLE_MAX_VIEW_RUNS + 1; });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
