@@ -350,8 +350,10 @@ Status Device::createDevice(const DeviceOptions& options) {
     requirements_.instanceVersion = kInstanceVersion;
     if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
         return Error{ErrorCode::unsupported, requirements_.reason};
+    auto supported12 =
+        vkStruct<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
     auto supported11 =
-        vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
+        vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &supported12);
     auto supported2 = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &supported11);
     vkGetPhysicalDeviceFeatures2(physicalDevice_, &supported2);
     const VkPhysicalDeviceFeatures& supported = supported2.features;
@@ -360,6 +362,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     requirements_.features12.timelineSemaphore = VK_TRUE; // every Vulkan 1.3 device has it
     requirements_.features13.dynamicRendering = VK_TRUE;
     requirements_.features13.synchronization2 = VK_TRUE;
+    requirements_.features12.drawIndirectCount = supported12.drawIndirectCount; // host/view_draws.h
     requirements_.features12.pNext = &requirements_.features13;
     // Many draws by one command (docs/integration.md).
     features11_ = vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
@@ -371,6 +374,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
     features_.features.multiDrawIndirect = manyDraws ? VK_TRUE : VK_FALSE;
     features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
+    features_.features.shaderStorageBufferArrayDynamicIndexing = supported.shaderStorageBufferArrayDynamicIndexing;
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
 
     constexpr float kPriority = 1.0f;

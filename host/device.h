@@ -120,6 +120,14 @@ public:
     [[nodiscard]] bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
+    /// multiDrawIndirect and shaderDrawParameters: many draws by one call, whose shaders know the number of each.
+    [[nodiscard]] bool drawsMany() const { return features_.features.multiDrawIndirect == VK_TRUE; }
+    /// drawIndirectCount: as many as a buffer says.
+    [[nodiscard]] bool countsDraws() const { return requirements_.features12.drawIndirectCount == VK_TRUE; }
+    /// shaderStorageBufferArrayDynamicIndexing: a draw chooses its buffer from an array.
+    [[nodiscard]] bool indexesBuffers() const {
+        return features_.features.shaderStorageBufferArrayDynamicIndexing == VK_TRUE;
+    }
 
     /// The chain that vkCreateDevice was given, for SuppleContextDesc::enabledFeatures.
     [[nodiscard]] const void* enabledFeatures() const { return &features_; }

@@ -7,7 +7,7 @@ Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_l
     for (const Binding& binding : bindings)
         list.push_back({.binding = binding.binding,
                         .descriptorType = binding.type,
-                        .descriptorCount = 1,
+                        .descriptorCount = binding.count,
                         .stageFlags = binding.stages});
     const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                .bindingCount = static_cast<uint32_t>(list.size()),
@@ -255,12 +255,13 @@ Result<VkDescriptorSet> DescriptorPool::allocate(VkDescriptorSetLayout layout) {
     return set;
 }
 
-void DescriptorPool::write(VkDescriptorSet set, std::initializer_list<Write> writes) {
+void DescriptorPool::write(VkDescriptorSet set, std::span<const Write> writes) {
     std::vector<VkWriteDescriptorSet> list;
     for (const Write& write : writes)
         list.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                         .dstSet = set,
                         .dstBinding = write.binding,
+                        .dstArrayElement = write.element,
                         .descriptorCount = 1,
                         .descriptorType = write.type,
                         .pImageInfo = std::get_if<VkDescriptorImageInfo>(&write.what),

@@ -13,6 +13,7 @@ struct Binding {
     uint32_t binding;
     VkDescriptorType type;
     VkShaderStageFlags stages;
+    uint32_t count = 1; ///< of an array
 };
 
 [[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings);
@@ -62,6 +63,7 @@ struct Write {
     uint32_t binding;
     VkDescriptorType type;
     std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo> what;
+    uint32_t element = 0; ///< of an array
 };
 
 [[nodiscard]] Write uniformBuffer(uint32_t binding, const Buffer& buffer);
@@ -74,9 +76,13 @@ struct Write {
 /// Sets are allocated once and may be written again while no frame that uses them is in flight.
 class DescriptorPool {
 public:
+    /// Room for four storage buffers and four textures a set, and for one of each other type.
     [[nodiscard]] static Result<DescriptorPool> create(Device& device, uint32_t maxSets);
     [[nodiscard]] Result<VkDescriptorSet> allocate(VkDescriptorSetLayout layout);
-    void write(VkDescriptorSet set, std::initializer_list<Write> writes);
+    void write(VkDescriptorSet set, std::initializer_list<Write> writes) {
+        write(set, std::span(writes.begin(), writes.size()));
+    }
+    void write(VkDescriptorSet set, std::span<const Write> writes);
 
 private:
     VkDevice device_ = VK_NULL_HANDLE;

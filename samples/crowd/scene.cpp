@@ -30,23 +30,32 @@ const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.55f, 0.62f, 0.36f));
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
 struct CharacterPush {
-    uint32_t draw; ///< SuppleDraw of shaders/supple_surface.glsl
-    uint32_t verticesPerInstance;
-    uint32_t samplesPerPatch;
-    uint32_t previousWords;
-    uint32_t capacity;
+    uint32_t firstDraw; ///< of the call, among ViewDraws::drawn()
     uint32_t paint;
     uint32_t sun;
 };
+
+constexpr uint32_t kPushBytes = sizeof(glm::vec4); ///< the wall's, which are more
 
 struct TextCorner { // of stb_easy_font
     float x, y, z;
     uint32_t color;
 };
 
+/// All characters have one look: one bin, so one call.
+ViewDraws drawsOf(Device& device, const Crowd& crowd) {
+    std::array<SuppleLevelOutput, kKinds> surfaces{};
+    for (size_t k = 0; k < kKinds; ++k)
+        surfaces[k] = crowd.kinds()[k].levels;
+    return must(ViewDraws::create(device, surfaces, 1, [](uint32_t, const SuppleLevelDraw&) { return 0u; }));
+}
+
 } // namespace
 
-Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid) : crowd_(crowd), wall_(wall) {
+Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
+    : crowd_(crowd), draws_(drawsOf(device, crowd)), wall_(wall) {
+    if (!device.indexesBuffers())
+        fail("the device lacks arrays of buffers that a draw chooses from", 3);
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     sunMap_ =
@@ -57,6 +66,7 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     graph.setImage(sunMapUse_, sunMap_.handle());
     pictureUse_ = graph.addImage();
+    drawsUse_ = graph.addBuffers();
     depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     if (pyramid) {
         pyramid_ = std::make_unique<DepthPyramid>(device);
@@ -66,19 +76,20 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     const VkDescriptorSetLayout sceneLayout =
         must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
                                       {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
-    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches, user
-    // data.
-    const VkDescriptorSetLayout kindLayout = must(createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                                                           {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                                                           {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                                                           {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                                                           {6, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
+    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches, which
+    // are the view's. Then the draws, and the user data of every kind.
+    const VkDescriptorSetLayout crowdLayout =
+        must(createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {6, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
+                                      {7, kStorage, VK_SHADER_STAGE_VERTEX_BIT, kKinds}}));
     const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
-    layout_ = must(
-        createPipelineLayout(device, {sceneLayout, kindLayout}, sizeof(CharacterPush), VK_SHADER_STAGE_VERTEX_BIT));
+    layout_ = must(createPipelineLayout(device, {sceneLayout, crowdLayout}, kPushBytes, VK_SHADER_STAGE_VERTEX_BIT));
     textLayout_ = must(createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT));
 
-    DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight + kKinds));
+    DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight + 2));
     const VkSampler compare = must(createSampler(device, VK_FILTER_LINEAR, true));
     for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         uniforms_[slot] =
@@ -89,14 +100,16 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
         textSets_[slot] = must(pool.allocate(textLayout));
         pool.write(textSets_[slot], {storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
     }
-    for (size_t k = 0; k < kKinds; ++k) {
-        const SuppleVertexStreams& streams = crowd.kinds()[k].streams;
-        const SuppleLevelOutput& levels = crowd.kinds()[k].levels;
-        kindSets_[k] = must(pool.allocate(kindLayout));
-        pool.write(kindSets_[k], {storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
-                                  storageBuffer(4, levels.buckets), storageBuffer(5, levels.patches),
-                                  storageBuffer(6, crowd.kinds()[k].info.userData)});
+    const SuppleVertexStreams& streams = crowd.kinds().front().streams;
+    std::vector<Write> writes{storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
+                              storageBuffer(4, draws_.buckets()), storageBuffer(5, draws_.patches()),
+                              storageBuffer(6, draws_.drawn().handle(), 0, VK_WHOLE_SIZE)};
+    for (uint32_t k = 0; k < kKinds; ++k) {
+        writes.push_back(storageBuffer(7, crowd.kinds()[k].info.userData));
+        writes.back().element = k;
     }
+    crowdSet_ = must(pool.allocate(crowdLayout));
+    pool.write(crowdSet_, writes);
 
     sunPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
                                                         .vertexShader = character_vert,
@@ -174,36 +187,30 @@ void Scene::update(uint32_t slot, const Camera& camera, const std::vector<std::s
 
 void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? sunPipeline_ : characterPipeline_);
-    for (size_t k = 0; k < kKinds; ++k) {
-        const SuppleLevelOutput& levels = crowd_.kinds()[k].levels;
-        const VkDescriptorSet sets[] = {sceneSets_[slot], kindSets_[k]};
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-        vkCmdBindIndexBuffer(commands, levels.indices.buffer, levels.indices.offset, VK_INDEX_TYPE_UINT16);
-        for (uint32_t i = 0; i < levels.drawCount; ++i) {
-            const SuppleLevelDraw& draw = levels.draws[i];
-            const CharacterPush push{
-                i, draw.verticesPerInstance, draw.samplesPerPatch, 0, draw.capacity, paint ? 1u : 0u, sun ? 1u : 0u};
-            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-            vkCmdDrawIndexedIndirect(commands, levels.indirect.buffer,
-                                     levels.indirect.offset + VkDeviceSize{i} * levels.indirect.stride, 1,
-                                     levels.indirect.stride);
-        }
-    }
+    const VkDescriptorSet sets[] = {sceneSets_[slot], crowdSet_};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
+    const CharacterPush push{draws_.firstDraw(0), paint ? 1u : 0u, sun ? 1u : 0u};
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+    draws_.draw(commands, 0);
 }
 
 void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint) const {
-    graph.add(
-        "sun",
-        {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
-        [this, slot](VkCommandBuffer commands) {
-            const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            beginRendering(commands, sunMap_.desc().extent, {}, depth);
-            drawCharacters(commands, slot, true, false);
-            vkCmdEndRendering(commands);
-        });
+    graph.add("gather", {reads(buffers, ViewDraws::kReads), writes(drawsUse_, ViewDraws::kWrites)},
+              [this](VkCommandBuffer commands) { draws_.record(commands); });
+    graph.add("sun",
+              {reads(buffers, kDrawn), reads(drawsUse_, kDrawn),
+               writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+              [this, slot](VkCommandBuffer commands) {
+                  const VkRenderingAttachmentInfo depth =
+                      attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+                  beginRendering(commands, sunMap_.desc().extent, {}, depth);
+                  drawCharacters(commands, slot, true, false);
+                  vkCmdEndRendering(commands);
+              });
     graph.add(
         "draw",
-        {reads(buffers, kDrawn), reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+        {reads(buffers, kDrawn), reads(drawsUse_, kDrawn),
+         reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
          writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
          writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
         [this, slot, paint](VkCommandBuffer commands) {

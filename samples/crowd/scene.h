@@ -3,6 +3,7 @@
 
 #include "crowd.h"
 #include "host/depth_pyramid.h"
+#include "host/view_draws.h"
 
 #include <memory>
 
@@ -38,6 +39,8 @@ private:
     void drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const;
 
     const Crowd& crowd_;
+    ViewDraws draws_;
+    Resource drawsUse_; ///< the buffers of draws_
     Image sunMap_, picture_, depth_;
     std::unique_ptr<DepthPyramid> pyramid_;
     Resource sunMapUse_, pictureUse_, depthUse_, pyramidUse_;
@@ -47,7 +50,7 @@ private:
     uint32_t textQuads_ = 0;
     VkPipelineLayout layout_ = VK_NULL_HANDLE, textLayout_ = VK_NULL_HANDLE;
     VkDescriptorSet sceneSets_[kFramesInFlight]{}, textSets_[kFramesInFlight]{};
-    std::array<VkDescriptorSet, kKinds> kindSets_{};
+    VkDescriptorSet crowdSet_ = VK_NULL_HANDLE;
     VkPipeline sunPipeline_ = VK_NULL_HANDLE, characterPipeline_ = VK_NULL_HANDLE, groundPipeline_ = VK_NULL_HANDLE,
                wallPipeline_ = VK_NULL_HANDLE, textPipeline_ = VK_NULL_HANDLE;
 };

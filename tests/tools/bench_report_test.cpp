@@ -342,6 +342,84 @@ TEST(BenchReport, PassesOfAViewAreShownAndJudged) {
     EXPECT_EQ(met, (std::vector<bool>{false, true}));
 }
 
+/// A row of a scene as far as tables and targets look.
+Json sceneRow(const char* use, const char* poses, uint32_t characters, uint32_t dispatches) {
+    return {{"characters", characters}, {"use", use},       {"poses", poses},         {"dispatches", dispatches},
+            {"barriers", 20},           {"copies", 3},      {"setUs", 1.0},           {"recordUs", 61.0},
+            {"frameMs", 10.0},          {"vertices", 1000}, {"memoryBytes", 1 << 20}, {"coefficientBytes", 1 << 19},
+            {"vertexBytes", 1 << 18},   {"allocations", 13}};
+}
+
+const Json* targetCalled(const Json& targets, const std::string& what, const std::string& where) {
+    const auto found = std::find_if(targets.begin(), targets.end(), [&](const Json& target) {
+        return target["what"] == what && target["where"] == where;
+    });
+    return found == targets.end() ? nullptr : &*found;
+}
+
+TEST(BenchTargets, ScenesAreJudgedBySixtyCharacters) {
+    Json result = madeUp();
+    Json posed = sceneRow("rate 4", "posed", kSceneCharacters, 40);
+    Json viewed = sceneRow("view", "played", 30, 79);
+    viewed["unseenMs"] = 0.1;
+    result["scene"] = {{"instances", 3},
+                       {"rows", {posed, sceneRow("rate 4", "played", kSceneCharacters, 41), viewed}},
+                       {"views", Json::array()}};
+    const Json few = judge(result);
+    EXPECT_EQ(targetCalled(few, "different characters in a view", "scene"), nullptr) << "none was asked for 60";
+    const Json* const most = targetCalled(few, "60 characters: dispatches", "rate 4, posed");
+    const Json* const more = targetCalled(few, "60 characters: dispatches", "rate 4, played");
+    ASSERT_TRUE(most != nullptr && more != nullptr);
+    EXPECT_EQ((*most)["met"], true);
+    EXPECT_EQ((*more)["met"], false);
+    EXPECT_EQ(targetCalled(few, "60 characters: recording, CPU us", "rate 4, posed"), nullptr) << "it samples poses";
+    EXPECT_EQ((*targetCalled(few, "60 characters: recording, CPU us", "rate 4, played"))["met"], false);
+    EXPECT_EQ((*targetCalled(few, "60 characters: allocations", "rate 4, played"))["met"], false);
+    EXPECT_EQ(targetCalled(few, "60 characters: dispatches", "view, played"), nullptr) << "they are 30";
+
+    result["scene"]["rows"].push_back(
+        {{"characters", kSceneCharacters}, {"use", "view"}, {"poses", "played"}, {"refused", "the view is full"}});
+    const Json refused = judge(result);
+    const Json* const room = targetCalled(refused, "different characters in a view", "scene");
+    ASSERT_NE(room, nullptr);
+    EXPECT_EQ((*room)["value"], 30);
+    EXPECT_EQ((*room)["met"], false);
+    EXPECT_NE(toTables(result).find("60 characters in a view, played: refused: the view is full"), std::string::npos);
+
+    viewed["characters"] = kSceneCharacters;
+    result["scene"]["rows"].back() = viewed;
+    Json views = sceneRow("", "", 10, 100);
+    views["views"] = 2;
+    views["ownMs"] = 4.0;
+    views["repeatedMs"] = 1.0;
+    result["scene"]["views"] = {views};
+    const Json whole = judge(result);
+    EXPECT_EQ((*targetCalled(whole, "different characters in a view", "scene"))["met"], true);
+    EXPECT_EQ((*targetCalled(whole, "60 characters: dispatches", "view, played"))["met"], true);
+    EXPECT_NEAR((*targetCalled(whole, "60 characters: all unseen / all seen", "view, played"))["value"].get<double>(),
+                0.01, 1e-9);
+    const Json* const further =
+        targetCalled(whole, "further views: passes beside levels and vertices / these", "2 views");
+    ASSERT_NE(further, nullptr);
+    EXPECT_EQ((*further)["value"], 0.25);
+    EXPECT_EQ((*further)["met"], false);
+}
+
+TEST(BenchReport, ScenesAreShown) {
+    Json result = madeUp();
+    Json viewed = sceneRow("view", "played", 3, 79), views = viewed;
+    viewed["unseenMs"] = 0.25;
+    views["views"] = 2;
+    views["ownMs"] = 4.0;
+    views["repeatedMs"] = 1.5;
+    result["scene"] = {{"instances", 3}, {"rows", {sceneRow("rate 4", "posed", 1, 11), viewed}}, {"views", {views}}};
+    const std::string text = toTables(result);
+    EXPECT_NE(text.find("## A scene of different characters, 3 of each"), std::string::npos) << text;
+    EXPECT_NE(text.find("| rate 4 | posed  |          1 |         11 |       20 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("|           0.25 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("levels and vertices of further views, ms"), std::string::npos) << text;
+}
+
 TEST(BenchReport, CrowdAndWorstShareAreShown) {
     Json result = madeUp();
     result["cpuDevice"] = false;

@@ -62,6 +62,38 @@ std::vector<std::string> peerJobs(bool cpu, bool glsl) {
     return jobs;
 }
 
+/// One and three different characters, posed at one rate and played in a view, and one of them from several views.
+void expectScene(const Json& scene, const std::string& out) {
+    EXPECT_EQ(scene["instances"], 3);
+    std::set<std::string> rows;
+    for (const Json& row : scene["rows"]) {
+        const std::string use = row["use"];
+        rows.insert(use + ", " + row["poses"].get<std::string>() + ", " + row["characters"].dump());
+        ASSERT_FALSE(row.contains("refused")) << row;
+        for (const char* key : {"dispatches", "barriers", "setUs", "recordUs", "frameMs", "vertices", "memoryBytes",
+                                "coefficientBytes", "vertexBytes", "allocations", "allocationsHeld"}) {
+            EXPECT_TRUE(finitePositive(row[key])) << key << " of " << row;
+        }
+        EXPECT_GE(row["allocations"], row["allocationsHeld"]) << row;
+        EXPECT_EQ(row.contains("unseenMs") && finitePositive(row["unseenMs"]), use == "view") << row;
+        if (use == "view") {
+            EXPECT_LE(row["vertices"], 1u << 20) << "the view's budget";
+        }
+    }
+    EXPECT_EQ(rows,
+              (std::set<std::string>{"rate 4, posed, 1", "rate 4, posed, 3", "view, played, 1", "view, played, 3"}));
+    ASSERT_EQ(scene["views"].size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
+        const Json& row = scene["views"][i];
+        EXPECT_EQ(row["views"], 1u << i);
+        EXPECT_EQ(finitePositive(row["ownMs"]), i > 0) << row;
+        if (i > 0) {
+            EXPECT_GT(row["vertices"], scene["views"][i - 1]["vertices"]) << "every view has its own";
+        }
+    }
+    EXPECT_NE(out.find("## A scene of different characters, 3 of each"), std::string::npos) << out;
+}
+
 TEST_F(Bench, QuickRunIsWhole) {
     const std::vector<Expected> cages = expectedCages();
     const Outcome outcome = runOnDevice("bench --quick --json quick.json --plots plots");
@@ -182,6 +214,7 @@ TEST_F(Bench, QuickRunIsWhole) {
     }
     uses.insert("prep, in a view");
     EXPECT_EQ(compiled, uses);
+    expectScene(result["scene"], outcome.out);
     EXPECT_FALSE(result["targets"].empty());
     EXPECT_FALSE(std::filesystem::exists(file("plots/bench_sphere_points.svg"))) << "one rate makes no line";
 }

@@ -9,6 +9,7 @@
 #include "tools/bench/heat.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
+#include "tools/bench/scene.h"
 #include "tools/bench/targets.h"
 #include "tools/bench/views.h"
 #include "tools/common/schemes.h"
@@ -31,6 +32,9 @@ constexpr uint32_t kLoads = 9, kQuickLoads = 2;
 /// On CPU devices a crowd is no game's: so many show that it works and what a character costs.
 constexpr uint32_t kGpuCrowd = 1000, kCpuCrowd = 16, kQuickCpuCrowd = 4;
 constexpr uint32_t kViewCrowd = 100;
+constexpr uint32_t kQuickScene = 3;
+/// Of those that are seen from several views.
+constexpr uint32_t kViewedCharacters = 10;
 
 class Run {
 public:
@@ -50,6 +54,9 @@ public:
         }
         if (status) {
             status = views();
+        }
+        if (status) {
+            status = scene();
         }
         if (status) {
             status = classical();
@@ -76,6 +83,7 @@ private:
     Status agreed(const std::vector<Agreement>& all);
     Status crowd();
     Status views();
+    Status scene();
     Status classical();
     Status heats();
     Status load();
@@ -86,6 +94,10 @@ private:
         return options_.crowd.value_or(!device_.isCpu() ? kGpuCrowd : options_.quick ? kQuickCpuCrowd : kCpuCrowd);
     }
     [[nodiscard]] uint32_t crowdSize() const;
+    [[nodiscard]] uint32_t sceneSize() const;
+    [[nodiscard]] bool measuresSphere() const {
+        return std::find(options_.cages.begin(), options_.cages.end(), "sphere") != options_.cages.end();
+    }
     [[nodiscard]] Result<std::vector<BenchCage>> classicalCages() const;
     /// Of --schemes.
     [[nodiscard]] std::vector<SuppleScheme> keepWanted(std::vector<SuppleScheme> schemes) const;
@@ -173,11 +185,11 @@ RoundOptions Run::roundOptions() const {
 }
 
 uint32_t Run::crowdSize() const {
-    const std::vector<std::string>& cages = options_.cages;
-    if (!options_.crowd && std::find(cages.begin(), cages.end(), "sphere") == cages.end()) {
-        return 0;
-    }
-    return mostCharacters();
+    return options_.crowd || measuresSphere() ? mostCharacters() : 0;
+}
+
+uint32_t Run::sceneSize() const {
+    return options_.scene.value_or(!measuresSphere() ? 0 : options_.quick ? kQuickScene : kSceneCharacters);
 }
 
 std::vector<SuppleScheme> Run::keepWanted(std::vector<SuppleScheme> schemes) const {
@@ -225,6 +237,29 @@ Status Run::views() {
         return measured.error();
     }
     result_["views"] = std::move(*measured);
+    return keep();
+}
+
+Status Run::scene() {
+    SceneDesc desc;
+    const uint32_t most = sceneSize();
+    if (most == 0 || keepWanted({SUPPLE_SCHEME_PM}).empty()) {
+        return success();
+    }
+    desc.characters = options_.quick ? std::vector<uint32_t>{1} : std::vector<uint32_t>{1, 10, 30};
+    std::erase_if(desc.characters, [&](uint32_t count) { return count >= most; });
+    desc.characters.push_back(most);
+    desc.viewedCharacters = std::min(options_.quick ? 1 : kViewedCharacters, most);
+    desc.frames = options_.rounds;
+    desc.everyUse = !options_.quick;
+    desc.mapping = options_.mapping;
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rscene: %s   ", what.c_str()); };
+    Result<Json> measured = measureScene(device_, desc);
+    std::fprintf(stderr, "\n");
+    if (!measured) {
+        return measured.error();
+    }
+    result_["scene"] = std::move(*measured);
     return keep();
 }
 

@@ -25,6 +25,9 @@ struct BenchOptions {
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     /// Characters of the crowd, 0: no crowd. Left out: as many as the device is good for, where the sphere is measured.
     std::optional<uint32_t> crowd;
+    /// The most characters of the scene, 0: no scene. Left out: kSceneCharacters (targets.h), where the sphere is
+    /// measured.
+    std::optional<uint32_t> scene;
     /// Is given the result so far after every measurement, "complete" being false: a failure later loses nothing.
     std::function<Status(const nlohmann::ordered_json&)> keep;
 };

@@ -1,9 +1,9 @@
 #include "tools/bench/cages.h"
 
-#include "bench_characters.h"
 #include "cage/formats/reader.h"
 #include "runtime/arrays/character_arrays.h"
 #include "surface/schemes.h"
+#include "tools/bench/sample_files.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
 #include "tools/common/procedural.h"
@@ -75,8 +75,9 @@ Result<BenchCage> fromCage(const std::string& name, const cage::Cage& cage) {
     return made;
 }
 
-Result<BenchCage> embedded(const std::string& name, std::span<const uint8_t> bytes) {
-    Result<cage::Character> character = cage::readCharacter(std::as_bytes(bytes), name, "");
+Result<BenchCage> embedded(const SampleFile& file) {
+    const std::string name = file.name;
+    Result<cage::Character> character = cage::readCharacter(std::as_bytes(file.bytes), name, "");
     if (!character) {
         return character.error();
     }
@@ -105,11 +106,10 @@ Result<BenchCage> makeCage(const std::string& name) {
     if (name == "triangles") {
         return fromCage(name, triangulated(cage::makeCubeSphere(kSphereSide)));
     }
-    if (name == "pip") {
-        return embedded(name, kPip);
-    }
-    if (name == "pip_quads") {
-        return embedded(name, kPipQuads);
+    for (const SampleFile& file : sampleFiles()) {
+        if (name == file.name) {
+            return embedded(file);
+        }
     }
     if (name == kManCasualQuads) {
 #ifdef SUPPLE_MAN_CASUAL_QUADS

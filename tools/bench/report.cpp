@@ -210,6 +210,48 @@ std::string viewTable(const Json& rows) {
     return table.empty() ? "" : "## The crowd in a view\n\n" + table.text();
 }
 
+std::string sceneTables(const Json& scene) {
+    const auto megabytes = [](const Json& bytes) { return number(bytes.get<double>() / (1 << 20)); };
+    const std::vector<std::string> costs{"dispatches",        "barriers",      "copies",     "set, CPU us",
+                                         "record, CPU us",    "frame, ms",     "vertices",   "memory, MiB",
+                                         "coefficients, MiB", "vertices, MiB", "allocations"};
+    const auto addCosts = [&](const Json& row, std::vector<std::string>& cells) {
+        cells.insert(cells.end(),
+                     {row["dispatches"].dump(), row["barriers"].dump(), row["copies"].dump(), number(row["setUs"]),
+                      number(row["recordUs"]), number(row["frameMs"]), row["vertices"].dump(),
+                      megabytes(row["memoryBytes"]), megabytes(row["coefficientBytes"]), megabytes(row["vertexBytes"]),
+                      row["allocations"].dump()});
+    };
+    std::vector<std::string> head{"in", "poses", "characters"};
+    head.insert(head.end(), costs.begin(), costs.end());
+    head.emplace_back("all unseen, ms");
+    Table rows(head);
+    std::string refused;
+    for (const Json& row : scene["rows"]) {
+        std::vector<std::string> cells{row["use"], row["poses"], row["characters"].dump()};
+        if (row.contains("refused")) {
+            refused += cells[2] + " characters in a " + cells[0] + ", " + cells[1] +
+                       ": refused: " + row["refused"].get<std::string>() + "\n\n";
+            continue;
+        }
+        addCosts(row, cells);
+        cells.push_back(number(row.value("unseenMs", Json())));
+        rows.add(std::move(cells));
+    }
+    head = {"views", "characters"};
+    head.insert(head.end(), costs.begin(), costs.end());
+    head.insert(head.end(), {"levels and vertices of further views, ms", "the rest of these, ms"});
+    Table views(head);
+    for (const Json& row : scene["views"]) {
+        std::vector<std::string> cells{row["views"].dump(), row["characters"].dump()};
+        addCosts(row, cells);
+        cells.insert(cells.end(), {number(row["ownMs"]), number(row["repeatedMs"])});
+        views.add(std::move(cells));
+    }
+    return "## A scene of different characters, " + scene["instances"].dump() + " of each\n\n" +
+           (rows.empty() ? "" : rows.text(2)) + refused + (views.empty() ? "" : views.text());
+}
+
 /// The dense mesh first, then its skin, then cage and surface.
 void addClassicalLines(const Json& row, Table& table) {
     const std::string where = row["cage"].get<std::string>() + ", rate " + row["rate"].dump();
@@ -343,6 +385,9 @@ std::string toTables(const Json& result) {
         out += crowdTable(result["crowd"]);
     }
     out += viewTable(result.value("views", Json::array()));
+    if (result.contains("scene")) {
+        out += sceneTables(result["scene"]);
+    }
     out += classicalTables(result.value("classical", Json::array()));
     out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
     return out;

@@ -1,7 +1,9 @@
 #include "tools/bench/targets.h"
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace supple::bench {
@@ -43,6 +45,12 @@ constexpr double kBandwidthShare = 0.70, kCrowdMilliseconds = 0.5, kOneCharacter
 constexpr double kAroundEvaluate = 0.6;
 constexpr double kUnseen = 0.02;
 constexpr uint32_t kCrowd = 1000, kCrowdRate = 4;
+struct SceneLimits {
+    const char* use;
+    double dispatches, barriers;
+};
+constexpr SceneLimits kSceneLimits[] = {{"rate 4", 40.0, 30.0}, {"view", 80.0, 60.0}};
+constexpr double kSceneRecordMicroseconds = 60.0, kSceneAllocations = 12.0, kFurtherView = 0.02;
 constexpr double kColdMilliseconds = 500.0, kWarmMilliseconds = 30.0;
 
 /// Those of a GPU.
@@ -66,6 +74,58 @@ void judgeCrowd(const Json& crowd, const std::function<void(const char*, const s
         if (characters == 1) {
             atMost("one character, pose to vertices, GPU us", where, 1e3 * row["frameMs"].get<double>(),
                    kOneCharacterMicroseconds);
+        }
+    }
+}
+
+/// How many different characters a view took, if it was asked for enough.
+std::optional<uint32_t> mostInAView(const Json& rows) {
+    uint32_t most = 0, asked = 0;
+    for (const Json& row : rows) {
+        if (row["use"] == "view") {
+            asked = std::max(asked, row["characters"].get<uint32_t>());
+            most = std::max(most, row.contains("refused") ? 0 : row["characters"].get<uint32_t>());
+        }
+    }
+    return asked >= kSceneCharacters ? std::optional(most) : std::nullopt;
+}
+
+void judgeScene(const Json& scene,
+                const std::function<void(const std::string&, const std::string&, double, double)>& atMost,
+                Json& targets) {
+    if (const std::optional<uint32_t> most = mostInAView(scene["rows"])) {
+        targets.push_back({{"what", "different characters in a view"},
+                           {"where", "scene"},
+                           {"value", *most},
+                           {"limit", kSceneCharacters},
+                           {"atLeast", true},
+                           {"met", *most >= kSceneCharacters}});
+    }
+    const std::string count = std::to_string(kSceneCharacters) + " characters: ";
+    for (const Json& row : scene["rows"]) {
+        const std::string where = row["use"].get<std::string>() + ", " + row["poses"].get<std::string>();
+        if (row["characters"] != kSceneCharacters || row.contains("refused")) {
+            continue;
+        }
+        for (const SceneLimits& limits : kSceneLimits) {
+            if (row["use"] == limits.use) {
+                atMost(count + "dispatches", where, row["dispatches"], limits.dispatches);
+                atMost(count + "barriers", where, row["barriers"], limits.barriers);
+            }
+        }
+        if (row["poses"] == "played") { // else poses are sampled while they are recorded
+            atMost(count + "recording, CPU us", where, row["recordUs"], kSceneRecordMicroseconds);
+        }
+        atMost(count + "allocations", where, row["allocations"], kSceneAllocations);
+        if (row.contains("unseenMs")) {
+            atMost(count + "all unseen / all seen", where, row["unseenMs"].get<double>() / row["frameMs"].get<double>(),
+                   kUnseen);
+        }
+    }
+    for (const Json& row : scene["views"]) {
+        if (row["views"] > 1) {
+            atMost("further views: passes beside levels and vertices / these", row["views"].dump() + " views",
+                   row["repeatedMs"].get<double>() / row["ownMs"].get<double>(), kFurtherView);
         }
     }
 }
@@ -105,6 +165,9 @@ Json judge(const Json& result) {
         add("level, place and attributes / evaluate, in a view", row["scheme"], row["aroundEvaluate"], kAroundEvaluate);
         add("frame with all unseen / with all seen, in a view", row["scheme"],
             row["unseenMs"].get<double>() / row["frameMs"].get<double>(), kUnseen);
+    }
+    if (result.contains("scene")) {
+        judgeScene(result["scene"], add, targets);
     }
     for (const Json& loading : result["loading"]) {
         const std::string scheme = loading["scheme"], where = loading["cage"].get<std::string>() + ", " + scheme;

@@ -5,6 +5,9 @@
 
 namespace supple::bench {
 
+/// Different characters, as many as a scene is judged with.
+inline constexpr uint32_t kSceneCharacters = 60;
+
 /// An array of {what, where, value, limit, met}, and atLeast where the value must not be below the limit. Ratios have
 /// targets on CPU devices alone, crowds on others. What a result does not hold, or in another form than the target asks
 /// for, has no entry.

@@ -1,12 +1,10 @@
 #include "tools/bench/views.h"
 
 #include "tools/bench/crowd_character.h"
+#include "tools/bench/pass_times.h"
 #include "tools/common/schemes.h"
-#include "tools/common/statistics.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 namespace supple::bench {
 
@@ -16,51 +14,14 @@ namespace {
 
 constexpr uint32_t kWarmFrames = 3, kMaxVertices = 1u << 20;
 
-/// The passes of a frame in the order in which they came, and milliseconds.
-struct FrameTimes {
-    std::vector<std::pair<std::string, double>> passes;
-    double whole = 0.0;
-
-    explicit FrameTimes(const std::vector<SuppleTiming>& timings) {
-        double begin = 0.0, end = 0.0;
-        for (const SuppleTiming& one : timings) {
-            if (one.pass == SUPPLE_PASS_SHORTFALL) { // is no pass
-                continue;
-            }
-            begin = passes.empty() ? one.gpuBegin : std::min(begin, one.gpuBegin);
-            end = std::max(end, one.gpuEnd);
-            const char* const name = suppleGetPassName(one.pass);
-            const auto known =
-                std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.first == name; });
-            if (known == passes.end()) {
-                passes.emplace_back(name, 1e-6 * (one.gpuEnd - one.gpuBegin));
-            } else {
-                known->second += 1e-6 * (one.gpuEnd - one.gpuBegin);
-            }
-        }
-        whole = 1e-6 * (end - begin);
-    }
-    [[nodiscard]] double of(const std::string& name) const {
-        const auto found = std::find_if(passes.begin(), passes.end(), [&](const auto& p) { return p.first == name; });
-        return found == passes.end() ? 0.0 : found->second;
-    }
-    [[nodiscard]] double aroundEvaluate() const {
-        return (of("level") + of("place") + of("attributes")) / of("evaluate");
-    }
-};
-
-double medianOf(const std::vector<FrameTimes>& frames, const std::function<double(const FrameTimes&)>& value) {
-    std::vector<double> values;
-    for (const FrameTimes& frame : frames) {
-        values.push_back(value(frame));
-    }
-    return tools::summarize(values).median;
+double aroundEvaluate(const PassTimes& frame) {
+    return (frame.of("level") + frame.of("place") + frame.of("attributes")) / frame.of("evaluate");
 }
 
 /// A frame's times are known when the next one begins.
-Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& workbench, SuppleGroup group,
-                                           uint32_t count) {
-    std::vector<FrameTimes> frames;
+Result<std::vector<PassTimes>> timeFrames(host::Device& device, Workbench& workbench, SuppleGroup group,
+                                          uint32_t count) {
+    std::vector<PassTimes> frames;
     for (uint32_t i = 0; i <= kWarmFrames + count; ++i) {
         Status recorded = success();
         const Status submitted = device.submitAndWait([&](VkCommandBuffer commands) {
@@ -76,17 +37,17 @@ Result<std::vector<FrameTimes>> timeFrames(host::Device& device, Workbench& work
     return frames;
 }
 
-double wholeOf(const FrameTimes& frame) {
+double wholeOf(const PassTimes& frame) {
     return frame.whole;
 }
 
 /// `unseen`: the same frames, with all characters behind the camera.
-Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<FrameTimes>& frames,
-           const std::vector<FrameTimes>& unseen) {
+Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const std::vector<PassTimes>& frames,
+           const std::vector<PassTimes>& unseen) {
     Json passes = Json::array();
     for (const auto& pass : frames.front().passes) {
         const std::string& name = pass.first;
-        passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const FrameTimes& f) { return f.of(name); })}});
+        passes.push_back({{"pass", name}, {"ms", medianOf(frames, [&](const PassTimes& f) { return f.of(name); })}});
     }
     return {{"scheme", tools::schemeName(scheme)},
             {"characters", desc.characters},
@@ -95,7 +56,7 @@ Json rowOf(SuppleScheme scheme, const ViewsDesc& desc, uint32_t vertices, const 
             {"frameMs", medianOf(frames, wholeOf)},
             {"unseenMs", medianOf(unseen, wholeOf)},
             {"passes", passes},
-            {"aroundEvaluate", medianOf(frames, &FrameTimes::aroundEvaluate)}};
+            {"aroundEvaluate", medianOf(frames, aroundEvaluate)}};
 }
 
 Result<Json> measureRow(host::Device& device, Workbench& workbench, const ViewsDesc& desc, SuppleAsset asset,
@@ -116,10 +77,10 @@ Result<Json> measureRow(host::Device& device, Workbench& workbench, const ViewsD
     const Result<SuppleGroup> group = workbench.createGroup(groupDesc);
     Result<Json> row = Json();
     if (group) {
-        const Result<std::vector<FrameTimes>> frames = timeFrames(device, workbench, *group, desc.frames);
+        const Result<std::vector<PassTimes>> frames = timeFrames(device, workbench, *group, desc.frames);
         const uint32_t vertices = workbench.verticesOf(*view);
         workbench.lookAway(*view);
-        const Result<std::vector<FrameTimes>> unseen =
+        const Result<std::vector<PassTimes>> unseen =
             frames ? timeFrames(device, workbench, *group, desc.frames) : frames.error();
         row = unseen ? Result<Json>(rowOf(scheme, desc, vertices, *frames, *unseen)) : unseen.error();
         workbench.destroy(*group);

@@ -227,6 +227,11 @@ void bindBench(CLI::App& app, int& exitCode) {
                      "Characters of the crowd, 0: none; if left out 1000 on GPUs and few on CPU devices, where the "
                      "sphere is measured")
         ->check(CLI::Range(0u, 100000u));
+    command
+        ->add_option("--scene", options.scene,
+                     "The most characters of the scene, all different, 0: none; if left out 60, with --quick 3, where "
+                     "the sphere is measured")
+        ->check(CLI::Range(0u, 10000u));
     command->add_flag_callback(
         "--no-loading", [flags] { flags->bench.loading = false; }, "Leave out loading, static data and pipelines");
     command->add_flag("--driver-cache", flags->driverCache,

@@ -2,15 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 #define SUPPLE_SURFACE_SET 1
 #define SUPPLE_SURFACE_LOD
-#define SUPPLE_USER_DATA_BINDING 6
 #include "supple_surface.glsl"
+#include "../../../host/shaders/view_draws.h"
 #include "scene.glsl"
 
+layout(set = 1, binding = 6, std430) readonly buffer Drawn { ViewDraw drawn[]; };
+layout(set = 1, binding = 7, std430) readonly buffer UserData { vec4 of[]; } userData[3]; // by kind: suppleSetUserData
+
 layout(push_constant) uniform Push {
-    SuppleDraw draw;
-    uint capacity; // of its grids
-    uint paint;    // 1: capacities as colors
-    uint sun;      // 1: into the sun's map
+    uint firstDraw; // of the call
+    uint paint;     // 1: capacities as colors
+    uint sun;       // 1: into the sun's map
 };
 
 layout(location = 0) out vec3 outPosition;
@@ -25,12 +27,14 @@ vec3 tinted(vec3 color, vec2 tint) {
 }
 
 // From blue, coarse, to red, fine.
-vec3 capacityColor() {
+vec3 capacityColor(uint capacity) {
     float t = clamp(log2(float(capacity) + 1.0) / 6.0 - 0.12, 0.0, 1.0);
     return clamp(vec3(2.2 * t - 0.5, 1.0 - abs(2.6 * t - 1.1), 1.25 - 2.4 * t), 0.04, 1.0);
 }
 
 void main() {
+    ViewDraw own = drawn[firstDraw + gl_DrawID];
+    SuppleDraw draw = SuppleDraw(own.index, own.verticesPerInstance, own.samplesPerPatch, own.previousWords);
     SuppleVertex at = suppleLodVertex(draw, gl_InstanceIndex, gl_VertexIndex);
     outPosition = supplePosition(at);
     if (sun != 0u) {
@@ -39,6 +43,7 @@ void main() {
         return;
     }
     outNormal = suppleNormal(at);
-    outColor = paint != 0u ? capacityColor() : tinted(suppleColor(at).rgb, suppleUserData(at).xy);
+    outColor = paint != 0u ? capacityColor(own.capacity)
+                          : tinted(suppleColor(at).rgb, userData[own.surface].of[at.slot].xy);
     gl_Position = scene.viewProjection * vec4(outPosition, 1.0);
 }
