@@ -2,6 +2,7 @@
 
 #include "cage/limits.h"
 #include "host/patches.h"
+#include "host/shaders/draw.h"
 
 #include <string>
 #include <utility>
@@ -91,7 +92,7 @@ void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
             sides += element<glm::vec4>(evaluation.deformedCage, range, cage.faceVertices[corner]).w;
         }
-        evaluation.mirroredFaces.push_back(sides <= 0.0f ? 1 : 0);
+        evaluation.mirroredFaces.push_back(host::shared::isMirrored(sides) ? 1 : 0);
     }
     for (EvaluatedSurface& surface : evaluation.surfaces) {
         for (const SupplePatchInfo& patch : surface.patches) {
