@@ -1,7 +1,6 @@
 #include "runtime/playback.h"
 
 #include "skinning/joints.h"
-#include "skinning/played_pose.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
@@ -62,8 +61,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
-    playback.evaluated_.joints.resize(push.jointCount);
-    playback.evaluated_.memory = skinning::PoseMemory(desc.asset->character);
+    playback.twin_ = skinning::PoseTwin(table, desc.layout);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ =
@@ -182,38 +180,37 @@ void Playback::markChanged(uint32_t slot) {
 }
 
 void Playback::forget(uint32_t slot) {
-    if (evaluated_.slot == slot) {
-        evaluated_.slot = kNoSlot;
+    if (evaluated_ == slot) {
+        evaluated_ = kNoSlot;
     }
 }
 
 void Playback::evaluate(uint32_t slot) {
-    const cage::Character& character = asset_->character;
-    const skinning::PlaybackState own = state(slot);
-    if (own.inBindPose()) {
-        std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), evaluated_.joints.begin());
-        evaluated_.traveled = glm::dmat4(1.0);
-    } else {
-        skinning::PlaybackState::Layers layers;
-        const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, layers);
-        skinning::poseNodes(character, asset_->rig, desc, time_, jointMasks_, evaluated_.memory);
-        skinning::jointTransforms(character.skin, evaluated_.memory.nodes, evaluated_.joints);
-        evaluated_.traveled = skinning::toMatrix(skinning::traveledBy(character, desc, time_));
+    if (evaluated_ != slot) {
+        const size_t words = size_t{push_.stateStride} * 4;
+        twin_.pose(std::span(states_).subspan(slot * words, words), masks_, time_);
+        evaluated_ = slot;
     }
-    evaluated_.slot = slot;
 }
 
 glm::mat4 Playback::jointTransform(uint32_t slot, uint32_t joint) {
-    if (evaluated_.slot != slot) {
-        evaluate(slot);
+    const skinning::PlaybackState own = state(slot);
+    if (own.inBindPose()) {
+        return skinning::placedJoint(glm::dmat4(own.transform()), asset_->jointFrames.bind[joint]);
     }
-    return skinning::placedJoint(glm::dmat4(state(slot).transform()) * evaluated_.traveled, evaluated_.joints[joint]);
+    evaluate(slot);
+    return twin_.placedJoint(joint);
+}
+
+void Playback::writePose(uint32_t slot, std::span<glm::vec4> pose) {
+    evaluate(slot);
+    twin_.write(pose);
 }
 
 void Playback::setTime(double seconds) {
     if (time_ != seconds) {
         time_ = seconds;
-        evaluated_.slot = kNoSlot;
+        evaluated_ = kNoSlot;
     }
 }
 
@@ -244,6 +241,7 @@ glm::mat4 Playback::placement(uint32_t slot) const {
 }
 
 void Playback::place(uint32_t slot) {
+    forget(slot);
     state(slot).setTransform(placement(slot));
     markChanged(slot);
 }
@@ -276,6 +274,7 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 }
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
+    forget(slot);
     state(slot).setMorphWeights(weights, push_.morphCount);
     markChanged(slot);
 }
@@ -289,7 +288,7 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
     } else {
         std::copy(joints.begin(), joints.end(), own.begin());
     }
-    evaluated_.slot = kNoSlot;
+    evaluated_ = kNoSlot;
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }

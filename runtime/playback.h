@@ -11,6 +11,7 @@
 #include "skinning/layers.h"
 #include "skinning/playback.h"
 #include "skinning/pose_kernels.h"
+#include "skinning/pose_twin.h"
 
 #include <array>
 #include <cstddef>
@@ -57,9 +58,11 @@ public:
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
     [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1] != MaskKind::none; }
 
-    /// Where the joint is at the group's time, computed on the CPU. The joints of the slot that was asked for last are
-    /// kept until what plays, the time or a mask changes.
+    /// Where the joint is at the group's time, with the bits that the device has. The pose of the slot that was asked
+    /// for last is kept until what plays, where it stands, the time or a mask changes.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
+    /// The pose as the next recording leaves it on the device: all elements but those of padding.
+    void writePose(uint32_t slot, std::span<glm::vec4> pose);
 
     /// A box that holds the instance's cage at the group's time, where the next recording places it; nothing if nobody
     /// knows. It is found without a pose.
@@ -106,7 +109,7 @@ private:
     void takeOverMasks(const Playback& other, const AssetMatch& match);
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
-    void evaluate(uint32_t slot); ///< into evaluated_
+    void evaluate(uint32_t slot); ///< into twin_, unless it is in the bind pose
     void forget(uint32_t slot);   ///< what plays there has changed
 
     const gpu::Device* device_ = nullptr;
@@ -127,16 +130,11 @@ private:
     enum class MaskKind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
     std::array<MaskKind, shared::kMaxMasks> masksSet_{};
 
-    std::vector<float> jointMasks_; ///< one run a mask, one value a joint
+    std::vector<float> jointMasks_; ///< one run a mask, one value a joint: for another version of the asset
 
     static constexpr uint32_t kNoSlot = 0xFFFFFFFFu;
-    struct Evaluated {
-        uint32_t slot = kNoSlot;
-        glm::dmat4 traveled{1.0};
-        std::vector<glm::mat4> joints; ///< in model space
-        skinning::PoseMemory memory;
-    };
-    Evaluated evaluated_;
+    uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
+    skinning::PoseTwin twin_;
 
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set

@@ -31,8 +31,9 @@
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
 //
-// Scratch (vec4 elements, one run of `scratchStride` an instance): three rows a node, its local matrix, then in its
-// place the global one; three rows of the instance's transform with what it has travelled.
+// Scratch (vec4 elements, one run of `scratchStride` an instance): three a node, its local translation, rotation (x, y, z, w;
+// of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
+// what it has travelled. A node whose local matrix is fixed has that, whatever stands here.
 #ifndef SUPPLE_SHARED_POSE_H
 #define SUPPLE_SHARED_POSE_H
 
