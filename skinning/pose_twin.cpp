@@ -148,7 +148,7 @@ void PoseTwin::write(std::span<glm::vec4> pose) const {
             put(kLinearElements * size_t{joint}, combined(place_, own));
         }
     }
-    std::ranges::copy(weights_, pose.begin() + layout_.morphWeights);
+    std::copy(weights_.begin(), weights_.end(), pose.begin() + layout_.morphWeights);
 }
 
 } // namespace supple::skinning
