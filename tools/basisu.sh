@@ -30,6 +30,11 @@ case $version in
 esac
 # Of 130 MB the transcoder and the license are kept. It reads zstd by Debian's library.
 tar -xf "$work"/out/*.orig.tar.* -C "$work/out" --strip-components=1 --wildcards '*/transcoder/*' '*/LICENSE'
+# Found by fuzzing: a Huffman table of one long code has a tree whose last pair is not whole, and is read beyond its end.
+internal=$work/out/transcoder/basisu_transcoder_internal.h
+leaf='m_tree\[idx\] = (int16_t)sym_index;'
+[ "$(grep -c "$leaf" "$internal")" = 1 ] || { echo "Basis Universal $version has other Huffman trees" >&2; exit 3; }
+sed -i "s/$leaf/& if (idx + 1 == (int)m_tree.size()) m_tree.resize(idx + 2);/" "$internal"
 rm -rf "$folder"
 mkdir -p "$folder/zstd"
 mv "$work/out/LICENSE" "$folder"

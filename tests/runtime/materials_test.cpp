@@ -188,7 +188,7 @@ SuppleResult createLayered(const LoggedContext& context, const char* variant, Su
     return suppleCreateAsset(context.handle(), LayeredDesc(variant).get(), &asset);
 }
 
-SuppleGroup groupOf(const LoggedContext& context, SuppleAsset asset) {
+SuppleGroup layeredGroup(const LoggedContext& context, SuppleAsset asset) {
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     desc.asset = asset;
@@ -253,7 +253,7 @@ TEST_F(MaterialInfo, VariantsAreChosenByName) {
     const auto drawn = [&](const char* variant) {
         SuppleAsset chosen{};
         EXPECT_EQ(createLayered(*context_, variant, chosen), SUPPLE_OK);
-        return materialDrawn(*context_, groupOf(*context_, chosen));
+        return materialDrawn(*context_, layeredGroup(*context_, chosen));
     };
     EXPECT_EQ(drawn(nullptr), 0u);
     EXPECT_EQ(drawn("day"), 0u) << "the first primitive has no other material by day";
@@ -268,7 +268,7 @@ TEST_F(MaterialInfo, VariantsAreChosenByName) {
 TEST_F(MaterialInfo, AReloadTakesAnotherVariant) {
     SuppleAsset asset{};
     ASSERT_EQ(createLayered(*context_, "day", asset), SUPPLE_OK);
-    const SuppleGroup group = groupOf(*context_, asset);
+    const SuppleGroup group = layeredGroup(*context_, asset);
     SuppleInstance instance{};
     ASSERT_EQ(suppleCreateInstance(context_->handle(), group, &instance), SUPPLE_OK);
     EXPECT_EQ(materialDrawn(*context_, group), 0u);

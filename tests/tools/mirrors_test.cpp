@@ -150,7 +150,7 @@ protected:
 };
 
 /// Of all channels.
-double differenceOf(const host::Picture& a, const host::Picture& b) {
+double pixelDifference(const host::Picture& a, const host::Picture& b) {
     EXPECT_EQ(a.rgba.size(), b.rgba.size());
     double sum = 0.0;
     for (size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) {
@@ -237,7 +237,7 @@ TEST_F(MirrorsTest, PicturesAreThoseOfTheMirrorImage) {
         SCOPED_TRACE(options);
         const host::Picture image = drawn("image.glb " + options);
         const host::Picture posed = drawn("beam.glb --clip whole --time 1 " + options);
-        EXPECT_LT(differenceOf(image, posed), 1.0);
+        EXPECT_LT(pixelDifference(image, posed), 1.0);
     }
 }
 
@@ -259,7 +259,7 @@ TEST_F(MirrorsTest, TrimsAreThoseOfTheMirrorImage) {
         SCOPED_TRACE(scheme);
         const std::string asMade = "beam.glb --clip whole --time 0 --scheme " + scheme;
         const std::string mirrored = "beam.glb --clip whole --time 1 --scheme " + scheme;
-        EXPECT_LT(differenceOf(drawn("image.glb --scheme " + scheme), drawn(mirrored)), 1.0);
+        EXPECT_LT(pixelDifference(drawn("image.glb --scheme " + scheme), drawn(mirrored)), 1.0);
         const std::vector<bool> made = shown(asMade), image = shown(mirrored);
         int unlike = 0, unlikeMade = 0;
         for (size_t i = 0; i < made.size(); ++i) {
