@@ -6,6 +6,7 @@
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/instance_modifiers.h"
 #include "runtime/played_bounds.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
@@ -38,11 +39,13 @@ public:
         VkBuffer poses = VK_NULL_HANDLE;     ///< written
         VkBuffer instances = VK_NULL_HANDLE; ///< the lists of instances
         VkDeviceSize instanceBytes = 0;
+        bool modifiers = false; ///< instances may have some
     };
     Playback() = default;
     [[nodiscard]] static Result<Playback> create(const Desc& desc);
     /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
-    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout);
+    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout,
+                                                  bool modifiers);
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
@@ -53,6 +56,16 @@ public:
     void setOrigin(const glm::dvec3& origin, uint32_t end);
     void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
     void setTime(double seconds);
+
+    /// Replaces the instance's list. The group must have room for modifiers.
+    void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers);
+    /// Of a modifier that is there.
+    void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal);
+    [[nodiscard]] bool takesModifiers() const { return modifiers_.areTaken(); }
+    [[nodiscard]] uint32_t modifierCount(uint32_t slot) { return state(slot).modifierCount(); }
+    [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t slot, uint32_t index) {
+        return modifiers_.words(state(slot), index);
+    }
 
     /// Masks are numbered from 1; a layer's mask must have been set.
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
@@ -83,12 +96,13 @@ public:
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
     void cancelUpload(uint64_t frame);
 
-    enum class Part { locals, roots, palette };
-    static constexpr Part kParts[] = {Part::locals, Part::roots, Part::palette};
+    enum class Part { locals, roots, modifiers, palette };
     /// A part of the pass over `count` instances of a window, whose entries of the list begin at `first`.
     void record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const;
-    /// Without there is nothing to record of the roots.
-    [[nodiscard]] bool hasRoots() const { return roots_; }
+    /// Whether there is anything to record of a part.
+    [[nodiscard]] bool has(Part part) const {
+        return part == Part::roots ? roots_ : part == Part::modifiers ? modifies_ : true;
+    }
 
     /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const;
@@ -105,6 +119,8 @@ private:
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
     [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
+    void boundModifiers(uint32_t slot);                  ///< bounds_ is told what they turn
+    [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void takeOverMasks(const Playback& other, const AssetMatch& match);
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
@@ -118,14 +134,15 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
-    bool adds_ = false, roots_ = false; ///< what some instance has ever been set to play
-    shared::PosePush push_{};           ///< but for the time and the instances
+    bool adds_ = false, roots_ = false, modifies_ = false; ///< what some instance has ever been set to play
+    shared::PosePush push_{};                              ///< but for the time and the instances
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
     glm::dvec3 origin_{0.0};
     // As it shall be on the device.
     std::vector<uint32_t> states_;
+    InstanceModifiers modifiers_; ///< of these states
     std::vector<float> masks_;
     enum class MaskKind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
     std::array<MaskKind, shared::kMaxMasks> masksSet_{};
@@ -143,6 +160,7 @@ private:
     std::vector<uint32_t> changedSlots_;  ///< those, in any order
     std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_
     std::vector<VkBufferCopy> regions_;   ///< memory of recordUpload
+    std::vector<uint32_t> turnedNodes_;   ///< memory of boundModifiers
     bool masksChanged_ = true;
     uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
 

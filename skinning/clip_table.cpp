@@ -3,6 +3,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/pose.h"
+#include "skinning/rotation.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
@@ -62,11 +63,16 @@ public:
     }
 
     void putNodes() {
+        const uint32_t nodesEnd = kNodeElements * static_cast<uint32_t>(table_.nodes.size());
+        std::vector<glm::dquat> fixed;
         for (const uint32_t node : table_.nodes) {
             const cage::Node& from = character_.skeleton.nodes[node];
-            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, 0u, 0u});
+            const uint32_t rotation = from.hasMatrix ? nodesEnd + static_cast<uint32_t>(fixed.size()) : 0u;
+            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, rotation,
+                 0u});
             if (from.hasMatrix) {
                 putRows(from.matrix);
+                fixed.push_back(nearestRotation(glm::dmat3(glm::dmat4(from.matrix))));
             } else {
                 const glm::vec3 &t = from.translation, &s = from.scale;
                 const glm::quat& q = from.rotation;
@@ -74,6 +80,10 @@ public:
                 put({bits(q.x), bits(q.y), bits(q.z), bits(q.w)});
                 put({bits(s.x), bits(s.y), bits(s.z), 0u});
             }
+        }
+        for (const glm::dquat& q : fixed) {
+            put({bits(static_cast<float>(q.x)), bits(static_cast<float>(q.y)), bits(static_cast<float>(q.z)),
+                 bits(static_cast<float>(q.w))});
         }
     }
 

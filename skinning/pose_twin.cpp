@@ -1,6 +1,7 @@
 #include "skinning/pose_twin.h"
 
 #include "shaders/pose/affine.h"
+#include "shaders/pose/limbs.h"
 #include "shaders/pose/time.h"
 #include "shaders/shared/pose.h"
 #include "skinning/playback.h"
@@ -46,6 +47,17 @@ template <bool roots>
 struct PoseCode : PoseLoads {
     static constexpr bool kAdds = true, kRoots = roots;
 #include "shaders/pose/layers.h"
+};
+
+/// Modifiers, on locals that lie in memory.
+struct ModifyCode : PoseLoads {
+    Transform* locals = nullptr;
+    Affine place;
+
+    [[nodiscard]] Transform nodeLocal(uint node) const { return locals[node]; }
+    void keepLocal(uint node, const Transform& t) const { locals[node] = t; }
+    [[nodiscard]] Affine placement() const { return place; }
+#include "shaders/pose/modify.h"
 };
 
 Affine affineOf(const PoseLoads& loads, uint first) {
@@ -105,6 +117,21 @@ void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> mask
             place_ = roots.travelled(0, sinceBegin);
         }
     }
+    finish(state);
+}
+
+void PoseTwin::poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals) {
+    const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
+    place_ = twin::PoseCode<false>{loads}.transformOf(0);
+    bindPose_ = false;
+    std::copy(locals.begin(), locals.end(), locals_.begin());
+    finish(state);
+}
+
+void PoseTwin::finish(std::span<const uint32_t> state) {
+    const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
+    twin::ModifyCode code{loads, locals_.data(), place_};
+    code.modifyInstance(0);
     for (uint32_t node = 0; node < push_.nodeCount; ++node) {
         const uint32_t parent = code.parentOf(node);
         const shared::Affine local = code.localMatrix(node, locals_[node]);
@@ -124,8 +151,12 @@ glm::mat4 PoseTwin::placedJoint(uint32_t joint) const {
     return twin::matrixOf(combined(place_, nodeOf(joint)));
 }
 
-void PoseTwin::write(std::span<glm::vec4> pose) const {
+shared::Affine PoseTwin::skinned(uint32_t joint) const {
     const twin::PoseLoads loads{table_->words.data(), nullptr, nullptr, push_};
+    return combined(nodeOf(joint), twin::affineOf(loads, push_.joints + kJointElements * joint));
+}
+
+void PoseTwin::write(std::span<glm::vec4> pose) const {
     const auto put = [&](size_t at, const shared::Affine& m) {
         pose[at] = m.x;
         pose[at + 1] = m.y;
@@ -136,10 +167,7 @@ void PoseTwin::write(std::span<glm::vec4> pose) const {
         put(0, place_);
     }
     for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
-        shared::Affine own = identity();
-        if (!bindPose_) {
-            own = combined(nodeOf(joint), twin::affineOf(loads, push_.joints + kJointElements * joint));
-        }
+        const shared::Affine own = bindPose_ ? identity() : skinned(joint);
         if (dual) {
             const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
             put(at, own);

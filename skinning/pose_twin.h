@@ -24,15 +24,22 @@ public:
     /// `state`: the instance's words (skinning/playback.h). `masks`: those of the group.
     void pose(std::span<const uint32_t> state, std::span<const float> masks, double time);
 
+    /// The same of local transforms, one a node of the table, instead of what is played; modifiers change them in
+    /// place.
+    void poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals);
+
     // Of the last pose, which is not the bind pose: the joint's node in model space, and where the instance stands,
     // with what it has travelled.
     [[nodiscard]] glm::mat4 joint(uint32_t joint) const;
     [[nodiscard]] glm::mat4 placedJoint(uint32_t joint) const;
+    /// joint(joint), then its inverse bind matrix: by rows.
+    [[nodiscard]] shared::Affine skinned(uint32_t joint) const;
     /// Writes what the pass leaves for the deform pass: layout.stride elements; those behind the last weights stay.
     void write(std::span<glm::vec4> pose) const;
 
 private:
     [[nodiscard]] const shared::Affine& nodeOf(uint32_t joint) const;
+    void finish(std::span<const uint32_t> state); ///< locals_ are there: modifiers, then globals_
 
     const ClipTable* table_ = nullptr;
     PoseLayout layout_;

@@ -103,6 +103,29 @@ void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
 
 } // namespace
 
+namespace {
+
+/// The pose and what changes it, by the device: what stands plays with speed 0.
+Status playModified(host::Context& context, SuppleInstance instance, const Pose& pose) {
+    SupplePlaybackLayer layer{};
+    layer.clip = pose.clip;
+    layer.weight = 1.0f;
+    layer.offset = pose.time;
+    SupplePlaybackDesc playback{};
+    playback.structSize = sizeof playback;
+    playback.layers = &layer;
+    playback.layerCount = pose.clip == SUPPLE_BIND_POSE || pose.clip == SUPPLE_REST_POSE ? 0 : 1;
+    const Status status = context.check(suppleSetPlayback(context.handle(), instance, &playback), "suppleSetPlayback");
+    SuppleModifiersDesc modifiers{};
+    modifiers.structSize = sizeof modifiers;
+    modifiers.modifiers = pose.modifiers.data();
+    modifiers.modifierCount = static_cast<uint32_t>(pose.modifiers.size());
+    return status ? context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers")
+                  : status;
+}
+
+} // namespace
+
 Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
                             const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags) {
     host::Context& context = *session.context;
@@ -114,6 +137,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
+    const bool modified = !pose.modifiers.empty();
+    if (modified) {
+        desc.poseSource = SUPPLE_POSES_PLAYBACK;
+        desc.flags |= SUPPLE_GROUP_MODIFIERS;
+    }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);
     SuppleGroup group{};
@@ -125,8 +153,9 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
         status = context.check(suppleCreateInstance(context.handle(), group, &instance), "suppleCreateInstance");
     }
     if (status) {
-        status =
-            context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time), "suppleSetClipPose");
+        status = modified ? playModified(context, instance, pose)
+                          : context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time),
+                                          "suppleSetClipPose");
     }
     if (status && !pose.morphWeights.empty()) {
         status = context.check(suppleSetMorphWeights(context.handle(), instance, pose.morphWeights.data(),

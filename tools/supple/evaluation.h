@@ -50,7 +50,8 @@ template <class Vec>
 struct Pose {
     uint32_t clip = SUPPLE_BIND_POSE;
     double time = 0.0;
-    std::vector<float> morphWeights; ///< of all targets, instead of the clip's; empty: the clip's
+    std::vector<float> morphWeights;       ///< of all targets, instead of the clip's; empty: the clip's
+    std::vector<SuppleModifier> modifiers; ///< of any pose but the bind pose, which then is the rest pose
 };
 
 /// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.

@@ -918,7 +918,10 @@ typedef enum SuppleGroupFlags {
     /** Groups of a view with SUPPLE_VIEW_CULL: pose and deform every visible instance. Without this flag, instances
      * that surely are out of the camera's sight are left out before they are posed. Use it if you read poses or
      * deformed cages of instances that the camera does not see. */
-    SUPPLE_GROUP_POSE_UNSEEN = 512
+    SUPPLE_GROUP_POSE_UNSEEN = 512,
+    /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
+     * KiB of memory per instance, on the device if it plays. */
+    SUPPLE_GROUP_MODIFIERS = 1024
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
