@@ -138,16 +138,16 @@ void Check::cageFaces(const Cage& cage) {
 
 void Check::cageMarks(const Cage& cage) {
     const uint32_t vertices = cage.vertexCount();
-    const bool creases = std::ranges::all_of(cage.creases, [&](const Crease& c) {
+    const bool creases = std::all_of(cage.creases.begin(), cage.creases.end(), [&](const Crease& c) {
         return c.a < vertices && c.b < vertices && c.sharpness >= 0.0f &&
                (c.set == kNone || c.set < cage.creaseSets.size());
     });
     require(creases, "a crease has no such vertices, no sharpness of 0 and more, or no such set");
     require(cage.creaseSets.size() <= kMaxCreaseSets, "too many crease sets");
-    const bool sharp = std::ranges::all_of(
-        cage.sharpVertices, [&](const SharpVertex& s) { return s.vertex < vertices && s.sharpness >= 0.0f; });
+    const bool sharp = std::all_of(cage.sharpVertices.begin(), cage.sharpVertices.end(),
+                                   [&](const SharpVertex& s) { return s.vertex < vertices && s.sharpness >= 0.0f; });
     require(sharp, "a sharp vertex is none, or has no sharpness of 0 and more");
-    const bool scalars = std::ranges::all_of(cage.creaseScalars, [&](const CreaseScalar& s) {
+    const bool scalars = std::all_of(cage.creaseScalars.begin(), cage.creaseScalars.end(), [&](const CreaseScalar& s) {
         return s.vertex < vertices && s.toward < vertices && s.alpha >= 0.0f && s.alpha <= 1.0f;
     });
     require(scalars, "a crease scalar has no such vertices, or an alpha that is not in [0, 1]");
@@ -208,8 +208,8 @@ void Check::skin() {
     const auto& [starts, influences] = character_.weights;
     require(startsRise(starts, character_.cage.vertexCount(), 1, influences.size()), "a vertex has no influences");
     const size_t jointCount = joints.size();
-    const bool sound = std::ranges::all_of(
-        influences, [&](const Influence& i) { return i.joint < jointCount && std::isfinite(i.weight); });
+    const bool sound = std::all_of(influences.begin(), influences.end(),
+                                   [&](const Influence& i) { return i.joint < jointCount && std::isfinite(i.weight); });
     require(sound, "an influence names no joint, or has no finite weight");
 }
 
@@ -256,7 +256,7 @@ void Check::expressions() {
         require(below(own.targets, targets) && rises(own.targets), name + "targets do not rise, or are none");
     }
     const SpringBones& bones = character_.springBones;
-    const bool colliders = std::ranges::all_of(bones.colliders, [&](const SpringCollider& c) {
+    const bool colliders = std::all_of(bones.colliders.begin(), bones.colliders.end(), [&](const SpringCollider& c) {
         return c.node < nodes && std::isfinite(c.radius) && isFinite({&c.offset.x, 3}) && isFinite({&c.tail.x, 3});
     });
     require(colliders, "a collider of spring bones names no node, or is not finite");
@@ -265,7 +265,7 @@ void Check::expressions() {
     }
     for (size_t s = 0; s < bones.springs.size(); ++s) {
         const Spring& spring = bones.springs[s];
-        const bool joints = std::ranges::all_of(spring.joints, [&](const SpringJoint& j) {
+        const bool joints = std::all_of(spring.joints.begin(), spring.joints.end(), [&](const SpringJoint& j) {
             const float numbers[] = {j.hitRadius, j.stiffness, j.gravityPower, j.drag};
             return j.node < nodes && isFinite(numbers) && isFinite({&j.gravityDirection.x, 3});
         });
@@ -289,8 +289,10 @@ void Check::clips() {
                 require(curve.keys.width() == 1 && curve.keys.firstTarget == 0, of + "not one value a key");
             }
         }
-        const bool markers = std::ranges::all_of(clip.markers, [](const Marker& m) { return std::isfinite(m.time); });
-        require(markers && std::ranges::is_sorted(clip.markers, {}, &Marker::time),
+        const bool markers = std::all_of(clip.markers.begin(), clip.markers.end(),
+                                         [](const Marker& m) { return std::isfinite(m.time); });
+        require(markers && std::is_sorted(clip.markers.begin(), clip.markers.end(),
+                                          [](const Marker& a, const Marker& b) { return a.time < b.time; }),
                 name + "markers: times do not rise");
     }
 }
@@ -304,7 +306,8 @@ void Check::materials() {
     for (size_t m = 0; m < character_.materials.size(); ++m) {
         const Material& material = character_.materials[m];
         const std::string name = at("material", m) + ": ";
-        require(std::ranges::all_of(texturesOf(material), [&](const Texture* each) { return texture(*each); }),
+        const auto textures = texturesOf(material);
+        require(std::all_of(textures.begin(), textures.end(), [&](const Texture* each) { return texture(*each); }),
                 name + "a texture names no image or no UV set");
         require(!material.trim || (texture(material.trim->texture) && material.trim->channel <= 3 &&
                                    material.trim->tiles <= kMaxTrimTiles),

@@ -36,40 +36,46 @@ inline constexpr std::array<const char*, 7> kLayerExtensions{
     "KHR_materials_clearcoat", "KHR_materials_sheen",       "KHR_materials_transmission", "KHR_materials_ior",
     "KHR_materials_specular",  "KHR_materials_iridescence", "KHR_materials_anisotropy"};
 
-inline constexpr std::array<LayerNumber, 12> kLayerNumbers{{
-    {kLayerExtensions[0], "clearcoatFactor", &MaterialLayers::clearcoatFactor},
-    {kLayerExtensions[0], "clearcoatRoughnessFactor", &MaterialLayers::clearcoatRoughnessFactor},
-    {kLayerExtensions[1], "sheenRoughnessFactor", &MaterialLayers::sheenRoughnessFactor},
-    {kLayerExtensions[2], "transmissionFactor", &MaterialLayers::transmissionFactor},
-    {kLayerExtensions[3], "ior", &MaterialLayers::ior, 0.0f, kUnboundedLayer},
-    {kLayerExtensions[4], "specularFactor", &MaterialLayers::specularFactor},
-    {kLayerExtensions[5], "iridescenceFactor", &MaterialLayers::iridescenceFactor},
-    {kLayerExtensions[5], "iridescenceIor", &MaterialLayers::iridescenceIor, 1.0f, kUnboundedLayer},
-    {kLayerExtensions[5], "iridescenceThicknessMinimum", &MaterialLayers::iridescenceThicknessMinimum, 0.0f,
-     kUnboundedLayer},
-    {kLayerExtensions[5], "iridescenceThicknessMaximum", &MaterialLayers::iridescenceThicknessMaximum, 0.0f,
-     kUnboundedLayer},
-    {kLayerExtensions[6], "anisotropyStrength", &MaterialLayers::anisotropyStrength},
-    {kLayerExtensions[6], "anisotropyRotation", &MaterialLayers::anisotropyRotation, -kUnboundedLayer, kUnboundedLayer},
-}};
-inline constexpr std::array<LayerColor, 2> kLayerColors{{
-    {kLayerExtensions[1], "sheenColorFactor", &MaterialLayers::sheenColorFactor},
-    {kLayerExtensions[4], "specularColorFactor", &MaterialLayers::specularColorFactor, kUnboundedLayer},
-}};
-inline constexpr std::array<LayerTexture, 11> kLayerTextures{{
-    {kLayerExtensions[0], "clearcoatTexture", &MaterialLayers::clearcoatTexture},
-    {kLayerExtensions[0], "clearcoatRoughnessTexture", &MaterialLayers::clearcoatRoughnessTexture},
-    {kLayerExtensions[0], "clearcoatNormalTexture", &MaterialLayers::clearcoatNormalTexture,
-     &MaterialLayers::clearcoatNormalScale},
-    {kLayerExtensions[1], "sheenColorTexture", &MaterialLayers::sheenColorTexture},
-    {kLayerExtensions[1], "sheenRoughnessTexture", &MaterialLayers::sheenRoughnessTexture},
-    {kLayerExtensions[2], "transmissionTexture", &MaterialLayers::transmissionTexture},
-    {kLayerExtensions[4], "specularTexture", &MaterialLayers::specularTexture},
-    {kLayerExtensions[4], "specularColorTexture", &MaterialLayers::specularColorTexture},
-    {kLayerExtensions[5], "iridescenceTexture", &MaterialLayers::iridescenceTexture},
-    {kLayerExtensions[5], "iridescenceThicknessTexture", &MaterialLayers::iridescenceThicknessTexture},
-    {kLayerExtensions[6], "anisotropyTexture", &MaterialLayers::anisotropyTexture},
-}};
+// The members, each once: X(which of kLayerExtensions, name, what else its row has). A texture's member is its name and
+// "Texture". SuppleMaterialLayers has members of these names (runtime/material_layers.h).
+#define SUPPLE_LAYER_NUMBERS(X)                                                                                        \
+    X(0, clearcoatFactor)                                                                                              \
+    X(0, clearcoatRoughnessFactor)                                                                                     \
+    X(1, sheenRoughnessFactor)                                                                                         \
+    X(2, transmissionFactor)                                                                                           \
+    X(3, ior, 0.0f, kUnboundedLayer)                                                                                   \
+    X(4, specularFactor)                                                                                               \
+    X(5, iridescenceFactor)                                                                                            \
+    X(5, iridescenceIor, 1.0f, kUnboundedLayer)                                                                        \
+    X(5, iridescenceThicknessMinimum, 0.0f, kUnboundedLayer)                                                           \
+    X(5, iridescenceThicknessMaximum, 0.0f, kUnboundedLayer)                                                           \
+    X(6, anisotropyStrength)                                                                                           \
+    X(6, anisotropyRotation, -kUnboundedLayer, kUnboundedLayer)
+#define SUPPLE_LAYER_COLORS(X)                                                                                         \
+    X(1, sheenColorFactor)                                                                                             \
+    X(4, specularColorFactor, kUnboundedLayer)
+#define SUPPLE_LAYER_TEXTURES(X)                                                                                       \
+    X(0, clearcoat)                                                                                                    \
+    X(0, clearcoatRoughness)                                                                                           \
+    X(0, clearcoatNormal, &MaterialLayers::clearcoatNormalScale)                                                       \
+    X(1, sheenColor)                                                                                                   \
+    X(1, sheenRoughness)                                                                                               \
+    X(2, transmission)                                                                                                 \
+    X(4, specular)                                                                                                     \
+    X(4, specularColor)                                                                                                \
+    X(5, iridescence)                                                                                                  \
+    X(5, iridescenceThickness)                                                                                         \
+    X(6, anisotropy)
+
+#define SUPPLE_ROW(extension, name, ...)                                                                               \
+    {kLayerExtensions[extension], #name, &MaterialLayers::name __VA_OPT__(, ) __VA_ARGS__},
+inline constexpr auto kLayerNumbers = std::to_array<LayerNumber>({SUPPLE_LAYER_NUMBERS(SUPPLE_ROW)});
+inline constexpr auto kLayerColors = std::to_array<LayerColor>({SUPPLE_LAYER_COLORS(SUPPLE_ROW)});
+#undef SUPPLE_ROW
+#define SUPPLE_ROW(extension, name, ...)                                                                               \
+    {kLayerExtensions[extension], #name "Texture", &MaterialLayers::name##Texture __VA_OPT__(, ) __VA_ARGS__},
+inline constexpr auto kLayerTextures = std::to_array<LayerTexture>({SUPPLE_LAYER_TEXTURES(SUPPLE_ROW)});
+#undef SUPPLE_ROW
 
 /// Whether anything of an extension of kLayerExtensions differs from what a material is without it.
 [[nodiscard]] inline bool hasLayer(const MaterialLayers& layers, std::string_view extension) {

@@ -252,6 +252,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.pipelineCache = desc.pipelineCache;
     d.allocator = desc.allocator;
     d.memorySource = desc.memorySource;
+    d.memoryBlockSize = desc.memoryBlockSize;
     d.debugUtils = desc.debugUtils;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {

@@ -3,7 +3,9 @@
 
 #include "base/result.h"
 #include "gpu/functions.h"
+#include "gpu/host_memory.h"
 #include "gpu/mapping.h"
+#include "gpu/memory_blocks.h"
 #include "gpu/memory_use.h"
 
 #include <cstdint>
@@ -20,21 +22,6 @@ inline constexpr uint32_t kPushConstantBytes = 128;
 inline constexpr uint32_t kMaxStorageBuffers = 8;
 inline constexpr uint32_t kMaxTexelBuffers = 6;
 
-/// A piece of device memory that the host allocated.
-struct HostMemory {
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;
-    void* mapped = nullptr;
-    void* allocation = nullptr; ///< the host's
-};
-/// The host's own allocator of device memory, in place of vkAllocateMemory; both or neither.
-struct MemorySource {
-    std::function<VkResult(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
-                           VkMemoryPropertyFlags preferred, const char* name, HostMemory& out)>
-        allocate;
-    std::function<void(const HostMemory&)> free;
-};
-
 struct DeviceDesc {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -46,6 +33,7 @@ struct DeviceDesc {
     const VkAllocationCallbacks* allocator = nullptr;
     const void* enabledFeatures = nullptr; ///< the chain the device was created with; null: taken on trust
     MemorySource memorySource;             ///< empty: vkAllocateMemory
+    VkDeviceSize memoryBlockSize = 0;      ///< of the largest block; pieces of more than half of it have their own
     bool debugUtils = false;
     MappingChoice mapping = MappingChoice::automatic;
 };
@@ -59,7 +47,9 @@ struct Device {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
     MemorySource memorySource;
+    VkDeviceSize memoryBlockSize = 0;
     std::shared_ptr<MemoryLedger> ledger = std::make_shared<MemoryLedger>(); ///< what it counts does change
+    std::shared_ptr<MemoryBlocks> blocks = std::make_shared<MemoryBlocks>(); ///< and so do these
     /// Set behind create(): the budget of static data, of which the same is true. Null: there is no bound.
     Uploads* uploads = nullptr;
     bool debugUtils = false;

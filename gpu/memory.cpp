@@ -7,17 +7,6 @@ namespace supple::gpu {
 
 namespace {
 
-constexpr uint32_t kNoType = 0xFFFFFFFFu;
-
-uint32_t findMemoryType(const Device& device, uint32_t typeBits, VkMemoryPropertyFlags wanted) {
-    for (uint32_t i = 0; i < device.memory.memoryTypeCount; ++i) {
-        if ((typeBits & (1u << i)) != 0 && (device.memory.memoryTypes[i].propertyFlags & wanted) == wanted) {
-            return i;
-        }
-    }
-    return kNoType;
-}
-
 VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
@@ -77,70 +66,37 @@ MemoryPurpose purposeOf(const BufferRequest& request, MemoryKind kind) {
 } // namespace
 
 DeviceMemory::~DeviceMemory() {
-    if (piece_.memory == VK_NULL_HANDLE) {
+    if (piece_.memory.memory == VK_NULL_HANDLE) {
         return;
     }
     device_->ledger->use -= use_;
-    if (device_->memorySource.free) {
-        device_->memorySource.free(piece_);
+    if (piece_.block != nullptr) {
+        device_->blocks->give(*device_, piece_);
     } else {
-        device_->vk.FreeMemory(device_->handle, piece_.memory, device_->allocator);
+        freeHostMemory(*device_, piece_.memory);
     }
 }
 
 Result<DeviceMemory> DeviceMemory::allocate(const Device& device, const VkMemoryRequirements& requirements,
                                             MemoryKind kind, const char* name, const MemoryUse& use) {
-    // Every device has a type of memory that is both visible and coherent, for all buffers.
-    const bool mapped = kind != MemoryKind::deviceLocal;
-    const VkMemoryPropertyFlags required =
-        mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
-    VkMemoryPropertyFlags preferred = required;
-    if (kind == MemoryKind::deviceLocal) {
-        preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    } else if (kind == MemoryKind::readback) {
-        preferred |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT; // else the CPU reads slowly
+    if (const MemoryBlocks::Piece shared = device.blocks->take(device, requirements, kind); shared.block != nullptr) {
+        return DeviceMemory(device, shared, use);
     }
     const std::string what =
         std::string("memory for ") + name + " and its neighbours, " + std::to_string(requirements.size) + " bytes";
-    if (Status allowed = checkBudget(device, {name, requirements.size, mapped}, what); !allowed) {
+    if (Status allowed = checkBudget(device, {name, requirements.size, kind != MemoryKind::deviceLocal}, what);
+        !allowed) {
         return allowed.error();
     }
-    HostMemory piece;
-    if (device.memorySource.allocate) {
-        const VkResult result = device.memorySource.allocate(requirements, required, preferred, name, piece);
-        if (result == VK_SUCCESS && (piece.memory == VK_NULL_HANDLE || (mapped && piece.mapped == nullptr))) {
-            device.memorySource.free(piece); // every success has its free
-            return Error{ErrorCode::argument, what + ": the host's callback gave none, or did not map it"};
-        }
-        if (result != VK_SUCCESS) {
-            return vulkanError(result, what);
-        }
-        return DeviceMemory(device, piece, use);
+    MemoryBlocks::Piece own;
+    const Result<HostMemory> memory = allocateHostMemory(device, requirements, kind, name, what);
+    if (!memory) {
+        return memory.error();
     }
-
-    uint32_t type = findMemoryType(device, requirements.memoryTypeBits, required | preferred);
-    if (type == kNoType) {
-        type = findMemoryType(device, requirements.memoryTypeBits, required);
-    }
-    if (type == kNoType) {
-        return Error{ErrorCode::unsupported, what + ": no suitable memory type"};
-    }
-    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    info.allocationSize = requirements.size;
-    info.memoryTypeIndex = type;
-    VkResult result = device.vk.AllocateMemory(device.handle, &info, device.allocator, &piece.memory);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, what);
-    }
-    DeviceMemory memory(device, piece, use);
-    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(piece.memory), name);
-    if (mapped) {
-        result = device.vk.MapMemory(device.handle, piece.memory, 0, VK_WHOLE_SIZE, 0, &memory.piece_.mapped);
-        if (result != VK_SUCCESS) {
-            return vulkanError(result, std::string("mapping ") + name);
-        }
-    }
-    return memory;
+    own.memory = *memory;
+    MemoryUse counted = use;
+    ++counted.allocations;
+    return DeviceMemory(device, own, counted);
 }
 
 Result<BufferSet> BufferSet::create(const Device& device, std::span<const BufferRequest> requests, MemoryKind kind) {
@@ -169,7 +125,7 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
         }
         if (pieces.empty() || roundUp(pieces.back().size, needs.alignment) + needs.size > device.maxAllocationSize) {
             pieces.push_back({0, 1, 0xFFFFFFFFu});
-            uses.push_back({{}, 1});
+            uses.emplace_back();
         }
         VkMemoryRequirements& piece = pieces.back();
         entry.offset = roundUp(piece.size, needs.alignment);

@@ -1,8 +1,10 @@
-// Buffers that live and die together, in as few device allocations as the device allows: one, unless they are huge.
+// Buffers that live and die together, in as few pieces of device memory as the device allows: one, unless they are
+// huge.
 #pragma once
 
 #include "base/result.h"
 #include "gpu/handle.h"
+#include "gpu/memory_blocks.h"
 
 #include <cstddef>
 #include <span>
@@ -22,13 +24,7 @@ struct BufferRequest {
     MemoryPurpose purpose = MemoryPurpose::lists; ///< of device-local memory; the other kinds are their own purpose
 };
 
-enum class MemoryKind {
-    deviceLocal, ///< never mapped
-    upload,      ///< host visible and coherent, mapped for its whole life
-    readback,    ///< the same, for the host to read: cached if it can be
-};
-
-/// Device memory, Supple's own or the host's: freed the way it came.
+/// A piece of device memory: of a block, or an allocation of its own, which is freed the way it came.
 class DeviceMemory {
 public:
     DeviceMemory() = default;
@@ -45,16 +41,16 @@ public:
 
     [[nodiscard]] static Result<DeviceMemory> allocate(const Device& device, const VkMemoryRequirements& requirements,
                                                        MemoryKind kind, const char* name, const MemoryUse& use);
-    [[nodiscard]] const HostMemory& piece() const { return piece_; }
+    [[nodiscard]] const HostMemory& piece() const { return piece_.memory; }
     [[nodiscard]] const MemoryUse& use() const { return use_; }
 
 private:
-    DeviceMemory(const Device& device, const HostMemory& piece, const MemoryUse& use)
+    DeviceMemory(const Device& device, const MemoryBlocks::Piece& piece, const MemoryUse& use)
         : device_(&device), piece_(piece), use_(use) {
         device.ledger->use += use;
     }
     const Device* device_ = nullptr;
-    HostMemory piece_;
+    MemoryBlocks::Piece piece_;
     MemoryUse use_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace supple::gpu {
 
-/// What memory is for. The last two are host visible, all others are not.
+/// What memory is for. Staging, readback and spareVisible are host visible, all others are not.
 enum class MemoryPurpose : uint32_t {
     tables,       ///< static data
     poses,        ///< palettes, morph weights, what instances play
@@ -22,6 +22,8 @@ enum class MemoryPurpose : uint32_t {
     scratch,      ///< what one pass leaves for the next
     staging,
     readback,
+    spare,        ///< in blocks, and free for what comes
+    spareVisible, ///< the same of what is mapped
     count
 };
 inline constexpr size_t kMemoryPurposes = static_cast<size_t>(MemoryPurpose::count);
@@ -33,7 +35,9 @@ struct MemoryUse {
     [[nodiscard]] VkDeviceSize& of(MemoryPurpose purpose) { return bytes[static_cast<size_t>(purpose)]; }
     [[nodiscard]] VkDeviceSize of(MemoryPurpose purpose) const { return bytes[static_cast<size_t>(purpose)]; }
     [[nodiscard]] VkDeviceSize total() const { return std::accumulate(bytes.begin(), bytes.end(), VkDeviceSize{0}); }
-    [[nodiscard]] VkDeviceSize hostVisible() const { return of(MemoryPurpose::staging) + of(MemoryPurpose::readback); }
+    [[nodiscard]] VkDeviceSize hostVisible() const {
+        return of(MemoryPurpose::staging) + of(MemoryPurpose::readback) + of(MemoryPurpose::spareVisible);
+    }
     MemoryUse& operator+=(const MemoryUse& other) {
         for (size_t i = 0; i < kMemoryPurposes; ++i) {
             bytes[i] += other.bytes[i];

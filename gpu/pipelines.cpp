@@ -54,7 +54,7 @@ Kernel Pipelines::Batch::get(const ComputeLayout& layout, const Spirv& spirv, st
         missing_.push_back(&*entry);
     } else if (entry->pipeline.get() == VK_NULL_HANDLE) {
         const auto has = [&](const std::vector<Entry*>& list) {
-            return std::ranges::find(list, &*entry) != list.end();
+            return std::find(list.begin(), list.end(), &*entry) != list.end();
         };
         if (!entry->beingMade) { // given up, and others wait for it
             entry->beingMade = true;
@@ -80,8 +80,9 @@ Status Pipelines::Batch::make() {
 void Pipelines::Batch::awaitOthers() {
     std::unique_lock lock(pipelines_.mutex_);
     missing_.reserve(others_.size());
-    pipelines_.changed_.wait(
-        lock, [&] { return std::ranges::none_of(others_, [](const Entry* entry) { return entry->beingMade; }); });
+    pipelines_.changed_.wait(lock, [&] {
+        return std::none_of(others_.begin(), others_.end(), [](const Entry* entry) { return entry->beingMade; });
+    });
     for (Entry* const entry : others_) {
         --entry->waiting;
         if (entry->pipeline.get() == VK_NULL_HANDLE) {

@@ -156,7 +156,7 @@ std::vector<uint32_t> Figure::cageCornerWords() {
         cornerCount += size_t{3} * (cage.sides(face) - 2);
     std::vector<shared::CageCorner> corners;
     corners.reserve(cornerCount);
-    const auto lists = static_cast<uint32_t>(cornerCount * kCornerWords);
+    cageFaceLists_ = static_cast<uint32_t>(cornerCount * kCornerWords);
     for (const uint32_t face : faces) {
         const auto [material, part] = keyOf(face);
         if (cageRanges_.empty() || std::pair(cageRanges_.back().material, cageRanges_.back().part) != keyOf(face))
@@ -171,17 +171,17 @@ std::vector<uint32_t> Figure::cageCornerWords() {
                 cageRanges_.back().center += cage.positions[cage.corners[corner]];
                 const glm::vec2 uv0 = uvOf(0, corner);
                 const glm::vec2 uv1 = uvOf(1, corner);
-                corners.push_back({cage.corners[corner], lists + start, cage.sides(face), glm::packUnorm4x8(color),
-                                   uv0.x, uv0.y, uv1.x, uv1.y});
+                corners.push_back({cage.corners[corner], cageFaceStart(face), cage.sides(face),
+                                   glm::packUnorm4x8(color), uv0.x, uv0.y, uv1.x, uv1.y});
             }
         }
         cageRanges_.back().cornerCount = static_cast<uint32_t>(corners.size()) - cageRanges_.back().firstCorner;
     }
     for (CageRange& range : cageRanges_)
         range.center /= static_cast<float>(range.cornerCount);
-    std::vector<uint32_t> words(lists + cage.corners.size());
+    std::vector<uint32_t> words(cageFaceLists_ + cage.corners.size());
     std::memcpy(words.data(), corners.data(), corners.size() * sizeof(shared::CageCorner));
-    std::copy(cage.corners.begin(), cage.corners.end(), words.begin() + lists);
+    std::copy(cage.corners.begin(), cage.corners.end(), words.begin() + cageFaceLists_);
     return words;
 }
 

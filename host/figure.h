@@ -79,6 +79,8 @@ public:
     /// CageRange::center of the faces of a part and material.
     [[nodiscard]] glm::vec3 centerOf(uint32_t part, uint32_t material) const;
     [[nodiscard]] const Buffer& cageCorners() const { return cageCorners_; }
+    /// Where a face's vertices begin in cageCorners(), in words.
+    [[nodiscard]] uint32_t cageFaceStart(uint32_t face) const { return cageFaceLists_ + cage_.faceStarts[face]; }
     [[nodiscard]] const Buffer& cageEdges() const { return cageEdges_; }
     [[nodiscard]] const std::vector<EdgeRange>& cageEdgeRanges() const { return cageEdgeRanges_; }
 
@@ -86,7 +88,7 @@ private:
     explicit Figure(Context& context) : context_(context) {}
     /// What shaders/cage_edge.vert reads; fills cageEdgeRanges_.
     [[nodiscard]] std::vector<std::array<uint32_t, 2>> cageEdgeVertices();
-    /// What shaders/cage_face.glsl reads; fills cageRanges_.
+    /// What shaders/cage_buffers.glsl reads; fills cageRanges_ and cageFaceLists_.
     [[nodiscard]] std::vector<uint32_t> cageCornerWords();
     [[nodiscard]] Status uploadCage();
     /// Clips, morph targets, parts and joints.
@@ -108,6 +110,7 @@ private:
     FigureMaterials materials_;
     std::vector<CageRange> cageRanges_;
     Buffer cageCorners_;
+    uint32_t cageFaceLists_ = 0;
     Buffer cageEdges_;
     std::vector<EdgeRange> cageEdgeRanges_;
     float averageAlbedo_ = 0.5f;

@@ -220,11 +220,8 @@ Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
     std::vector<uint32_t> words;
     words.reserve(shared::kPatchWords * patches->size() + 1);
     for (const SupplePatchInfo& patch : *patches) {
-        const uint32_t first = cage.faceStarts[patch.face], sides = cage.sides(patch.face);
-        words.push_back(static_cast<uint32_t>(patch.patchClass));
-        const uint32_t count = std::min(sides, shared::kPatchVertices);
-        for (uint32_t i = 0; i < shared::kPatchVertices; ++i)
-            words.push_back(i < count ? cage.corners[first + i * sides / count] : SUPPLE_NO_VERTEX);
+        words.insert(words.end(), {static_cast<uint32_t>(patch.patchClass), figure_.cageFaceStart(patch.face),
+                                   cage.sides(patch.face)});
     }
     words.resize(std::max<size_t>(words.size(), 1));
     Result<Buffer> buffer =

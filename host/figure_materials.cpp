@@ -1,5 +1,7 @@
 #include "host/figure_materials.h"
 
+#include "host/material_uniforms.h"
+
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -92,25 +94,15 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
                                      : info.trimDomain == SUPPLE_TRIM_FACE ? TextureKind::tiles
                                                                            : TextureKind::data;
         const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
-        const struct {
-            SuppleTextureInfo& texture;
-            uint32_t slot;
-            TextureKind kind;
-        } wanted[] = {{info.baseColor, shared::kBaseColor, TextureKind::color},
-                      {info.metallicRoughness, shared::kMetallicRoughness, TextureKind::data},
-                      {info.normal, shared::kNormal, TextureKind::data},
-                      {info.occlusion, shared::kOcclusion, TextureKind::data},
-                      {info.emissive, shared::kEmissive, TextureKind::color},
-                      {info.trim, shared::kTrim, trimKind},
-                      {layers.clearcoat, shared::kClearcoat, TextureKind::data},
-                      {layers.clearcoatRoughness, shared::kClearcoatRoughness, TextureKind::data},
-                      {layers.clearcoatNormal, shared::kClearcoatNormal, TextureKind::data},
-                      {layers.sheenColor, shared::kSheenColor, TextureKind::color},
-                      {layers.sheenRoughness, shared::kSheenRoughness, TextureKind::data},
-                      {layers.transmission, shared::kTransmission, TextureKind::data}};
-        for (const auto& [texture, slot, kind] : wanted) {
+        const auto kindOf = [&](uint32_t slot) {
+            const bool isColor = slot == shared::kBaseColor || slot == shared::kEmissive || slot == shared::kSheenColor;
+            return slot == shared::kTrim ? trimKind : (isColor ? TextureKind::color : TextureKind::data);
+        };
+        const auto textures = texturesOf(info, layers);
+        for (uint32_t slot = 0; slot < textures.size(); ++slot) {
+            SuppleTextureInfo& texture = *textures[slot];
             const bool required = slot == shared::kTrim && ownTrim;
-            const Result<size_t> loaded = load(context, asset, path, texture, kind, required);
+            const Result<size_t> loaded = load(context, asset, path, texture, kindOf(slot), required);
             if (!loaded)
                 return loaded.error();
             slots[slot] = *loaded;

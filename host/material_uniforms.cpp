@@ -60,10 +60,7 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialL
     set(ownTrim, shared::kMaterialTrim);
     set(material.trimDomain == SUPPLE_TRIM_FACE, shared::kMaterialTrimFace);
     uint32_t hasTexture = shared::kMaterialTexture; // in the order of shared::kBaseColor and so on
-    for (const SuppleTextureInfo* texture :
-         {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion, &material.emissive,
-          &material.trim, &layers.clearcoat, &layers.clearcoatRoughness, &layers.clearcoatNormal, &layers.sheenColor,
-          &layers.sheenRoughness, &layers.transmission}) {
+    for (const SuppleTextureInfo* texture : texturesOf(material, layers)) {
         set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);
         set(texture->image != SUPPLE_NO_IMAGE, hasTexture);
         hasTexture <<= 1;
@@ -86,18 +83,9 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, co
     uniforms.roughness = material.roughnessFactor;
     uniforms.normalScale = material.normalScale;
     uniforms.occlusionStrength = material.occlusionStrength;
-    uniforms.places[shared::kBaseColor] = placeOf(material.baseColor, uv1);
-    uniforms.places[shared::kMetallicRoughness] = placeOf(material.metallicRoughness, uv1);
-    uniforms.places[shared::kNormal] = placeOf(material.normal, uv1);
-    uniforms.places[shared::kOcclusion] = placeOf(material.occlusion, uv1);
-    uniforms.places[shared::kEmissive] = placeOf(material.emissive, uv1);
-    uniforms.places[shared::kTrim] = placeOf(material.trim, uv1);
-    uniforms.places[shared::kClearcoat] = placeOf(layers.clearcoat, uv1);
-    uniforms.places[shared::kClearcoatRoughness] = placeOf(layers.clearcoatRoughness, uv1);
-    uniforms.places[shared::kClearcoatNormal] = placeOf(layers.clearcoatNormal, uv1);
-    uniforms.places[shared::kSheenColor] = placeOf(layers.sheenColor, uv1);
-    uniforms.places[shared::kSheenRoughness] = placeOf(layers.sheenRoughness, uv1);
-    uniforms.places[shared::kTransmission] = placeOf(layers.transmission, uv1);
+    const auto textures = texturesOf(material, layers);
+    for (size_t slot = 0; slot < textures.size(); ++slot)
+        uniforms.places[slot] = placeOf(*textures[slot], uv1);
     const float* sheen = layers.sheenColorFactor;
     uniforms.sheen = glm::vec4(sheen[0], sheen[1], sheen[2], layers.sheenRoughnessFactor);
     uniforms.dielectric = dielectricOf(layers);

@@ -3,9 +3,21 @@
 
 #include "host/shaders/draw.h"
 
+#include <array>
 #include <supple/supple.h>
 
 namespace supple::host {
+
+/// The textures that are looked up, in the order of shared::kBaseColor and so on.
+template <class Info, class Layers>
+[[nodiscard]] auto texturesOf(Info& material, Layers& layers) {
+    const std::array textures{&material.baseColor, &material.metallicRoughness, &material.normal,
+                              &material.occlusion, &material.emissive,          &material.trim,
+                              &layers.clearcoat,   &layers.clearcoatRoughness,  &layers.clearcoatNormal,
+                              &layers.sheenColor,  &layers.sheenRoughness,      &layers.transmission};
+    static_assert(textures.size() == shared::kTextureCount);
+    return textures;
+}
 
 /// `uv1`: there is a second UV set to look anything up on.
 [[nodiscard]] shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material,

@@ -46,7 +46,7 @@ private:
 
 [[nodiscard]] Status writePng(const Picture& picture, const std::string& path);
 [[nodiscard]] Result<Picture> readPng(const std::string& path);
-/// PNG, JPEG or WebP bytes as a glTF holds them, of no more than 2^26 pixels; `name` begins the message.
+/// PNG, JPEG, WebP or KTX2 bytes as a glTF holds them, of no more than 2^26 pixels; `name` begins the message.
 [[nodiscard]] Result<Picture> decodePicture(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace supple::host

@@ -1,5 +1,6 @@
 // PNG and JPEG into pictures, by libpng and libjpeg. The bytes may be anybody's: the header is believed only as far as
 // its area, and nothing of C++ is on the stack where these jump over it.
+#include "host/ktx2_decoder.h"
 #include "host/picture.h"
 #include "host/webp_decoder.h"
 
@@ -164,14 +165,16 @@ Result<Picture> decodePicture(std::span<const std::byte> bytes, const std::strin
     if (isWebp(bytes)) {
         return decodeWebp(bytes, kMaxPixels, name);
     }
+    if (isKtx2(bytes)) {
+        return decodeKtx2(bytes, kMaxPixels, name);
+    }
     Decoding decoding;
     decoding.data = reinterpret_cast<const uint8_t*>(bytes.data());
     decoding.size = bytes.size();
     const bool isPng = bytes.size() >= 8 && png_sig_cmp(decoding.data, 0, 8) == 0;
     const bool isJpeg = bytes.size() >= 3 && std::memcmp(decoding.data, "\xFF\xD8\xFF", 3) == 0;
-    const bool isKtx2 = bytes.size() >= 8 && std::memcmp(decoding.data, "\xABKTX 20\xBB", 8) == 0;
     if (!isPng && !isJpeg) {
-        return Error{ErrorCode::asset, name + (isKtx2 ? ": KTX2 is not decoded" : ": not a PNG, JPEG or WebP")};
+        return Error{ErrorCode::asset, name + ": not a PNG, JPEG, WebP or KTX2"};
     }
     const auto failed = [&] {
         return Error{ErrorCode::asset, name + ": " + (decoding.fault[0] != '\0' ? decoding.fault : "damaged")};

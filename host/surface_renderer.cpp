@@ -416,21 +416,7 @@ Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& 
         return status.error();
     const FigureMaterials& materials = figure.materials();
     for (size_t i = 0; i < binding.materials_.size(); ++i) {
-        const SuppleMaterialInfo& info = materials.infos()[i];
-        const SuppleTextureInfo* textures[shared::kTextureCount]{};
-        textures[shared::kBaseColor] = &info.baseColor;
-        textures[shared::kMetallicRoughness] = &info.metallicRoughness;
-        textures[shared::kNormal] = &info.normal;
-        textures[shared::kOcclusion] = &info.occlusion;
-        textures[shared::kEmissive] = &info.emissive;
-        textures[shared::kTrim] = &info.trim;
-        const SuppleMaterialLayers& layers = materials.layersAt(i);
-        textures[shared::kClearcoat] = &layers.clearcoat;
-        textures[shared::kClearcoatRoughness] = &layers.clearcoatRoughness;
-        textures[shared::kClearcoatNormal] = &layers.clearcoatNormal;
-        textures[shared::kSheenColor] = &layers.sheenColor;
-        textures[shared::kSheenRoughness] = &layers.sheenRoughness;
-        textures[shared::kTransmission] = &layers.transmission;
+        const auto textures = texturesOf(materials.infos()[i], materials.layersAt(i));
         for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot) {
             if (const Status status = writeTexture(binding, i, shared::kFirstTextureBinding + slot,
                                                    materials.texture(i, slot), *textures[slot]);

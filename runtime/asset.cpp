@@ -150,9 +150,8 @@ Status Asset::makeClips(const gpu::Device& device) {
         table = std::shared_ptr<const skinning::ClipTable>(prepared, &*prepared->clips);
         words = wordsIn(prepared, table->words);
     } else {
-        const auto own = std::make_shared<skinning::ClipTable>(skinning::buildClipTable(character));
-        words = takenFrom(own->words);
-        table = own;
+        table = std::make_shared<const skinning::ClipTable>(skinning::buildClipTable(character));
+        words = wordsIn(table, table->words);
     }
     if (!prepared->clips && !ownsPrepared) {
         builtLate.emplace_back("the tables of the clips");

@@ -42,7 +42,7 @@ struct Asset {
     uint32_t firstInfluences = 0;  ///< skinning::DeformTable
     mutable ClipBounds clipBounds; ///< what has been asked for
     // Made for the first group that plays on the device:
-    std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words may be gone
+    std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
     std::optional<skinning::Reach> ownReach; ///< made for the first group of a view, if it was not prepared
     std::vector<std::shared_ptr<AssetPiece>> pieces;

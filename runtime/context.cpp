@@ -18,6 +18,8 @@ Timings::Shortfall shortfallOf(const View& view, uint64_t frame) {
     return {true, statistics->droppedInstanceCount, uint64_t{lacking} * vertexBytes(view.desc().vertexFormat)};
 }
 
+constexpr VkDeviceSize kMemoryBlockSize = VkDeviceSize{256} << 20;
+
 gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
     gpu::MemorySource source;
     source.allocate = [callbacks](const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
@@ -67,6 +69,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     if (desc.memory != nullptr) {
         deviceDesc.memorySource = memorySourceOf(*desc.memory);
     }
+    deviceDesc.memoryBlockSize = desc.memoryBlockSize > 0 ? desc.memoryBlockSize : kMemoryBlockSize;
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
     deviceDesc.drawQueueFamily = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
     context->families_ = {desc.queueFamily, deviceDesc.drawQueueFamily};
@@ -372,7 +375,7 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
     GroupShared shared = sharedFor(group.sharedView());
     if (group.follows()) {
         const auto leader =
-            std::ranges::find_if(remade, [&](const Remade& other) { return other.id == group.leader(); });
+            std::find_if(remade.begin(), remade.end(), [&](const Remade& other) { return other.id == group.leader(); });
         shared.instances = leader->group->sharedInstances();
     }
     if (!asyncCompute_ || group.askedFrame() != frame_) { // else the draws may not have taken the indices over yet

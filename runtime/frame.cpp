@@ -313,6 +313,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::modifiers>, recordPose<Playback::Part::modifiers>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {SUPPLE_PASS_DEFORM, always, {}},
     {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},

@@ -118,9 +118,9 @@ Status Group::createInstances(const GroupShared& shared) {
         instances_ = shared.instances;
         return success();
     }
-    Result<std::shared_ptr<InstanceSet>> instances =
-        InstanceSet::create({shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
-                             shared.firstGeneration, shared.framesInFlight, shared.handsOver});
+    Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
+        {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
+         shared.firstGeneration, shared.framesInFlight, (desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, shared.handsOver});
     if (!instances) {
         return instances.error();
     }

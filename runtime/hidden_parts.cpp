@@ -43,7 +43,7 @@ size_t DrawnParts::write(const HiddenParts& hidden, uint32_t slots, std::byte* t
         std::memcpy(to, &patches, sizeof patches);
         to += sizeof patches;
         const std::span<const std::byte> mask = std::as_bytes(hidden.mask(slot));
-        to = std::ranges::copy(mask, to).out;
+        to = std::copy(mask.begin(), mask.end(), to);
     }
     return static_cast<size_t>(to - target);
 }

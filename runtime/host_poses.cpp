@@ -17,7 +17,7 @@ skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mod
     return layout;
 }
 
-HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout)
+HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers)
     : asset_(&asset), layout_(layout) {
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
@@ -33,6 +33,14 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
+    if (modifiers) {
+        const skinning::ClipTable& table = *asset.clipTable;
+        modifiers_ = InstanceModifiers(instanceCount, 0);
+        states_.resize(size_t{instanceCount} * 4 * kStateElements);
+        locals_.resize(instanceCount * table.nodes.size());
+        hasLocals_.resize(instanceCount, 0);
+        twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0));
+    }
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);
     }
@@ -41,6 +49,9 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
 void HostPoses::reset(uint32_t instance) {
     setBindPose(instance);
     setMorphWeights(instance, nullptr);
+    if (takesModifiers()) {
+        state(instance).setModifierCount(0);
+    }
     setTransform(instance, glm::mat4(1.0f));
 }
 
@@ -68,18 +79,82 @@ void HostPoses::finishPalette(uint32_t instance) {
 
 void HostPoses::setPose(uint32_t instance) {
     const skinning::Pose& pose = memory_.pose;
+    setWeights(instance, nullptr);
+    if (takesModifiers()) {
+        keepLocals(instance);
+        modify(instance);
+        return;
+    }
     skinning::posePalette(asset_->character, pose, memory_.nodes, palette(instance));
     skinning::jointTransforms(asset_->character.skin, memory_.nodes, joints(instance));
-    std::transform(pose.morphWeights.begin(), pose.morphWeights.end(),
-                   poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_),
-                   [](double weight) { return static_cast<float>(weight); });
     finishPalette(instance);
 }
 
+void HostPoses::setWeights(uint32_t instance, const float* weights) {
+    for (size_t t = 0; t < targetCount_; ++t) {
+        poseWeights_[instance * targetCount_ + t] =
+            weights != nullptr ? weights[t] : static_cast<float>(memory_.pose.morphWeights[t]);
+    }
+}
+
+void HostPoses::keepLocals(uint32_t instance) {
+    const std::vector<uint32_t>& nodes = asset_->clipTable->nodes;
+    for (size_t place = 0; place < nodes.size(); ++place) {
+        const skinning::Transform& from = memory_.pose.locals[nodes[place]];
+        const glm::dquat& q = from.rotation;
+        locals_[instance * nodes.size() + place] = {glm::vec3(from.translation),
+                                                    glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)), glm::vec3(from.scale)};
+    }
+    hasLocals_[instance] = 1;
+}
+
+void HostPoses::modify(uint32_t instance) {
+    if (!takesModifiers() || hasLocals_[instance] == 0) {
+        return;
+    }
+    const size_t nodes = asset_->clipTable->nodes.size();
+    skinning::PlaybackState own = state(instance);
+    own.setTransform(placement(instance));
+    modifiers_.place(instance, own, origin_);
+    twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
+                     std::span(locals_).subspan(instance * nodes, nodes));
+    const std::span<skinning::Affine> target = palette(instance);
+    const std::span<glm::mat4> placed = joints(instance);
+    for (uint32_t j = 0; j < target.size(); ++j) {
+        const shared::Affine skinned = twin_.skinned(j);
+        target[j] = {{skinned.x, skinned.y, skinned.z}};
+        placed[j] = twin_.joint(j);
+    }
+    finishPalette(instance);
+}
+
+void HostPoses::setModifiers(uint32_t instance, std::span<const PlacedModifier> modifiers) {
+    modifiers_.set(instance, state(instance), *asset_->clipTable, modifiers, origin_);
+    modify(instance);
+}
+
+void HostPoses::setModifierGoal(uint32_t instance, uint32_t index, const ModifierGoal& goal) {
+    modifiers_.setGoal(instance, state(instance), index, goal, origin_);
+    modify(instance);
+}
+
+void HostPoses::setOrigin(const glm::dvec3& origin) {
+    if (origin_ == origin) {
+        return;
+    }
+    originVersion_ += uint64_t{1} << 40; // all versions are others than any before
+    origin_ = origin;
+    for (uint32_t instance = 0; instance < hasLocals_.size(); ++instance) {
+        modifyInWorld(instance);
+    }
+}
+
 void HostPoses::setBindPose(uint32_t instance) {
-    std::ranges::fill(palette(instance), skinning::toAffine(glm::mat4(1.0f)));
-    std::ranges::copy(asset_->jointFrames.bind, joints(instance).begin());
+    const std::span<skinning::Affine> own = palette(instance);
+    std::fill(own.begin(), own.end(), skinning::toAffine(glm::mat4(1.0f)));
+    std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
+    forgetLocals(instance);
     finishPalette(instance);
 }
 
@@ -104,15 +179,25 @@ void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
 }
 
 void HostPoses::setMatrixPose(uint32_t instance, const float* jointMatrices) {
-    const cage::Character& character = asset_->character;
+    SuppleJointMatricesDesc desc{};
+    desc.jointMatrices = jointMatrices;
+    desc.jointCount = layout_.jointCount;
+    setJointMatrices(instance, desc);
+}
+
+void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDesc& desc) {
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> own = joints(instance);
-    for (size_t j = 0; j < target.size(); ++j) {
-        own[j] = glm::make_mat4(jointMatrices + 16 * j);
-        target[j] = skinning::toAffine(own[j] * character.skin.inverseBinds[j]);
+    for (uint32_t k = 0; k < desc.jointCount; ++k) {
+        const uint32_t j = desc.joints != nullptr ? desc.joints[k] : k;
+        own[j] = glm::make_mat4(desc.jointMatrices + 16 * size_t{k});
+        target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
     }
-    std::copy(character.morphs.weights.begin(), character.morphs.weights.end(),
-              poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
+    if (desc.morphWeights != nullptr || desc.joints == nullptr) {
+        setWeights(instance,
+                   desc.morphWeights != nullptr ? desc.morphWeights : asset_->character.morphs.weights.data());
+    }
+    forgetLocals(instance);
     finishPalette(instance);
 }
 
@@ -129,9 +214,9 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
     const std::span before =
         std::span(other.palettes_).subspan(size_t{instance} * other.layout_.jointCount, other.layout_.jointCount);
     const auto isIdentity = [&](const skinning::Affine& joint) {
-        return std::ranges::equal(joint.rows, identity.rows);
+        return std::equal(std::begin(joint.rows), std::end(joint.rows), std::begin(identity.rows));
     };
-    if (std::ranges::all_of(before, isIdentity)) {
+    if (std::all_of(before.begin(), before.end(), isIdentity)) {
         return; // in the bind pose, as here
     }
     const std::span<glm::mat4> own = joints(instance);
@@ -145,7 +230,32 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
     finishPalette(instance);
 }
 
-void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match) {
+/// Locals by node; nodes that the other version lacks are as in the rest pose. Modifiers whose nodes are there.
+void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match) {
+    if (!takesModifiers()) {
+        return;
+    }
+    const skinning::ClipTable &table = *asset_->clipTable, &before = *other.asset_->clipTable;
+    modifiers_.takeOver(instance, state(instance), other.modifiers_, other.state(instance), [&](uint32_t place) {
+        const uint32_t node = match.nodes[before.nodes[place]];
+        return node != cage::kNone ? table.places[node] : cage::kNone;
+    });
+    if (other.hasLocals_[instance] == 0) {
+        return;
+    }
+    skinning::restPose(asset_->character, memory_.pose);
+    keepLocals(instance);
+    for (size_t place = 0; place < before.nodes.size(); ++place) {
+        const uint32_t node = match.nodes[before.nodes[place]];
+        if (node != cage::kNone && table.places[node] != cage::kNone) {
+            locals_[instance * table.nodes.size() + table.places[node]] =
+                other.locals_[instance * before.nodes.size() + place];
+        }
+    }
+    modify(instance);
+}
+
+void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& match) {
     origin_ = other.origin_;
     for (uint32_t i = 0; i < count; ++i) {
         ++versions_[i];
@@ -161,6 +271,7 @@ void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatc
         }
         if (!match.same) {
             takeOverJoints(other, i, match);
+            takeOverModified(other, i, match);
         }
     }
     if (match.same) {
@@ -168,6 +279,12 @@ void HostPoses::takeOver(const HostPoses& other, uint32_t count, const AssetMatc
         std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
         std::copy_n(other.joints_.begin(), joints, joints_.begin());
         std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
+        if (takesModifiers()) {
+            modifiers_.takeOver(other.modifiers_, count);
+            std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
+            std::copy_n(other.locals_.begin(), count * asset_->clipTable->nodes.size(), locals_.begin());
+            std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
+        }
     }
 }
 

@@ -3,8 +3,10 @@
 
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/instance_modifiers.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
+#include "skinning/pose_twin.h"
 #include "skinning/reach.h"
 #include "supple/supple.h"
 
@@ -25,7 +27,8 @@ class HostPoses {
 public:
     HostPoses() = default;
     /// All instances in the bind pose, placed by the identity. The asset must outlive this.
-    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout);
+    /// `modifiers`: instances may have some; then the asset has its clip table.
+    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers);
 
     [[nodiscard]] const skinning::PoseLayout& layout() const { return layout_; }
     /// What an instance takes of the buffer of poses.
@@ -39,24 +42,30 @@ public:
     void setLayers(uint32_t instance, const SupplePoseDesc& desc); ///< desc as checkPose (runtime/pose_desc.h) takes it
     /// One column-major model-space matrix a joint; morph weights as in the rest pose.
     void setMatrixPose(uint32_t instance, const float* jointMatrices);
+    void setJointMatrices(uint32_t instance, const SuppleJointMatricesDesc& desc);
     void setMorphWeights(uint32_t instance, const float* weights); ///< null: the pose's own again
     void setTransform(uint32_t instance, const glm::mat4& transform) {
-        ++versions_[instance];
         transforms_[instance] = transform;
-        positions_[instance] = glm::dvec3(transform[3]);
+        setPosition(instance, glm::dvec3(transform[3]));
     }
     void setPosition(uint32_t instance, const glm::dvec3& position) {
         ++versions_[instance];
         positions_[instance] = position;
+        modifyInWorld(instance);
     }
     /// Where the coordinates of the device begin.
-    void setOrigin(const glm::dvec3& origin) {
-        originVersion_ += origin_ != origin ? uint64_t{1} << 40 : 0; // all versions are others than any before
-        origin_ = origin;
+    void setOrigin(const glm::dvec3& origin);
+    /// Replaces the instance's list, as Playback::setModifiers. They act on poses of clips, layers and rest.
+    void setModifiers(uint32_t instance, std::span<const PlacedModifier> modifiers);
+    void setModifierGoal(uint32_t instance, uint32_t index, const ModifierGoal& goal);
+    [[nodiscard]] bool takesModifiers() const { return modifiers_.areTaken(); }
+    [[nodiscard]] uint32_t modifierCount(uint32_t instance) { return state(instance).modifierCount(); }
+    [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t instance, uint32_t index) {
+        return modifiers_.words(state(instance), index);
     }
     /// Takes over the first `count` instances, of the same asset or of another version of it. Joints and morph targets
     /// that the other version lacks are as in the rest pose.
-    void takeOver(const HostPoses& other, uint32_t count, const AssetMatch& match);
+    void takeOver(HostPoses& other, uint32_t count, const AssetMatch& match);
 
     /// Where the joint is, as the instance is posed and placed now.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
@@ -71,6 +80,25 @@ public:
 
 private:
     void setPose(uint32_t instance); ///< from pose_
+    void keepLocals(uint32_t instance);
+    void forgetLocals(uint32_t instance) {
+        if (takesModifiers()) {
+            hasLocals_[instance] = 0;
+        }
+    }
+    void setWeights(uint32_t instance, const float* weights);
+    void modify(uint32_t instance); ///< the palette, anew from the locals, if the pose has some
+    /// The same if modifiers have goals in the world: the instance stands elsewhere.
+    void modifyInWorld(uint32_t instance) {
+        if (takesModifiers() && modifiers_.anyInWorld(state(instance))) {
+            modify(instance);
+        }
+    }
+    void takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match);
+    [[nodiscard]] skinning::PlaybackState state(uint32_t instance) {
+        const size_t words = 4 * size_t{kStateElements};
+        return skinning::PlaybackState(std::span(states_).subspan(instance * words, words));
+    }
     void takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match);
     [[nodiscard]] glm::mat4 placement(uint32_t instance) const {
         glm::mat4 placed = transforms_[instance];
@@ -97,6 +125,15 @@ private:
     std::vector<uint64_t> versions_; ///< rise whenever something of the instance is set
     uint64_t originVersion_ = 1;
     skinning::PoseMemory memory_;
+
+    // Where instances may have modifiers.
+    static constexpr uint32_t kStateElements =
+        shared::modifiersBegin(0) + shared::kMaxModifiers * shared::kModifierElements;
+    InstanceModifiers modifiers_;
+    std::vector<uint32_t> states_;          ///< with the modifiers alone, and the transform
+    std::vector<shared::Transform> locals_; ///< before modifiers, one a node of the clip table
+    std::vector<uint8_t> hasLocals_;        ///< 0: the bind pose, or matrices
+    skinning::PoseTwin twin_;
 };
 
 } // namespace supple::runtime

@@ -114,7 +114,7 @@ uint32_t InstanceListing::listPart(const InstanceSlots& slots, uint32_t part, ui
 
 void InstanceListing::forgetAll() {
     settles_ = true;
-    std::ranges::fill(lives_, 0);
+    std::fill(lives_.begin(), lives_.end(), 0);
 }
 
 VkDeviceSize InstanceListing::recordCopies(const gpu::Device& device, VkCommandBuffer commandBuffer) const {

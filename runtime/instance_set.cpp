@@ -27,7 +27,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     Status status = success();
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
         status = desc.pose->prepare(desc.mode);
-        status = status ? desc.asset->makeClips(*desc.device) : status;
+    }
+    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.modifiers)) {
+        status = desc.asset->makeClips(*desc.device);
     }
     if (!status) {
         return status.error();
@@ -45,7 +47,8 @@ uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
 
 BoundBytes InstanceSet::boundBytes(bool windowed) const {
     const skinning::PoseLayout layout = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
-    return {std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes, poseWindowBytes(desc_.source, *desc_.asset, layout)),
+    return {std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes,
+                     poseWindowBytes(desc_.source, *desc_.asset, layout, desc_.modifiers)),
             0};
 }
 
@@ -54,8 +57,8 @@ Status InstanceSet::makeBuffers(bool windowed) {
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
-    poses_ = makePoseSource(
-        desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity, desc_.framesInFlight});
+    poses_ = makePoseSource(desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity,
+                                           desc_.framesInFlight, desc_.modifiers});
     addMember(*poses_);
     addMember(userData_);
     addMember(creaseAlphas_);

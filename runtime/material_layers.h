@@ -9,31 +9,14 @@
 
 namespace supple::runtime {
 
-/// In the order of cage::kLayerNumbers.
-inline constexpr std::array<float SuppleMaterialLayers::*, cage::kLayerNumbers.size()> kLayerNumberMembers{
-    &SuppleMaterialLayers::clearcoatFactor,
-    &SuppleMaterialLayers::clearcoatRoughnessFactor,
-    &SuppleMaterialLayers::sheenRoughnessFactor,
-    &SuppleMaterialLayers::transmissionFactor,
-    &SuppleMaterialLayers::ior,
-    &SuppleMaterialLayers::specularFactor,
-    &SuppleMaterialLayers::iridescenceFactor,
-    &SuppleMaterialLayers::iridescenceIor,
-    &SuppleMaterialLayers::iridescenceThicknessMinimum,
-    &SuppleMaterialLayers::iridescenceThicknessMaximum,
-    &SuppleMaterialLayers::anisotropyStrength,
-    &SuppleMaterialLayers::anisotropyRotation,
-};
-/// In the order of cage::kLayerColors.
-inline constexpr std::array<float (SuppleMaterialLayers::*)[3], cage::kLayerColors.size()> kLayerColorMembers{
-    &SuppleMaterialLayers::sheenColorFactor, &SuppleMaterialLayers::specularColorFactor};
-/// In the order of cage::kLayerTextures.
-inline constexpr std::array<SuppleTextureInfo SuppleMaterialLayers::*, cage::kLayerTextures.size()>
-    kLayerTextureMembers{&SuppleMaterialLayers::clearcoat,       &SuppleMaterialLayers::clearcoatRoughness,
-                         &SuppleMaterialLayers::clearcoatNormal, &SuppleMaterialLayers::sheenColor,
-                         &SuppleMaterialLayers::sheenRoughness,  &SuppleMaterialLayers::transmission,
-                         &SuppleMaterialLayers::specular,        &SuppleMaterialLayers::specularColor,
-                         &SuppleMaterialLayers::iridescence,     &SuppleMaterialLayers::iridescenceThickness,
-                         &SuppleMaterialLayers::anisotropy};
+// In the order of cage::kLayerNumbers, kLayerColors and kLayerTextures: of the same rows.
+#define SUPPLE_MEMBER(extension, name, ...) &SuppleMaterialLayers::name,
+inline constexpr auto kLayerNumberMembers =
+    std::to_array<float SuppleMaterialLayers::*>({SUPPLE_LAYER_NUMBERS(SUPPLE_MEMBER)});
+inline constexpr auto kLayerColorMembers =
+    std::to_array<float (SuppleMaterialLayers::*)[3]>({SUPPLE_LAYER_COLORS(SUPPLE_MEMBER)});
+inline constexpr auto kLayerTextureMembers =
+    std::to_array<SuppleTextureInfo SuppleMaterialLayers::*>({SUPPLE_LAYER_TEXTURES(SUPPLE_MEMBER)});
+#undef SUPPLE_MEMBER
 
 } // namespace supple::runtime

@@ -81,7 +81,7 @@ Status makeCulling(const PipelineMakers& makers, const PlannedGroup& group) {
         status = made ? success() : made.error();
     }
     if (status && group.viewFlags) {
-        const Result<gpu::Kernel> solver = makers.surface->prepareSolve();
+        const Result<surface::Programs::Solver> solver = makers.surface->prepareSolver();
         status = solver ? success() : solver.error();
     }
     return status;

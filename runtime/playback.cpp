@@ -1,7 +1,6 @@
 #include "runtime/playback.h"
 
 #include "skinning/joints.h"
-#include "skinning/played_pose.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
@@ -20,18 +19,24 @@ uint32_t padded(uint32_t elements) {
     return (elements + kPadding - 1) / kPadding * kPadding;
 }
 
-uint32_t stateStride(const skinning::PoseLayout& layout) {
-    return padded(skinning::PlaybackState::elements(layout.morphCount));
+uint32_t stateStride(const skinning::PoseLayout& layout, bool modifiers) {
+    return padded(skinning::PlaybackState::elements(layout.morphCount, modifiers ? kMaxModifiers : 0));
 }
 
 uint32_t scratchStride(const skinning::ClipTable& table) {
     return padded(kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1));
 }
 
+/// A node's place in the table of another version of the asset, or kNone.
+uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::ClipTable& table) {
+    const uint32_t moved = match.nodes[node];
+    return moved != cage::kNone ? table.places[moved] : cage::kNone;
+}
+
 } // namespace
 
-VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout) {
-    return std::max(stateStride(layout), scratchStride(*asset.clipTable)) * gpu::kVec4Bytes;
+VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, bool modifiers) {
+    return std::max(stateStride(layout, modifiers), scratchStride(*asset.clipTable)) * gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
@@ -52,27 +57,28 @@ Result<Playback> Playback::create(const Desc& desc) {
     push.levelCount = table.levelCount;
     push.restWeights = table.restWeights;
     push.clips = table.clips;
-    push.stateStride = stateStride(desc.layout);
+    push.stateStride = stateStride(desc.layout, desc.modifiers);
     push.maskStride = skinning::maskElements(table);
     push.scratchStride = scratchStride(table);
     push.poseStride = desc.layout.stride;
     push.morphWeights = desc.layout.morphWeights;
     playback.mode_ = desc.layout.mode;
 
+    playback.modifiers_ = InstanceModifiers(desc.modifiers ? desc.capacity : 0, push.morphCount);
     playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
-    playback.evaluated_.joints.resize(push.jointCount);
-    playback.evaluated_.memory = skinning::PoseMemory(desc.asset->character);
+    playback.twin_ = skinning::PoseTwin(table, desc.layout);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
-    playback.bounds_ =
-        PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion, desc.capacity);
+    playback.bounds_ = PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion,
+                                    desc.modifiers, desc.capacity);
     playback.versions_.resize(desc.capacity, 1);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
-    playback.regions_.reserve(size_t{desc.capacity} / 2 + 1); // runs of slots with others between
+    // Runs of slots with others between; of states of which only the beginning is used, each by itself.
+    playback.regions_.reserve(desc.modifiers ? size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
     Status status = playback.createBuffers(desc);
     if (status) {
         status = playback.createSets(desc);
@@ -182,38 +188,37 @@ void Playback::markChanged(uint32_t slot) {
 }
 
 void Playback::forget(uint32_t slot) {
-    if (evaluated_.slot == slot) {
-        evaluated_.slot = kNoSlot;
+    if (evaluated_ == slot) {
+        evaluated_ = kNoSlot;
     }
 }
 
 void Playback::evaluate(uint32_t slot) {
-    const cage::Character& character = asset_->character;
-    const skinning::PlaybackState own = state(slot);
-    if (own.inBindPose()) {
-        std::ranges::copy(asset_->jointFrames.bind, evaluated_.joints.begin());
-        evaluated_.traveled = glm::dmat4(1.0);
-    } else {
-        skinning::PlaybackState::Layers layers;
-        const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, layers);
-        skinning::poseNodes(character, asset_->rig, desc, time_, jointMasks_, evaluated_.memory);
-        skinning::jointTransforms(character.skin, evaluated_.memory.nodes, evaluated_.joints);
-        evaluated_.traveled = skinning::toMatrix(skinning::traveledBy(character, desc, time_));
+    if (evaluated_ != slot) {
+        const size_t words = size_t{push_.stateStride} * 4;
+        twin_.pose(std::span(states_).subspan(slot * words, words), masks_, time_);
+        evaluated_ = slot;
     }
-    evaluated_.slot = slot;
 }
 
 glm::mat4 Playback::jointTransform(uint32_t slot, uint32_t joint) {
-    if (evaluated_.slot != slot) {
-        evaluate(slot);
+    const skinning::PlaybackState own = state(slot);
+    if (own.inBindPose()) {
+        return skinning::placedJoint(glm::dmat4(own.transform()), asset_->jointFrames.bind[joint]);
     }
-    return skinning::placedJoint(glm::dmat4(state(slot).transform()) * evaluated_.traveled, evaluated_.joints[joint]);
+    evaluate(slot);
+    return twin_.placedJoint(joint);
+}
+
+void Playback::writePose(uint32_t slot, std::span<glm::vec4> pose) {
+    evaluate(slot);
+    twin_.write(pose);
 }
 
 void Playback::setTime(double seconds) {
     if (time_ != seconds) {
         time_ = seconds;
-        evaluated_.slot = kNoSlot;
+        evaluated_ = kNoSlot;
     }
 }
 
@@ -221,8 +226,12 @@ void Playback::reset(uint32_t slot) {
     forget(slot);
     skinning::PlaybackState own = state(slot);
     own.setMorphWeights(nullptr, 0);
+    own.setModifierCount(0);
     own.setBindPose();
     bounds_.setBindPose(slot);
+    if (takesModifiers()) {
+        bounds_.setTurned(slot, {}, false);
+    }
     setTransform(slot, glm::mat4(1.0f));
 }
 
@@ -244,8 +253,39 @@ glm::mat4 Playback::placement(uint32_t slot) const {
 }
 
 void Playback::place(uint32_t slot) {
+    forget(slot);
     state(slot).setTransform(placement(slot));
+    modifiers_.place(slot, state(slot), origin_);
     markChanged(slot);
+}
+
+void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) {
+    forget(slot);
+    modifiers_.set(slot, state(slot), *asset_->clipTable, modifiers, origin_);
+    modifies_ = modifies_ || !modifiers.empty();
+    boundModifiers(slot);
+    markChanged(slot);
+}
+
+void Playback::setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal) {
+    forget(slot);
+    modifiers_.setGoal(slot, state(slot), index, goal, origin_);
+    markChanged(slot);
+}
+
+void Playback::boundModifiers(uint32_t slot) {
+    skinning::PlaybackState own = state(slot);
+    std::vector<uint32_t>& turned = turnedNodes_;
+    turned.clear();
+    bool moves = false;
+    for (uint32_t i = 0; i < own.modifierCount(); ++i) {
+        const std::span<const uint32_t> words = own.modifier(push_.morphCount, i);
+        moves = moves || skinning::modifierKind(words) == kModifierHandOver;
+        for (const uint32_t place : skinning::modifierPlaces(words)) {
+            turned.push_back(asset_->clipTable->nodes[place]);
+        }
+    }
+    bounds_.setTurned(slot, turned, moves);
 }
 
 std::optional<skinning::Box> Playback::boundsOf(uint32_t slot, const skinning::Reach& reach) {
@@ -276,6 +316,7 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 }
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
+    forget(slot);
     state(slot).setMorphWeights(weights, push_.morphCount);
     markChanged(slot);
 }
@@ -285,11 +326,11 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
                         std::span(masks_).subspan((mask - 1) * maskFloats(), maskFloats()));
     const std::span<float> own = std::span(jointMasks_).subspan(size_t{mask - 1} * push_.jointCount, push_.jointCount);
     if (joints.empty()) {
-        std::ranges::fill(own, 1.0f);
+        std::fill(own.begin(), own.end(), 1.0f);
     } else {
-        std::ranges::copy(joints, own.begin());
+        std::copy(joints.begin(), joints.end(), own.begin());
     }
-    evaluated_.slot = kNoSlot;
+    evaluated_ = kNoSlot;
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }
@@ -304,6 +345,13 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
             moved[t] = from < other.push_.morphCount ? weights[from] : asset_->character.morphs.weights[t];
         }
         setMorphWeights(slot, moved.data());
+    }
+    if (takesModifiers()) {
+        modifiers_.takeOver(slot, state(slot), other.modifiers_, before, [&](uint32_t place) {
+            return placeInOther(other.asset_->clipTable->nodes[place], match, *asset_->clipTable);
+        });
+        modifies_ = modifies_ || state(slot).modifierCount() > 0;
+        boundModifiers(slot);
     }
     if (before.inBindPose()) {
         return;
@@ -358,6 +406,8 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         masksSet_ = other.masksSet_;
         adds_ = other.adds_;
         roots_ = other.roots_;
+        modifies_ = other.modifies_;
+        modifiers_.takeOver(other.modifiers_, count);
         const size_t words = size_t{push_.stateStride} * 4 * count;
         std::copy_n(other.states_.begin(), words, states_.begin());
         bounds_.takeOver(other.bounds_, count);
@@ -379,13 +429,13 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     const VkDeviceSize run = frame % framesInFlight_;
     if (!changedSlots_.empty()) {
         // Packed in the order of slots: a region of the copy for every run of neighbors.
-        std::ranges::sort(changedSlots_);
+        std::sort(changedSlots_.begin(), changedSlots_.end());
         regions_.clear();
-        const VkDeviceSize size = stateBytes(), first = run * capacity_ * size;
+        const VkDeviceSize first = run * capacity_ * stateBytes();
         VkDeviceSize from = first;
         for (const uint32_t slot : changedSlots_) {
-            std::memcpy(staging_.mapped(kStateStaging) + from, states_.data() + slot * size / sizeof(uint32_t), size);
-            const VkDeviceSize to = slot * size;
+            const VkDeviceSize to = slot * stateBytes(), size = usedBytes(slot);
+            std::memcpy(staging_.mapped(kStateStaging) + from, states_.data() + to / sizeof(uint32_t), size);
             if (!regions_.empty() && regions_.back().dstOffset + regions_.back().size == to) {
                 regions_.back().size += size;
             } else {
@@ -413,6 +463,12 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
     return bytes;
 }
 
+VkDeviceSize Playback::usedBytes(uint32_t slot) {
+    return takesModifiers()
+               ? VkDeviceSize{skinning::PlaybackState::elements(push_.morphCount, state(slot).modifierCount())} * 16
+               : stateBytes();
+}
+
 void Playback::cancelUpload(uint64_t frame) {
     if (uploadFrame_ == frame) {
         for (const uint32_t slot : uploadedSlots_) {
@@ -436,6 +492,9 @@ void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window,
     case Part::roots:
         kernels_->recordRoots(commandBuffer, sets_[window], push);
         break;
+    case Part::modifiers:
+        kernels_->recordModifiers(commandBuffer, sets_[window], push);
+        break;
     case Part::palette:
         kernels_->recordPalette(commandBuffer, sets_[window], mode_, push);
         break;
@@ -452,6 +511,10 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
             [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordLocals(commandBuffer, set, adds, push); });
     }
     dispatch([&](VkDescriptorSet set, const PosePush& push) { kernels_->recordRoots(commandBuffer, set, push); });
+    if (takesModifiers()) {
+        dispatch(
+            [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordModifiers(commandBuffer, set, push); });
+    }
     dispatch(
         [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordPalette(commandBuffer, set, mode_, push); });
 }

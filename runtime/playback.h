@@ -6,11 +6,13 @@
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/instance_modifiers.h"
 #include "runtime/played_bounds.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
 #include "skinning/playback.h"
 #include "skinning/pose_kernels.h"
+#include "skinning/pose_twin.h"
 
 #include <array>
 #include <cstddef>
@@ -37,11 +39,13 @@ public:
         VkBuffer poses = VK_NULL_HANDLE;     ///< written
         VkBuffer instances = VK_NULL_HANDLE; ///< the lists of instances
         VkDeviceSize instanceBytes = 0;
+        bool modifiers = false; ///< instances may have some
     };
     Playback() = default;
     [[nodiscard]] static Result<Playback> create(const Desc& desc);
     /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
-    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout);
+    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout,
+                                                  bool modifiers);
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
@@ -53,13 +57,25 @@ public:
     void setMorphWeights(uint32_t slot, const float* weights); ///< null: the clips' own again
     void setTime(double seconds);
 
+    /// Replaces the instance's list. The group must have room for modifiers.
+    void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers);
+    /// Of a modifier that is there.
+    void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal);
+    [[nodiscard]] bool takesModifiers() const { return modifiers_.areTaken(); }
+    [[nodiscard]] uint32_t modifierCount(uint32_t slot) { return state(slot).modifierCount(); }
+    [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t slot, uint32_t index) {
+        return modifiers_.words(state(slot), index);
+    }
+
     /// Masks are numbered from 1; a layer's mask must have been set.
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
     [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1] != MaskKind::none; }
 
-    /// Where the joint is at the group's time, computed on the CPU. The joints of the slot that was asked for last are
-    /// kept until what plays, the time or a mask changes.
+    /// Where the joint is at the group's time, with the bits that the device has. The pose of the slot that was asked
+    /// for last is kept until what plays, where it stands, the time or a mask changes.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint);
+    /// The pose as the next recording leaves it on the device: all elements but those of padding.
+    void writePose(uint32_t slot, std::span<glm::vec4> pose);
 
     /// A box that holds the instance's cage at the group's time, where the next recording places it; nothing if nobody
     /// knows. It is found without a pose.
@@ -80,12 +96,13 @@ public:
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
     void cancelUpload(uint64_t frame);
 
-    enum class Part { locals, roots, palette };
-    static constexpr Part kParts[] = {Part::locals, Part::roots, Part::palette};
+    enum class Part { locals, roots, modifiers, palette };
     /// A part of the pass over `count` instances of a window, whose entries of the list begin at `first`.
     void record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const;
-    /// Without there is nothing to record of the roots.
-    [[nodiscard]] bool hasRoots() const { return roots_; }
+    /// Whether there is anything to record of a part.
+    [[nodiscard]] bool has(Part part) const {
+        return part == Part::roots ? roots_ : part == Part::modifiers ? modifies_ : true;
+    }
 
     /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const;
@@ -102,11 +119,13 @@ private:
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
     [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
+    void boundModifiers(uint32_t slot);                  ///< bounds_ is told what they turn
+    [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void takeOverMasks(const Playback& other, const AssetMatch& match);
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
-    void evaluate(uint32_t slot); ///< into evaluated_
+    void evaluate(uint32_t slot); ///< into twin_, unless it is in the bind pose
     void forget(uint32_t slot);   ///< what plays there has changed
 
     const gpu::Device* device_ = nullptr;
@@ -115,28 +134,24 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
-    bool adds_ = false, roots_ = false; ///< what some instance has ever been set to play
-    shared::PosePush push_{};           ///< but for the time and the instances
+    bool adds_ = false, roots_ = false, modifies_ = false; ///< what some instance has ever been set to play
+    shared::PosePush push_{};                              ///< but for the time and the instances
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
     glm::dvec3 origin_{0.0};
     // As it shall be on the device.
     std::vector<uint32_t> states_;
+    InstanceModifiers modifiers_; ///< of these states
     std::vector<float> masks_;
     enum class MaskKind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
     std::array<MaskKind, shared::kMaxMasks> masksSet_{};
 
-    std::vector<float> jointMasks_; ///< one run a mask, one value a joint
+    std::vector<float> jointMasks_; ///< one run a mask, one value a joint: for another version of the asset
 
     static constexpr uint32_t kNoSlot = 0xFFFFFFFFu;
-    struct Evaluated {
-        uint32_t slot = kNoSlot;
-        glm::dmat4 traveled{1.0};
-        std::vector<glm::mat4> joints; ///< in model space
-        skinning::PoseMemory memory;
-    };
-    Evaluated evaluated_;
+    uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
+    skinning::PoseTwin twin_;
 
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
@@ -145,6 +160,7 @@ private:
     std::vector<uint32_t> changedSlots_;  ///< those, in any order
     std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_
     std::vector<VkBufferCopy> regions_;   ///< memory of recordUpload
+    std::vector<uint32_t> turnedNodes_;   ///< memory of boundModifiers
     bool masksChanged_ = true;
     uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
 

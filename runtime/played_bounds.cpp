@@ -18,8 +18,9 @@ constexpr uint32_t kUnboundedLoop = 0x80000000u;
 void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
     Played& own = played_[slot];
     own = {};
-    const bool adds = std::ranges::any_of(
-        desc.layers, [](const skinning::PlaybackLayer& layer) { return layer.mode == skinning::LayerMode::additive; });
+    const bool adds = std::any_of(desc.layers.begin(), desc.layers.end(), [](const skinning::PlaybackLayer& layer) {
+        return layer.mode == skinning::LayerMode::additive;
+    });
     // Where the yaw is taken and the way is not, the root stands anywhere on a circle.
     const bool circles = (desc.root.axes & skinning::kRootYaw) != 0 && (desc.root.axes & skinning::kRootGround) == 0;
     own.kind = adds || circles ? Kind::unbounded : Kind::blended;
@@ -36,6 +37,15 @@ uint32_t PlayedBounds::loopOf(uint32_t slot, double time) const {
     return std::abs(loops) < kMostLoops ? static_cast<uint32_t>(static_cast<int32_t>(loops)) : kUnboundedLoop;
 }
 
+bool PlayedBounds::leavesReach(uint32_t slot, const skinning::Reach& reach) const {
+    if (turned_.empty()) {
+        return false;
+    }
+    const Turned& own = turned_[slot];
+    return own.elsewhere ||
+           std::any_of(own.nodes.begin(), own.nodes.end(), [&](uint32_t node) { return reach.anchored[node] == 0; });
+}
+
 std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,
                                               std::span<const float> hostWeights) const {
     const Played& own = played_[slot];
@@ -44,6 +54,9 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
     }
     if (own.kind == Kind::bindPose) {
         return skinning::bindBounds(reach, hostWeights);
+    }
+    if (leavesReach(slot, reach)) {
+        return std::nullopt;
     }
     skinning::Box box = skinning::grownBy(reach.blended, skinning::reachedBy(hostWeights, reach.targets));
     if (dualQuaternions_) {

@@ -19,23 +19,31 @@ class PlayedBounds {
 public:
     PlayedBounds() = default;
     /// The character must outlive this.
-    PlayedBounds(const cage::Character& character, bool dualQuaternions, uint32_t capacity)
-        : character_(&character), dualQuaternions_(dualQuaternions), played_(capacity) {}
+    PlayedBounds(const cage::Character& character, bool dualQuaternions, bool modifiers, uint32_t capacity)
+        : character_(&character), dualQuaternions_(dualQuaternions), played_(capacity),
+          turned_(modifiers ? capacity : 0) {}
 
     void setBindPose(uint32_t slot) { played_[slot] = {}; }
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
+    /// Modifiers turn `nodes` of the slot, whatever it plays, and perhaps move some elsewhere.
+    void setTurned(uint32_t slot, std::span<const uint32_t> nodes, bool elsewhere) {
+        turned_[slot].nodes.assign(nodes.begin(), nodes.end());
+        turned_[slot].elsewhere = elsewhere;
+    }
 
     /// Takes over the first `count` slots of the same character.
     void takeOver(const PlayedBounds& other, uint32_t count) {
         std::copy_n(other.played_.begin(), count, played_.begin());
+        std::copy_n(other.turned_.begin(), other.turned_.empty() ? 0 : count, turned_.begin());
     }
 
     /// What of() depends on besides what is set: the number of the loop, if the instance travels.
     [[nodiscard]] uint32_t loopOf(uint32_t slot, double time) const;
 
     /// A box that holds the instance's cage at a time, before the instance's transform, but with what it has travelled.
-    /// Nothing if nobody knows: with additive layers, or if something else than the only anchor takes the movement of
-    /// the root. `hostWeights`: morph weights of the host's; empty: those of the clips.
+    /// Nothing if nobody knows: with additive layers, if something else than the only anchor takes the movement of the
+    /// root, or if modifiers turn a node that no clip moves or carries. `hostWeights`: morph weights of the host's;
+    /// empty: those of the clips.
     [[nodiscard]] std::optional<skinning::Box> of(uint32_t slot, double time, const skinning::Reach& reach,
                                                   std::span<const float> hostWeights) const;
 
@@ -49,8 +57,16 @@ private:
     };
 
     const cage::Character* character_ = nullptr;
+    /// What modifiers do. The reach of layers that blend holds for any rotations, at an anchor and below it.
+    struct Turned {
+        std::vector<uint32_t> nodes;
+        bool elsewhere = false;
+    };
+    [[nodiscard]] bool leavesReach(uint32_t slot, const skinning::Reach& reach) const;
+
     bool dualQuaternions_ = false;
     std::vector<Played> played_; ///< by slot
+    std::vector<Turned> turned_; ///< by slot, where instances may have modifiers
 };
 
 } // namespace supple::runtime

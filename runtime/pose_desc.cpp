@@ -97,6 +97,37 @@ Status checkPose(const Asset& asset, const SupplePoseDesc& desc) {
     return success();
 }
 
+Status checkJointMatrices(const Asset& asset, const SuppleJointMatricesDesc& desc) {
+    const size_t joints = asset.character.skin.joints.size(), targets = asset.character.morphs.targets.size();
+    if (desc.jointMatrices == nullptr && desc.jointCount > 0) {
+        return Error{ErrorCode::nullPointer, "jointMatrices is null"};
+    }
+    if (desc.joints == nullptr ? desc.jointCount != joints : desc.jointCount > joints) {
+        return Error{ErrorCode::range,
+                     "jointCount " + std::to_string(desc.jointCount) + ": the skin has " + std::to_string(joints)};
+    }
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    if (!std::all_of(desc.jointMatrices, desc.jointMatrices + 16 * size_t{desc.jointCount}, isFinite)) {
+        return Error{ErrorCode::notFinite, "a joint matrix is not finite"};
+    }
+    std::vector<bool> named(desc.joints != nullptr ? joints : 0, false);
+    for (uint32_t k = 0; desc.joints != nullptr && k < desc.jointCount; ++k) {
+        if (desc.joints[k] >= joints || named[desc.joints[k]]) {
+            return Error{ErrorCode::range, "joint " + std::to_string(desc.joints[k]) +
+                                               (desc.joints[k] >= joints ? ": no such joint" : " comes twice")};
+        }
+        named[desc.joints[k]] = true;
+    }
+    if (desc.morphTargetCount != (desc.morphWeights != nullptr ? targets : 0)) {
+        return Error{ErrorCode::range, "morphTargetCount " + std::to_string(desc.morphTargetCount) +
+                                           ": the asset has " + std::to_string(targets)};
+    }
+    if (!std::all_of(desc.morphWeights, desc.morphWeights + desc.morphTargetCount, isFinite)) {
+        return Error{ErrorCode::notFinite, "a morph weight is not finite"};
+    }
+    return success();
+}
+
 skinning::Layer layerOf(const Asset& asset, const SuppleClipLayer& layer) {
     skinning::Layer result;
     result.clip = &asset.character.clips[layer.clip];

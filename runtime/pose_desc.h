@@ -17,6 +17,7 @@ namespace supple::runtime {
 [[nodiscard]] Status checkRoot(const Asset& asset, uint32_t rootMotion, const uint32_t* rootJoint);
 /// Success, or the first rule of supple.h that `desc` breaks.
 [[nodiscard]] Status checkPose(const Asset& asset, const SupplePoseDesc& desc);
+[[nodiscard]] Status checkJointMatrices(const Asset& asset, const SuppleJointMatricesDesc& desc);
 
 // Of what checkPose takes.
 [[nodiscard]] skinning::Layer layerOf(const Asset& asset, const SuppleClipLayer& layer);

@@ -9,7 +9,7 @@ class SetPoses final : public PoseSource {
 public:
     explicit SetPoses(const PoseSourceDesc& desc)
         : device_(desc.device), framesInFlight_(desc.framesInFlight), capacity_(desc.capacity),
-          poses_(*desc.asset, desc.capacity, desc.layout) {}
+          poses_(*desc.asset, desc.capacity, desc.layout, desc.modifiers) {}
 
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
@@ -23,6 +23,17 @@ public:
         return poses_.boundsOf(slot, reach);
     }
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return poses_.version(slot); }
+    [[nodiscard]] bool takesModifiers() const override { return poses_.takesModifiers(); }
+    void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) override {
+        poses_.setModifiers(slot, modifiers);
+    }
+    void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal) override {
+        poses_.setModifierGoal(slot, index, goal);
+    }
+    [[nodiscard]] uint32_t modifierCount(uint32_t slot) override { return poses_.modifierCount(slot); }
+    [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t slot, uint32_t index) override {
+        return poses_.modifierWords(slot, index);
+    }
     [[nodiscard]] HostPoses* host() override { return &poses_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
         poses_.takeOver(*other.host(), count, match);
@@ -73,15 +84,26 @@ public:
         return playback_.boundsOf(slot, reach);
     }
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return playback_.boundsVersion(slot); }
+    [[nodiscard]] bool takesModifiers() const override { return playback_.takesModifiers(); }
+    void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) override {
+        playback_.setModifiers(slot, modifiers);
+    }
+    void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal) override {
+        playback_.setModifierGoal(slot, index, goal);
+    }
+    [[nodiscard]] uint32_t modifierCount(uint32_t slot) override { return playback_.modifierCount(slot); }
+    [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t slot, uint32_t index) override {
+        return playback_.modifierWords(slot, index);
+    }
     [[nodiscard]] Playback* playback() override { return &playback_; }
     void takeOver(PoseSource& other, uint32_t count, const AssetMatch& match) override {
         playback_.takeOver(*other.playback(), count, match);
     }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
-        Result<Playback> playback = Playback::create({desc_.device, desc_.poseKernels, desc_.asset, desc_.layout,
-                                                      desc_.capacity, buffers.windowSize, desc_.framesInFlight,
-                                                      buffers.poses, buffers.instances, buffers.instanceBytes});
+        Result<Playback> playback = Playback::create(
+            {desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity, buffers.windowSize,
+             desc_.framesInFlight, buffers.poses, buffers.instances, buffers.instanceBytes, desc_.modifiers});
         if (!playback) {
             return playback.error();
         }
@@ -95,9 +117,7 @@ public:
         return {0, playback_.recordUpload(commandBuffer, frame)};
     }
     void cancelFrame(uint64_t frame) override { playback_.cancelUpload(frame); }
-    [[nodiscard]] bool has(Playback::Part part) const override {
-        return part != Playback::Part::roots || playback_.hasRoots();
-    }
+    [[nodiscard]] bool has(Playback::Part part) const override { return playback_.has(part); }
     PassCost recordPart(VkCommandBuffer commandBuffer, Playback::Part part,
                         const InstanceWindows& windows) const override {
         if (!has(part)) {
@@ -120,8 +140,9 @@ private:
 
 } // namespace
 
-VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout) {
-    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout) : 0;
+VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout,
+                             bool modifiers) {
+    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout, modifiers) : 0;
     return std::max(played, VkDeviceSize{layout.stride} * 16);
 }
 

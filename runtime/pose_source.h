@@ -39,6 +39,12 @@ public:
     }
     /// Another number whenever boundsOf() may give another box than the last time; never 0.
     [[nodiscard]] virtual uint64_t boundsVersion(uint32_t /*slot*/) const { return 1; }
+    // Modifiers; only sources that take them are asked.
+    [[nodiscard]] virtual bool takesModifiers() const { return false; }
+    virtual void setModifiers(uint32_t /*slot*/, std::span<const PlacedModifier> /*modifiers*/) {}
+    virtual void setModifierGoal(uint32_t /*slot*/, uint32_t /*index*/, const ModifierGoal& /*goal*/) {}
+    [[nodiscard]] virtual uint32_t modifierCount(uint32_t /*slot*/) { return 0; }
+    [[nodiscard]] virtual std::span<const uint32_t> modifierWords(uint32_t /*slot*/, uint32_t /*index*/) { return {}; }
     [[nodiscard]] virtual HostPoses* host() { return nullptr; }
     [[nodiscard]] virtual Playback* playback() { return nullptr; }
 
@@ -61,7 +67,7 @@ public:
     virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, uint32_t /*end*/) {
         return {};
     }
-    /// The pose pass has three parts with a barrier between each two. Whether the source has this one.
+    /// The pose pass has four parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(VkCommandBuffer /*commandBuffer*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {
@@ -75,10 +81,11 @@ struct PoseSourceDesc {
     Asset* asset = nullptr;
     skinning::PoseLayout layout;
     uint32_t capacity = 0, framesInFlight = 2;
+    bool modifiers = false; ///< instances may have some
 };
 [[nodiscard]] std::unique_ptr<PoseSource> makePoseSource(SupplePoseSource source, const PoseSourceDesc& desc);
 /// Bytes per instance of what the source binds by windows.
 [[nodiscard]] VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset,
-                                           const skinning::PoseLayout& layout);
+                                           const skinning::PoseLayout& layout, bool modifiers);
 
 } // namespace supple::runtime

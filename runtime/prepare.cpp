@@ -27,7 +27,7 @@ std::shared_ptr<const PreparedPiece> pieceFor(Prepared& prepared, const std::vec
         return nullptr;
     }
     std::shared_ptr<const PreparedPiece> piece = prepared.pieceOf(parts);
-    if (std::ranges::find(prepared.pieces, piece) == prepared.pieces.end()) {
+    if (std::find(prepared.pieces.begin(), prepared.pieces.end(), piece) == prepared.pieces.end()) {
         prepared.pieces.push_back(piece);
     }
     return piece;
@@ -46,7 +46,8 @@ Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const Schem
     const PreparedTables* measured = finest->get();
     const auto measure = [&] { // without a view nobody asks
         if (group.viewFlags &&
-            std::ranges::find(prepared.measures, measured, &Prepared::Measure::tables) == prepared.measures.end()) {
+            std::none_of(prepared.measures.begin(), prepared.measures.end(),
+                         [&](const Prepared::Measure& measure) { return measure.tables == measured; })) {
             prepared.measures.push_back({measured, prepared.measureOf(*measured)});
         }
         return success();

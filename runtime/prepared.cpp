@@ -64,7 +64,8 @@ void Prepared::follow() {
 }
 
 std::shared_ptr<const PreparedPiece> Prepared::pieceOf(const std::vector<uint32_t>& wanted) const {
-    const auto known = std::ranges::find_if(pieces, [&](const auto& piece) { return piece->parts == wanted; });
+    const auto known =
+        std::find_if(pieces.begin(), pieces.end(), [&](const auto& piece) { return piece->parts == wanted; });
     if (known != pieces.end()) {
         return *known;
     }
@@ -78,8 +79,9 @@ std::shared_ptr<const PreparedPiece> Prepared::pieceOf(const std::vector<uint32_
 }
 
 std::shared_ptr<const PreparedTables> Prepared::find(const surface::Recipe& recipe, const PreparedPiece* piece) const {
-    const auto known = std::ranges::find_if(
-        tables, [&](const auto& own) { return own->recipe == recipe && own->piece.get() == piece; });
+    const auto known = std::find_if(tables.begin(), tables.end(), [&](const auto& own) {
+        return own->recipe == recipe && own->piece.get() == piece;
+    });
     return known != tables.end() ? *known : nullptr;
 }
 
@@ -108,7 +110,8 @@ Result<std::shared_ptr<PreparedTables>> Prepared::build(const surface::Recipe& r
 }
 
 surface::lod::InstanceMeasure Prepared::measureOf(const PreparedTables& of) const {
-    const auto known = std::ranges::find(measures, &of, &Measure::tables);
+    const auto known =
+        std::find_if(measures.begin(), measures.end(), [&](const Measure& measure) { return measure.tables == &of; });
     if (known != measures.end()) {
         return known->measure;
     }

@@ -19,6 +19,10 @@ inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, 
 template <>
 inline constexpr size_t kFirstSize<SuppleCharacterDesc> = offsetof(SuppleCharacterDesc, materialLayers);
 template <>
+inline constexpr size_t kFirstSize<SuppleContextDesc> = offsetof(SuppleContextDesc, memoryBlockSize);
+template <>
+inline constexpr size_t kFirstSize<SuppleMemoryUse> = offsetof(SuppleMemoryUse, spare);
+template <>
 inline constexpr size_t kFirstSize<SuppleCageDesc> = offsetof(SuppleCageDesc, faceMaterials);
 template <>
 inline constexpr size_t kFirstSize<SupplePrimitiveDesc> = offsetof(SupplePrimitiveDesc, creaseScalarCount);
@@ -34,6 +38,8 @@ template <>
 inline constexpr size_t kFirstSize<SuppleRecordDesc> = offsetof(SuppleRecordDesc, time);
 template <>
 inline constexpr size_t kFirstSize<SuppleRequirements> = offsetof(SuppleRequirements, instanceVersion);
+template <>
+inline constexpr size_t kFirstSize<SuppleViewDesc> = offsetof(SuppleViewDesc, maxRuns);
 template <>
 inline constexpr size_t kFirstSize<SuppleViewStatistics> = offsetof(SuppleViewStatistics, hiddenPatchCount);
 

@@ -19,18 +19,30 @@ static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == 
               SUPPLE_GRID_QUAD_RINGS == kLodQuadRingsForm && SUPPLE_GRID_PENTAGON_RINGS == kLodPentagonForm);
 static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
 static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
-static_assert(kLodAlignment * 4 == 256 && kLodBuckets % kLodAlignment == 0 && kLodRecords % kLodAlignment == 0 &&
-              4 * kLodBucketStride % kLodAlignment == 0 && kLodBucketStride > kCapacityCount);
+static_assert(kLodAlignment * 4 == 256 && SUPPLE_LOD_BUCKETS(kRunStep) % kLodAlignment == 0 &&
+              SUPPLE_LOD_RECORDS(kRunStep) % kLodAlignment == 0 && 4 * kLodBucketStride % kLodAlignment == 0 &&
+              kLodBucketStride > kCapacityCount);
+static_assert(kMaxViewRuns % kRunStep == 0 && kMaxViewRuns < kNoDispatch && kMaxViewRuns == SUPPLE_MAX_VIEW_RUNS);
 
-constexpr uint32_t kMinSamples = 3;        ///< of a patch: a triangle at capacity 1
-constexpr uint32_t kPaddingOfRun = 3 * 64; ///< surface vertices that whole draw instances may cost a run
-constexpr uint32_t kFreeRun = 0xFFFF0000u; ///< a run of no dispatch
+constexpr uint32_t kMinSamples = 3;              ///< of a patch: a triangle at capacity 1
+constexpr uint32_t kPaddingOfRun = 3 * 64;       ///< surface vertices that whole draw instances may cost a run
+constexpr uint32_t kFreeRun = kNoDispatch << 16; ///< the second word of a run of no dispatch
+constexpr uint32_t kDefaultRuns = 1024;
 /// A patch counts kSplitUnit in 32 bits, and all that have room at their coarsest may fall into one bin.
 constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
 static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
-constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4;                  ///< of a group
-constexpr VkDeviceSize kReadbackBytes = sizeof(LodSolution) + 2 * kMaxRuns * kCountBytes; // with and without runs
+constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
+constexpr VkDeviceSize kRunBytes = VkDeviceSize{kLodRunWords} * 4;
+static_assert(sizeof(LodDispatch) == 4 * kLodDispatchWords &&
+              sizeof(VkDrawIndexedIndirectCommand) == 4 * kLodDrawWords);
+
+/// As many as are asked for. Else as many as `maxVertices` has padding for, up to a default.
+uint32_t roomForRuns(const SuppleViewDesc& desc) {
+    const uint32_t wanted =
+        desc.maxRuns > 0 ? desc.maxRuns : std::min(desc.maxVertices / kPaddingOfRun + 1, kDefaultRuns);
+    return std::min((wanted + kRunStep - 1) / kRunStep * kRunStep, kMaxViewRuns);
+}
 
 } // namespace
 
@@ -50,9 +62,13 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, surface::P
     view->hostWords_.resize(kLodSolution);
     const std::vector<uint32_t> patterns = surface::lod::patternWords();
     std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
-    view->takenRuns_.resize(kMaxRuns);
-    view->giveRuns(0, kMaxRuns);
+    view->takenRuns_.resize(roomForRuns(desc));
+    view->runWords_.resize(view->takenRuns_.size() * kLodRunWords);
+    view->giveRuns(0, view->maxRuns());
     view->solved_.resize(framesInFlight);
+    for (Solved& solved : view->solved_) {
+        solved.of.resize(2 * view->takenRuns_.size());
+    }
     Status status = view->createBuffers();
     status = status ? view->createSolver(passes) : status;
     if (!status) {
@@ -67,7 +83,7 @@ Status View::createBuffers() {
         kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     const gpu::Device& device = *device_;
     const VkDeviceSize vertices = desc_.maxVertices;
-    const VkDeviceSize fixed = kLodRecords * VkDeviceSize{4};
+    const VkDeviceSize fixed = recordOffset();
     const VkDeviceSize wordBytes = fixed + vertices / kMinSamples * kRecordBytes;
     // Narrow devices read the words as texels.
     const VkDeviceSize wordLimit = device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
@@ -99,13 +115,16 @@ Status View::createBuffers() {
         return statics.error();
     }
     static_ = std::move(*statics);
-    clear_.add(device, words_, kLodSolution * VkDeviceSize{4}, (kLodRecords - kLodSolution) * VkDeviceSize{4});
+    // The host's words are uploaded in the same pass.
+    const VkDeviceSize counts = SUPPLE_LOD_COUNTS(maxRuns()) * VkDeviceSize{4};
+    clear_.add(device, words_, kLodSolution * VkDeviceSize{4}, (kLodRuns - kLodSolution) * VkDeviceSize{4});
+    clear_.add(device, words_, counts, recordOffset() - counts);
     addMember(clear_);
     addMember(static_);
     addMember(indicesRelease_);
     const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
-    const gpu::BufferRequest readback{"supple view statistics", kReadbackBytes * framesInFlight_,
+    const gpu::BufferRequest readback{"supple view statistics", readbackBytes() * framesInFlight_,
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     const struct {
         gpu::BufferSet* target;
@@ -138,11 +157,11 @@ std::vector<uint16_t> View::layOutGrids() {
 }
 
 Status View::createSolver(surface::Programs& passes) {
-    const Result<gpu::Kernel> kernel = passes.prepareSolve();
-    if (!kernel) {
-        return kernel.error();
+    const Result<surface::Programs::Solver> solver = passes.prepareSolver();
+    if (!solver) {
+        return solver.error();
     }
-    solver_ = *kernel;
+    solver_ = *solver;
     const gpu::ComputeLayout& layout = passes.layout(surface::SetKind::levels);
     Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(*device_, layout, 1, "supple view");
     if (!pool) {
@@ -173,7 +192,7 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
     const auto each = static_cast<uint32_t>(lod.runs.size());
     const uint64_t wanted = uint64_t{each} * windows;
     uint32_t first = 0, length = 0;
-    for (uint32_t r = 0; r < kMaxRuns && length < wanted; ++r) {
+    for (uint32_t r = 0; r < maxRuns() && length < wanted; ++r) {
         length = takenRuns_[r] ? 0 : length + 1;
         first = r + 1 - length;
     }
@@ -181,7 +200,7 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
         const auto free = std::count(takenRuns_.begin(), takenRuns_.end(), false);
         return Error{ErrorCode::limit, "the view is full: the group has " + std::to_string(wanted) +
                                            " runs of patches, which must lie side by side; " + std::to_string(free) +
-                                           " of the view's " + std::to_string(kMaxRuns) + " are free" +
+                                           " of the view's " + std::to_string(maxRuns()) + " are free" +
                                            (free >= static_cast<int64_t>(wanted) ? ", but not side by side" : "")};
     }
     const uint32_t end = std::max(endOfRuns_, first + static_cast<uint32_t>(wanted));
@@ -197,10 +216,8 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
             const auto form = static_cast<uint32_t>(surface::rowOf(lod.runs[r].patchClass).form);
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
-            hostWords_[kLodRuns + run] = form | first << 8 | (first + w * each + range) << 16;
-            const uint32_t bit = 1u << run % 32;
-            uint32_t& bits = hostWords_[kLodDoubleSided + run / 32];
-            bits = doubleSided[r] ? bits | bit : bits & ~bit;
+            runWords_[kLodRunWords * run] = form | (doubleSided[r] ? kRunIsDoubleSided : 0);
+            runWords_[kLodRunWords * run + 1] = first | (first + w * each + range) << 16;
             forms_ |= 1u << form;
         }
     }
@@ -211,7 +228,7 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
 void View::giveRuns(uint32_t first, uint32_t count) {
     for (uint32_t r = first; r < first + count; ++r) {
         takenRuns_[r] = false;
-        hostWords_[kLodRuns + r] = kFreeRun | r << 8; // empty buckets of its own
+        runWords_[kLodRunWords * r + 1] = kFreeRun | r; // empty buckets of its own
     }
     while (endOfRuns_ > 0 && !takenRuns_[endOfRuns_ - 1]) {
         --endOfRuns_;
@@ -219,7 +236,7 @@ void View::giveRuns(uint32_t first, uint32_t count) {
 }
 
 bool View::takeGroup(uint64_t vertices) {
-    if (groupsWithoutRuns_ == kMaxRuns || verticesWithoutRuns_ + vertices > 0xFFFFFFFFull) {
+    if (groupsWithoutRuns_ == maxRuns() || verticesWithoutRuns_ + vertices > 0xFFFFFFFFull) {
         return false;
     }
     ++groupsWithoutRuns_;
@@ -270,20 +287,38 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (indicesRelease_.due()) { // they are on the device by now
         indicesRelease_.record(frame);
     }
-    const VkDeviceSize bytes = kLodSolution * VkDeviceSize{4}, run = frame % framesInFlight_ * uploadBytes();
-    std::memcpy(staging_.mapped(0) + run, hostWords_.data(), bytes);
-    const VkBufferCopy region{run, 0, bytes};
-    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), words_.buffer(), 1, &region);
+    VkDeviceSize from = frame % framesInFlight_ * uploadBytes(), bytes = 0;
+    const auto copy = [&](VkBuffer target, VkDeviceSize to, const void* source, VkDeviceSize size) {
+        std::memcpy(staging_.mapped(0) + from, source, size);
+        const VkBufferCopy region{from, to, size};
+        device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), target, 1, &region);
+        from += size;
+        bytes += size;
+    };
     const CullView cull = cullView();
-    std::memcpy(staging_.mapped(0) + run + bytes, &cull, sizeof(cull));
-    const VkBufferCopy own{run + bytes, 0, sizeof(cull)};
-    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(0), cull_.buffer(), 1, &own);
+    copy(cull_.buffer(), 0, &cull, sizeof(cull));
+    copy(words_.buffer(), 0, hostWords_.data(), kLodSolution * VkDeviceSize{4});
+    if (endOfRuns_ > 0) {
+        copy(words_.buffer(), kLodRuns * VkDeviceSize{4}, runWords_.data(), endOfRuns_ * kRunBytes);
+    }
     device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0);
-    return uploadBytes();
+    return bytes;
 }
 
 VkDeviceSize View::uploadBytes() const {
-    return kLodSolution * VkDeviceSize{4} + cull_.size();
+    return kLodSolution * VkDeviceSize{4} + cull_.size() + maxRuns() * kRunBytes;
+}
+
+VkDeviceSize View::readbackBytes() const {
+    return sizeof(LodSolution) + 2 * maxRuns() * kCountBytes; // of groups with and without runs
+}
+
+VkDeviceSize View::recordOffset() const {
+    return SUPPLE_LOD_RECORDS(maxRuns()) * VkDeviceSize{4};
+}
+
+VkDeviceSize View::dispatchOffset(uint32_t dispatch) const {
+    return SUPPLE_LOD_DISPATCHES(maxRuns()) * VkDeviceSize{4} + sizeof(LodDispatch) * VkDeviceSize{dispatch};
 }
 
 CullView View::cullView() const {
@@ -309,6 +344,7 @@ CullView View::cullView() const {
 
 void View::recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const {
     LodSolvePush push{};
+    push.runs = maxRuns();
     push.runCount = endOfRuns_;
     push.limit = room();
     push.room = budget();
@@ -317,14 +353,23 @@ void View::recordSolve(VkCommandBuffer commandBuffer, uint32_t priorities) const
     push.maxGroups = gpu::maxGroupsInX(*device_);
     push.rated = countsRates() ? 1 : 0;
     std::copy_n(desc_.elasticities, kPriorityCount, push.elasticity);
-    gpu::bind(*device_, commandBuffer, solver_, solverSet_, push);
-    device_->vk.CmdDispatch(commandBuffer, 1, 1, 1);
+    const auto dispatch = [&](const gpu::Kernel& kernel, uint64_t workgroups) {
+        gpu::bind(*device_, commandBuffer, kernel, solverSet_, push);
+        gpu::dispatchLinear(*device_, commandBuffer, workgroups);
+    };
+    dispatch(solver_.solve, 1);
+    gpu::computeBarrier(*device_, commandBuffer);
+    dispatch(solver_.count, endOfRuns_);
+    gpu::computeBarrier(*device_, commandBuffer);
+    dispatch(solver_.place, 1);
 }
 
 void View::recordWarmUp(VkCommandBuffer commandBuffer) const {
     gpu::computeBarrier(*device_, commandBuffer);
-    gpu::bind(*device_, commandBuffer, solver_, solverSet_, LodSolvePush{});
-    device_->vk.CmdDispatch(commandBuffer, 0, 1, 1);
+    for (const gpu::Kernel& kernel : {solver_.solve, solver_.count, solver_.place}) {
+        gpu::bind(*device_, commandBuffer, kernel, solverSet_, LodSolvePush{});
+        device_->vk.CmdDispatch(commandBuffer, 0, 1, 1);
+    }
 }
 
 gpu::MemoryUse View::memoryUse() const {
@@ -339,7 +384,7 @@ void View::recordReadback(VkCommandBuffer commandBuffer) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
     solved_[place].frame = recordedFrame_;
     solved_[place].groups = 0;
-    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * kReadbackBytes, sizeof(LodSolution)};
+    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * readbackBytes(), sizeof(LodSolution)};
     device_->vk.CmdCopyBuffer(commandBuffer, words_.buffer(), readback_.buffer(0), 1, &region);
 }
 
@@ -347,13 +392,13 @@ void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDevi
     const uint64_t place = recordedFrame_ % framesInFlight_;
     const uint32_t index = solved_[place].groups++;
     solved_[place].of[index] = group;
-    const VkBufferCopy region{offset, place * kReadbackBytes + sizeof(LodSolution) + kCountBytes * index, kCountBytes};
+    const VkBufferCopy region{offset, place * readbackBytes() + sizeof(LodSolution) + kCountBytes * index, kCountBytes};
     device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
 }
 
 SuppleViewStatistics View::read(size_t place) const {
     const Solved& solved = solved_[place];
-    const std::byte* from = readback_.mapped(0) + place * kReadbackBytes;
+    const std::byte* from = readback_.mapped(0) + place * readbackBytes();
     LodSolution solution;
     std::memcpy(&solution, from, sizeof(solution));
     SuppleViewStatistics read{};
@@ -415,12 +460,12 @@ void View::recordNoDraws(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (clear_.recordedIn(frame)) {
         return; // of the same words
     }
-    device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), kLodDraws * VkDeviceSize{4},
-                              (kLodRecords - kLodDraws) * VkDeviceSize{4}, 0);
+    const VkDeviceSize draws = SUPPLE_LOD_DRAWS(maxRuns()) * VkDeviceSize{4};
+    device_->vk.CmdFillBuffer(commandBuffer, words_.buffer(), draws, recordOffset() - draws, 0);
 }
 
 void View::addTransfers(Transfers& transfers, uint64_t frame) const {
-    transfers.add(words_.buffer(), kLodBuckets * VkDeviceSize{4});
+    transfers.add(words_.buffer(), SUPPLE_LOD_BUCKETS(maxRuns()) * VkDeviceSize{4});
     streams_.addTransfers(transfers, true);
     if (indicesRelease_.recordedIn(frame)) {
         transfers.add(static_.buffer(0));
@@ -433,9 +478,12 @@ void View::fillDraws(SuppleLevelOutput& output, uint32_t firstRun) const {
     };
     const VkDeviceSize firstDraw = VkDeviceSize{firstRun} * kCapacityCount;
     output.indices = {static_.buffer(0), 0, static_.size(0), 2};
-    output.indirect = words(kLodDraws + 5 * firstDraw, output.drawCount, sizeof(VkDrawIndexedIndirectCommand));
-    output.buckets = words(kLodBuckets + 4 * VkDeviceSize{firstRun} * kLodBucketStride, output.drawCount, 16);
-    output.patches = words(kLodRecords, (words_.size() / 4 - kLodRecords) / kLodRecordWords, kLodRecordWords * 4);
+    output.indirect = words(SUPPLE_LOD_DRAWS(maxRuns()) + kLodDrawWords * firstDraw, output.drawCount,
+                            sizeof(VkDrawIndexedIndirectCommand));
+    output.buckets = words(SUPPLE_LOD_BUCKETS(maxRuns()) + 4 * VkDeviceSize{firstRun} * kLodBucketStride,
+                           output.drawCount, sizeof(LodBucket));
+    output.patches =
+        words(recordOffset() / 4, (words_.size() - recordOffset()) / kRecordBytes, static_cast<uint32_t>(kRecordBytes));
 }
 
 } // namespace supple::runtime

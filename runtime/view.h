@@ -49,7 +49,10 @@ public:
     [[nodiscard]] Result<uint32_t> takeRuns(const surface::LodTables& lod, const std::vector<bool>& doubleSided,
                                             uint32_t windows);
     void giveRuns(uint32_t first, uint32_t count);
-    /// The same for groups without runs, of which there may be kMaxRuns, too. False: the view is full.
+    [[nodiscard]] uint32_t maxRuns() const { return static_cast<uint32_t>(takenRuns_.size()); }
+    /// Where the indirect arguments of a dispatch lie among the words, in bytes.
+    [[nodiscard]] VkDeviceSize dispatchOffset(uint32_t dispatch) const;
+    /// The same for groups without runs, of which there may be as many as runs, too. False: the view is full.
     /// `vertices`: of all its instances at all rates, which in all groups together 32 bits must count.
     [[nodiscard]] bool takeGroup(uint64_t vertices);
     void giveGroup(uint64_t vertices);
@@ -97,7 +100,9 @@ private:
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
     [[nodiscard]] Status createSolver(surface::Programs& passes);
     [[nodiscard]] uint32_t budget() const;
-    [[nodiscard]] VkDeviceSize uploadBytes() const;
+    [[nodiscard]] VkDeviceSize uploadBytes() const; ///< of a frame, with all runs that there may be
+    [[nodiscard]] VkDeviceSize readbackBytes() const;
+    [[nodiscard]] VkDeviceSize recordOffset() const; ///< where records begin among the words
 
     const gpu::Device* device_ = nullptr;
     uint32_t framesInFlight_ = 2;
@@ -110,7 +115,7 @@ private:
     gpu::BufferSet buffers_;
     gpu::PlannedBuffer words_, cull_, sizes_;
     VertexStreams streams_;
-    gpu::Kernel solver_;
+    surface::Programs::Solver solver_;
     gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
     VkDescriptorSet solverSet_ = VK_NULL_HANDLE;
@@ -118,6 +123,7 @@ private:
     gpu::BufferSet readback_; ///< solutions, one a frame in flight
     gpu::StaticBuffers static_;
     std::vector<uint32_t> hostWords_; ///< up to kLodSolution
+    std::vector<uint32_t> runWords_;
     std::vector<bool> takenRuns_;
     uint32_t endOfRuns_ = 0;
     uint32_t groupsWithoutRuns_ = 0;
@@ -130,7 +136,7 @@ private:
     struct Solved {
         uint64_t frame = 0;
         uint32_t groups = 0;
-        std::array<SolvedGroup, 2 * shared::kMaxRuns> of{}; ///< groups, those with runs and without
+        std::vector<SolvedGroup> of; ///< room for all groups, those with runs and without
     };
     [[nodiscard]] SuppleViewStatistics read(size_t place) const; ///< of solved_
 

@@ -3,6 +3,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/pose.h"
+#include "skinning/rotation.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
@@ -50,7 +51,8 @@ public:
                 table_.nodes.push_back(node);
             }
         }
-        std::ranges::stable_sort(table_.nodes, {}, [&](uint32_t node) { return depths[node]; });
+        std::stable_sort(table_.nodes.begin(), table_.nodes.end(),
+                         [&](uint32_t a, uint32_t b) { return depths[a] < depths[b]; });
         table_.places.assign(skeleton.nodes.size(), cage::kNone);
         for (uint32_t place = 0; place < table_.nodes.size(); ++place) {
             table_.places[table_.nodes[place]] = place;
@@ -61,11 +63,16 @@ public:
     }
 
     void putNodes() {
+        const uint32_t nodesEnd = kNodeElements * static_cast<uint32_t>(table_.nodes.size());
+        std::vector<glm::dquat> fixed;
         for (const uint32_t node : table_.nodes) {
             const cage::Node& from = character_.skeleton.nodes[node];
-            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, 0u, 0u});
+            const uint32_t rotation = from.hasMatrix ? nodesEnd + static_cast<uint32_t>(fixed.size()) : 0u;
+            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, rotation,
+                 0u});
             if (from.hasMatrix) {
                 putRows(from.matrix);
+                fixed.push_back(nearestRotation(glm::dmat3(glm::dmat4(from.matrix))));
             } else {
                 const glm::vec3 &t = from.translation, &s = from.scale;
                 const glm::quat& q = from.rotation;
@@ -73,6 +80,10 @@ public:
                 put({bits(q.x), bits(q.y), bits(q.z), bits(q.w)});
                 put({bits(s.x), bits(s.y), bits(s.z), 0u});
             }
+        }
+        for (const glm::dquat& q : fixed) {
+            put({bits(static_cast<float>(q.x)), bits(static_cast<float>(q.y)), bits(static_cast<float>(q.z)),
+                 bits(static_cast<float>(q.w))});
         }
     }
 
@@ -116,7 +127,8 @@ public:
                 }
             }
             const uint32_t clip[] = {first, weights, bits(duration.high), bits(duration.low)};
-            std::ranges::copy(clip, table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
+            std::copy(std::begin(clip), std::end(clip),
+                      table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
         }
     }
 
@@ -135,7 +147,7 @@ private:
     }
     uint32_t putPacked(std::span<const float> values) {
         const uint32_t first = next();
-        std::ranges::transform(values, std::back_inserter(table_.words), bits);
+        std::transform(values.begin(), values.end(), std::back_inserter(table_.words), bits);
         table_.words.resize((table_.words.size() + 3) / 4 * 4, 0u);
         return first;
     }
@@ -150,8 +162,9 @@ private:
         const uint32_t record = putChannel(channel, width);
         for (uint32_t target = 0; target < width; ++target) {
             const uint32_t element[] = {record, target, width, 0u};
-            std::ranges::copy(element, table_.words.begin() +
-                                           static_cast<ptrdiff_t>(4 * size_t{targets + channel.firstTarget + target}));
+            std::copy(std::begin(element), std::end(element),
+                      table_.words.begin() +
+                          static_cast<ptrdiff_t>(4 * size_t{targets + channel.firstTarget + target}));
         }
     }
     /// `width`: floats a value; four and three have an element each, others (morph weights) are packed.

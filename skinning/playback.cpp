@@ -18,6 +18,11 @@ using namespace shared;
 static_assert(uint32_t{kRootGround} == kGroundAxes && uint32_t{kRootHeight} == kHeightAxis &&
               uint32_t{kRootYaw} == kYawAxis);
 
+constexpr uint32_t kModifierCountBits = 31u << kStateModifierShift;
+static_assert(kMaxModifiers < 32);
+/// Flags that stay whatever plays.
+constexpr uint32_t kNotPlayed = kStateHostWeights | kModifierCountBits;
+
 /// The time of the clip at `start`. Of a loop without the whole loops in it: the device's floats could not tell more
 /// than 2^24 of them apart.
 double beginOf(const cage::Character& character, const PlaybackLayer& layer) {
@@ -31,18 +36,18 @@ size_t firstTarget(const ClipTable& table) {
 
 } // namespace
 
-uint32_t PlaybackState::elements(uint32_t morphCount) {
-    return kStateElements + kMaxPlaybackLayers * kLayerElements + (morphCount + 3) / 4;
+uint32_t PlaybackState::elements(uint32_t morphCount, uint32_t modifierCount) {
+    return modifiersBegin(morphCount) + modifierCount * kModifierElements;
 }
 
 void PlaybackState::put(uint32_t element, float x, float y, float z, float w) {
     const std::array<uint32_t, 4> values = {bits(x), bits(y), bits(z), bits(w)};
-    std::ranges::copy(values, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{element}));
+    std::copy(values.begin(), values.end(), words_.begin() + static_cast<ptrdiff_t>(4 * size_t{element}));
 }
 
 void PlaybackState::setBindPose() {
     words_[0] = 0;
-    words_[1] = (words_[1] & kStateHostWeights) | kStateBindPose;
+    words_[1] = (words_[1] & kNotPlayed) | kStateBindPose;
     words_[2] = kNoNode;
     words_[3] = 0;
 }
@@ -52,7 +57,7 @@ void PlaybackState::set(const cage::Character& character, const ClipTable& table
     const bool rooted = desc.root.axes != 0 && desc.root.node != cage::kNone;
     const bool travels = desc.travels && rooted && !desc.layers.empty();
     words_[0] = static_cast<uint32_t>(desc.layers.size());
-    words_[1] = (words_[1] & kStateHostWeights) | (travels ? kStateTravels : 0u);
+    words_[1] = (words_[1] & kNotPlayed) | (travels ? kStateTravels : 0u);
     words_[2] = rooted ? table.places[desc.root.node] : kNoNode;
     words_[3] = rooted ? desc.root.axes : 0;
     for (uint32_t i = 0; i < desc.layers.size(); ++i) {
@@ -61,7 +66,7 @@ void PlaybackState::set(const cage::Character& character, const ClipTable& table
         const std::array<uint32_t, 4> ids = {
             layer.clip, (layer.loop ? kLayerLoops : 0u) | (layer.mode == LayerMode::additive ? kLayerAdds : 0u),
             layer.mask, 0u};
-        std::ranges::copy(ids, words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
+        std::copy(ids.begin(), ids.end(), words_.begin() + static_cast<ptrdiff_t>(4 * size_t{first}));
         const SplitTime start = splitTime(layer.start), offset = splitTime(beginOf(character, layer)),
                         fade = splitTime(layer.fadeStart), reference = splitTime(layer.referenceTime);
         put(first + 1, start.high, start.low, offset.high, offset.low);
@@ -118,6 +123,18 @@ void PlaybackState::setMorphWeights(const float* weights, size_t count) {
     for (size_t i = 0; weights != nullptr && i < count; ++i) {
         words_[first + i] = bits(weights[i]);
     }
+}
+
+void PlaybackState::setModifierCount(uint32_t count) {
+    words_[1] = (words_[1] & ~kModifierCountBits) | count << kStateModifierShift;
+}
+
+uint32_t PlaybackState::modifierCount() const {
+    return (words_[1] & kModifierCountBits) >> kStateModifierShift;
+}
+
+std::span<uint32_t> PlaybackState::modifier(uint32_t morphCount, uint32_t index) const {
+    return words_.subspan(4 * size_t{elements(morphCount, index)}, 4 * size_t{kModifierElements});
 }
 
 const float* PlaybackState::morphWeights() const {

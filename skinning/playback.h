@@ -47,6 +47,10 @@ public:
     void set(const cage::Character& character, const ClipTable& table, const PlaybackDesc& desc);
     void setTransform(const glm::mat4& transform);
     void setMorphWeights(const float* weights, size_t count); ///< null: the clips' own again
+    /// Of states with room for them: how many modifiers (skinning/modifiers.h) are executed, and the words of one.
+    void setModifierCount(uint32_t count);
+    [[nodiscard]] uint32_t modifierCount() const;
+    [[nodiscard]] std::span<uint32_t> modifier(uint32_t morphCount, uint32_t index) const;
 
     /// Null if none are set: what setMorphWeights() got.
     [[nodiscard]] const float* morphWeights() const;
@@ -58,7 +62,8 @@ public:
     /// What was set; not of the bind pose. `layers` is memory for its layers. Offsets of loops lie within the clip.
     [[nodiscard]] PlaybackDesc read(const ClipTable& table, Layers& layers) const;
 
-    [[nodiscard]] static uint32_t elements(uint32_t morphCount);
+    /// With `modifierCount` modifiers behind the rest.
+    [[nodiscard]] static uint32_t elements(uint32_t morphCount, uint32_t modifierCount = 0);
 
 private:
     void put(uint32_t element, float x, float y, float z, float w);

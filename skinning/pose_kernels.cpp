@@ -3,6 +3,7 @@
 #include "gpu/device.h"
 #include "shaders/pose_locals_comp.h"
 #include "shaders/pose_locals_comp_ADDS.h"
+#include "shaders/pose_modify_comp.h"
 #include "shaders/pose_palette_comp.h"
 #include "shaders/pose_roots_comp.h"
 #include "shaders/shared/specialization.h"
@@ -53,6 +54,7 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
     found.locals[1] = batch.get(layout_, pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive");
     found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
+    found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
     found.palette = batch.get(layout_, pose_palette_comp, constants,
                               dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
     const Status made = batch.make();
@@ -69,8 +71,9 @@ Status PoseKernels::prepare(SkinningMode mode) {
     if (!made) {
         return made.error();
     }
-    std::ranges::copy(made->locals, locals_);
+    std::copy(std::begin(made->locals), std::end(made->locals), locals_);
     roots_ = made->roots;
+    modifiers_ = made->modifiers;
     palette_[static_cast<size_t>(mode)] = made->palette;
     return success();
 }
@@ -91,6 +94,11 @@ void PoseKernels::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet se
 void PoseKernels::recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
     record(commandBuffer, set, push, roots_, (push.instanceCount + local - 1) / local);
+}
+
+void PoseKernels::recordModifiers(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    record(commandBuffer, set, push, modifiers_, (push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,

@@ -23,13 +23,15 @@ public:
     void recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds,
                       const shared::PosePush& push) const;
     void recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push) const;
+    /// Only where one has modifiers.
+    void recordModifiers(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push) const;
     void recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
                        const shared::PosePush& push) const;
 
 private:
     struct Kernels {
         gpu::Kernel locals[2]; ///< by whether layers may be additive
-        gpu::Kernel roots, palette;
+        gpu::Kernel roots, modifiers, palette;
     };
     [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
     void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push,
@@ -40,6 +42,7 @@ private:
     gpu::ComputeLayout layout_;
     gpu::Kernel locals_[2]; ///< by whether layers may be additive
     gpu::Kernel roots_;
+    gpu::Kernel modifiers_;
     gpu::Kernel palette_[2]; ///< by SkinningMode
 };
 

@@ -66,6 +66,9 @@ public:
         for (const uint32_t node : character_.skeleton.parentsFirst) {
             place(node);
         }
+        for (const Place& place : places_) {
+            reach_.anchored.push_back(place.anchor != cage::kNone ? 1 : 0);
+        }
         takeTargets();
         takeVertices();
         takeAnchor();

@@ -24,6 +24,8 @@ struct Reach {
     /// By how much of the size of a box that holds linearly skinned cages those that dual quaternions skin can leave
     /// it: whatever the rotations are.
     double dualQuaternions = 0.0;
+    /// By node: 1 if it is an anchor or hangs on one. Whatever turns it, the cage stays within `blended`.
+    std::vector<uint8_t> anchored;
     uint32_t anchor = cage::kNone; ///< the only one, if there is one and all joints hang on it
     glm::dvec3 anchorPath{0.0};    ///< size of the box of its places
     std::vector<double> targets;   ///< by morph target: what a weight of 1 adds to `blended` at most

@@ -19,6 +19,7 @@ struct ProgramOptions {
     bool view = false;        ///< the group belongs to a view. Its motion sets bind the coefficients of this frame in
                               ///< the place of the cage, for instances without a past
     bool lod = false;         ///< the view draws patches at levels, not at a rate
+    uint32_t viewRuns = 0;    ///< with lod: runs of patches that the view has room for (shaders/shared/lod.h)
     bool backFaces = false;   ///< with lod: leaves out patches that show their backs
     uint32_t levelOffset = 0; ///< with lod: an instance has one level, which is so many entries behind its own in the
                               ///< list of instances. 0: every edge has its own level

@@ -164,8 +164,15 @@ Result<Program> Programs::prepare(const Tables& tables, const ProgramOptions& op
     return std::move(builder.program);
 }
 
-Result<gpu::Kernel> Programs::prepareSolve() {
-    return pipelines_->get(layout(SetKind::levels), shaders_[Kernel::lodSolve], {}, "supple level budget");
+Result<Programs::Solver> Programs::prepareSolver() {
+    gpu::Pipelines::Batch batch(*pipelines_);
+    const auto get = [&](Kernel kernel, const char* name) {
+        return batch.get(layout(SetKind::levels), shaders_[kernel], {}, name);
+    };
+    const Solver solver{get(Kernel::lodSolve, "supple level budget"), get(Kernel::lodCount, "supple level counts"),
+                        get(Kernel::lodBuckets, "supple level buckets")};
+    const Status made = batch.make();
+    return made ? Result<Solver>(solver) : made.error();
 }
 
 } // namespace supple::surface

@@ -26,9 +26,12 @@ public:
     [[nodiscard]] Result<Program> prepare(const Tables& tables, const ProgramOptions& options,
                                           const Evaluation& evaluation);
 
-    /// The kernel that solves a view's budget. It is dispatched as one workgroup, with shared::LodSolvePush and a set
-    /// of kind `levels`.
-    [[nodiscard]] Result<gpu::Kernel> prepareSolve();
+    /// The kernels that solve a view's budget, one after the other, with shared::LodSolvePush and a set of kind
+    /// `levels`. The second is dispatched as one workgroup a run, the others as one.
+    struct Solver {
+        gpu::Kernel solve, count, place;
+    };
+    [[nodiscard]] Result<Solver> prepareSolver();
 
     [[nodiscard]] const gpu::ComputeLayout& layout(SetKind sets) const { return layouts_[static_cast<size_t>(sets)]; }
 

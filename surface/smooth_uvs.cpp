@@ -92,7 +92,7 @@ uint32_t uvElements(const Tables& tables, PatchClass patchClass) {
 }
 
 bool haveSharpUvs(const Tables& tables) {
-    return tables.uvLeaves && std::ranges::any_of(tables.ranges, [](const PatchRange& range) {
+    return tables.uvLeaves && std::any_of(tables.ranges.begin(), tables.ranges.end(), [](const PatchRange& range) {
                return range.patchClass == PatchClass::loopIrregularSharp;
            });
 }

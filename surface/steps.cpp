@@ -357,6 +357,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
         auto push = pushFor<LevelsPush>(range.section);
         push.firstPatch = range.firstPatch;
         push.run = r;
+        push.runs = builder.options.viewRuns;
         push.vertices = builder.evaluation.verticesPerInstance;
         for (const ProgramBuilder::VertexPass& pass : builder.vertexPasses()) {
             const gpu::Kernel kernel = builder.kernel(SetKind::evaluateLevels, row.atLevels,

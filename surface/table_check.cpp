@@ -28,7 +28,7 @@ bool areOfOneMesh(const Tables& tables, const Tables& others) {
     };
     return tables.isolationSteps == others.isolationSteps && tables.poolStride == others.poolStride &&
            tables.attributeOutputs() == others.attributeOutputs() &&
-           std::ranges::equal(tables.ranges, others.ranges, isSame);
+           std::equal(tables.ranges.begin(), tables.ranges.end(), others.ranges.begin(), others.ranges.end(), isSame);
 }
 
 } // namespace supple::surface

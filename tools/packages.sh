@@ -8,7 +8,7 @@ supple_packages=(
     glslang-tools spirv-tools
     libglm-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libstb-dev libpng-dev libjpeg62-turbo-dev libcli11-dev
     libnanoflann-dev libxxhash-dev
-    libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev
+    libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev libzstd-dev
 )
 # To test as well.
 supple_test_packages=(

@@ -5,6 +5,7 @@
 #include "cage/message.h"
 #include "cage/refusal.h"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <set>
@@ -127,6 +128,9 @@ private:
             failed_.erase(key);
         }
         ++count_;
+        if (known->second.isReordered) {
+            warnOfOthers(primitive, key, element);
+        }
         primitive.indices = known->second.indices;
         primitive.mode = file::kTriangles; // Draco has triangles alone, also of strips
         primitive.isReordered = known->second.isReordered;
@@ -162,6 +166,28 @@ private:
             decoded.attributes.emplace_back(wanted[i].name, add(of, std::move(mesh.attributes[i])));
         }
         return decoded;
+    }
+
+    /// What is not compressed must lie in the new order of the vertices. Whether it does, nothing in a file tells.
+    void warnOfOthers(const Primitive& primitive, const Key& key, const std::string& element) {
+        std::string others;
+        const auto add = [&](const std::string& name) { others += (others.empty() ? "" : ", ") + name; };
+        for (const auto& own : primitive.attributes) {
+            const bool isDecoded = std::any_of(key.second.begin(), key.second.end(),
+                                               [&](const auto& one) { return std::get<0>(one) == own.first; });
+            if (!isDecoded && !model_.accessors[static_cast<size_t>(own.second)].broken) {
+                add(own.first);
+            }
+        }
+        if (!primitive.targets.empty()) {
+            add("morph targets");
+        }
+        if (!others.empty()) {
+            warn(document_.warnings, element,
+                 "vertices are in another order than before they were compressed; what is not compressed must have "
+                 "that order, and is taken as it stands: " +
+                     others);
+        }
     }
 
     /// What was encoded is right whatever accessors say of it.

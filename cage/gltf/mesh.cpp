@@ -345,8 +345,9 @@ private:
         const std::vector<glm::vec3> positions = readPositions(position, count, element);
         const Displacements displacements = morphReader_.read(document_, targets, count, element);
         std::vector<uint32_t> numbers;
-        if (cageNumbers >= 0 &&
-            !document_.leniency->leaveOut([&] { numbers = readCageNumbers(cageNumbers, count, element); })) {
+        if (cageNumbers >= 0 && !document_.leniency->leaveOut([&, accessor = cageNumbers] {
+                numbers = readCageNumbers(accessor, count, element);
+            })) {
             isNumberingLeftOut_ = true; // some vertices have no number
         }
         if (sets.joints.empty()) {

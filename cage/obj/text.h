@@ -1,11 +1,11 @@
 // The lines and words of Wavefront's text files, OBJ and MTL. Private to cage/obj/.
 #pragma once
 
+#include "base/from_chars.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -110,7 +110,7 @@ bool parseWhole(std::string_view word, auto& value) {
     if (!word.empty() && word.front() == '+') {
         word.remove_prefix(1);
     }
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end == word.data() + word.size() && !word.empty();
 }
 

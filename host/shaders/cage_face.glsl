@@ -1,9 +1,6 @@
-// The triangles of the cage's polygons. The table is one run of words: the corners (CageCorner, eight words each), then the
-// vertex lists of the faces, which begin at CageCorner::faceStart.
+// The triangles of the cage's polygons.
 #include "frame.glsl"
 #include "cage_input.glsl"
-
-layout(set = 1, binding = kCageCornerBinding, std430) readonly buffer CageCorners { uint cageWords[]; };
 
 CageCorner cageCorner() {
     uint word = (push.primitive + gl_VertexIndex) * 8u;

@@ -1,7 +1,6 @@
-// The deformed cage: one float4 per cage vertex, slot after slot.
+// The vertex of the deformed cage that an instance draws.
+#include "cage_buffers.glsl"
 #include "instances.glsl"
-
-layout(set = 1, binding = kDeformedCageBinding, std430) readonly buffer DeformedCage { vec4 deformedCage[]; };
 
 vec4 cageVertex(uint vertex) {
     return deformedCage[instanceSlots[gl_InstanceIndex] * push.cageVerticesPerInstance + vertex];

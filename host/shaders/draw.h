@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #define SUPPLE_HOST_CONST inline constexpr uint
 #define SUPPLE_HOST_FLOAT inline constexpr float
+#define SUPPLE_HOST_INLINE [[nodiscard]] constexpr
 namespace supple::host::shared {
 using uint = uint32_t;
 using vec4 = glm::vec4;
@@ -14,6 +15,7 @@ using mat4 = glm::mat4;
 #else
 #define SUPPLE_HOST_CONST const uint
 #define SUPPLE_HOST_FLOAT const float
+#define SUPPLE_HOST_INLINE
 #endif
 
 // Set 0, the frame.
@@ -134,11 +136,15 @@ SUPPLE_HOST_CONST kMaterialSheen = 1u << 21;
 SUPPLE_HOST_CONST kMaterialTransmission = 1u << 22;
 SUPPLE_HOST_CONST kMaterialSpecular = 1u << 23; // MaterialUniforms::dielectric differs from what it usually is
 
-// A patch in kPatchBinding: its class, then vertices of its face, which say whether the pose mirrors it, or SUPPLE_NO_VERTEX.
-SUPPLE_HOST_CONST kPatchVertices = 4u;
-SUPPLE_HOST_CONST kPatchWords = 5u;
+// A patch in kPatchBinding: its class, then the vertices of its face, which say whether the pose mirrors it: CageCorner::faceStart
+// and faceSides.
+SUPPLE_HOST_CONST kPatchWords = 3u;
 // The patch that the vertex shader hands on: set where the pose mirrors it.
 SUPPLE_HOST_CONST kPatchIsMirrored = 0x80000000u;
+
+// Whether the pose mirrors a face, or a vertex: `sides` is the sum of w over its vertices in SuppleGroupInfo::deformedCage. So half
+// of the vertices are enough. Pictures and bakes go by this.
+SUPPLE_HOST_INLINE bool isMirrored(float sides) { return sides <= 0.0f; }
 
 // From here on a translucent material is solid.
 SUPPLE_HOST_FLOAT kSolidAlpha = 0.99f;
@@ -224,7 +230,7 @@ struct MaterialUniforms {
 // One corner of a triangle of a cage face; three in a row make the triangle.
 struct CageCorner {
     uint vertex;    // cage vertex
-    uint faceStart; // the face's vertices in the list behind the corners' buffer: see cage_face.vert
+    uint faceStart; // the face's vertices in the list behind the corners' buffer: see cage_buffers.glsl
     uint faceSides;
     uint color; // RGBA8
     float u0;   // the first texture coordinates, and the second

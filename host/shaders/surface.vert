@@ -9,11 +9,11 @@ layout(constant_id = 1) const bool kMaps = false; // see material_textures.glsl
 #include "frame.glsl"
 #include "studio.glsl"
 #include "surface_input.glsl"
+#include "cage_buffers.glsl"
 #include "material.glsl"
 #include "surface_attributes.glsl"
 
 layout(set = 1, binding = kPatchBinding, std430) readonly buffer Patches { uint patchWords[]; };
-layout(set = 1, binding = kDeformedCageBinding, std430) readonly buffer DeformedCage { vec4 deformedCage[]; };
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -63,17 +63,14 @@ float shownValue() {
     return log2(hasLevels() ? largestLevel() : float(push.rate)) / log2(kScaledLevel);
 }
 
-// Winding and normals follow the deformed faces, so where the pose mirrors, both show the inside as the outside.
-bool isMirrored(uint patchNumber) {
-    if ((push.flags & kDrawMayMirror) == 0u) return false;
-    uint first = drawnSlot() * push.cageVerticesPerInstance;
-    if (push.domain == kDrawMesh) return deformedCage[first + push.primitive].w < 0.0;
-    float sides = 0.0;
-    for (uint i = 1u; i <= kPatchVertices; ++i) {
-        uint vertex = patchWords[kPatchWords * patchNumber + i];
-        if (vertex != 0xFFFFFFFFu) sides += deformedCage[first + vertex].w;
+// A vertex of a mesh is of many faces: there a vertex of its part tells.
+bool isPatchMirrored(uint patchNumber) {
+    if (push.domain == kDrawMesh) {
+        uint vertex = drawnSlot() * push.cageVerticesPerInstance + push.primitive;
+        return (push.flags & kDrawMayMirror) != 0u && isMirrored(deformedCage[vertex].w);
     }
-    return sides <= 0.0;
+    uint word = kPatchWords * patchNumber;
+    return isFaceMirrored(drawnSlot(), patchWords[word + 1u], patchWords[word + 2u]);
 }
 
 void main() {
@@ -82,7 +79,7 @@ void main() {
     outPosition = position;
     outNormal = surfaceNormal(word);
     outPatch = drawnPatch();
-    bool mirrored = isMirrored(outPatch);
+    bool mirrored = isPatchMirrored(outPatch);
     if (mirrored) {
         outNormal = -outNormal;
         outPatch |= kPatchIsMirrored;

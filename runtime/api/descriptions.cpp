@@ -24,8 +24,9 @@ namespace {
 static_assert(std::has_unique_object_representations_v<SuppleAssetDesc>); // it can be compared byte by byte
 constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
                                  SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
-                                 SUPPLE_GROUP_WINDOWS | SUPPLE_GROUP_POSE_UNSEEN;
-constexpr uint32_t kFlagsInViews = SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_POSE_UNSEEN;
+                                 SUPPLE_GROUP_WINDOWS | SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_MODIFIERS;
+constexpr uint32_t kFlagsInViews =
+    SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_MODIFIERS;
 
 Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
     SuppleFileBytes found{};
@@ -133,14 +134,20 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::range, "unknown flags"};
     }
     if (desc.view.id != 0 && has(~kFlagsInViews)) {
-        return Error{ErrorCode::argument, "a group of a view takes the flags ONE_LEVEL, BOUNDS and POSE_UNSEEN alone: "
-                                          "the view has the others"};
+        return Error{ErrorCode::argument,
+                     "a group of a view takes the flags ONE_LEVEL, BOUNDS, POSE_UNSEEN and MODIFIERS alone: "
+                     "the view has the others"};
     }
     if (desc.view.id == 0 && has(SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_POSE_UNSEEN)) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_ONE_LEVEL or SUPPLE_GROUP_POSE_UNSEEN without a view"};
     }
     if (has(SUPPLE_GROUP_INDEXED_MESH) && desc.scheme == SUPPLE_SCHEME_CAGE) {
         return Error{ErrorCode::argument, "a cage has no samples to share"};
+    }
+    if (has(SUPPLE_GROUP_MODIFIERS) && (desc.instancesOf.id != 0 || (desc.poseSource != SUPPLE_POSES_SET &&
+                                                                     desc.poseSource != SUPPLE_POSES_PLAYBACK))) {
+        return Error{ErrorCode::argument,
+                     "SUPPLE_GROUP_MODIFIERS goes with instances of its own, and with SUPPLE_POSES_SET or _PLAYBACK"};
     }
     if (has(SUPPLE_GROUP_TANGENTS) && !has(SUPPLE_GROUP_ATTRIBUTES)) {
         return Error{ErrorCode::argument, "TANGENTS go with ATTRIBUTES"};

@@ -22,6 +22,8 @@ SuppleResult fillUse(Context& context, const char* function, const gpu::MemoryUs
         filled.scratch = use.of(MemoryPurpose::scratch);
         filled.staging = use.of(MemoryPurpose::staging);
         filled.readback = use.of(MemoryPurpose::readback);
+        filled.spare = use.of(MemoryPurpose::spare);
+        filled.spareVisible = use.of(MemoryPurpose::spareVisible);
     });
 }
 

@@ -1,5 +1,6 @@
 // supple.h, pose.
 #include "runtime/api/poses.h"
+#include "runtime/pose_desc.h"
 
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
@@ -67,6 +68,23 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, 
             return refuse(context, found, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
         }
         found.poses().host()->setMatrixPose(instance.slot, jointMatrices);
+        return SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleSetJointMatrices(SuppleContext handle, SuppleInstance instance,
+                                    const SuppleJointMatricesDesc* given) {
+    constexpr const char* kHere = "suppleSetJointMatrices";
+    return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
+        SuppleJointMatricesDesc desc{};
+        if (const auto fault = takeIn(context, kHere, "matrices", given, desc)) {
+            return *fault;
+        }
+        const Status valid = runtime::checkJointMatrices(found.asset(), desc);
+        if (!valid) {
+            return refuse(context, found, valid.error().code, kHere, valid.error().message);
+        }
+        found.poses().host()->setJointMatrices(instance.slot, desc);
         return SUPPLE_OK;
     });
 }

@@ -50,6 +50,9 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleUploadState)                                                                                               \
     X(SupplePlaybackDesc)                                                                                              \
     X(SuppleMaskDesc)                                                                                                  \
+    X(SuppleJointMatricesDesc)                                                                                         \
+    X(SuppleModifiersDesc)                                                                                             \
+    X(SuppleModifierTarget)                                                                                            \
     X(SuppleViewDesc)                                                                                                  \
     X(SuppleCameraDesc)                                                                                                \
     X(SuppleDepthPyramidDesc)                                                                                          \

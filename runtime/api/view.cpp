@@ -33,6 +33,9 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
         if (desc.maxVertices < 1024) {
             return refuse(context, ErrorCode::range, kHere, "maxVertices is below 1024");
         }
+        if (desc.maxRuns > SUPPLE_MAX_VIEW_RUNS) {
+            return refuse(context, ErrorCode::range, kHere, "maxRuns is above SUPPLE_MAX_VIEW_RUNS");
+        }
         if (!std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities),
                          [](float e) { return e >= 0.0f && e <= 1.0f; })) {
             return refuse(context, ErrorCode::range, kHere, "an elasticity leaves 0..1");

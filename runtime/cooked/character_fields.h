@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "cage/material_layers.h"
 #include "runtime/cooked/archive.h"
 
 namespace supple::runtime {
@@ -100,14 +101,15 @@ void fields(A& a, T& trim) {
 }
 template <class A, Is<MaterialLayers> T>
 void fields(A& a, T& layers) {
-    a(layers.clearcoatFactor, layers.clearcoatTexture, layers.clearcoatRoughnessFactor,
-      layers.clearcoatRoughnessTexture, layers.clearcoatNormalTexture, layers.clearcoatNormalScale,
-      layers.sheenColorFactor, layers.sheenColorTexture, layers.sheenRoughnessFactor, layers.sheenRoughnessTexture,
-      layers.transmissionFactor, layers.transmissionTexture, layers.ior, layers.specularFactor, layers.specularTexture,
-      layers.specularColorFactor, layers.specularColorTexture, layers.iridescenceFactor, layers.iridescenceTexture,
-      layers.iridescenceIor, layers.iridescenceThicknessMinimum, layers.iridescenceThicknessMaximum,
-      layers.iridescenceThicknessTexture, layers.anisotropyStrength, layers.anisotropyRotation,
-      layers.anisotropyTexture);
+    const auto each = [&](const auto& table) {
+        for (const auto& row : table) {
+            a(layers.*row.member);
+        }
+    };
+    each(kLayerNumbers);
+    each(kLayerColors);
+    each(kLayerTextures);
+    a(layers.clearcoatNormalScale);
 }
 template <class A, Is<Material> T>
 void fields(A& a, T& material) {

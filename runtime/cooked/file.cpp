@@ -15,7 +15,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 6;
+constexpr uint32_t kVersion = 7;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -61,9 +61,9 @@ Status checkHeader(std::span<const std::byte> bytes, Reader& reader, std::string
 constexpr uint32_t kWholeCage = cage::kNone;
 
 uint32_t placeOf(const Prepared& prepared, const std::shared_ptr<const PreparedPiece>& piece) {
-    return piece == nullptr
-               ? kWholeCage
-               : static_cast<uint32_t>(std::ranges::find(prepared.pieces, piece) - prepared.pieces.begin());
+    return piece == nullptr ? kWholeCage
+                            : static_cast<uint32_t>(std::find(prepared.pieces.begin(), prepared.pieces.end(), piece) -
+                                                    prepared.pieces.begin());
 }
 
 /// Room for the header, and all that it is the hash of.
@@ -109,8 +109,9 @@ void readPieces(Reader& reader, Prepared& prepared) {
     for (uint32_t i = 0; i < count && !reader.fault(); ++i) {
         auto piece = std::make_shared<PreparedPiece>();
         reader(piece->parts, piece->of);
-        const bool parts = !piece->parts.empty() && piece->parts.back() < prepared.character.parts.size() &&
-                           std::ranges::adjacent_find(piece->parts, std::greater_equal<>()) == piece->parts.end();
+        const bool parts =
+            !piece->parts.empty() && piece->parts.back() < prepared.character.parts.size() &&
+            std::adjacent_find(piece->parts.begin(), piece->parts.end(), std::greater_equal<>()) == piece->parts.end();
         if (!parts) {
             reader.refuse("a piece of no parts");
         } else if (const Status sound = cage::checkPiece(prepared.character, piece->of); !reader.fault() && !sound) {

@@ -266,7 +266,7 @@ PassCost Culling::recordDemand(VkCommandBuffer commandBuffer) const {
     push.instanceCount = windows_->visible;
     push.rateCount = rateCount_;
     push.firstRate = firstRate_;
-    std::ranges::copy(rateVertices_, push.vertices);
+    std::copy(std::begin(rateVertices_), std::end(rateVertices_), push.vertices);
     kernels_->recordDemand(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};
 }
@@ -288,7 +288,7 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.partCount = hiddenParts_;
     push.masks = firstMask(windows_->capacity);
     push.maskWords = DrawnParts::wordsOf(parts_.size());
-    std::ranges::copy(rateVertices_, push.vertices);
+    std::copy(std::begin(rateVertices_), std::end(rateVertices_), push.vertices);
     kernels_->recordRates(commandBuffer, listSet_, push);
     return {0, 0, windows_->visible > 0};
 }

@@ -69,7 +69,7 @@ void BoxRuns::setUnknown(size_t index) {
 }
 
 void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8_t> unseen) {
-    std::ranges::fill(unseen, uint8_t{0});
+    std::fill(unseen.begin(), unseen.end(), uint8_t{0});
     for (size_t k = 0; k < 6; ++k) {
         findBehind(view.planes + 4 * k, boxes, unseen);
     }
@@ -113,7 +113,7 @@ bool OutOfSight::find(const shared::CullView& view, const InstanceSlots& slots, 
 
 bool OutOfSight::clear() {
     const bool changed = count_ > 0;
-    std::ranges::fill(unseen_, uint8_t{0});
+    std::fill(unseen_.begin(), unseen_.end(), uint8_t{0});
     count_ = 0;
     return changed;
 }

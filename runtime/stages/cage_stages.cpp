@@ -170,7 +170,7 @@ PassCost CageStages::record(VkCommandBuffer commandBuffer, size_t row, uint32_t 
 void CageStages::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
     if (frame_ == frame) {
-        std::ranges::fill(pasts_, 0);
+        std::fill(pasts_.begin(), pasts_.end(), 0);
         timed_ = false;
     }
 }

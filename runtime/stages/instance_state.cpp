@@ -55,7 +55,8 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
         }
         written += zero(movedCount_, capacity_ - movedCount_);
         // Some of those that have moved may be new since then.
-        slots = slots.first(static_cast<size_t>(std::ranges::lower_bound(slots, movedCount_) - slots.begin()));
+        slots =
+            slots.first(static_cast<size_t>(std::lower_bound(slots.begin(), slots.end(), movedCount_) - slots.begin()));
         if (!slots.empty()) {
             gpu::memoryBarrier(*device_, frame.commands,
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},

@@ -86,6 +86,7 @@ surface::ProgramOptions Levels::levelOptions() const {
     surface::ProgramOptions options = programOptions();
     options.view = true;
     options.lod = true;
+    options.viewRuns = view()->maxRuns();
     options.backFaces = view()->leavesBackFaces();
     // With one level an instance, that lies behind the list's entries (Culling::recordList).
     options.levelOffset = (desc_.group.flags & SUPPLE_GROUP_ONE_LEVEL) != 0 ? desc_.group.capacity : 0;
@@ -182,7 +183,7 @@ surface::Window Levels::placed(uint32_t window, const surface::Sets& sets) const
     result.push.firstSlot = windows().firstSlot(window);
     result.push.firstRun = firstRun_ + window * runs();
     result.arguments = view()->words();
-    result.firstArgument = sizeof(uint32_t) * (kLodDispatches + VkDeviceSize{8} * result.push.firstRun);
+    result.firstArgument = view()->dispatchOffset(result.push.firstRun);
     result.argumentStride = sizeof(LodDispatch);
     return result;
 }

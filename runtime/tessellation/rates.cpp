@@ -168,7 +168,7 @@ Status Rates::buildRates() {
 Status Rates::join(const InstanceWindows&) {
     joined_ = view()->takeGroup(uint64_t{vertexCount_} * desc_.group.capacity);
     if (!joined_) {
-        return Error{ErrorCode::limit, "the view is full: it has " + std::to_string(kMaxRuns) +
+        return Error{ErrorCode::limit, "the view is full: it has " + std::to_string(view()->maxRuns()) +
                                            " groups of subdivision, or they have 2^32 vertices"};
     }
     return success();

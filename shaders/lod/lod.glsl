@@ -22,10 +22,10 @@ uint lodWord(uint i) {
 uint capacityOf(uint index) { return SUPPLE_LOD_CAPACITY(index); }
 uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }
 uint formSamples(uint form, uint capacity) { return formSides(form) * (capacity + 1u) * (capacity + 1u) / 4u; }
-// The bucket of a run and capacity. `word` is the run's.
-uint bucketIndex(uint word, uint run, uint c) {
-    uint first = min((word >> 8u) & 255u, run); // of the group
-    return first * kLodBucketStride + (run - first) * kCapacityCount + c;
-}
+// The bucket of a run and capacity, where the group's runs begin at `first`.
+uint bucketIndex(uint first, uint run, uint c) { return first * kLodBucketStride + (run - first) * kCapacityCount + c; }
+// Of the words of a run.
+uint runForm(uint word) { return word & 255u; }
+uint firstOfGroup(uint word, uint run) { return min(word & kNoDispatch, run); }
 // Patches of one draw instance (surface/lod/grid.h).
 uint patchesPerDraw(uint samples) { return samples < 64u ? 64u / samples : 1u; }

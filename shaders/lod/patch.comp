@@ -384,7 +384,7 @@ shared uint commonPlace, commonSums[3];
 // level that is all there is, and so many atomics on one word would wait for each other.
 void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint weight) {
     uint split = kLodSplit + (priority * kLodForms + form) * kLodBinStride + bin;
-    uint place = kLodCounts + (run * kPriorityCount + priority) * kLodBinStride + bin;
+    uint place = SUPPLE_LOD_COUNTS(push.runs) + (run * kPriorityCount + priority) * kCountBins + max(bin, kFirstCountBin) - kFirstCountBin;
     uvec3 own = uvec3(kSplitUnit - weight, weight, 1u);
     if (kWide) {
         bool first = gl_LocalInvocationID.x == 0u;
@@ -422,7 +422,7 @@ void main() {
     uvec4 edges = tableElement(header.levelPatches + 2u * patchIndex), more = tableElement(header.levelPatches + 2u * patchIndex + 1u);
     uint patchClass = more.w & ((1u << kLodPartShift) - 1u), part = more.w >> kLodPartShift;
     if (isHidden(listed, instance, patchIndex, part, inside)) counted = false;
-    uint run = push.window.firstRun + more.y, form = lodWord(kLodRuns + run) & 255u;
+    uint run = push.window.firstRun + more.y, runWord = lodWord(kLodRuns + kLodRunWords * run), form = runForm(runWord);
     uint sides = formSides(form);
     uint target = words + header.edgeCount + kLodPatchLevelWords * patchIndex;
     vec3 g[16];
@@ -450,7 +450,7 @@ void main() {
         level = max(max(max(ofEdges.x, ofEdges.y), max(ofEdges.z, ofEdges.w)), max(fifth, max(own.x, own.y)));
     }
     if (kBackFaces && counted) {
-        bool doubleSided = (lodWord(kLodDoubleSided + run / 32u) & (1u << (run & 31u))) != 0u;
+        bool doubleSided = (runWord & kRunIsDoubleSided) != 0u;
         vec2 across = form == kLodQuadForm ? own : vec2(level);
         if (!doubleSided && showsItsBack(patchClass, more.z, base, sides, g, ofEdges, fifth, across)) counted = false;
     }

@@ -9,7 +9,9 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/levels.glsl"
 
-shared uint taken[kMaxRuns * kCapacityCount];
+// On GPUs a workgroup takes its places together, if there are not too many buckets to have a word each.
+const uint kMaxTaken = 64u * kCapacityCount;
+shared uint taken[kMaxTaken];
 
 // a = (L - 1) / 2 and 1 / L, as bits.
 uvec2 levelPair(float level) {
@@ -26,7 +28,8 @@ void storeElement(uint to, uvec4 words) {
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uint bucketCount = header.runCount * kCapacityCount;
-    if (kWide) {
+    bool together = kWide && bucketCount <= kMaxTaken;
+    if (together) {
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) taken[i] = 0u;
         barrier();
     }
@@ -40,17 +43,16 @@ void main() {
     uint capacity = 0u;
     if (drawn) capacity = min(lodWord(kLodCapacities + priority * kLodBinStride + min(bin, kLodBins - 1u)), kCapacityCount - 1u);
 
-    // A place in the bucket. On GPUs a workgroup takes its places together.
-    uint local = more.y * kCapacityCount + capacity, firstBucket = bucketIndex(lodWord(kLodRuns + push.window.firstRun),
-                                                                               push.window.firstRun, 0u);
-    uint bucket = kLodBuckets + 4u * (firstBucket + local);
+    uint local = more.y * kCapacityCount + capacity, run = push.window.firstRun;
+    uint groups = firstOfGroup(lodWord(kLodRuns + kLodRunWords * run + 1u), run);
+    uint firstBucket = SUPPLE_LOD_BUCKETS(push.runs) + 4u * bucketIndex(groups, run, 0u), bucket = firstBucket + 4u * local;
     uint place = 0u;
-    if (kWide) {
+    if (together) {
         if (drawn) place = atomicAdd(taken[local], 1u);
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords[kLodBuckets + 4u * (firstBucket + i) + 2u], n);
+            if (n > 0u) taken[i] = atomicAdd(lodWords[firstBucket + 4u * i + 2u], n);
         }
         barrier();
         place += taken[local];
@@ -59,7 +61,7 @@ void main() {
     }
     if (!drawn || place >= lodWord(bucket + 4u) - lodWord(bucket)) return;
 
-    uint form = lodWord(kLodRuns + push.window.firstRun + more.y) & 255u, sides = formSides(form);
+    uint form = runForm(lodWord(kLodRuns + kLodRunWords * (run + more.y))), sides = formSides(form);
     float scale = uintBitsToFloat(lodWord(kLodSolution + 4u + priority));
     precise float level[5];
     float largest = 1.0;
@@ -88,7 +90,7 @@ void main() {
         for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = ofEdges[k];
     }
     uint samples = formSamples(form, capacityOf(capacity));
-    uint to = kLodRecords + kLodRecordWords * (lodWord(bucket) + place);
+    uint to = SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place);
     if (to + kLodRecordWords > uint(lodWords.length())) return;
     storeElement(to, uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
                            lodWord(bucket + 1u) + place * samples, capacity));

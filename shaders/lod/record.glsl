@@ -23,7 +23,8 @@ struct LodRecord {
 };
 
 #ifdef LEVELS
-uint lodRecordElement(uint index) { return (kLodRecords + kLodRecordWords * index) / 4u; }
+uint lodRecordElement(uint index) { return (SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * index) / 4u; }
+uint lodDispatchWord() { return SUPPLE_LOD_DISPATCHES(push.runs) + kLodDispatchWords * (push.window.firstRun + push.run); }
 // Whatever the words are, the record names a patch, a slot, vertices and a grid that there are. That of an empty one is any patch.
 LodRecord lodRecordOf(uvec4 head) {
     LodRecord r;
@@ -69,7 +70,7 @@ vec3 ringWeights(vec2 along, float t) {
 #ifdef LEVELS
 // The record of a lane, in the narrow mapping. Idle lanes repeat the last.
 uint lodRecordOfLane() {
-    uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
+    uint at = lodDispatchWord();
     return lodWord(at + 3u) + min(invocationIndex(), lodWord(at + 4u) - 1u);
 }
 
@@ -81,17 +82,18 @@ struct Share {
 };
 #ifdef LEVELS
 Share lodShareOfGroup(uint form) {
-    uint at = kLodDispatches + 8u * (push.window.firstRun + push.run);
-    uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), kMaxRuns * kCapacityCount);
+    uint at = lodDispatchWord();
+    uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), push.runs * kCapacityCount);
     Share share = Share(0u, 0u, 1u, 1u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
+    uint buckets = SUPPLE_LOD_BUCKETS(push.runs) + 4u * first;
     uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
     while (past - b > 1u) {
         uint middle = (b + past) / 2u;
-        if (lodWord(kLodBuckets + 4u * (first + middle) + 3u) <= workgroupIndex()) b = middle;
+        if (lodWord(buckets + 4u * middle + 3u) <= workgroupIndex()) b = middle;
         else past = middle;
     }
-    uint bucket = kLodBuckets + 4u * (first + b);
+    uint bucket = buckets + 4u * b;
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
     uint capacity = capacityOf(b % kCapacityCount);
     share.samples = formSamples(form, capacity);

@@ -3,8 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
-#include "shaders/pose/rotation.glsl"
-#include "shaders/pose/affine.glsl"
+#include "shaders/pose/affine.h"
+#include "shaders/pose/nodes.h"
 
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
 layout(constant_id = kWorkgroupRowsConstant) const uint kLocalRows = 1u; // 3 * kWorkgroupNodes with the wide mapping
@@ -18,7 +18,14 @@ vec4 localRow(uint i) {
     if (kWide) return scratch[i];
     return texelFetch(scratchTexels, int(i));
 }
-Affine localAt(uint i) { return Affine(localRow(i), localRow(i + 1u), localRow(i + 2u)); }
+Affine placeAt(uint i) { return rowsOf(localRow(i), localRow(i + 1u), localRow(i + 2u)); }
+Transform localAt(uint i) {
+    Transform t;
+    t.translation = localRow(i).xyz;
+    t.rotation = localRow(i + 1u);
+    t.scale = localRow(i + 2u).xyz;
+    return t;
+}
 
 bool fits() { return kWide && push.nodeCount <= kWorkgroupNodes; }
 
@@ -49,8 +56,8 @@ void keepGlobal(uint matrices, uint node, Affine global) {
 }
 
 Affine globalOf(uint matrices, uint node) {
-    uint parent = table(kNodeElements * node).x;
-    precise Affine global = localAt(matrices + kAffineElements * node);
+    uint parent = parentOf(node);
+    precise Affine global = localMatrix(node, localAt(matrices + kAffineElements * node));
     if (parent != kNoNode) global = combined(globalAt(matrices, parent), global);
     return global;
 }
@@ -87,7 +94,7 @@ void main() {
     uint matrices = instance * push.scratchStride, pose = instance * push.poseStride;
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     bool bindPose = (state(instance * push.stateStride).y & kStateBindPose) != 0u;
-    Affine place = localAt(matrices + kAffineElements * push.nodeCount);
+    Affine place = placeAt(matrices + kAffineElements * push.nodeCount);
     // Matrices change in their places: lanes beyond the instances must not store.
     if (kWide) {
         for (uint level = 0u; level < push.levelCount; ++level) {

@@ -1,6 +1,6 @@
-// Powers and angles from additions, multiplications and bits alone, which every device rounds alike: GLSL's own may
-// differ from one pipeline to the next, and where two patches meet they must not. Chebyshev interpolation; good to 1e-7
-// of what is to come out at 1. GLSL and C++ share the very code.
+// Quotients, roots, powers and angles from additions, multiplications and bits alone, which every device rounds alike:
+// GLSL's own may differ from one pipeline to the next, and where two patches meet they must not. Newton's steps, else
+// Chebyshev interpolation; good to 1e-7 of what is to come out at 1. GLSL and C++ share the very code.
 #ifndef SUPPLE_SHARED_ELEMENTARY_H
 #define SUPPLE_SHARED_ELEMENTARY_H
 
@@ -102,6 +102,37 @@ SUPPLE_SHARED_FUNCTION float cosineOf(float a) {
 }
 
 #undef SUPPLE_HORNER
+
+// 1 / x for 2^-100 < |x| < 2^100; the relative error is below 1.5 * 2^-24.
+SUPPLE_SHARED_FUNCTION float recip(float x) {
+    SUPPLE_PRECISE float y = uintBitsToFloat(0x7EF311C7u - floatBitsToUint(x));
+    y = y * (2.0f - x * y);
+    y = y * (2.0f - x * y);
+    y = y + y * (1.0f - x * y);
+    return y;
+}
+
+// 1 / sqrt(x) for 2^-100 < x < 2^100; the relative error is below 1.7 * 2^-24.
+SUPPLE_SHARED_FUNCTION float rsqrt(float x) {
+    SUPPLE_PRECISE float y = uintBitsToFloat(0x5F375A86u - (floatBitsToUint(x) >> 1u));
+    SUPPLE_PRECISE float h = 0.5f * x;
+    y = y * (1.5f - (h * y) * y);
+    y = y * (1.5f - (h * y) * y);
+    y = y + y * (0.5f - (h * y) * y);
+    return y;
+}
+
+// The power of two that takes |x| into [1, 2). A product with it is exact. For 2^-126 <= |x| < 2^127.
+SUPPLE_SHARED_FUNCTION float broughtDown(float x) {
+    return uintBitsToFloat((254u - ((floatBitsToUint(x) >> 23u) & 255u)) << 23u);
+}
+
+// 1 / x of any size between 2^-126 and 2^126.
+SUPPLE_SHARED_FUNCTION float wideRecip(float x) {
+    float scale = broughtDown(x);
+    SUPPLE_PRECISE float result = recip(x * scale) * scale;
+    return result;
+}
 
 SUPPLE_SHARED_END
 

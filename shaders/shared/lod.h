@@ -1,19 +1,19 @@
 // Level of detail (docs/lod.md): what the passes that choose levels, the budget's solver and evaluation share.
 //
-// A view has one buffer, of words; what lies where is a constant, so that no pass is told:
+// A view has one buffer, of words. Where what is as large as any view's lies is a constant; behind it comes what grows with the
+// runs that the view has room for, a number R that kernels are told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   runs          one word a run: form | the group's first run << 8 | dispatch << 16, dispatch from kMaxRuns on where no group
-//                 has the run. A run is the patches of one class and material of a window of instances of a group; a dispatch
-//                 evaluates the runs of one class, which follow each other
-//   doubleSided   a bit a run: its patches show their backs too
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
 //                 kSplitUnit is shared between two bins
-//   counts        by run, priority and bin: patches
 //   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest; then
 //                 by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
+//   runs          two words a run: form | kRunIsDoubleSided where its patches show their backs too; the group's first run |
+//                 dispatch << 16, kNoDispatch where no group has the run. A run is the patches of one class and material of a
+//                 window of instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   counts        by run, priority and bin from kFirstCountBin on: patches; all bins below count in the first
 //   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run on; one
 //                 more behind them tells where the last one's records end
 //   dispatches    eight words each (LodDispatch)
@@ -48,7 +48,10 @@ SUPPLE_SHARED_CONST kCapacityCount = 10u;
 #define SUPPLE_LOD_FIRST_WORD(i)                                                                                       \
     (((i) < 4u ? 0x06030100u : (i) < 8u ? 0x2418100Au : 0x00004C34u) >> 8u * ((i)&3u) & 255u)
 SUPPLE_SHARED_CONST kPriorityCount = 4u;
-SUPPLE_SHARED_CONST kMaxRuns = 256u; // of a view, and dispatches
+SUPPLE_SHARED_CONST kMaxViewRuns = 65472u; // and dispatches: less than kNoDispatch
+SUPPLE_SHARED_CONST kRunStep = 64u;        // a view has room for a multiple of this, so that all sections are aligned
+SUPPLE_SHARED_CONST kRunIsDoubleSided = 256u;
+SUPPLE_SHARED_CONST kNoDispatch = 65535u;
 
 // Forms of grids (surface/lod/grid.h).
 SUPPLE_SHARED_CONST kLodQuadForm = 0u;
@@ -74,26 +77,34 @@ SUPPLE_SHARED_CONST kElasticSteps = 512u;
 SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
 SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
-SUPPLE_SHARED_CONST kLodRuns = kLodGrids + 2u * kLodForms * kCapacityCount;
-SUPPLE_SHARED_CONST kLodDoubleSided = kLodRuns + kMaxRuns;
-SUPPLE_SHARED_CONST kLodSolution = kLodDoubleSided + kMaxRuns / 32u; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodSolution = kLodGrids + 2u * kLodForms * kCapacityCount; // what stands before it comes from the host
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
-SUPPLE_SHARED_CONST kLodCounts = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
-SUPPLE_SHARED_CONST kLodRated = kLodCounts + kMaxRuns * kPriorityCount * kLodBinStride;
+SUPPLE_SHARED_CONST kLodRated = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
 SUPPLE_SHARED_CONST kRatedBins = 516u; // kBinsPerOctave an octave above the level a rate is enough for
 SUPPLE_SHARED_CONST kBudgetSteps = kElasticSteps + kRatedBins;
 SUPPLE_SHARED_CONST kLodHidden = kLodRated + 1u; // patches of hidden parts, of all groups with levels
 SUPPLE_SHARED_CONST kLodRatedMore = kLodRated + 4u;
-// From here on hosts read. What they may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
+// What hosts may bind lies on multiples of what descriptor offsets need at most, 256 bytes.
 SUPPLE_SHARED_CONST kLodAlignment = 64u; // words
-SUPPLE_SHARED_CONST kLodBuckets =
+SUPPLE_SHARED_CONST kLodRuns =
     (kLodRatedMore + kPriorityCount * kRatedBins + kLodAlignment - 1u) / kLodAlignment * kLodAlignment;
+SUPPLE_SHARED_CONST kLodRunWords = 2u;
+// Whatever the budget, patches of the bins below this one have the smallest capacity, and so do those of this one.
+SUPPLE_SHARED_CONST kFirstCountBin = kOctavesBelow * kBinsPerOctave - 2u;
+SUPPLE_SHARED_CONST kCountBins = kLodBins - kFirstCountBin;
+SUPPLE_SHARED_CONST kRunCountWords = kPriorityCount * kCountBins;
 SUPPLE_SHARED_CONST kLodBucketStride = 16u; // buckets; no less than a run's and one
-SUPPLE_SHARED_CONST kLodDispatches = kLodBuckets + 4u * kLodBucketStride * kMaxRuns;
-SUPPLE_SHARED_CONST kLodDraws = kLodDispatches + 8u * kMaxRuns;
-SUPPLE_SHARED_CONST kLodRecords =
-    (kLodDraws + 5u * kMaxRuns * kCapacityCount + kLodAlignment - 1u) / kLodAlignment * kLodAlignment;
+SUPPLE_SHARED_CONST kLodDispatchWords = 8u;
+SUPPLE_SHARED_CONST kLodDrawWords = 5u;
+SUPPLE_SHARED_CONST kLodDrawCount = 1u; // the instance count; between two kernels of the solver how many patches there are
+// Where the sections begin that grow with `runs`.
+#define SUPPLE_LOD_COUNTS(runs) (kLodRuns + kLodRunWords * (runs))
+// From here on hosts read.
+#define SUPPLE_LOD_BUCKETS(runs) (SUPPLE_LOD_COUNTS(runs) + kRunCountWords * (runs))
+#define SUPPLE_LOD_DISPATCHES(runs) (SUPPLE_LOD_BUCKETS(runs) + 4u * kLodBucketStride * (runs))
+#define SUPPLE_LOD_DRAWS(runs) (SUPPLE_LOD_DISPATCHES(runs) + kLodDispatchWords * (runs))
+#define SUPPLE_LOD_RECORDS(runs) (SUPPLE_LOD_DRAWS(runs) + kLodDrawWords * kCapacityCount * (runs))
 SUPPLE_SHARED_CONST kLodRecordWords = 16u;
 
 SUPPLE_SHARED_CONST kEmptyRecord = 0xFFFFFFFFu;
@@ -163,6 +174,7 @@ struct LodPush {
     uint masks;        // of parts, first word in the list of instances (shared/bounds.h)
     uint maskWords;    // an instance
     uint countsHidden; // 1: this surface of the group counts the patches that an instance hides
+    uint runs;         // that the view has room for
     LodCamera
         camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
 };
@@ -173,7 +185,10 @@ struct DepthPush {
     uint count; // of an instance
     uint depth; // its number among the depths
 };
+// The budget in three kernels: what is found with one workgroup, the counts of each run with one a run, where everything lies with
+// one.
 struct LodSolvePush {
+    uint runs;              // that the view has room for
     uint runCount;          // in use, of the view
     uint limit;             // vertices, without what fills up draw instances
     uint room;              // with it

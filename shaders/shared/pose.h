@@ -3,8 +3,9 @@
 // Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
 // depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
 // element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, 0, 0); then the three rows of the fixed matrix, or
+//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 0); then the three rows of the fixed matrix, or
 //              translation, rotation (x, y, z, w), scale of the rest pose
+//   rotation   one element each, of the nodes with a fixed matrix: the nearest to it (x, y, z, w)
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
 //   weights    from `restWeights` on: the file's morph weights, four an element
@@ -27,12 +28,18 @@
 //              (speed, weight, fade weight, fade duration); (fade start, reference time: high and low each);
 //              the root's position at the clip's beginning; its rotation
 //   weights    the host's morph weights, four an element
+//   modifiers  in groups that have them, kMaxModifiers, of which only as many are read as the flags say; kModifierElements each:
+//              (kind + 256 * flags, length of the chain, 0, 0); nodes of the chain, two a word, the low half first, from the
+//              top down to the joint; (weight, fade weight, fade duration, share of joints above the last one); (fade start,
+//              high and low; cosine and sine of half the limit); (target; weight of the pole); (pole; soft) or, to aim, (the
+//              eye in the joint's frame; 0); rotation; (axis in the joint's frame; 0)
 //
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
 //
-// Scratch (vec4 elements, one run of `scratchStride` an instance): three rows a node, its local matrix, then in its
-// place the global one; three rows of the instance's transform with what it has travelled.
+// Scratch (vec4 elements, one run of `scratchStride` an instance): three a node, its local translation, rotation (x, y, z, w;
+// of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
+// what it has travelled. A node whose local matrix is fixed has that, whatever stands here.
 #ifndef SUPPLE_SHARED_POSE_H
 #define SUPPLE_SHARED_POSE_H
 
@@ -69,6 +76,22 @@ SUPPLE_SHARED_CONST kStateTravels = 4u;
 SUPPLE_SHARED_CONST kLayerLoops = 1u;
 SUPPLE_SHARED_CONST kLayerAdds = 2u;
 
+SUPPLE_SHARED_CONST kStateModifierShift = 8u; // 5 bits: how many modifiers
+
+// Modifiers: values of SuppleModifierKind and SuppleModifierFlags.
+SUPPLE_SHARED_CONST kMaxModifiers = 16u;
+SUPPLE_SHARED_CONST kModifierElements = 8u;
+SUPPLE_SHARED_CONST kMaxChain = 8u; // nodes
+SUPPLE_SHARED_CONST kModifierSet = 0u;
+SUPPLE_SHARED_CONST kModifierAdd = 1u;
+SUPPLE_SHARED_CONST kModifierAim = 2u;
+SUPPLE_SHARED_CONST kModifierTwoBone = 3u;
+SUPPLE_SHARED_CONST kModifierHandOver = 4u;
+SUPPLE_SHARED_CONST kModifierWorld = 1u;
+SUPPLE_SHARED_CONST kModifierPole = 2u;
+SUPPLE_SHARED_CONST kModifierEndRotation = 4u;
+SUPPLE_SHARED_CONST kModifierModel = 8u;
+
 // Axes of root motion; values of SuppleRootMotionFlags.
 SUPPLE_SHARED_CONST kGroundAxes = 1u;
 SUPPLE_SHARED_CONST kHeightAxis = 2u;
@@ -82,6 +105,13 @@ SUPPLE_SHARED_CONST kCubicKeys = 2u;
 // Wide mapping: nodes whose matrices fit into the 16 KiB of workgroup memory that every device has. Larger skeletons stay
 // in the scratch memory.
 SUPPLE_SHARED_CONST kWorkgroupNodes = 320u;
+
+#ifdef __cplusplus
+constexpr
+#endif
+uint modifiersBegin(uint morphCount) {
+    return kStateElements + kMaxPlaybackLayers * kLayerElements + (morphCount + 3u) / 4u;
+}
 
 struct PosePush {
     float timeHigh; // the group's time

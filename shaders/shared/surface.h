@@ -260,6 +260,7 @@ struct LevelsPush {
     uint count; // patches
     uint firstPatch; // of the range in device order
     uint run;        // the range's number; with the window's first run, the view's dispatch
+    uint runs;       // that the view has room for
     uint vertices;   // of the view
     uint smoothUvs;  // attributes: first element of the range's smooth texture coordinates
 };

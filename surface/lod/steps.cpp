@@ -8,8 +8,6 @@
 
 namespace supple::surface::lod {
 
-static_assert(shared::kLodRecords % 4 == 0, "records are read as elements");
-
 namespace {
 
 /// What measures edges, by Borders.
@@ -62,6 +60,7 @@ shared::LodPush pushFor(const ProgramBuilder& builder, uint32_t first, uint32_t 
     push.masks = builder.options.firstMask;
     push.maskWords = builder.options.maskWords;
     push.countsHidden = builder.options.countsHidden ? 1 : 0;
+    push.runs = builder.options.viewRuns;
     return push;
 }
 

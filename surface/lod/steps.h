@@ -1,5 +1,5 @@
 // The passes that choose the levels of a view's patches: levels of edges, levels of patches, places. Between the last
-// two the view's budget is solved (Programs::prepareSolve).
+// two the view's budget is solved (Programs::prepareSolver).
 #pragma once
 
 #include "surface/steps.h"

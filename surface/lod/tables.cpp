@@ -82,8 +82,8 @@ void appendTables(const PatchEdges& edges, Tables& tables) {
         }
         ++tables.lod.runs.back().patchCount;
         std::array<uint32_t, kMaxSides> own{};
-        std::ranges::transform(edges.sidesOf(patch), own.begin(),
-                               [&](const PatchSide& side) { return numbers[side.edge]; });
+        std::transform(edges.sidesOf(patch).begin(), edges.sidesOf(patch).end(), own.begin(),
+                       [&](const PatchSide& side) { return numbers[side.edge]; });
         const auto run = static_cast<uint32_t>(tables.lod.runs.size() - 1);
         const uint32_t kind = static_cast<uint32_t>(info.patchClass) | info.part << shared::kLodPartShift;
         writer.put({own[0], own[1], own[2], own[3], own[4], run, records[patch], kind});

@@ -237,7 +237,7 @@ private:
              .scheme = SUPPLE_SCHEME_PM},
             {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
             {.scheme = SUPPLE_SCHEME_POLYGONS},
-            {.scheme = SUPPLE_SCHEME_PREP, .poseSource = SUPPLE_POSES_PLAYBACK},
+            {.flags = SUPPLE_GROUP_MODIFIERS, .scheme = SUPPLE_SCHEME_PREP, .poseSource = SUPPLE_POSES_PLAYBACK},
             {.scheme = SUPPLE_SCHEME_FRAGMENTS},
             {.scheme = SUPPLE_SCHEME_BLEND},
             {.scheme = SUPPLE_SCHEME_AUTO, .view = view_}};
@@ -272,6 +272,7 @@ private:
                     desc.layers = &layer;
                     desc.layerCount = 1;
                     call("suppleSetPlayback", [&] { return suppleSetPlayback(handle(), instance, &desc); });
+                    modify(instance);
                 } else {
                     poseWith(instance);
                 }
@@ -290,6 +291,22 @@ private:
         call("suppleSetMask", [&] { return suppleSetMask(handle(), groups_[kPlayed], &mask); });
     }
 
+    void modify(SuppleInstance instance) {
+        SuppleModifier modifier{};
+        modifier.kind = SUPPLE_MODIFIER_TWO_BONE;
+        modifier.joint = 2;
+        modifier.weight = 1.0f;
+        SuppleModifiersDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.modifiers = &modifier;
+        desc.modifierCount = 1;
+        call("suppleSetModifiers", [&] { return suppleSetModifiers(handle(), instance, &desc); });
+        SuppleModifierTarget target{};
+        target.structSize = sizeof(target);
+        target.target[1] = 0.5;
+        call("suppleSetModifierTarget", [&] { return suppleSetModifierTarget(handle(), instance, 0, &target); });
+    }
+
     void poseWith(SuppleInstance instance) {
         const float matrices[3 * 16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0,
                                         0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -304,6 +321,13 @@ private:
         desc.structSize = sizeof(desc);
         desc.layers = &layer;
         desc.layerCount = 1;
+        SuppleJointMatricesDesc some{};
+        const uint32_t second = 1;
+        some.structSize = sizeof(some);
+        some.jointCount = 1;
+        some.jointMatrices = matrices;
+        some.joints = &second;
+        call("suppleSetJointMatrices", [&] { return suppleSetJointMatrices(handle(), instance, &some); });
         call("suppleSetPose", [&] { return suppleSetPose(handle(), instance, &desc); });
         call("suppleSetClipPose", [&] { return suppleSetClipPose(handle(), instance, 0, 0.75); });
         call("suppleSetUserData", [&] { return suppleSetUserData(handle(), instance, data); });

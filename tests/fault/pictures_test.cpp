@@ -2,7 +2,9 @@
 #include "host/picture.h"
 
 #include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,9 +62,8 @@ TEST(Pictures, AreasBeyondTheLimitAreRefusedByTheirHeader) {
 
 TEST(Pictures, WhatIsCutOffOrNoPictureIsRefused) {
     EXPECT_EQ(refusalOf(pngOf(4, 4)), "p: truncated");
-    EXPECT_EQ(refusalOf("GIF89a"), "p: not a PNG, JPEG or WebP");
-    EXPECT_EQ(refusalOf(""), "p: not a PNG, JPEG or WebP");
-    EXPECT_EQ(refusalOf("\xABKTX 20\xBB\r\n\x1A\n"), "p: KTX2 is not decoded");
+    EXPECT_EQ(refusalOf("GIF89a"), "p: not a PNG, JPEG, WebP or KTX2");
+    EXPECT_EQ(refusalOf(""), "p: not a PNG, JPEG, WebP or KTX2");
     EXPECT_NE(refusalOf("\xFF\xD8\xFF"), "decoded");
 }
 
@@ -89,6 +90,95 @@ TEST(Pictures, WebP) {
     const std::string moving("RIFF\x16\x00\x00\x00WEBPVP8X\x0A\x00\x00\x00\x02\x00\x00\x00\x01\x00\x00\x00\x00\x00",
                              30);
     EXPECT_EQ(refusalOf(moving), "p: an animated WebP");
+}
+
+struct Ktx2File {
+    std::string name;
+    bool hasAlpha;
+    int tolerance; ///< ETC1S has five bits a channel, and steps of brightness
+};
+const Ktx2File kKtx2Files[] = {{"etc1s", false, 3},
+                               {"etc1s_alpha", true, 3},
+                               {"uastc_alpha", true, 0},
+                               {"uastc_zstd", false, 0},
+                               {"uastc_zstd_alpha", true, 0}};
+
+std::string ktx2Bytes(const std::string& name) {
+    std::ifstream file(SUPPLE_TEST_DATA "/ktx2/" + name + ".ktx2", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Ktx2 : public testing::Test {
+protected:
+    void SetUp() override {
+        if (refusalOf(ktx2Bytes("etc1s")).find("built without Basis Universal") != std::string::npos) {
+            GTEST_SKIP() << "left out: built without Basis Universal";
+        }
+    }
+    static std::string withWord(std::string bytes, size_t place, uint32_t word) {
+        for (size_t i = 0; i < 4; ++i) {
+            bytes[place + i] = static_cast<char>(word >> (8 * i));
+        }
+        return bytes;
+    }
+};
+
+TEST_F(Ktx2, EveryKindHasItsColors) {
+    // Quadrants of 4 x 4 pixels; those without alpha are opaque.
+    const uint8_t quadrants[2][2][4] = {{{255, 0, 0, 255}, {0, 255, 0, 255}}, {{0, 0, 255, 255}, {132, 66, 33, 128}}};
+    for (const Ktx2File& file : kKtx2Files) {
+        SCOPED_TRACE(file.name);
+        const Result<host::Picture> picture = host::decodePicture(bytesOf(ktx2Bytes(file.name)), "p");
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        ASSERT_EQ(picture->width, 8u);
+        ASSERT_EQ(picture->height, 8u);
+        for (uint32_t i = 0; i < 64; ++i) {
+            const uint32_t x = i % 8, y = i / 8;
+            for (int channel = 0; channel < 4; ++channel) {
+                const int wanted = channel == 3 && !file.hasAlpha ? 255 : quadrants[y / 4][x / 4][channel];
+                EXPECT_NEAR(picture->pixel(x, y)[channel], wanted, file.tolerance) << x << " " << y << " " << channel;
+            }
+        }
+    }
+}
+
+TEST_F(Ktx2, HeadersAreNotBelieved) {
+    const std::string etc1s = ktx2Bytes("etc1s"), uastc = ktx2Bytes("uastc_alpha"), zstd = ktx2Bytes("uastc_zstd");
+    EXPECT_EQ(refusalOf(withWord(etc1s, 20, 1u << 26)), "p: more than 67108864 pixels");
+    EXPECT_EQ(refusalOf(withWord(uastc, 20, 1u << 26)), "p: damaged") << "fewer blocks than that";
+    EXPECT_EQ(refusalOf(withWord(zstd, 96, 80)), "p: damaged") << "uncompressed: other than its blocks take";
+    EXPECT_EQ(refusalOf(withWord(uastc, 80, 0xBF)), "p: damaged") << "blocks beside words";
+    EXPECT_EQ(refusalOf(withWord(etc1s, 20, 0)), "p: damaged");
+    EXPECT_EQ(refusalOf(withWord(etc1s, 32, 2)), "p: a KTX2 of more than one picture");
+    EXPECT_EQ(refusalOf(withWord(etc1s, 36, 6)), "p: a KTX2 of more than one picture");
+    EXPECT_EQ(refusalOf(withWord(uastc, 12, 37)), "p: a KTX2 that is neither ETC1S nor UASTC");
+    EXPECT_EQ(refusalOf(withWord(uastc, 44, 3)), "p: a KTX2 that is neither ETC1S nor UASTC");
+    EXPECT_EQ(refusalOf(withWord(etc1s, 40, 17)), "p: damaged") << "levels";
+    // Offsets so large that one and a length are small again.
+    EXPECT_EQ(refusalOf(withWord(etc1s, 48, 0xFFFFFFF0)), "p: damaged");
+    for (const size_t place : {64, 80}) { // what all levels have in common; the first level
+        EXPECT_EQ(refusalOf(withWord(withWord(etc1s, place, 0xFFFFFFF0), place + 4, 0xFFFFFFFF)), "p: damaged");
+    }
+}
+
+TEST_F(Ktx2, WhatIsCutOffOrSpoiledIsDecodedOrRefused) {
+    for (const Ktx2File& file : kKtx2Files) {
+        const std::string bytes = ktx2Bytes(file.name);
+        for (size_t size = 12; size < bytes.size(); ++size) {
+            EXPECT_EQ(refusalOf(bytes.substr(0, size)), "p: damaged") << file.name << " " << size;
+        }
+        for (size_t i = 12; i < bytes.size(); ++i) {
+            for (const char spoiled : {'\0', '\x55', '\xFF'}) {
+                if (i >= 20 && i < 28 && spoiled != '\0') {
+                    continue; // a picture of that size
+                }
+                std::string other = bytes;
+                other[i] = spoiled;
+                const std::string said = refusalOf(other);
+                EXPECT_TRUE(said == "decoded" || said.starts_with("p: ")) << said;
+            }
+        }
+    }
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Any PNG, JPEG or WebP: decoded, or refused with a message.
+// Any PNG, JPEG, WebP or KTX2: decoded, or refused with a message.
 #include "host/picture.h"
 #include "tests/fuzz/target.h"
 

@@ -55,6 +55,9 @@ public:
         buffered =
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
+        modified = createGroup(
+            handle(), mine.asset,
+            {.flags = SUPPLE_GROUP_MODIFIERS, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
         bounded = createGroup(handle(), mine.asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CAGE});
         const SuppleViewDesc viewAsked = viewDesc();
         for (SuppleView* made : {&view, &blindView, &staleView}) {
@@ -170,6 +173,38 @@ public:
         return desc;
     }
     /// Kept for the call.
+    [[nodiscard]] SuppleModifiersDesc modifiersDesc(const std::function<void(SuppleModifier&)>& spoil = {}) {
+        SuppleModifier modifiers[2]{};
+        modifiers[0].rotation[3] = modifiers[1].rotation[3] = 1.0f;
+        modifiers[0].weight = modifiers[1].weight = 1.0f;
+        modifiers[1].joint = 1;
+        if (spoil) {
+            spoil(modifiers[1]);
+        }
+        SuppleModifiersDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.modifiers = kept(modifiers)[0];
+        desc.modifierCount = 2;
+        return desc;
+    }
+    [[nodiscard]] static SuppleJointMatricesDesc matricesDesc() {
+        static const float matrices[32] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                           1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1};
+        static const uint32_t joints[2] = {1, 0};
+        SuppleJointMatricesDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.jointCount = 2;
+        desc.jointMatrices = matrices;
+        desc.joints = joints;
+        return desc;
+    }
+    [[nodiscard]] static SuppleModifierTarget modifierTarget() {
+        SuppleModifierTarget target{};
+        target.structSize = sizeof(target);
+        target.weight = 0.5f;
+        target.rotation[0] = 2.0f;
+        return target;
+    }
     [[nodiscard]] SupplePlaybackDesc playbackDesc(const std::function<void(SupplePlaybackLayer&)>& spoil = {}) {
         SupplePlaybackLayer layers[2]{};
         layers[0].weight = layers[1].weight = 1.0f;
@@ -239,7 +274,7 @@ public:
         SuppleAsset asset{};
         SmallGroup main, subdivision;
     } mine, theirs;
-    SmallGroup spare, buffered, played, seen, bounded;
+    SmallGroup spare, buffered, played, modified, seen, bounded;
     SuppleView view{}, cullingView{}, blindView{}, staleView{}, foreignView{}; ///< the blind one gets no camera
     SuppleAsset staleAsset{};
     SuppleGroup staleGroup{};
@@ -1066,6 +1101,7 @@ void views(Rows& r) {
     spoiled("TANGENTS alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_TANGENTS; });
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
+    spoiled("too many runs", kBad, kRange, [](Desc& d) { d.maxRuns = SUPPLE_MAX_VIEW_RUNS + 1; });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
@@ -1705,6 +1741,140 @@ void poses(Rows& r) {
     }
 }
 
+void modifiers(Rows& r) {
+    constexpr const char *kSet = "suppleSetModifiers", *kTarget = "suppleSetModifierTarget";
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kFinite = SUPPLE_MESSAGE_NOT_FINITE,
+                  kNull = SUPPLE_MESSAGE_NULL_POINTER, kConflict = SUPPLE_MESSAGE_CONFLICT;
+    r.instances(
+        kSet,
+        [](World& w, SuppleContext c, SuppleInstance i) {
+            const SuppleModifiersDesc desc = w.modifiersDesc();
+            return suppleSetModifiers(c, i, &desc);
+        },
+        false, &World::modified);
+    r.description<SuppleModifiersDesc>(
+        kSet, "modifiers", [](World& w) { return w.modifiersDesc(); },
+        [](World& w, const SuppleModifiersDesc* desc) {
+            return suppleSetModifiers(w.handle(), w.modified.instances[0], desc);
+        });
+    for (SmallGroup World::*const other : {&World::spare, &World::buffered, &World::played}) {
+        r.refuse(kSet, "another group", kConflict, [=](World& w) {
+            const SuppleModifiersDesc desc = w.modifiersDesc();
+            return suppleSetModifiers(w.handle(), (w.*other).instances[0], &desc);
+        });
+    }
+    const auto spoiled = [&](const char* what, int message, const std::function<void(SuppleModifiersDesc&)>& spoil,
+                             const std::function<void(SuppleModifier&)>& spoilOne = {}) {
+        r.refuse(kSet, what, message, [=](World& w) {
+            SuppleModifiersDesc desc = w.modifiersDesc(spoilOne);
+            if (spoil) {
+                spoil(desc);
+            }
+            return suppleSetModifiers(w.handle(), w.modified.instances[0], &desc);
+        });
+    };
+    spoiled("modifiers null", kNull, [](SuppleModifiersDesc& d) { d.modifiers = nullptr; });
+    spoiled("too many", kRange, [](SuppleModifiersDesc& d) { d.modifierCount = SUPPLE_MAX_MODIFIERS + 1; });
+    using One = SuppleModifier;
+    const auto one = [&](const char* what, int message, const std::function<void(One&)>& spoil) {
+        spoiled(what, message, {}, spoil);
+    };
+    one("kind 5", kRange, [](One& m) { m.kind = static_cast<SuppleModifierKind>(5); });
+    one("kind -1", kRange, [](One& m) { m.kind = static_cast<SuppleModifierKind>(-1); });
+    one("flags", kRange, [](One& m) { m.flags = 16; });
+    one("flags of another kind", kRange, [](One& m) { m.flags = SUPPLE_MODIFIER_POLE; });
+    one("joint", kRange, [](One& m) { m.joint = kJoints; });
+    one("a limb that leaves the skeleton", kRange, [](One& m) { m.kind = SUPPLE_MODIFIER_TWO_BONE; });
+    one("a chain that leaves the skeleton", kRange, [](One& m) {
+        m.kind = SUPPLE_MODIFIER_AIM;
+        m.chainLength = 3;
+    });
+    one("a chain that is too long", kRange, [](One& m) {
+        m.kind = SUPPLE_MODIFIER_AIM;
+        m.chainLength = SUPPLE_MAX_AIM_JOINTS + 1;
+    });
+    one("a rotation of zeros", kRange, [](One& m) { m.rotation[3] = 0.0f; });
+    one("rotation NaN", kFinite, [](One& m) { m.rotation[1] = kNan; });
+    one("target infinite", kFinite, [](One& m) { m.target[2] = double{kInfinity}; });
+    one("pole NaN", kFinite, [](One& m) { m.pole[0] = double{kNan}; });
+    one("axis infinite", kFinite, [](One& m) { m.axis[0] = kInfinity; });
+    one("offset NaN", kFinite, [](One& m) { m.offset[0] = kNan; });
+    for (float One::*const part : {&One::weight, &One::fadeWeight, &One::share, &One::poleWeight}) {
+        one("a part NaN", kFinite, [=](One& m) { m.*part = kNan; });
+        one("a part above", kRange, [=](One& m) { m.*part = 1.01f; });
+        one("a part below", kRange, [=](One& m) { m.*part = -0.01f; });
+    }
+    one("fadeDuration negative", kRange, [](One& m) { m.fadeDuration = -1.0f; });
+    one("limit negative", kRange, [](One& m) { m.limit = -0.1f; });
+    one("soft below", kRange, [](One& m) { m.soft = 0.4f; });
+    one("soft above", kRange, [](One& m) { m.soft = 1.0f; });
+    one("fadeStart too far", kRange, [](One& m) { m.fadeStart = 1.001 * SUPPLE_MAX_TIME; });
+
+    constexpr const char* kMatrices = "suppleSetJointMatrices";
+    r.instances(
+        kMatrices,
+        [](World&, SuppleContext c, SuppleInstance i) {
+            const SuppleJointMatricesDesc desc = World::matricesDesc();
+            return suppleSetJointMatrices(c, i, &desc);
+        },
+        true);
+    r.description<SuppleJointMatricesDesc>(
+        kMatrices, "matrices", [](World&) { return World::matricesDesc(); },
+        [](World& w, const SuppleJointMatricesDesc* desc) {
+            return suppleSetJointMatrices(w.handle(), w.spare.instances[0], desc);
+        });
+    const auto matrices = [&](const char* what, int message,
+                              const std::function<void(SuppleJointMatricesDesc&)>& change) {
+        r.refuse(kMatrices, what, message, [=](World& w) {
+            SuppleJointMatricesDesc desc = World::matricesDesc();
+            change(desc);
+            return suppleSetJointMatrices(w.handle(), w.spare.instances[0], &desc);
+        });
+    };
+    using Matrices = SuppleJointMatricesDesc;
+    matrices("matrices null", kNull, [](Matrices& d) { d.jointMatrices = nullptr; });
+    matrices("not all joints", kRange, [](Matrices& d) { d.joints = nullptr; });
+    matrices("too many joints", kRange, [](Matrices& d) { d.jointCount = kJoints + 1; });
+    static constexpr uint32_t kTwice[] = {1, 1}, kBeyond[] = {0, kJoints};
+    matrices("a joint twice", kRange, [](Matrices& d) { d.joints = kTwice; });
+    matrices("no such joint", kRange, [](Matrices& d) { d.joints = kBeyond; });
+    matrices("a count of weights without weights", kRange, [](Matrices& d) { d.morphTargetCount = 1; });
+    static const std::vector<float> kNanMatrices(32, kNan);
+    matrices("NaN", kFinite, [](Matrices& d) { d.jointMatrices = kNanMatrices.data(); });
+
+    const auto target = [](World& w, uint32_t index, const SuppleModifierTarget* to) {
+        const SuppleModifiersDesc desc = w.modifiersDesc();
+        const SuppleResult set = suppleSetModifiers(w.handle(), w.modified.instances[0], &desc);
+        return set != SUPPLE_OK ? set : suppleSetModifierTarget(w.handle(), w.modified.instances[0], index, to);
+    };
+    r.instances(
+        kTarget,
+        [=](World& w, SuppleContext c, SuppleInstance i) {
+            const SuppleModifierTarget to = World::modifierTarget();
+            const SuppleModifiersDesc desc = w.modifiersDesc();
+            const SuppleResult set = suppleSetModifiers(w.handle(), w.modified.instances[0], &desc);
+            return set != SUPPLE_OK ? set : suppleSetModifierTarget(c, i, 1, &to);
+        },
+        false, &World::modified);
+    r.description<SuppleModifierTarget>(
+        kTarget, "target", [](World&) { return World::modifierTarget(); },
+        [=](World& w, const SuppleModifierTarget* to) { return target(w, 0, to); });
+    const auto spoil = [&](const char* what, int message, uint32_t index,
+                           const std::function<void(SuppleModifierTarget&)>& change) {
+        r.refuse(kTarget, what, message, [=](World& w) {
+            SuppleModifierTarget to = World::modifierTarget();
+            change(to);
+            return target(w, index, &to);
+        });
+    };
+    spoil("no such modifier", kRange, 2, [](SuppleModifierTarget&) {});
+    spoil("weight NaN", kFinite, 0, [](SuppleModifierTarget& t) { t.weight = kNan; });
+    spoil("weight above", kRange, 0, [](SuppleModifierTarget& t) { t.weight = 1.5f; });
+    spoil("target NaN", kFinite, 0, [](SuppleModifierTarget& t) { t.target[0] = double{kNan}; });
+    spoil("pole infinite", kFinite, 0, [](SuppleModifierTarget& t) { t.pole[2] = double{kInfinity}; });
+    spoil("a rotation of zeros", kRange, 0, [](SuppleModifierTarget& t) { t.rotation[0] = 0.0f; });
+}
+
 void playback(Rows& r) {
     constexpr const char* kSet = "suppleSetPlayback";
     constexpr const char* kTime = "suppleSetTime";
@@ -2167,6 +2337,7 @@ std::vector<Row> allRows() {
     instances(r);
     poses(r);
     playback(r);
+    modifiers(r);
     frames(r);
     measurements(r);
     memoryUses(r);

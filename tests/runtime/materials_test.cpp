@@ -167,16 +167,44 @@ TEST_F(MaterialInfo, ImagesAreEncodedAndNamed) {
     EXPECT_EQ(std::memcmp(image.bytes, "RIFF....WEBP", 12), 0);
 }
 
-/// An asset of layeredQuad().
+/// layeredQuad() with the materials of a variant.
+class LayeredDesc {
+public:
+    explicit LayeredDesc(const char* variant) : glb_(layeredQuad().glb()) {
+        desc_.structSize = sizeof desc_;
+        desc_.name = "layered";
+        desc_.bytes = glb_.data();
+        desc_.byteCount = glb_.size();
+        desc_.materialVariant = variant;
+    }
+    [[nodiscard]] const SuppleAssetDesc* get() const { return &desc_; }
+
+private:
+    std::vector<std::byte> glb_;
+    SuppleAssetDesc desc_{};
+};
+
 SuppleResult createLayered(const LoggedContext& context, const char* variant, SuppleAsset& asset) {
-    const std::vector<std::byte> glb = layeredQuad().glb();
-    SuppleAssetDesc desc{};
+    return suppleCreateAsset(context.handle(), LayeredDesc(variant).get(), &asset);
+}
+
+SuppleGroup layeredGroup(const LoggedContext& context, SuppleAsset asset) {
+    SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
-    desc.name = "layered";
-    desc.bytes = glb.data();
-    desc.byteCount = glb.size();
-    desc.materialVariant = variant;
-    return suppleCreateAsset(context.handle(), &desc, &asset);
+    desc.asset = asset;
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_POLYGONS;
+    SuppleGroup group{};
+    EXPECT_EQ(suppleCreateGroup(context.handle(), &desc, &group), SUPPLE_OK);
+    return group;
+}
+
+/// Of the only draw.
+uint32_t materialDrawn(const LoggedContext& context, SuppleGroup group) {
+    SuppleGridOutput grid{};
+    grid.structSize = sizeof grid;
+    EXPECT_EQ(suppleGetGridOutput(context.handle(), group, 0, &grid), SUPPLE_OK);
+    return grid.drawRangeCount == 1 ? grid.drawRanges[0].material : SUPPLE_NO_MATERIAL;
 }
 
 TEST_F(MaterialInfo, LayersHaveEveryFieldOfTheFile) {
@@ -225,17 +253,7 @@ TEST_F(MaterialInfo, VariantsAreChosenByName) {
     const auto drawn = [&](const char* variant) {
         SuppleAsset chosen{};
         EXPECT_EQ(createLayered(*context_, variant, chosen), SUPPLE_OK);
-        SuppleGroupDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.asset = chosen;
-        desc.capacity = 1;
-        desc.scheme = SUPPLE_SCHEME_POLYGONS;
-        SuppleGroup group{};
-        EXPECT_EQ(suppleCreateGroup(context_->handle(), &desc, &group), SUPPLE_OK);
-        SuppleGridOutput grid{};
-        grid.structSize = sizeof grid;
-        EXPECT_EQ(suppleGetGridOutput(context_->handle(), group, 0, &grid), SUPPLE_OK);
-        return grid.drawRangeCount == 1 ? grid.drawRanges[0].material : SUPPLE_NO_MATERIAL;
+        return materialDrawn(*context_, layeredGroup(*context_, chosen));
     };
     EXPECT_EQ(drawn(nullptr), 0u);
     EXPECT_EQ(drawn("day"), 0u) << "the first primitive has no other material by day";
@@ -245,6 +263,34 @@ TEST_F(MaterialInfo, VariantsAreChosenByName) {
     const std::vector<LogLine> lines = context_->takeLines();
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_NE(lines[0].text.find("no material variant \"dusk\"; it has \"day\", \"night\""), std::string::npos);
+}
+
+TEST_F(MaterialInfo, AReloadTakesAnotherVariant) {
+    SuppleAsset asset{};
+    ASSERT_EQ(createLayered(*context_, "day", asset), SUPPLE_OK);
+    const SuppleGroup group = layeredGroup(*context_, asset);
+    SuppleInstance instance{};
+    ASSERT_EQ(suppleCreateInstance(context_->handle(), group, &instance), SUPPLE_OK);
+    EXPECT_EQ(materialDrawn(*context_, group), 0u);
+
+    const auto reload = [&](const char* variant) {
+        return suppleReloadAsset(context_->handle(), asset, LayeredDesc(variant).get());
+    };
+    const auto nameDrawn = [&] {
+        SuppleMaterialInfo info{};
+        info.structSize = sizeof info;
+        EXPECT_EQ(suppleGetMaterialInfo(context_->handle(), asset, materialDrawn(*context_, group), &info), SUPPLE_OK);
+        return std::string(info.name);
+    };
+    ASSERT_EQ(reload("night"), SUPPLE_OK);
+    EXPECT_EQ(nameDrawn(), "plain") << "the group is the one that there was";
+    EXPECT_EQ(suppleSetVisible(context_->handle(), instance, 0), SUPPLE_OK) << "and so is its instance";
+    EXPECT_EQ(reload("dusk"), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(nameDrawn(), "plain") << "nothing has changed";
+    ASSERT_EQ(reload(nullptr), SUPPLE_OK);
+    EXPECT_EQ(nameDrawn(), "layered") << "the file's own";
+    ASSERT_EQ(reload("night"), SUPPLE_OK);
+    EXPECT_EQ(nameDrawn(), "plain");
 }
 
 } // namespace

@@ -79,8 +79,8 @@ SuppleMemoryUse useOf(Get get, SuppleContext context, Handle... handle) {
     use.structSize = sizeof use;
     EXPECT_EQ(get(context, handle..., &use), SUPPLE_OK);
     EXPECT_EQ(use.deviceLocal, use.tables + use.poses + use.cages + use.coefficients + use.vertices + use.streams +
-                                   use.lists + use.scratch);
-    EXPECT_EQ(use.hostVisible, use.staging + use.readback);
+                                   use.lists + use.scratch + use.spare);
+    EXPECT_EQ(use.hostVisible, use.staging + use.readback + use.spareVisible);
     return use;
 }
 
@@ -90,8 +90,14 @@ protected:
         device = testDevice();
         ASSERT_NE(device, nullptr);
         memory = std::make_unique<CountedMemory>(*device);
-        context = std::make_unique<LoggedContext>(*device,
-                                                  [&](SuppleContextDesc& desc) { desc.memory = &memory->callbacks; });
+        makeContext(1);
+    }
+    void makeContext(VkDeviceSize blockSize) {
+        context = nullptr;
+        context = std::make_unique<LoggedContext>(*device, [&](SuppleContextDesc& desc) {
+            desc.memory = &memory->callbacks;
+            desc.memoryBlockSize = blockSize;
+        });
         ASSERT_EQ(context->result(), SUPPLE_OK);
     }
     void TearDown() override {
@@ -185,6 +191,67 @@ TEST_F(MemoryUse, IsWhatTheCallbacksGaveToTheByte) {
     context->beginFrame();
     context->beginFrame();
     EXPECT_EQ(total(use()), own);
+}
+
+/// Many characters share few allocations, and what they leave goes back.
+TEST_F(MemoryUse, SixtyCharactersTakeFewBlocks) {
+    makeContext(0);
+    const SuppleView view = createView();
+    std::vector<SuppleAsset> tubes(60);
+    std::vector<SuppleGroup> groups;
+    for (size_t i = 0; i < tubes.size(); ++i) {
+        ASSERT_EQ(createTube(context->handle(), tubes[i]), SUPPLE_OK);
+        SuppleGroupDesc desc{.capacity = 40, .scheme = SUPPLE_SCHEME_PM, .poseSource = SUPPLE_POSES_PLAYBACK};
+        if (i % 2 == 0) {
+            desc.view = view;
+        }
+        const SmallGroup made = createGroup(context->handle(), tubes[i], desc);
+        ASSERT_EQ(made.result, SUPPLE_OK);
+        groups.push_back(made.group);
+    }
+    context->evaluate(groups);
+    context->beginFrame();
+    const SuppleMemoryUse full = use();
+    EXPECT_LE(full.allocationCount, 12u);
+    EXPECT_LT(full.spare, full.deviceLocal * 2 / 3);
+    VkDeviceSize held = 0;
+    for (size_t i = 0; i < groups.size(); ++i) {
+        const SuppleMemoryUse own = useOf(suppleGetGroupMemory, context->handle(), groups[i]);
+        EXPECT_EQ(own.allocationCount, 0u);
+        EXPECT_EQ(own.spare + own.spareVisible, 0u);
+        held += total(own) + total(useOf(suppleGetAssetMemory, context->handle(), tubes[i]));
+    }
+    held += total(useOf(suppleGetViewMemory, context->handle(), view));
+    EXPECT_LE(held, total(full) - full.spare - full.spareVisible);
+    for (size_t i = 0; i < groups.size(); ++i) {
+        ASSERT_EQ(suppleDestroyGroup(context->handle(), groups[i]), SUPPLE_OK);
+        ASSERT_EQ(suppleDestroyAsset(context->handle(), tubes[i]), SUPPLE_OK);
+    }
+    ASSERT_EQ(suppleDestroyView(context->handle(), view), SUPPLE_OK);
+    context->beginFrame();
+    context->beginFrame();
+    const SuppleMemoryUse empty = use();
+    EXPECT_LT(total(empty), total(full));
+    EXPECT_LE(empty.allocationCount, 3u);
+}
+
+/// A block is never what exceeds a budget.
+TEST_F(MemoryUse, NoBlockExceedsABudget) {
+    makeContext(0);
+    const VkDeviceSize before = total(use());
+    SuppleAsset tube{};
+    ASSERT_EQ(suppleSetMemoryBudget(context->handle(), before + (VkDeviceSize{2} << 20), nullptr, nullptr), SUPPLE_OK);
+    ASSERT_EQ(createTube(context->handle(), tube), SUPPLE_OK);
+    std::vector<SuppleGroup> groups;
+    SuppleResult result = SUPPLE_OK;
+    while (result == SUPPLE_OK && groups.size() < 1000) {
+        const SmallGroup made = createGroup(context->handle(), tube, {.capacity = 40, .scheme = SUPPLE_SCHEME_PM});
+        result = made.result;
+        groups.push_back(made.group);
+        EXPECT_LE(total(use()), before + (VkDeviceSize{2} << 20));
+    }
+    EXPECT_EQ(result, SUPPLE_ERROR_DEVICE_MEMORY);
+    EXPECT_EQ(context->takeCount(SUPPLE_MESSAGE_DEVICE_MEMORY), 1u);
 }
 
 /// A frame that does not record a group may draw it.

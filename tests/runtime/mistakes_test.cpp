@@ -12,7 +12,7 @@ namespace supple::test {
 namespace {
 
 /// What the host gets: the result and, unless nothing is said, the id and the text.
-struct Told {
+struct Refusal {
     SuppleResult result = SUPPLE_OK;
     const char* message = "none"; ///< without SUPPLE_MESSAGE_
     int id = 0;
@@ -114,10 +114,10 @@ struct Mistake {
 /// Mistakes that only the answer of suppleQueryRequirements or suppleCreateContext tells.
 struct EarlyMistake {
     const char* what;
-    std::function<Told(host::Device&)> make;
+    std::function<Refusal(host::Device&)> make;
 };
 
-Told askRequirements(host::Device& device, uint32_t structSize, uint32_t instanceVersion) {
+Refusal askRequirements(host::Device& device, uint32_t structSize, uint32_t instanceVersion) {
     SuppleRequirements needs{};
     needs.structSize = structSize;
     needs.instanceVersion = instanceVersion;
@@ -126,12 +126,12 @@ Told askRequirements(host::Device& device, uint32_t structSize, uint32_t instanc
     return {result, "`reason`", 0, needs.reason};
 }
 
-Told makeContext(host::Device& device, const std::function<void(SuppleContextDesc&)>& spoil) {
+Refusal makeContext(host::Device& device, const std::function<void(SuppleContextDesc&)>& spoil) {
     LoggedContext context(device, spoil);
     const std::vector<LogLine> lines = context.takeLines();
     EXPECT_EQ(lines.size(), 1u);
-    return lines.empty() ? Told{}
-                         : Told{context.result(), nameOfMessage(lines[0].message), lines[0].message, lines[0].text};
+    return lines.empty() ? Refusal{}
+                         : Refusal{context.result(), nameOfMessage(lines[0].message), lines[0].message, lines[0].text};
 }
 
 std::vector<EarlyMistake> earlyMistakes() {
@@ -377,7 +377,7 @@ void addShared(std::vector<Mistake>& rows) {
 }
 
 /// A row of the table.
-std::string rowOf(const char* what, const Told& told) {
+std::string rowOf(const char* what, const Refusal& told) {
     std::string row = std::string("| ") + what + " | `" + suppleResultString(told.result) + "` | ";
     row += told.id != 0 ? std::to_string(told.id) + " " + told.message : std::string(told.message);
     row += " |";
@@ -422,7 +422,7 @@ TEST(Mistakes, AreAnsweredAsTheDocumentSays) {
         commands.record([&](VkCommandBuffer recording) {
             scene = std::make_unique<Scene>(*device, recording);
             scene->own.takeLines();
-            Told told;
+            Refusal told;
             told.result = mistake.make(*scene);
             const std::vector<LogLine> lines = scene->own.takeLines();
             EXPECT_LE(lines.size(), 1u) << "one clear line";

@@ -44,9 +44,10 @@ constexpr Checked kShaders[] = {
     {"blend/evaluate.comp", "position"},
     {"fragments/limit.comp", "position"},
     {"fragments/fragment.comp", "position"},
-    {"pose/locals.comp", "local", true, true},
-    {"pose/roots.comp", "local", true, true},
-    {"pose/palette.comp", "placed", true, true},
+    {"pose/locals.comp", "local"},
+    {"pose/roots.comp", "local"},
+    {"pose/modify.comp", "local"},
+    {"pose/palette.comp", "placed"},
     {"polygons/face.comp", "canonical"},
     {"polygons/frame.comp", "canonical", true, true},
 };

@@ -143,7 +143,12 @@ TEST_F(Sockets, BindAndRestPosesAreThoseOfTheJointInfo) {
                 const SuppleJointInfo info = jointInfo(asset, j);
                 EXPECT_EQ(info.bindIsSingular, 0u);
                 EXPECT_EQ(socket(bound, j), std::to_array(info.bindTransform)) << "joint " << j;
-                EXPECT_EQ(socket(rests, j), std::to_array(info.restTransform)) << "joint " << j;
+                // The device's arithmetic has another last bit than the reader's doubles.
+                const Matrix at = socket(rests, j);
+                for (size_t k = 0; k < at.size(); ++k) {
+                    EXPECT_NEAR(at[k], info.restTransform[k], source == SUPPLE_POSES_SET ? 0.0f : 1e-6f)
+                        << "joint " << j;
+                }
                 different = different || std::memcmp(info.bindTransform, info.restTransform, sizeof(Matrix)) != 0;
             }
         }

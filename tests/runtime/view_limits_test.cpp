@@ -2,6 +2,7 @@
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
+#include "tests/support/side_by_side.h"
 #include "tests/support/test_view.h"
 #include "tools/common/procedural.h"
 
@@ -33,6 +34,16 @@ SuppleGroupDesc groupWithTwoRuns(CrowdContext& context, const TestView& view, ui
     desc.scheme = SUPPLE_SCHEME_PREP;
     desc.view = view.handle();
     return desc;
+}
+
+/// Corners of triangles by the bits of their positions, in an order of their own.
+std::vector<std::array<std::array<uint32_t, 3>, 3>> sortedTriangles(const LodSurface& surface) {
+    std::vector<std::array<std::array<uint32_t, 3>, 3>> corners;
+    for (const auto& [a, b, c] : surface.triangles) {
+        corners.push_back({surface.positions[a], surface.positions[b], surface.positions[c]});
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
 }
 
 TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
@@ -74,7 +85,7 @@ TEST_P(ViewLimits, PaddingLeavesSomethingOrTheGroupIsRefused) {
 TEST_P(ViewLimits, RunsOfAGroupLieSideBySide) {
     CrowdContext& context = CrowdContexts::context(GetParam());
     const ValidationGuard guard;
-    TestView view(context, 100'000), other(context, 100'000);
+    TestView view(context, 100'000, 0, 200), other(context, 100'000); // 200: as 256, whole steps
     SuppleGroupDesc desc = groupWithTwoRuns(context, view, 4);
     SuppleGroupDesc wider = desc; // regular, triangles, other quads
     wider.asset = context.createAsset(withCutQuads(cage::makeCubeSphere(8), 0.05, 1));
@@ -157,6 +168,73 @@ TEST_P(ViewLimits, WithoutAFaceThereIsNoGroup) {
     ASSERT_TRUE(cage.valid());
     (void)cage.spawn();
     context.run(cage.group());
+}
+
+// Sixty characters and more in one view: each comes out as it does alone.
+TEST_P(ViewLimits, AViewHasRoomForManyGroups) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 400'000), alone(context, 100'000);
+    SuppleGroupDesc desc = groupWithTwoRuns(context, view, 2);
+    const auto place = [](Crowd& crowd, float x) {
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), glm::vec3(x, 0.0f, 0.0f)));
+    };
+    std::vector<std::unique_ptr<Crowd>> crowds;
+    std::vector<SuppleGroup> groups;
+    for (uint32_t i = 0; i < 170; ++i) { // 340 runs
+        crowds.push_back(std::make_unique<Crowd>(context, desc));
+        ASSERT_TRUE(crowds.back()->valid());
+        groups.push_back(crowds.back()->group());
+        place(*crowds.back(), i == 169 ? 0.5f : 0.25f * static_cast<float>(i) - 20.0f);
+    }
+    desc.view = alone.handle();
+    Crowd single(context, desc);
+    ASSERT_TRUE(single.valid());
+    place(single, 0.5f);
+    groups.push_back(single.group());
+    view.look({0.0f, 0.0f, 12.0f});
+    alone.look({0.0f, 0.0f, 12.0f});
+    context.run(groups);
+    size_t patches = 0;
+    for (const auto& crowd : crowds) {
+        const size_t own = readLodPatches(*crowd).size();
+        EXPECT_EQ(own, crowd->output().surface.patchCount);
+        patches += own;
+    }
+    const LodSurface last = readLodSurface(*crowds.back()), wanted = readLodSurface(single);
+    EXPECT_EQ(sortedTriangles(last), sortedTriangles(wanted));
+    EXPECT_EQ(matchSides(last).unmatched, 0u);
+    context.run(groups);
+    EXPECT_EQ(view.statistics().patchCount, patches);
+}
+
+// So many runs that workgroups do not take their places together (shaders/lod/place.comp).
+TEST_P(ViewLimits, AGroupMayHaveManyMaterials) {
+    CrowdContext& context = CrowdContexts::context(GetParam());
+    const ValidationGuard guard;
+    TestView view(context, 400'000);
+    constexpr uint32_t kMaterials = 96;
+    cage::Character character = sideBySide(cage::makeCubeSphere(8), "patchwork", 1);
+    character.materials.resize(kMaterials);
+    cage::Cage& sphere = character.cage;
+    sphere.faceMaterials.clear();
+    for (uint32_t f = 0; f < sphere.faceCount(); ++f) {
+        sphere.faceMaterials.push_back(f * kMaterials / sphere.faceCount());
+    }
+    SuppleGroupDesc desc = groupWithTwoRuns(context, view, 2);
+    desc.asset = context.createAsset(character);
+    desc.capacity = 3;
+    Crowd crowd(context, desc);
+    ASSERT_TRUE(crowd.valid());
+    ASSERT_GT(crowd.output().levels.drawCount, 10 * kMaterials);
+    for (const float x : {-3.0f, 0.0f, 3.0f}) {
+        crowd.pose(crowd.spawn(), SUPPLE_BIND_POSE, 0.0, glm::translate(glm::mat4(1.0f), glm::vec3(x, 0.0f, 0.0f)));
+    }
+    view.look({0.0f, 0.0f, 12.0f});
+    context.run(crowd.group());
+    const LodSurface surface = readLodSurface(crowd);
+    EXPECT_EQ(surface.patches.size(), 3 * crowd.output().surface.patchCount);
+    EXPECT_EQ(matchSides(surface).unmatched, 0u);
 }
 
 // Any number of runs may stand before a group's.

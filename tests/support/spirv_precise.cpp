@@ -369,7 +369,7 @@ std::string stripped(const std::string& source, const std::string& name, uint32_
         }
         return all;
     }
-    const std::regex definition("\\n[A-Za-z0-9_]+ " + name + "\\([^)]*\\) \\{");
+    const std::regex definition("\\n(SUPPLE_SHARED_FUNCTION )?[A-Za-z0-9_]+ " + name + "\\([^)]*\\) \\{");
     std::smatch match;
     if (!std::regex_search(source, match, definition)) {
         return source;
@@ -377,9 +377,12 @@ std::string stripped(const std::string& source, const std::string& name, uint32_
     const size_t begin = static_cast<size_t>(match.position(0));
     size_t end = source.find("\n}", begin + 1);
     std::string body = source.substr(begin, end - begin);
-    for (size_t at = body.find("precise "); at != std::string::npos; at = body.find("precise ", at)) {
-        body.erase(at, 8);
-        ++removals;
+    // The headers that C++ compiles too have a word of their own for it.
+    for (const std::string word : {"SUPPLE_PRECISE ", "precise "}) {
+        for (size_t at = body.find(word); at != std::string::npos; at = body.find(word, at)) {
+            body.erase(at, word.size());
+            ++removals;
+        }
     }
     return source.substr(0, begin) + body + source.substr(end);
 }

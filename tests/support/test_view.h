@@ -11,12 +11,14 @@ namespace supple::test {
 
 class TestView {
 public:
-    TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0) : context_(context) {
+    TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0, uint32_t maxRuns = 0)
+        : context_(context) {
         SuppleViewDesc desc{};
         desc.structSize = sizeof(desc);
         desc.flags = flags;
         desc.maxVertices = maxVertices;
         desc.vertexFormat = SUPPLE_VERTEX_24;
+        desc.maxRuns = maxRuns;
         EXPECT_EQ(suppleCreateView(context.handle(), &desc, &view_), SUPPLE_OK);
         camera.structSize = sizeof(camera);
         camera.pixelsPerUnit = 869.0f; // 720 lines, 45 degrees

@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <span>
 #include <unistd.h>
 
 namespace supple::host {
@@ -398,6 +401,28 @@ TEST_F(MaterialPictureTest, TexturesInWebPAreShownWhereTheFirstImageCannotBe) {
         GTEST_SKIP() << "left out: built without libwebp";
     EXPECT_LE(furthest(colorAt(picture, 70, 100), glm::ivec3(255, 0, 0)), 2);
     EXPECT_LE(furthest(colorAt(picture, 170, 100), glm::ivec3(0, 64, 255)), 2);
+}
+
+TEST_F(MaterialPictureTest, TexturesInKtx2AreShown) {
+    for (const std::string name : {"etc1s", "etc1s_alpha", "uastc_alpha", "uastc_zstd", "uastc_zstd_alpha"}) {
+        SCOPED_TRACE(name);
+        std::ifstream stream(SUPPLE_TEST_DATA "/ktx2/" + name + ".ktx2", std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+        const Result<Picture> decoded = decodePicture(std::as_bytes(std::span(bytes)), name);
+        if (!decoded && decoded.error().message.find("built without Basis Universal") != std::string::npos)
+            GTEST_SKIP() << "left out: built without Basis Universal";
+        SceneFile file = square(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"extensions":)"
+                                R"({"KHR_materials_unlit":{}}})",
+                                {Picture{}});
+        file.samplers = {R"({"magFilter":9728,"minFilter":9728})"};
+        file.ktx2s = {bytes};
+        const Picture picture = draw(file, facing());
+        // ETC1S has five bits a channel, and steps of brightness.
+        EXPECT_LE(furthest(colorAt(picture, 90, 80), glm::ivec3(255, 0, 0)), 4);
+        EXPECT_LE(furthest(colorAt(picture, 150, 80), glm::ivec3(0, 255, 0)), 4);
+        EXPECT_LE(furthest(colorAt(picture, 90, 120), glm::ivec3(0, 0, 255)), 4);
+        EXPECT_LE(furthest(colorAt(picture, 150, 120), glm::ivec3(132, 66, 33)), 4);
+    }
 }
 
 std::string layered(const std::string& color, const std::string& name, const std::string& members) {

@@ -364,11 +364,15 @@ bool writeScene(const SceneFile& scene, const std::string& path) {
         if (i < scene.samplers.size())
             root["textures"][i]["sampler"] = i;
     }
-    for (size_t i = 0; i < scene.webps.size(); ++i) {
-        const std::string& bytes = scene.webps[i];
-        root["textures"][i]["extensions"]["EXT_texture_webp"]["source"] = root["images"].size();
-        root["images"].push_back({{"uri", "data:image/webp;base64," + encoded(bytes.data(), bytes.size())}});
-    }
+    const auto addOthers = [&](const std::vector<std::string>& images, const char* extension, const std::string& type) {
+        for (size_t i = 0; i < images.size(); ++i) {
+            root["textures"][i]["extensions"][extension]["source"] = root["images"].size();
+            root["images"].push_back(
+                {{"uri", "data:" + type + ";base64," + encoded(images[i].data(), images[i].size())}});
+        }
+    };
+    addOthers(scene.webps, "EXT_texture_webp", "image/webp");
+    addOthers(scene.ktx2s, "KHR_texture_basisu", "image/ktx2");
     accessors.writeTo(root);
     std::ofstream stream(path);
     stream << root.dump();

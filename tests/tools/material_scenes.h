@@ -31,6 +31,7 @@ struct SceneFile {
     std::vector<host::Picture> images;
     std::vector<std::string> samplers; ///< JSON
     std::vector<std::string> webps;    ///< bytes: texture i has them as EXT_texture_webp, behind its image
+    std::vector<std::string> ktx2s;    ///< as KHR_texture_basisu
 };
 
 /// A square of `cells` cells a side, facing +Z, the whole of a picture on it.

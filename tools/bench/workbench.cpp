@@ -188,7 +188,8 @@ void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) cons
 
 void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
     runtime::Group& group = inside_->group(id);
-    for (const runtime::Playback::Part part : runtime::Playback::kParts) {
+    using Part = runtime::Playback::Part;
+    for (const Part part : {Part::locals, Part::roots, Part::modifiers, Part::palette}) {
         if (group.poses().has(part)) {
             group.poses().recordPart(commands, part, group.windows());
             computeBarrier(commands);

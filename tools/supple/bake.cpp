@@ -34,6 +34,7 @@ struct BakeOptions {
     double time = 0.0;
     bool restPose = false; ///< as the nodes of the file stand
     std::vector<host::MorphSetting> morphs;
+    ModifierFlags modifiers;
     DeviceFlags device;
 };
 
@@ -131,7 +132,13 @@ int runBake(const BakeOptions& options) {
     if (!noPatches.empty()) {
         return fail(kExitUsage, noPatches);
     }
-    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights)};
+    Result<std::vector<SuppleModifier>> modifiers =
+        host::modifiersOf(file->character, options.modifiers.settings, options.modifiers.weight);
+    if (!modifiers) {
+        return fail(kExitBadInput, modifiers.error().message);
+    }
+    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights),
+                    std::move(*modifiers)};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
@@ -183,6 +190,7 @@ void bindBake(CLI::App& app, int& exitCode) {
     command->add_flag("--rest-pose", options->restPose, "The rest pose instead: as the nodes of the file stand")
         ->excludes(command->get_option("--clip"));
     bindMorphs(*command, options->morphs);
+    bindModifiers(*command, options->modifiers);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles),

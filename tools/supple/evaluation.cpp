@@ -2,6 +2,7 @@
 
 #include "cage/limits.h"
 #include "host/patches.h"
+#include "host/shaders/draw.h"
 
 #include <string>
 #include <utility>
@@ -91,13 +92,36 @@ void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
             sides += element<glm::vec4>(evaluation.deformedCage, range, cage.faceVertices[corner]).w;
         }
-        evaluation.mirroredFaces.push_back(sides <= 0.0f ? 1 : 0);
+        evaluation.mirroredFaces.push_back(host::shared::isMirrored(sides) ? 1 : 0);
     }
     for (EvaluatedSurface& surface : evaluation.surfaces) {
         for (const SupplePatchInfo& patch : surface.patches) {
             surface.mirrored.push_back(evaluation.mirroredFaces[patch.face]);
         }
     }
+}
+
+} // namespace
+
+namespace {
+
+/// The pose and what changes it, by the device: what stands plays with speed 0.
+Status playModified(host::Context& context, SuppleInstance instance, const Pose& pose) {
+    SupplePlaybackLayer layer{};
+    layer.clip = pose.clip;
+    layer.weight = 1.0f;
+    layer.offset = pose.time;
+    SupplePlaybackDesc playback{};
+    playback.structSize = sizeof playback;
+    playback.layers = &layer;
+    playback.layerCount = pose.clip == SUPPLE_BIND_POSE || pose.clip == SUPPLE_REST_POSE ? 0 : 1;
+    const Status status = context.check(suppleSetPlayback(context.handle(), instance, &playback), "suppleSetPlayback");
+    SuppleModifiersDesc modifiers{};
+    modifiers.structSize = sizeof modifiers;
+    modifiers.modifiers = pose.modifiers.data();
+    modifiers.modifierCount = static_cast<uint32_t>(pose.modifiers.size());
+    return status ? context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers")
+                  : status;
 }
 
 } // namespace
@@ -113,6 +137,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
+    const bool modified = !pose.modifiers.empty();
+    if (modified) {
+        desc.poseSource = SUPPLE_POSES_PLAYBACK;
+        desc.flags |= SUPPLE_GROUP_MODIFIERS;
+    }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);
     SuppleGroup group{};
@@ -124,8 +153,9 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
         status = context.check(suppleCreateInstance(context.handle(), group, &instance), "suppleCreateInstance");
     }
     if (status) {
-        status =
-            context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time), "suppleSetClipPose");
+        status = modified ? playModified(context, instance, pose)
+                          : context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time),
+                                          "suppleSetClipPose");
     }
     if (status && !pose.morphWeights.empty()) {
         status = context.check(suppleSetMorphWeights(context.handle(), instance, pose.morphWeights.data(),

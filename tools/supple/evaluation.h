@@ -33,7 +33,7 @@ struct EvaluatedSurface {
 struct Evaluation {
     std::vector<EvaluatedSurface> surfaces; ///< one or more
     std::vector<std::byte> deformedCage;
-    /// Per face of the cage: 1 if the pose mirrors half of its vertices or more. Winding and normals of what the
+    /// Per face of the cage: 1 if the pose mirrors it (host::shared::isMirrored). Winding and normals of what the
     /// device wrote show the inside of such a face as the outside.
     std::vector<uint8_t> mirroredFaces;
 };
@@ -50,7 +50,8 @@ template <class Vec>
 struct Pose {
     uint32_t clip = SUPPLE_BIND_POSE;
     double time = 0.0;
-    std::vector<float> morphWeights; ///< of all targets, instead of the clip's; empty: the clip's
+    std::vector<float> morphWeights;       ///< of all targets, instead of the clip's; empty: the clip's
+    std::vector<SuppleModifier> modifiers; ///< of any pose but the bind pose, which then is the rest pose
 };
 
 /// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.

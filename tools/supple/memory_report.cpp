@@ -17,8 +17,11 @@ constexpr Purpose kOnDevice[] = {
     {"tables", &SuppleMemoryUse::tables},     {"poses", &SuppleMemoryUse::poses},
     {"cages", &SuppleMemoryUse::cages},       {"coefficients", &SuppleMemoryUse::coefficients},
     {"vertices", &SuppleMemoryUse::vertices}, {"streams", &SuppleMemoryUse::streams},
-    {"lists", &SuppleMemoryUse::lists},       {"scratch", &SuppleMemoryUse::scratch}};
-constexpr Purpose kMapped[] = {{"staging", &SuppleMemoryUse::staging}, {"readback", &SuppleMemoryUse::readback}};
+    {"lists", &SuppleMemoryUse::lists},       {"scratch", &SuppleMemoryUse::scratch},
+    {"spare", &SuppleMemoryUse::spare}};
+constexpr Purpose kMapped[] = {{"staging", &SuppleMemoryUse::staging},
+                               {"readback", &SuppleMemoryUse::readback},
+                               {"spareVisible", &SuppleMemoryUse::spareVisible}};
 
 std::string mebibytes(VkDeviceSize bytes) {
     char text[32];

@@ -221,6 +221,23 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
                  "NAME=WEIGHT");
 }
 
+void bindModifiers(CLI::App& command, ModifierFlags& flags) {
+    bindSettings(command, "--set", flags.settings, host::parseSet,
+                 "Rotation of a joint in model space, instead of the clip's. May be given again", "JOINT=qx,qy,qz,qw");
+    bindSettings(
+        command, "--aim", flags.settings, host::parseAim,
+        "Point of model space to which a joint turns what looks along +Z in the rest pose, behind what is set. "
+        "May be given again",
+        "JOINT=x,y,z");
+    bindSettings(
+        command, "--two-bone", flags.settings, host::parseTwoBone,
+        "Point of model space to which the two bones above a joint bring it, behind what aims. May be given again",
+        "JOINT=x,y,z");
+    command.add_option("--weight", flags.weight, "How much of --set, --aim and --two-bone is done")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+}
+
 bool hasCoefficients(SuppleScheme wanted) {
     return std::any_of(std::begin(kSchemes), std::end(kSchemes),
                        [&](const Scheme& scheme) { return scheme.scheme == wanted && scheme.coefficients; });

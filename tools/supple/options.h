@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "tools/common/character_file.h"
+#include "tools/common/modifier_settings.h"
 #include "tools/common/morph_weights.h"
 #include "tools/common/part_settings.h"
 #include "tools/common/schemes.h"
@@ -86,6 +87,13 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
 
 /// --morph, as often as it is given.
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
+
+/// --set, --aim, --two-bone, each as often as it is given, and --weight.
+struct ModifierFlags {
+    std::vector<host::ModifierSetting> settings;
+    float weight = 1.0f;
+};
+void bindModifiers(CLI::App& command, ModifierFlags& flags);
 
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {

@@ -248,8 +248,8 @@ typedef struct SuppleMemoryCallbacks {
      * is mapped is required to be HOST_COHERENT. If `memory` or a needed `mapped` is null in spite of VK_SUCCESS, the
      * call that asked for memory fails with SUPPLE_ERROR_ARGUMENT, and `free` is called.
      *
-     * name is for the host's statistics, and valid during the call. It is the name of the first buffer in the memory,
-     * and says whose memory it is:
+     * name is for the host's statistics, and valid during the call. It is "supple block" for a block
+     * (SuppleContextDesc.memoryBlockSize). Else it is the name of the first buffer in the memory, and says whose it is:
      * - context: "supple parameter pairs"; on CPU devices "supple timings";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
      * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices";
@@ -301,6 +301,11 @@ typedef struct SuppleContextDesc {
      * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
+    /** Bytes of the largest block; 0: 256 MiB. Device memory is allocated by the block, each as large as all before it
+     * of its kind, from 8 MiB on (1 MiB if it is mapped). A block is freed when nothing is in it. What takes more than
+     * half of the largest, or what no block has room for within the budget (suppleSetMemoryBudget), is an allocation of
+     * its own. 1: everything is, for a host whose callbacks share out blocks themselves. */
+    VkDeviceSize memoryBlockSize;
 } SuppleContextDesc;
 
 /** Loads the device's functions. suppleCreateGroup compiles almost all pipelines. Errors: the device or the instance
@@ -913,7 +918,10 @@ typedef enum SuppleGroupFlags {
     /** Groups of a view with SUPPLE_VIEW_CULL: pose and deform every visible instance. Without this flag, instances
      * that surely are out of the camera's sight are left out before they are posed. Use it if you read poses or
      * deformed cages of instances that the camera does not see. */
-    SUPPLE_GROUP_POSE_UNSEEN = 512
+    SUPPLE_GROUP_POSE_UNSEEN = 512,
+    /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
+     * KiB of memory per instance, on the device if it plays. */
+    SUPPLE_GROUP_MODIFIERS = 1024
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1557,10 +1565,11 @@ SUPPLE_API SuppleResult suppleGetBudget(SuppleContext context, SupplePass pass, 
 /* ---------------------------------------------------------------------------------------------------- memory */
 
 /** Device memory in bytes, by purpose. It is what vkAllocateMemory or SuppleMemoryCallbacks gave, alignment included.
- * Each byte counts for one purpose, so the purposes add up to deviceLocal + hostVisible. */
+ * Each byte counts for one purpose, or is spare, so these add up to deviceLocal + hostVisible. */
 typedef struct SuppleMemoryUse {
     uint32_t structSize;
-    uint32_t allocationCount;  /**< successful calls of vkAllocateMemory or SuppleMemoryCallbacks.allocate */
+    /** Successful calls of vkAllocateMemory or SuppleMemoryCallbacks.allocate. Blocks count for the context alone. */
+    uint32_t allocationCount;
     VkDeviceSize deviceLocal;  /**< never mapped */
     VkDeviceSize hostVisible;  /**< mapped: staging and readback */
     VkDeviceSize tables;       /**< static: skins, clips, the tables of schemes, indices */
@@ -1573,6 +1582,8 @@ typedef struct SuppleMemoryUse {
     VkDeviceSize scratch;      /**< what one pass leaves for the next */
     VkDeviceSize staging;      /**< what goes up: per frame in flight, and of static tables until they are uploaded */
     VkDeviceSize readback;     /**< what comes back: statistics of views, boxes, timings on CPU devices */
+    VkDeviceSize spare;        /**< of the context alone: in blocks, and free for what comes; never mapped */
+    VkDeviceSize spareVisible; /**< the same of what is mapped */
 } SuppleMemoryUse;
 
 /** Fills out: all that the context has allocated and not yet freed. That is its assets, groups and views, the context's

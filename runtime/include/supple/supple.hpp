@@ -558,6 +558,17 @@ public:
         playback.layerCount = static_cast<uint32_t>(layers.size());
         return suppleSetPlayback(context_, handle_, &playback);
     }
+    /// Replaces the list; an empty span: none (SUPPLE_GROUP_MODIFIERS).
+    [[nodiscard]] SuppleResult setModifiers(Span<const SuppleModifier> modifiers) const {
+        SuppleModifiersDesc desc = sized<SuppleModifiersDesc>();
+        desc.modifiers = modifiers.data();
+        desc.modifierCount = static_cast<uint32_t>(modifiers.size());
+        return suppleSetModifiers(context_, handle_, &desc);
+    }
+    /// Of a modifier that is there.
+    [[nodiscard]] SuppleResult setModifierTarget(uint32_t index, const SuppleModifierTarget& target) const {
+        return suppleSetModifierTarget(context_, handle_, index, &target);
+    }
     /// An empty span: the weights are those of the poses again.
     [[nodiscard]] SuppleResult setMorphWeights(Span<const float> weights) const {
         return suppleSetMorphWeights(context_, handle_, weights.empty() ? nullptr : weights.data(),
@@ -566,6 +577,10 @@ public:
     [[nodiscard]] SuppleResult setMatrixPose(Span<const float> jointMatrices) const {
         return suppleSetMatrixPose(context_, handle_, jointMatrices.data(),
                                    static_cast<uint32_t>(jointMatrices.size() / 16));
+    }
+    /// Of some joints, with morph weights.
+    [[nodiscard]] SuppleResult setJointMatrices(const SuppleJointMatricesDesc& matrices) const {
+        return suppleSetJointMatrices(context_, handle_, &matrices);
     }
     [[nodiscard]] SuppleResult setTransform(MatrixSpan<const float> transform) const {
         return suppleSetTransform(context_, handle_, transform.data());

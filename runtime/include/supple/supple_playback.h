@@ -221,6 +221,118 @@ typedef struct SuppleMaskDesc {
  * pointers are null; a count is not the asset's; a value is outside of 0..1. */
 SUPPLE_API SuppleResult suppleSetMask(SuppleContext context, SuppleGroup group, const SuppleMaskDesc* mask);
 
+/* ---------------------------------------------------------------------------------------------------- matrices */
+
+/** Matrices of joints, or of some joints. */
+typedef struct SuppleJointMatricesDesc {
+    uint32_t structSize;
+    uint32_t jointCount;        /**< how many matrices; without `joints`, as many as the asset has joints */
+    const float* jointMatrices; /**< column-major, in model space: as suppleSetMatrixPose takes them */
+    const uint32_t* joints; /**< optional: the joints that the matrices are of, each once. The others stay as they are
+                             * posed, also those below */
+    const float*
+        morphWeights; /**< optional: those of the pose, instead of the rest pose's. Null with `joints`: they stay */
+    uint32_t morphTargetCount; /**< the asset's morphTargetCount; 0 if morphWeights is null */
+} SuppleJointMatricesDesc;
+/** As suppleSetMatrixPose, for some joints and with morph weights: for a ragdoll that moves a limb of what plays, or
+ * for an animation system that knows of morph targets. Arrays are read during the call. Weights of
+ * suppleSetMorphWeights stand before those of the pose. Errors: as of suppleSetMatrixPose; a joint that does not exist
+ * or comes twice; a weight that is not finite. */
+SUPPLE_API SuppleResult suppleSetJointMatrices(SuppleContext context, SuppleInstance instance,
+                                               const SuppleJointMatricesDesc* matrices);
+
+/* ---------------------------------------------------------------------------------------------------- modifiers */
+
+#define SUPPLE_MAX_MODIFIERS 16u /**< per instance: see suppleSetModifiers */
+#define SUPPLE_MAX_AIM_JOINTS 8u /**< see SuppleModifier.chainLength */
+
+/** What a modifier does.
+ * SET: the joint has `rotation`.
+ * ADD: the joint turns by `rotation`, in its own frame behind the clips' rotation.
+ * AIM: the joint turns so that the ray from its eye along its forward axis passes the target, and joints above it help.
+ * If the target is behind, it gives up: the weight fades while the angle between the ray in the clips' pose and the
+ * target goes from 120 to 160 degrees. If the target lies so close to a joint that no turn of it reaches, the joint
+ * stays. TWO_BONE: the joint is the end of a limb, a hand or a foot. Its two bones turn so that it comes to the target.
+ * What is out of reach pulls the limb nearly straight. The end keeps its rotation in model space. HAND_OVER: the joint
+ * stands at the target and has `rotation`, both in model space: what another simulation, a ragdoll say, makes of it.
+ * What hangs on it follows. */
+typedef enum SuppleModifierKind {
+    SUPPLE_MODIFIER_SET = 0,
+    SUPPLE_MODIFIER_ADD = 1,
+    SUPPLE_MODIFIER_AIM = 2,
+    SUPPLE_MODIFIER_TWO_BONE = 3,
+    SUPPLE_MODIFIER_HAND_OVER = 4,
+    SUPPLE_MODIFIER_MAX_ENUM = 0x7FFFFFFF
+} SuppleModifierKind;
+
+/** Options of a modifier. */
+typedef enum SuppleModifierFlags {
+    SUPPLE_MODIFIER_WORLD =
+        1, /**< AIM, TWO_BONE, HAND_OVER: target and pole are points of the world, not of model space */
+    SUPPLE_MODIFIER_POLE = 2,         /**< TWO_BONE: the middle joint, a knee or an elbow, points towards the pole */
+    SUPPLE_MODIFIER_END_ROTATION = 4, /**< TWO_BONE: the end has `rotation` in model space */
+    SUPPLE_MODIFIER_MODEL = 8 /**< SET, ADD: rotation is in model space, not in the frame of the joint's parent */
+} SuppleModifierFlags;
+
+/** A change of the pose behind the clips. Model space is that of the character, before the instance's transform; with
+ * root motion, it is where the clips have the character after what was taken out. Zeros of members that are not needed
+ * are fine. */
+typedef struct SuppleModifier {
+    SuppleModifierKind kind;
+    uint32_t flags;       /**< SuppleModifierFlags */
+    uint32_t joint;       /**< TWO_BONE: the end. The joint above it is the middle, the next one the root; joints whose
+                           * names differ from the next one's above in digits alone are parts of one bone */
+    uint32_t chainLength; /**< AIM: joints that turn, from `joint` upwards, 1..SUPPLE_MAX_AIM_JOINTS; 0 = 1 */
+    float weight;         /**< 0..1. 0: the pose keeps its bits. TWO_BONE and HAND_OVER: how far the joint goes towards
+                           * the target; else the part of the turn */
+    float fadeWeight;     /**< as in SupplePlaybackLayer */
+    float fadeDuration;   /**< seconds; 0: no fade */
+    float share;          /**< AIM: part of what is still missing that each joint above `joint` takes, 0..1 */
+    double fadeStart;     /**< the group's time at which the fade starts */
+    double target[3];     /**< a point of model space or of the world */
+    double pole[3];       /**< with POLE: the same */
+    float rotation[4];    /**< x, y, z, w; of any length but 0, if it is needed */
+    float axis[3]; /**< AIM: forward in the joint's frame; zeros: +Z of model space in the rest pose. TWO_BONE: the axis
+                    * in the middle joint's frame about which a straight limb bends; zeros: as in the rest pose */
+    float offset[3];  /**< AIM: the eye, in the joint's frame */
+    float limit;      /**< AIM: radians that each joint turns at most; 0: any */
+    float soft;       /**< TWO_BONE: from this part of its length on, the limb follows ever more slowly, so that it is
+                       * never quite straight: 0.5..0.999; 0 = 0.97 */
+    float poleWeight; /**< with POLE: 0..1 */
+} SuppleModifier;
+
+/** The modifiers of an instance. */
+typedef struct SuppleModifiersDesc {
+    uint32_t structSize;
+    uint32_t modifierCount; /**< at most SUPPLE_MAX_MODIFIERS; 0: none */
+    const SuppleModifier* modifiers;
+} SuppleModifiersDesc;
+
+/** Groups with SUPPLE_GROUP_MODIFIERS: replaces the instance's list of modifiers. They stay, whatever pose the instance
+ * has, but do nothing in the bind pose and in poses of matrices. They are executed in order, each on what the one
+ * before left, after the layers and root motion and before skinning: with SUPPLE_POSES_PLAYBACK on the device, else on
+ * the CPU, where weights do not fade. suppleGetJointTransform has what they do, to the bit. Turns are exact if no joint
+ * above scales unevenly or mirrors. A group of which no instance has ever had one costs no more than one without the
+ * flag. A view that culls leaves out instances before they are posed only if all that their modifiers turn moves in
+ * some clip, or hangs on what does, and none is HAND_OVER. The array is read during the call. Errors: the group has not
+ * the flag; too many; a kind, flag or joint that does not exist; a chain that is longer than the skeleton, or has a
+ * joint with a fixed matrix; a number out of range or not finite; a rotation of length 0. */
+SUPPLE_API SuppleResult suppleSetModifiers(SuppleContext context, SuppleInstance instance,
+                                           const SuppleModifiersDesc* modifiers);
+
+/** What of a modifier may change every frame. */
+typedef struct SuppleModifierTarget {
+    uint32_t structSize;
+    float weight;     /**< a fade ends */
+    double target[3]; /**< these three as in SuppleModifier */
+    double pole[3];
+    float rotation[4];
+} SuppleModifierTarget;
+/** Replaces the target, pole, rotation and weight of the instance's modifier `index`; all else stays. Errors: as of
+ * suppleSetModifiers; the instance has no modifier `index`. */
+SUPPLE_API SuppleResult suppleSetModifierTarget(SuppleContext context, SuppleInstance instance, uint32_t index,
+                                                const SuppleModifierTarget* target);
+
 #ifdef __cplusplus
 }
 #endif

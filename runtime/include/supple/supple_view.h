@@ -24,6 +24,7 @@ extern "C" {
 
 #define SUPPLE_PRIORITY_COUNT 4u           /**< see suppleSetPriority */
 #define SUPPLE_MAX_VIEW_VERTICES 50331648u /**< see SuppleViewDesc.maxVertices */
+#define SUPPLE_MAX_VIEW_RUNS 65472u        /**< see SuppleViewDesc.maxRuns */
 
 /* ---------------------------------------------------------------------------------------------------- view */
 
@@ -53,14 +54,17 @@ typedef struct SuppleViewDesc {
     /** Surface vertices per frame, of all groups: 1024 to SUPPLE_MAX_VIEW_VERTICES. Their memory is reserved at once.
      * A run of patches is the patches of a group that have one class (SupplePatchClass), one material and one window of
      * instances. A window is as many instances as the device can bind of every buffer. Each run reserves 192 vertices
-     * of padding. A view has room for 256 runs. suppleCreateGroup fails if no vertices or no runs would remain.
-     * FRAGMENTS and POLYGONS take no runs, but a view has at most 256 groups of these. */
+     * of padding. suppleCreateGroup fails if no vertices or no runs (maxRuns) would remain. */
     uint32_t maxVertices;
     SuppleVertexFormat vertexFormat; /**< of all groups */
     /** 0..1, by priority (suppleSetPriority). Over budget, levels are multiplied by factor^elasticity: 1 scales fully,
      * 0 protects. If a factor of 2^-8 is not enough, all priorities are scaled further down alike. All zero means the
      * default: 1, 1/2, 1/4, 0. */
     float elasticities[SUPPLE_PRIORITY_COUNT];
+    /** Runs of patches that there is room for, up to SUPPLE_MAX_VIEW_RUNS, of 9 KB each; rounded up to a multiple
+     * of 64. 0: as many as maxVertices has padding for, at most 1024. A character takes a run per class and material,
+     * about three to six. FRAGMENTS and POLYGONS take no runs, but a view has at most as many groups of these. */
+    uint32_t maxRuns;
 } SuppleViewDesc;
 
 /** Creates a view without groups. Errors: unknown flags, or flags without the one that they go with; maxVertices below

@@ -14,6 +14,7 @@ struct DracoCompression {
     bool fallback = false;   ///< accessors keep their bufferViews
     int positionBits = 14;
     uint32_t strideAttributes = 0; ///< so many attributes more that nobody asks for
+    std::string apart;             ///< an attribute that is not compressed
 };
 
 namespace draco_detail {
@@ -66,6 +67,9 @@ inline std::vector<std::byte> dracoCompressed(const GltfBuilder& builder, const 
             draco::Mesh encoded;
             nlohmann::json numbers;
             for (const auto& [name, index] : primitive["attributes"].items()) {
+                if (name == how.apart) {
+                    continue;
+                }
                 const nlohmann::json& accessor = root["accessors"][index.get<size_t>()];
                 numbers[name] = draco_detail::addAttribute(encoded, name, accessor, bytesOf(accessor));
                 compressed.push_back(index);

@@ -121,6 +121,22 @@ TEST(GltfDraco, EdgebreakerHasTheSameTriangles) {
     EXPECT_EQ(messageOf(bytes), "accepted");
 }
 
+TEST(GltfDraco, WhatIsNotCompressedIsToldIfVerticesAreReordered) {
+    const std::string said = "mesh 0 primitive 0 KHR_draco_mesh_compression: vertices are in another order than before "
+                             "they were compressed; what is not compressed must have that order, and is taken as it "
+                             "stands: ";
+    const Character c = readWell(dracoCompressed(sheet(6), {.apart = "TEXCOORD_0"}));
+    EXPECT_EQ(c.warnings, (Strings{said + "TEXCOORD_0", warningOf("1 primitive is")}));
+    EXPECT_EQ(c.cage.cornerUvs.size(), c.cage.faceVertices.size());
+    EXPECT_EQ(readWell(dracoCompressed(sheet(6), {.sequential = true, .apart = "TEXCOORD_0"})).warnings,
+              Strings{warningOf("1 primitive is")});
+    GltfBuilder moved = sheet(6);
+    const std::string target = std::to_string(moved.addFloats("VEC3", std::vector<float>(size_t{3} * 49, 0.5f)));
+    moved.meshes.insert(moved.meshes.size() - 4, R"(,"targets":[{"POSITION":)" + target + "}]");
+    EXPECT_EQ(readWell(dracoCompressed(moved)).warnings,
+              (Strings{said + "morph targets", warningOf("1 primitive is")}));
+}
+
 TEST(GltfDraco, BytesThatNeedNoDecodingAreTaken) {
     const Character plain = readWell(sheet(4));
     const Character c = readWell(dracoCompressed(sheet(4), {.fallback = true}));

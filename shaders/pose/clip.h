@@ -1,4 +1,7 @@
 // Sampling a clip, node by node: the keys of a channel, STEP, LINEAR and CUBICSPLINE as glTF has them, clamped outside.
+// Needs table(), tableFloats(), packedFloat() and `push`: GLSL has them from tables.glsl; in C++ this is the inside of a
+// class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are.
+#include "shaders/pose/nodes.h"
 
 // Where a time falls among a channel's keys: at key `key`, or at fraction `t` of the `seconds` from it to the next one.
 struct KeySpan {
@@ -11,15 +14,15 @@ KeySpan keysAt(uvec4 channel, vec2 time) {
     // that the first guess is right and nothing is left to search; what is left has the key between `low` and `high`.
     uint keys = channel.x >> 2u, low = 0u, high = keys;
     if (keys > 1u) {
-        uint guess = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0, float(keys - 2u)));
-        bool before = earlier(time, vec2(packedFloat(channel.z, guess), 0.0));
-        bool within = earlier(time, vec2(packedFloat(channel.z, guess + 1u), 0.0));
+        uint guess = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0f, float(keys - 2u)));
+        bool before = earlier(time, vec2(packedFloat(channel.z, guess), 0.0f));
+        bool within = earlier(time, vec2(packedFloat(channel.z, guess + 1u), 0.0f));
         low = before ? 0u : within ? guess + 1u : guess + 2u;
         high = before ? guess : within ? guess + 1u : keys;
     }
     while (low < high) {
         uint middle = (low + high) / 2u;
-        if (earlier(time, vec2(packedFloat(channel.z, middle), 0.0))) {
+        if (earlier(time, vec2(packedFloat(channel.z, middle), 0.0f))) {
             high = middle;
         } else {
             low = middle + 1u;
@@ -27,14 +30,14 @@ KeySpan keysAt(uvec4 channel, vec2 time) {
     }
     KeySpan span;
     span.key = max(low, 1u) - 1u;
-    span.t = 0.0;
-    span.seconds = 0.0;
+    span.t = 0.0f;
+    span.seconds = 0.0f;
     if (low > 0u && low < keys && (channel.x & 3u) != kStepKeys) {
         float begin = packedFloat(channel.z, span.key), end = packedFloat(channel.z, low);
-        precise float seconds = end - begin;
-        precise float passed = (time.x - begin) + time.y;
-        precise float t = passed / seconds;
-        if (passed > 0.0) {
+        SUPPLE_PRECISE float seconds = end - begin;
+        SUPPLE_PRECISE float passed = (time.x - begin) + time.y;
+        SUPPLE_PRECISE float t = passed * recip(max(seconds, 1e-30f));
+        if (passed > 0.0f) {
             span.t = t;
             span.seconds = seconds;
         }
@@ -44,8 +47,10 @@ KeySpan keysAt(uvec4 channel, vec2 time) {
 
 // Hermite's weights of a key, its tangent on leaving, the next key and its tangent on arriving.
 vec4 splineWeights(KeySpan span) {
-    precise float t = span.t, t2 = t * t, t3 = t2 * t;
-    precise vec4 weights = vec4((2.0 * t3 - 3.0 * t2) + 1.0, span.seconds * ((t3 - 2.0 * t2) + t), 3.0 * t2 - 2.0 * t3,
+    SUPPLE_PRECISE float t = span.t;
+    SUPPLE_PRECISE float t2 = t * t;
+    SUPPLE_PRECISE float t3 = t2 * t;
+    SUPPLE_PRECISE vec4 weights = vec4((2.0f * t3 - 3.0f * t2) + 1.0f, span.seconds * ((t3 - 2.0f * t2) + t), 3.0f * t2 - 2.0f * t3,
                                 span.seconds * (t3 - t2));
     return weights;
 }
@@ -56,8 +61,8 @@ vec4 channelAt(uint record, vec2 time, bool turns) {
     bool cubic = (channel.x & 3u) == kCubicKeys;
     uint own = channel.w + (cubic ? 3u * span.key + 1u : span.key);
     uint next = own + (cubic ? 3u : 1u);
-    precise vec4 value = tableFloats(own);
-    if (span.seconds > 0.0) {
+    SUPPLE_PRECISE vec4 value = tableFloats(own);
+    if (span.seconds > 0.0f) {
         vec4 other = tableFloats(next);
         if (cubic) {
             vec4 w = splineWeights(span);
@@ -71,43 +76,26 @@ vec4 channelAt(uint record, vec2 time, bool turns) {
     return value;
 }
 
-uint parentOf(uint node) { return table(kNodeElements * node).x; }
-bool isFixed(uint node) { return table(kNodeElements * node).y != 0u; }
-
-Transform restTransform(uint node) {
-    uint first = kNodeElements * node;
-    return Transform(tableFloats(first + 1u).xyz, tableFloats(first + 2u), tableFloats(first + 3u).xyz);
-}
-
 Transform clipTransform(uint clip, vec2 time, uint node) {
     uvec4 channels = table(table(push.clips + clip).x + node);
-    precise Transform t = restTransform(node);
+    SUPPLE_PRECISE Transform t = restTransform(node);
     // A loop over those that are there, so that the code is there once.
     uint paths = (channels.x != 0u ? 1u : 0u) | (channels.y != 0u ? 2u : 0u) | (channels.z != 0u ? 4u : 0u);
     for (; paths != 0u; paths &= paths - 1u) {
         uint path = uint(findLSB(paths));
         uint record = path == 0u ? channels.x : path == 1u ? channels.y : channels.z;
-        precise vec4 value = channelAt(record, time, path == 1u);
-        if (path == 0u) t.translation = value.xyz;
+        SUPPLE_PRECISE vec4 value = channelAt(record, time, path == 1u);
+        if (path == 0u) t.translation = vec3(value);
         if (path == 1u) t.rotation = value;
-        if (path == 2u) t.scale = value.xyz;
+        if (path == 2u) t.scale = vec3(value);
     }
     return t;
-}
-
-Affine localMatrix(uint node, Transform t) {
-    precise Affine m = composed(t);
-    if (isFixed(node)) {
-        uint first = kNodeElements * node;
-        m = Affine(tableFloats(first + 1u), tableFloats(first + 2u), tableFloats(first + 3u));
-    }
-    return m;
 }
 
 float clipMorphWeight(uint clip, vec2 time, uint target) {
     uint targets = table(push.clips + clip).y;
     uvec4 entry = targets != 0u ? table(targets + target) : uvec4(0u); // (channel, place in a value, numbers of a value, 0)
-    precise float weight = packedFloat(push.restWeights, target);
+    SUPPLE_PRECISE float weight = packedFloat(push.restWeights, target);
     if (entry.x != 0u) {
         uvec4 channel = table(entry.x);
         KeySpan span = keysAt(channel, time);
@@ -116,7 +104,7 @@ float clipMorphWeight(uint clip, vec2 time, uint target) {
         uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + entry.y;
         uint next = own + (cubic ? 3u : 1u) * stride;
         weight = packedFloat(channel.w, own);
-        if (span.seconds > 0.0) {
+        if (span.seconds > 0.0f) {
             float other = packedFloat(channel.w, next);
             if (cubic) {
                 vec4 w = splineWeights(span);

@@ -1,10 +1,8 @@
 // What an instance plays: its layers at the group's time, applied in order to the rest pose; as skinning/layers.h has it.
-// Needs tables.glsl and `const bool kAdds`, `kRoots`: whether layers may be additive, and roots move.
-#include "shaders/pose/time.glsl"
-#include "shaders/pose/rotation.glsl"
-#include "shaders/pose/affine.glsl"
-#include "shaders/pose/clip.glsl"
-#include "shaders/pose/root.glsl"
+// Needs state(), maskValues() and what clip.h needs, and `const bool kAdds`, `kRoots`: whether layers may be additive, and
+// roots move.
+#include "shaders/pose/clip.h"
+#include "shaders/pose/root.h"
 
 struct Layer {
     uint first; // state element
@@ -19,34 +17,28 @@ Layer layerAt(uint first) {
     uvec4 ids = state(first);
     vec4 begin = stateFloats(first + 1u), course = stateFloats(first + 2u);
     vec2 now = vec2(push.timeHigh, push.timeLow);
-    precise Layer layer;
+    SUPPLE_PRECISE Layer layer;
     layer.first = first;
     layer.clip = ids.x;
     layer.flags = ids.y;
     layer.mask = ids.z;
-    layer.time = timeSum(begin.zw, timeProduct(timeSum(now, -begin.xy), course.x));
-    layer.weight = course.y;
-    if (course.w > 0.0) {
-        vec2 since = timeSum(now, -stateFloats(first + 3u).xy);
-        precise float faded = since.x / course.w;
-        precise float weight = course.y + (course.z - course.y) * faded;
-        layer.weight = faded <= 0.0 ? course.y : faded >= 1.0 ? course.z : weight;
-    }
+    layer.time = timeSum(vec2(begin.z, begin.w), timeProduct(timeSum(now, -vec2(begin)), course.x));
+    layer.weight = fadedWeight(course.y, course.z, course.w, timeSum(now, -vec2(stateFloats(first + 3u))).x);
     return layer;
 }
 
-vec2 clipDuration(uint clip) { return tableFloats(push.clips + clip).zw; }
+vec2 clipDuration(uint clip) { return lastTwo(tableFloats(push.clips + clip)); }
 
 vec2 clipTime(Layer layer, vec2 time) {
     vec2 result = time;
     if ((layer.flags & kLayerLoops) != 0u) result = loopTime(time, clipDuration(layer.clip)).time;
     return result;
 }
-vec2 referenceTime(Layer layer) { return stateFloats(layer.first + 3u).zw; }
+vec2 referenceTime(Layer layer) { return lastTwo(stateFloats(layer.first + 3u)); }
 
 // A weight of the layer's mask: of a node, or behind the nodes of a morph target.
 float masked(Layer layer, uint element, uint i) {
-    precise float weight = layer.weight;
+    SUPPLE_PRECISE float weight = layer.weight;
     if (layer.mask != 0u) {
         weight = weight * component(maskValues((layer.mask - 1u) * push.maskStride + element + i / 4u), i & 3u);
     }
@@ -54,12 +46,12 @@ float masked(Layer layer, uint element, uint i) {
 }
 
 // The layer's clip at a time of the clip; with kRoots, of the root, with its movement taken out.
-Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node, inout Motion motion) {
-    precise Transform t;
+Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node, SUPPLE_INOUT(Motion) motion) {
+    SUPPLE_PRECISE Transform t;
     if (kRoots) {
         RootFrame now = rootFrame(layer.clip, time, node, header.w, t);
-        precise Motion moved =
-            motionSince(stateFloats(layer.first + 4u).xyz, stateFloats(layer.first + 5u), now, header.w);
+        SUPPLE_PRECISE Motion moved =
+            motionSince(vec3(stateFloats(layer.first + 4u)), stateFloats(layer.first + 5u), now, header.w);
         t = stayingRoot(now, moved, t, header.w);
         motion = moved;
     } else {
@@ -69,8 +61,8 @@ Transform layerTransform(uvec4 header, Layer layer, vec2 time, uint node, inout 
 }
 
 Transform blended(Transform pose, Transform to, float weight) {
-    precise Transform t = to;
-    if (weight != 1.0) {
+    SUPPLE_PRECISE Transform t = to;
+    if (weight != 1.0f) {
         t.translation = pose.translation + (to.translation - pose.translation) * weight;
         t.rotation = slerp(unit(pose.rotation), unit(to.rotation), weight);
         t.scale = pose.scale + (to.scale - pose.scale) * weight;
@@ -79,17 +71,18 @@ Transform blended(Transform pose, Transform to, float weight) {
 }
 
 float scaledBy(float scale, float to, float reference, float weight) {
-    precise float result = scale;
-    if (reference != 0.0) result = scale * (1.0 + weight * (to / reference - 1.0)); // of nothing, no factor makes something
+    SUPPLE_PRECISE float result = scale;
+    // Of nothing, no factor makes something.
+    if (abs(reference) > 1e-30f) result = scale * (1.0f + weight * (to * wideRecip(reference) - 1.0f));
     return result;
 }
 Transform added(Transform pose, Transform to, Transform reference, float weight) {
-    precise Transform t;
+    SUPPLE_PRECISE Transform t;
     t.translation = pose.translation + (to.translation - reference.translation) * weight;
     t.rotation = pose.rotation;
     if (to.rotation != reference.rotation) {
         vec4 difference = turned(conjugated(unit(reference.rotation)), unit(to.rotation));
-        t.rotation = turned(unit(pose.rotation), slerp(vec4(0.0, 0.0, 0.0, 1.0), difference, weight));
+        t.rotation = turned(unit(pose.rotation), turnedTimes(difference, weight));
     }
     t.scale = vec3(scaledBy(pose.scale.x, to.scale.x, reference.scale.x, weight),
                    scaledBy(pose.scale.y, to.scale.y, reference.scale.y, weight),
@@ -98,18 +91,18 @@ Transform added(Transform pose, Transform to, Transform reference, float weight)
 }
 
 // `sinceBegin`: with kRoots, what the first layer's root has moved by, whatever the layer's weight.
-Transform posedTransform(uint first, uint node, inout Motion sinceBegin) {
+Transform posedTransform(uint first, uint node, SUPPLE_INOUT(Motion) sinceBegin) {
     uvec4 header = state(first);
-    precise Transform pose = restTransform(node);
+    SUPPLE_PRECISE Transform pose = restTransform(node);
     for (uint i = 0u; i < header.x; ++i) {
         Layer layer = layerAt(first + kStateElements + i * kLayerElements);
         float weight = masked(layer, 0u, node);
         bool travels = kRoots && i == 0u;
-        if (weight != 0.0 || travels) {
-            precise Motion motion = sinceBegin;
+        if (weight != 0.0f || travels) {
+            SUPPLE_PRECISE Motion motion = sinceBegin;
             // A loop, so that the code is there once: what the layer adds to, then what it shows.
             bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
-            precise Transform reference = pose, to = pose;
+            SUPPLE_PRECISE Transform reference = pose, to = pose;
             if (kAdds) {
                 for (uint sampled = adds ? 0u : 1u; sampled < 2u; ++sampled) {
                     vec2 time = layer.time;
@@ -121,7 +114,7 @@ Transform posedTransform(uint first, uint node, inout Motion sinceBegin) {
                 to = layerTransform(header, layer, clipTime(layer, layer.time), node, motion);
             }
             if (travels) sinceBegin = motion;
-            if (weight != 0.0) {
+            if (weight != 0.0f) {
                 if (adds) {
                     pose = added(pose, to, reference, weight);
                 } else {
@@ -135,16 +128,16 @@ Transform posedTransform(uint first, uint node, inout Motion sinceBegin) {
 
 float posedMorphWeight(uint first, uint target) {
     uvec4 header = state(first);
-    precise float pose = packedFloat(push.restWeights, target);
+    SUPPLE_PRECISE float pose = packedFloat(push.restWeights, target);
     for (uint i = 0u; i < header.x; ++i) {
         Layer layer = layerAt(first + kStateElements + i * kLayerElements);
         float weight = masked(layer, (push.nodeCount + 3u) / 4u, target);
-        if (weight != 0.0) {
+        if (weight != 0.0f) {
             float to = clipMorphWeight(layer.clip, clipTime(layer, layer.time), target);
             if (kAdds && (layer.flags & kLayerAdds) != 0u) {
                 float from = clipMorphWeight(layer.clip, clipTime(layer, referenceTime(layer)), target);
                 pose = pose + (to - from) * weight;
-            } else if (weight == 1.0) {
+            } else if (weight == 1.0f) {
                 pose = to;
             } else {
                 pose = pose + (to - pose) * weight;
@@ -155,6 +148,40 @@ float posedMorphWeight(uint first, uint target) {
 }
 
 Affine transformOf(uint first) {
-    precise Affine m = Affine(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
+    SUPPLE_PRECISE Affine m = rowsOf(stateFloats(first + 1u), stateFloats(first + 2u), stateFloats(first + 3u));
     return m;
+}
+
+// Four of the weights that the deform pass reads: the host's, or those of what is played.
+vec4 morphWeights(uint first, uint quad) {
+    uint flags = state(first).y;
+    SUPPLE_PRECISE vec4 weights = vec4(0.0f);
+    if ((flags & kStateHostWeights) != 0u) {
+        weights = stateFloats(first + kStateElements + kMaxPlaybackLayers * kLayerElements + quad);
+    } else if ((flags & kStateBindPose) == 0u) {
+        uint count = min(push.morphCount - 4u * quad, 4u);
+        for (uint k = 0u; k < count; ++k) {
+            SUPPLE_PRECISE float weight = posedMorphWeight(first, 4u * quad + k);
+            if (k == 0u) weights.x = weight;
+            if (k == 1u) weights.y = weight;
+            if (k == 2u) weights.z = weight;
+            if (k == 3u) weights.w = weight;
+        }
+    }
+    return weights;
+}
+
+// The instance's transform, after what the first layer's root has moved by since its clip began.
+Affine travelled(uint first, Motion sinceBegin) {
+    Layer layer = layerAt(first + kStateElements);
+    vec4 before = stateFloats(first + 4u), turns = stateFloats(first + 5u), center = stateFloats(first + 6u);
+    SUPPLE_PRECISE float loops = 0.0f;
+    if ((layer.flags & kLayerLoops) != 0u) loops = loopTime(layer.time, clipDuration(layer.clip)).loops;
+    SUPPLE_PRECISE Motion motion = combinedMotion(loopsMotion(loops, lastTwo(turns), center), sinceBegin);
+    motion = combinedMotion(motionOf(vec3(before), vec2(turns)), motion);
+    vec3 x = turnedAboutY(motion.halfTurn, vec3(1.0f, 0.0f, 0.0f));
+    vec3 z = turnedAboutY(motion.halfTurn, vec3(0.0f, 0.0f, 1.0f));
+    return combined(transformOf(first), rowsOf(vec4(x.x, 0.0f, z.x, motion.translation.x),
+                                               vec4(0.0f, 1.0f, 0.0f, motion.translation.y),
+                                               vec4(x.z, 0.0f, z.z, motion.translation.z)));
 }

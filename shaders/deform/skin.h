@@ -1,0 +1,132 @@
+// What a vertex of the cage becomes: morph targets, then skinning. Needs table(), pose(), `push`, and `bool kMorphs`,
+// `kDualQuaternions`: GLSL has them from deform.comp; in C++ this is the inside of a class (skinning/deform_twin.cpp).
+// Whatever feeds the position is `precise`: both mappings and the CPU must give the same cage, bit for bit.
+
+vec3 placeOf(uint x, uint y, uint z) { return vec3(uintBitsToFloat(x), uintBitsToFloat(y), uintBitsToFloat(z)); }
+
+// The affine matrix whose rows begin at pose element `i`, applied to a point.
+vec3 transformed(uint i, vec3 p) {
+    vec4 a = pose(i), b = pose(i + 1u), c = pose(i + 2u);
+    SUPPLE_PRECISE vec3 q = vec3((a.x * p.x + a.y * p.y) + (a.z * p.z + a.w), (b.x * p.x + b.y * p.y) + (b.z * p.z + b.w),
+                          (c.x * p.x + c.y * p.y) + (c.z * p.z + c.w));
+    return q;
+}
+
+vec3 weighted(uint i, float weight, vec3 p) {
+    SUPPLE_PRECISE vec3 q = transformed(i, p);
+    SUPPLE_PRECISE vec3 r = q * weight;
+    return r;
+}
+
+// The rest position with the displacements of elements [first, end); `weights`: first element of the instance's weights.
+// Weights of zero leave the bits but for the sign of a zero, which no sum of skinning keeps.
+vec3 morphed(vec3 rest, uint first, uint end, uint weights) {
+    SUPPLE_PRECISE vec3 p = rest;
+    for (uint element = first; element < end; ++element) {
+        uvec4 displacement = table(element);
+        vec4 four = pose(weights + displacement.x / 4u);
+        vec2 two = (displacement.x & 2u) == 0u ? vec2(four) : vec2(four.z, four.w);
+        float weight = (displacement.x & 1u) == 0u ? two.x : two.y;
+        p = p + placeOf(displacement.y, displacement.z, displacement.w) * weight;
+    }
+    return p;
+}
+
+// sum_j weight_j * matrix_j * rest
+vec3 blendedLinearly(vec3 rest, uint first, uint end, uint joints) {
+    SUPPLE_PRECISE vec3 p = vec3(0.0f);
+    // Tested at the top: in a do-while, Mesa 22.3f's lavapipe goes on adding for lanes that have finished.
+    for (uint element = first; element < end; ++element) {
+        uvec4 pair = table(element);
+        SUPPLE_PRECISE vec3 a = weighted(joints + kLinearElements * pair.x, uintBitsToFloat(pair.y), rest);
+        SUPPLE_PRECISE vec3 b = weighted(joints + kLinearElements * pair.z, uintBitsToFloat(pair.w), rest);
+        p = p + (a + b);
+    }
+    return p;
+}
+
+// What a joint adds: its rotation, and what it moves the vertex by from the anchor, times its rotation.
+struct Influence {
+    vec4 rotation;
+    vec4 moved;
+};
+Influence influence(uint joint, float weight, vec3 rest, vec3 anchor, vec4 hemisphere) {
+    vec4 rotation = pose(joint + 3u);
+    // q and -q are one rotation; the one on the heaviest joint's side goes the short way.
+    SUPPLE_PRECISE vec4 aligned = rotation * hemisphere;
+    SUPPLE_PRECISE float signedWeight = sum4(aligned) < 0.0f ? -weight : weight;
+    SUPPLE_PRECISE vec3 d = transformed(joint, rest) - anchor;
+    SUPPLE_PRECISE vec3 across = crossed(d, vec3(rotation));
+    SUPPLE_PRECISE vec3 products = d * vec3(rotation);
+    SUPPLE_PRECISE vec4 moved = vec4(d * rotation.w + across, -((products.x + products.y) + products.z));
+    SUPPLE_PRECISE Influence result;
+    result.rotation = rotation * signedWeight;
+    result.moved = moved * signedWeight;
+    return result;
+}
+
+// Dual quaternion linear blending (Kavan, Collins, Zara, O'Sullivan: Geometric Skinning with Approximate Dual Quaternion
+// Blending, ACM TOG 27(4), 2008), whose result does not depend on where the origin of the rest space lies: here it lies at
+// the vertex, so that joint j takes the origin to y_j = matrix_j * rest and the blend's translation is the result,
+// vec(sum_j w_j y_j q_j conj(q)) / |q|^2 with q = sum_j w_j q_j. Scale and shear move y_j and leave the rotation q_j alone:
+// the paper's scaling phase with the vertex as the fixed point of every joint's scaling, as in Blender (issues 32022, 43188,
+// 100373); scaled about any other point, neighbors of different scale and rotation pull the vertices between them away.
+// Points are taken from an anchor, the heaviest joint's y: one joint alone gives its matrix times the vertex.
+vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
+    uint heaviest = joints + kDualQuaternionElements * table(first).x;
+    SUPPLE_PRECISE vec3 anchor = transformed(heaviest, rest);
+    vec4 hemisphere = pose(heaviest + 3u);
+    SUPPLE_PRECISE vec4 q = vec4(0.0f);
+    SUPPLE_PRECISE vec4 moved = vec4(0.0f);
+    for (uint element = first; element < end; ++element) {
+        uvec4 pair = table(element);
+        SUPPLE_PRECISE Influence a =
+            influence(joints + kDualQuaternionElements * pair.x, uintBitsToFloat(pair.y), rest, anchor, hemisphere);
+        SUPPLE_PRECISE Influence b =
+            influence(joints + kDualQuaternionElements * pair.z, uintBitsToFloat(pair.w), rest, anchor, hemisphere);
+        q = q + (a.rotation + b.rotation);
+        moved = moved + (a.moved + b.moved);
+    }
+    SUPPLE_PRECISE vec3 across = crossed(vec3(q), vec3(moved));
+    SUPPLE_PRECISE vec3 turned = (vec3(moved) * q.w - vec3(q) * moved.w) + across;
+    SUPPLE_PRECISE vec4 squares = q * q;
+    SUPPLE_PRECISE vec3 p = anchor + turned * wideRecip(sum4(squares));
+    return p;
+}
+
+// Whether the matrix whose rows begin at pose element `i` mirrors: -1 if it does, else 1. A matrix that flattens does not.
+float sideOf(uint i) {
+    vec3 a = vec3(pose(i)), b = vec3(pose(i + 1u)), c = vec3(pose(i + 2u));
+    vec3 sizes = max(max(abs(a), abs(b)), abs(c));
+    float scale = broughtDown(largestOf(sizes)); // of one scale, so that tiny figures have a determinant
+    SUPPLE_PRECISE vec3 across = crossed(a * scale, b * scale);
+    SUPPLE_PRECISE vec3 products = across * (c * scale);
+    SUPPLE_PRECISE float determinant = (products.x + products.y) + products.z;
+    return determinant < 0.0f ? -1.0f : 1.0f;
+}
+
+// A cage vertex, of the instance whose pose begins at element `joints`; w is its side: -1 if the joint that moves it most
+// mirrors, with the instance's transform, else 1.
+vec4 deformedVertex(uint index, uint joints) {
+    uvec4 vertex = table(index);
+    vec3 rest = placeOf(vertex.x, vertex.y, vertex.z);
+    uint first = vertex.w, end = table(index + 1u).w;
+
+    if (kMorphs) {
+        uint influences = table(push.firstInfluences + index / 4u)[index & 3u];
+        rest = morphed(rest, first, influences, joints + push.morphWeights);
+        first = influences;
+    }
+    uint heaviest = table(first).x;
+    SUPPLE_PRECISE vec3 p;
+    float side;
+    if (kDualQuaternions) {
+        side = sideOf(joints) * sideOf(joints + kDualQuaternionTransform + kDualQuaternionElements * heaviest);
+        p = blendedAsDualQuaternions(rest, first, end, joints + kDualQuaternionTransform);
+        p = transformed(joints, p);
+    } else {
+        side = sideOf(joints + kLinearElements * heaviest);
+        p = blendedLinearly(rest, first, end, joints);
+    }
+    return vec4(p, side);
+}

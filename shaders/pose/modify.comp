@@ -1,0 +1,41 @@
+// Pose pass, third part, for groups with modifiers: what instances have of these changes local transforms, behind the root's.
+// One invocation an instance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/pose/tables.glsl"
+#include "shaders/pose/limbs.h"
+#include "shaders/pose/time.h"
+
+layout(set = 0, binding = kScratchPoseBinding, std430) buffer Scratch { vec4 scratch[]; };
+
+uint locals = 0u; // of the instance
+Transform nodeLocal(uint node) {
+    uint i = locals + kAffineElements * node;
+    Transform t;
+    t.translation = scratch[i].xyz;
+    t.rotation = scratch[i + 1u];
+    t.scale = scratch[i + 2u].xyz;
+    return t;
+}
+bool listed = false;
+void keepLocal(uint node, Transform t) {
+    precise Transform local = t;
+    uint i = locals + kAffineElements * node;
+    if (listed) {
+        scratch[i] = vec4(local.translation, 0.0);
+        scratch[i + 1u] = local.rotation;
+    }
+}
+Affine placement() {
+    uint i = locals + kAffineElements * push.nodeCount;
+    return rowsOf(scratch[i], scratch[i + 1u], scratch[i + 2u]);
+}
+#include "shaders/pose/modify.h"
+
+void main() {
+    uint id = invocationIndex();
+    listed = id < push.instanceCount; // lanes beyond the instances must not store: others change what they have read
+    uint instance = instanceSlot(min(id, push.instanceCount - 1u));
+    locals = instance * push.scratchStride;
+    modifyInstance(instance * push.stateStride);
+}

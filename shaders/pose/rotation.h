@@ -1,0 +1,185 @@
+// Rotations as quaternions (x, y, z, w), from additions, multiplications and bits alone (shaders/shared/elementary.h).
+#ifndef SUPPLE_POSE_ROTATION_H
+#define SUPPLE_POSE_ROTATION_H
+
+#include "shaders/shared/vectors.h"
+
+SUPPLE_SHARED_BEGIN
+
+// Of any moderate x: the Taylor series about the nearest zero.
+SUPPLE_SHARED_FUNCTION float sine(float x) {
+    SUPPLE_PRECISE float zero = floor(x * 0.31830988618f + 0.5f);
+    SUPPLE_PRECISE float r = (x - zero * 3.140625f) - zero * 9.67653589793e-4f;
+    SUPPLE_PRECISE float q = r * r;
+    SUPPLE_PRECISE float series =
+        1.0f + q * (-1.6666666667e-1f +
+                    q * (8.3333333333e-3f + q * (-1.9841269841e-4f + q * (2.7557319224e-6f + q * -2.5052108385e-8f))));
+    SUPPLE_PRECISE float value = r * series;
+    SUPPLE_PRECISE float odd = zero - 2.0f * floor(0.5f * zero);
+    SUPPLE_PRECISE float side = 1.0f - 2.0f * odd;
+    SUPPLE_PRECISE float result = side * value;
+    return result;
+}
+SUPPLE_SHARED_FUNCTION float cosine(float x) {
+    SUPPLE_PRECISE float shifted = x + 1.57079632679f;
+    return sine(shifted);
+}
+
+SUPPLE_SHARED_FUNCTION vec4 noTurn() { return vec4(0.0f, 0.0f, 0.0f, 1.0f); }
+
+// Of unit length; a zero quaternion counts as no rotation.
+SUPPLE_SHARED_FUNCTION vec4 unit(vec4 q) {
+    SUPPLE_PRECISE float size = max(largestOf(abs(vec3(q))), abs(q.w));
+    SUPPLE_PRECISE vec4 scaled = q * broughtDown(size); // so that squares neither vanish nor overflow
+    if (!(size > 1e-30f)) scaled = noTurn();
+    SUPPLE_PRECISE vec4 result = scaled * rsqrt(dot4(scaled, scaled));
+    return result;
+}
+
+SUPPLE_SHARED_FUNCTION vec4 conjugated(vec4 q) { return vec4(-q.x, -q.y, -q.z, q.w); }
+
+// b, then a.
+SUPPLE_SHARED_FUNCTION vec4 turned(vec4 a, vec4 b) {
+    SUPPLE_PRECISE vec3 across = crossed(vec3(a), vec3(b));
+    SUPPLE_PRECISE vec3 xyz = (vec3(b) * a.w + vec3(a) * b.w) + across;
+    SUPPLE_PRECISE float w = a.w * b.w - dot3(vec3(a), vec3(b));
+    return vec4(xyz, w);
+}
+
+// How far to go along the chord of an arc for the share t of its angle, 0 <= t <= 1; d: cosine of the arc's angle as a
+// quaternion, at least 0.5. 8e-7 rad at most beside slerp.
+SUPPLE_SHARED_FUNCTION float slerpShare(float t, float d) {
+    SUPPLE_PRECISE float s = t - 0.5f;
+    SUPPLE_PRECISE float y = s * s;
+    SUPPLE_PRECISE float z = 1.0f - d;
+    SUPPLE_PRECISE float a =
+        7.4518983e-05f + z * (0.66522551f + z * (0.14137051f + z * (0.018982558f + z * 0.032323431f)));
+    SUPPLE_PRECISE float b =
+        -0.00057003484f + z * (0.0089349691f + z * (0.49702594f + z * (0.24681839f + z * 0.056048453f)));
+    SUPPLE_PRECISE float c =
+        0.0035089145f + z * (-0.069185898f + z * (0.39374328f + z * (-0.51871574f + z * 1.3088357f)));
+    SUPPLE_PRECISE float share = t + ((t * s) * (t - 1.0f)) * (a + y * (b + y * c));
+    return share;
+}
+
+// Along the shorter way, 0 <= t <= 1, between rotations of unit length. The result's length is not 1.
+SUPPLE_SHARED_FUNCTION vec4 slerp(vec4 a, vec4 b, float t) {
+    SUPPLE_PRECISE float d = dot4(a, b);
+    SUPPLE_PRECISE vec4 from = a;
+    SUPPLE_PRECISE vec4 to = b * (d < 0.0f ? -1.0f : 1.0f);
+    SUPPLE_PRECISE float cosineOfArc = min(abs(d), 1.0f);
+    SUPPLE_PRECISE float part = t;
+    if (cosineOfArc < 0.5f) { // more than 120 degrees: one of the halves
+        SUPPLE_PRECISE float ofHalf = 2.0f + 2.0f * cosineOfArc;
+        SUPPLE_PRECISE float root = rsqrt(ofHalf);
+        SUPPLE_PRECISE vec4 middle = (from + to) * root;
+        part = t + t;
+        if (part > 1.0f) {
+            part = part - 1.0f;
+            from = middle;
+        } else {
+            to = middle;
+        }
+        cosineOfArc = 0.5f * (ofHalf * root);
+    }
+    SUPPLE_PRECISE float share = slerpShare(part, cosineOfArc);
+    SUPPLE_PRECISE vec4 q = from + (to - from) * share;
+    return q;
+}
+
+// The unit rotation q, t times over, the shorter way; t may be any number.
+SUPPLE_SHARED_FUNCTION vec4 turnedTimes(vec4 q, float t) {
+    SUPPLE_PRECISE vec4 shorter = q * (q.w < 0.0f ? -1.0f : 1.0f);
+    SUPPLE_PRECISE float squared = dot3(vec3(shorter), vec3(shorter));
+    SUPPLE_PRECISE float root = rsqrt(max(squared, 1e-30f));
+    SUPPLE_PRECISE float size = squared * root; // the sine of half the angle
+    SUPPLE_PRECISE float low = min(size, shorter.w);
+    SUPPLE_PRECISE float ratio = low * recip(max(size, shorter.w));
+    SUPPLE_PRECISE float angle = angleOf(ratio);
+    if (size > shorter.w) angle = 1.57079632679f - angle;
+    SUPPLE_PRECISE float turn = t * angle;
+    SUPPLE_PRECISE float along = sine(turn) * root;
+    if (size < 1e-6f) along = t; // too short to divide by its sine
+    SUPPLE_PRECISE vec3 axis = vec3(shorter) * along;
+    return vec4(axis, cosine(turn));
+}
+
+// The symmetric m times itself, brought down to a trace in [1, 2) before.
+SUPPLE_SHARED_FUNCTION mat4 squared(mat4 m) {
+    SUPPLE_PRECISE float trace = (m[0][0] + m[1][1]) + (m[2][2] + m[3][3]);
+    float scale = broughtDown(trace);
+    SUPPLE_PRECISE vec4 a = m[0] * scale;
+    SUPPLE_PRECISE vec4 b = m[1] * scale;
+    SUPPLE_PRECISE vec4 c = m[2] * scale;
+    SUPPLE_PRECISE vec4 d = m[3] * scale;
+    float ab = dot4(a, b), ac = dot4(a, c), ad = dot4(a, d), bc = dot4(b, c), bd = dot4(b, d), cd = dot4(c, d);
+    return mat4(vec4(dot4(a, a), ab, ac, ad), vec4(ab, dot4(b, b), bc, bd), vec4(ac, bc, dot4(c, c), cd),
+                vec4(ad, bd, cd, dot4(d, d)));
+}
+
+// The column with the largest diagonal entry.
+SUPPLE_SHARED_FUNCTION vec4 largestColumn(mat4 m) {
+    vec4 column = m[0];
+    float largest = m[0][0];
+    if (m[1][1] > largest) {
+        largest = m[1][1];
+        column = m[1];
+    }
+    if (m[2][2] > largest) {
+        largest = m[2][2];
+        column = m[2];
+    }
+    if (m[3][3] > largest) {
+        column = m[3];
+    }
+    return column;
+}
+
+// The polar factor of the matrix with these columns, that is, the nearest rotation; as skinning/rotation.h has it. It is
+// the eigenvector of the largest eigenvalue of Davenport's form, found by squaring: the others fade.
+SUPPLE_SHARED_FUNCTION vec4 nearestRotation(vec3 x, vec3 y, vec3 z) {
+    SUPPLE_PRECISE float size = largestOf(max(max(abs(x), abs(y)), abs(z)));
+    SUPPLE_PRECISE float scale = broughtDown(size);
+    SUPPLE_PRECISE vec3 a = x * scale;
+    SUPPLE_PRECISE vec3 b = y * scale;
+    SUPPLE_PRECISE vec3 c = z * scale;
+    SUPPLE_PRECISE vec3 ab = crossed(a, b);
+    SUPPLE_PRECISE float determinant = dot3(ab, c);
+    float side = determinant < 0.0f ? -1.0f : 1.0f; // a mirroring matrix: all of a mirrored skeleton turns alike
+    a = a * side;
+    b = b * side;
+    c = c * side;
+    SUPPLE_PRECISE float aa = dot3(a, a);
+    SUPPLE_PRECISE float bb = dot3(b, b);
+    SUPPLE_PRECISE float cc = dot3(c, c);
+    SUPPLE_PRECISE float bend = max(abs(dot3(a, b)), max(abs(dot3(a, c)), abs(dot3(b, c))));
+    SUPPLE_PRECISE float skew = max(bend, max(abs(bb - aa), abs(cc - aa)));
+    // Nearly a rotation times a factor f: the other three eigenvalues lie near -f, and form + f leaves little of their
+    // vectors. Else the form is raised by more than its smallest eigenvalue, and squared until the others have faded.
+    bool even = determinant != 0.0f && skew <= 1e-3f * aa;
+    SUPPLE_PRECISE float squares = max((aa + bb) + cc, 1e-30f);
+    SUPPLE_PRECISE float length = squares * rsqrt(squares);
+    SUPPLE_PRECISE float raised = length * (even ? 0.57735027f : 1.7320509f);
+    // trace(R(q)^T m), (x, y, z, w)
+    SUPPLE_PRECISE float xy = b.x + a.y;
+    SUPPLE_PRECISE float xz = c.x + a.z;
+    SUPPLE_PRECISE float yz = c.y + b.z;
+    SUPPLE_PRECISE float xw = b.z - c.y;
+    SUPPLE_PRECISE float yw = c.x - a.z;
+    SUPPLE_PRECISE float zw = a.y - b.x;
+    SUPPLE_PRECISE vec4 diagonal = vec4((a.x - b.y) - c.z, (b.y - a.x) - c.z, (c.z - b.y) - a.x, (a.x + b.y) + c.z) + raised;
+    mat4 form = mat4(vec4(diagonal.x, xy, xz, xw), vec4(xy, diagonal.y, yz, yw), vec4(xz, yz, diagonal.z, zw),
+                     vec4(xw, yw, zw, diagonal.w));
+    int rounds = even ? 1 : 10;
+    for (int i = 0; i < rounds; ++i) {
+        form = squared(form);
+    }
+    vec4 q = unit(largestColumn(form));
+    SUPPLE_PRECISE vec4 sharper = vec4(dot4(form[0], q), dot4(form[1], q), dot4(form[2], q), dot4(form[3], q));
+    if (!(size > 1e-30f)) sharper = noTurn();
+    return unit(sharper);
+}
+
+SUPPLE_SHARED_END
+
+#endif

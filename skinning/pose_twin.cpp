@@ -1,0 +1,182 @@
+#include "skinning/pose_twin.h"
+
+#include "shaders/pose/affine.h"
+#include "shaders/pose/limbs.h"
+#include "shaders/pose/time.h"
+#include "shaders/shared/pose.h"
+#include "skinning/playback.h"
+#include "skinning/split_time.h"
+
+#include <bit>
+
+namespace supple::twin {
+
+using namespace shared;
+
+namespace {
+
+/// What GLSL has from shaders/pose/tables.glsl.
+struct PoseLoads {
+    const uint32_t* tableWords = nullptr;
+    const uint32_t* stateWords = nullptr;
+    const float* masks = nullptr;
+    PosePush push;
+
+    [[nodiscard]] uvec4 table(uint i) const { return elementOf(tableWords, i); }
+    [[nodiscard]] uvec4 state(uint i) const { return elementOf(stateWords, i); }
+    [[nodiscard]] vec4 tableFloats(uint i) const { return floatsOf(table(i)); }
+    [[nodiscard]] vec4 stateFloats(uint i) const { return floatsOf(state(i)); }
+    [[nodiscard]] vec4 maskValues(uint i) const {
+        const float* const v = masks + 4 * size_t{i};
+        return {v[0], v[1], v[2], v[3]};
+    }
+    [[nodiscard]] static float component(const vec4& v, uint k) { return v[static_cast<int>(k)]; }
+    [[nodiscard]] float packedFloat(uint first, uint i) const { return component(tableFloats(first + i / 4), i % 4); }
+
+private:
+    static uvec4 elementOf(const uint32_t* words, uint i) {
+        const uint32_t* const w = words + 4 * size_t{i};
+        return {w[0], w[1], w[2], w[3]};
+    }
+    static vec4 floatsOf(const uvec4& w) {
+        return {uintBitsToFloat(w.x), uintBitsToFloat(w.y), uintBitsToFloat(w.z), uintBitsToFloat(w.w)};
+    }
+};
+
+template <bool roots>
+struct PoseCode : PoseLoads {
+    static constexpr bool kAdds = true, kRoots = roots;
+#include "shaders/pose/layers.h"
+};
+
+/// Modifiers, on locals that lie in memory.
+struct ModifyCode : PoseLoads {
+    Transform* locals = nullptr;
+    Affine place;
+
+    [[nodiscard]] Transform nodeLocal(uint node) const { return locals[node]; }
+    void keepLocal(uint node, const Transform& t) const { locals[node] = t; }
+    [[nodiscard]] Affine placement() const { return place; }
+#include "shaders/pose/modify.h"
+};
+
+Affine affineOf(const PoseLoads& loads, uint first) {
+    return rowsOf(loads.tableFloats(first), loads.tableFloats(first + 1), loads.tableFloats(first + 2));
+}
+
+glm::mat4 matrixOf(const Affine& m) {
+    return glm::transpose(glm::mat4(m.x, m.y, m.z, vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+}
+
+} // namespace
+} // namespace supple::twin
+
+namespace supple::skinning {
+
+using namespace shared;
+
+PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout) : table_(&table), layout_(layout) {
+    push_.nodeCount = static_cast<uint32_t>(table.nodes.size());
+    push_.jointCount = table.jointCount;
+    push_.morphCount = layout.morphCount;
+    push_.joints = table.joints;
+    push_.levels = table.levels;
+    push_.levelCount = table.levelCount;
+    push_.restWeights = table.restWeights;
+    push_.clips = table.clips;
+    push_.maskStride = maskElements(table);
+    locals_.resize(table.nodes.size());
+    globals_.resize(table.nodes.size());
+    weights_.resize((layout.morphCount + 3) / 4);
+}
+
+void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time) {
+    const SplitTime split = splitTime(time);
+    push_.timeHigh = split.high;
+    push_.timeLow = split.low;
+    const twin::PoseLoads loads{table_->words.data(), state.data(), masks.data(), push_};
+    twin::PoseCode<false> code{loads};
+    for (uint32_t quad = 0; quad < weights_.size(); ++quad) {
+        weights_[quad] = code.morphWeights(0, quad);
+    }
+    place_ = code.transformOf(0);
+    const glm::uvec4 header = loads.state(0);
+    bindPose_ = (header.y & kStateBindPose) != 0;
+    if (bindPose_) {
+        return;
+    }
+    auto none = code.standing();
+    for (uint32_t node = 0; node < push_.nodeCount; ++node) {
+        locals_[node] = code.posedTransform(0, node, none);
+    }
+    if (header.w != 0) {
+        twin::PoseCode<true> roots{loads};
+        auto sinceBegin = roots.standing();
+        locals_[header.z] = roots.posedTransform(0, header.z, sinceBegin);
+        if ((header.y & kStateTravels) != 0) {
+            place_ = roots.travelled(0, sinceBegin);
+        }
+    }
+    finish(state);
+}
+
+void PoseTwin::poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals) {
+    const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
+    place_ = twin::PoseCode<false>{loads}.transformOf(0);
+    bindPose_ = false;
+    std::copy(locals.begin(), locals.end(), locals_.begin());
+    finish(state);
+}
+
+void PoseTwin::finish(std::span<const uint32_t> state) {
+    const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
+    twin::ModifyCode code{loads, locals_.data(), place_};
+    code.modifyInstance(0);
+    for (uint32_t node = 0; node < push_.nodeCount; ++node) {
+        const uint32_t parent = code.parentOf(node);
+        const shared::Affine local = code.localMatrix(node, locals_[node]);
+        globals_[node] = parent == kNoNode ? local : combined(globals_[parent], local);
+    }
+}
+
+const shared::Affine& PoseTwin::nodeOf(uint32_t joint) const {
+    return globals_[table_->words[4 * size_t{table_->joints + kJointElements * joint + 3}]];
+}
+
+glm::mat4 PoseTwin::joint(uint32_t joint) const {
+    return twin::matrixOf(nodeOf(joint));
+}
+
+glm::mat4 PoseTwin::placedJoint(uint32_t joint) const {
+    return twin::matrixOf(combined(place_, nodeOf(joint)));
+}
+
+shared::Affine PoseTwin::skinned(uint32_t joint) const {
+    const twin::PoseLoads loads{table_->words.data(), nullptr, nullptr, push_};
+    return combined(nodeOf(joint), twin::affineOf(loads, push_.joints + kJointElements * joint));
+}
+
+void PoseTwin::write(std::span<glm::vec4> pose) const {
+    const auto put = [&](size_t at, const shared::Affine& m) {
+        pose[at] = m.x;
+        pose[at + 1] = m.y;
+        pose[at + 2] = m.z;
+    };
+    const bool dual = layout_.mode == SkinningMode::dualQuaternion;
+    if (dual) {
+        put(0, place_);
+    }
+    for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
+        const shared::Affine own = bindPose_ ? identity() : skinned(joint);
+        if (dual) {
+            const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
+            put(at, own);
+            pose[at + 3] = rotationOf(own);
+        } else {
+            put(kLinearElements * size_t{joint}, combined(place_, own));
+        }
+    }
+    std::copy(weights_.begin(), weights_.end(), pose.begin() + layout_.morphWeights);
+}
+
+} // namespace supple::skinning

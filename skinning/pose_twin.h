@@ -1,0 +1,54 @@
+// The pose pass of one instance on the CPU, in the device's own arithmetic: the same source (shaders/pose/*.h), so the
+// same bits. skinning/played_pose.h has the same in double, for what floats are measured against.
+#pragma once
+
+#include "shaders/pose/affine.h"
+#include "shaders/shared/pose.h"
+#include "skinning/clip_table.h"
+#include "skinning/deform_kernels.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::skinning {
+
+/// Posing allocates nothing.
+class PoseTwin {
+public:
+    PoseTwin() = default;
+    /// The table, with its words, must outlive this.
+    PoseTwin(const ClipTable& table, const PoseLayout& layout);
+
+    /// `state`: the instance's words (skinning/playback.h). `masks`: those of the group.
+    void pose(std::span<const uint32_t> state, std::span<const float> masks, double time);
+
+    /// The same of local transforms, one a node of the table, instead of what is played; modifiers change them in
+    /// place.
+    void poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals);
+
+    // Of the last pose, which is not the bind pose: the joint's node in model space, and where the instance stands,
+    // with what it has travelled.
+    [[nodiscard]] glm::mat4 joint(uint32_t joint) const;
+    [[nodiscard]] glm::mat4 placedJoint(uint32_t joint) const;
+    /// joint(joint), then its inverse bind matrix: by rows.
+    [[nodiscard]] shared::Affine skinned(uint32_t joint) const;
+    /// Writes what the pass leaves for the deform pass: layout.stride elements; those behind the last weights stay.
+    void write(std::span<glm::vec4> pose) const;
+
+private:
+    [[nodiscard]] const shared::Affine& nodeOf(uint32_t joint) const;
+    void finish(std::span<const uint32_t> state); ///< locals_ are there: modifiers, then globals_
+
+    const ClipTable* table_ = nullptr;
+    PoseLayout layout_;
+    shared::PosePush push_{};
+    std::vector<shared::Transform> locals_;
+    std::vector<shared::Affine> globals_;
+    std::vector<glm::vec4> weights_;
+    shared::Affine place_{};
+    bool bindPose_ = true;
+};
+
+} // namespace supple::skinning
