@@ -190,6 +190,20 @@ Error instanceError(VkResult result) {
     return Error{ErrorCode::unsupported, vulkanError(result, "vkCreateInstance").message};
 }
 
+struct SupportedFeatures {
+    VkPhysicalDeviceFeatures2 of10{};
+    VkPhysicalDeviceVulkan11Features of11{};
+    VkPhysicalDeviceVulkan12Features of12{};
+};
+
+void readSupportedFeatures(VkPhysicalDevice device, SupportedFeatures& out) {
+    out.of12 = vkStruct<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+    out.of11 =
+        vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &out.of12);
+    out.of10 = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &out.of11);
+    vkGetPhysicalDeviceFeatures2(device, &out.of10);
+}
+
 } // namespace
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
@@ -350,23 +364,19 @@ Status Device::createDevice(const DeviceOptions& options) {
     requirements_.instanceVersion = kInstanceVersion;
     if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
         return Error{ErrorCode::unsupported, requirements_.reason};
-    auto supported12 =
-        vkStruct<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-    auto supported11 =
-        vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &supported12);
-    auto supported2 = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &supported11);
-    vkGetPhysicalDeviceFeatures2(physicalDevice_, &supported2);
-    const VkPhysicalDeviceFeatures& supported = supported2.features;
+    SupportedFeatures all;
+    readSupportedFeatures(physicalDevice_, all);
+    const VkPhysicalDeviceFeatures& supported = all.of10.features;
 
     // Supple's features as they are, and what the hosts' own drawing wants on top.
     requirements_.features12.timelineSemaphore = VK_TRUE; // every Vulkan 1.3 device has it
     requirements_.features13.dynamicRendering = VK_TRUE;
     requirements_.features13.synchronization2 = VK_TRUE;
-    requirements_.features12.drawIndirectCount = supported12.drawIndirectCount; // host/view_draws.h
+    requirements_.features12.drawIndirectCount = all.of12.drawIndirectCount; // host/view_draws.h
     requirements_.features12.pNext = &requirements_.features13;
     // Many draws by one command (docs/integration.md).
     features11_ = vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
-    const bool manyDraws = supported.multiDrawIndirect == VK_TRUE && supported11.shaderDrawParameters == VK_TRUE;
+    const bool manyDraws = supported.multiDrawIndirect == VK_TRUE && all.of11.shaderDrawParameters == VK_TRUE;
     features11_.shaderDrawParameters = manyDraws ? VK_TRUE : VK_FALSE;
     requirements_.features13.pNext = &features11_;
     features_ =

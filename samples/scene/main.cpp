@@ -108,7 +108,7 @@ public:
         market_.addToGraph(graph_, buffers_);
         drawing_.addToGraph(slot, buffers_, settings.paint);
         if (isRead)
-            graph_.add("copied", {reads(drawing_.pictureUse(), kCopied, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
+            graph_.add("copied", {reads(drawing_.pictureUse(), kTransferred, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)},
                        [](VkCommandBuffer) {}); // only the barrier
         graph_.execute(commands, slot);
     }
@@ -118,6 +118,8 @@ public:
 
 private:
     static constexpr uint32_t kMostVertices = 4'000'000;
+    /// Read back, or brought into a window.
+    static constexpr Scope kTransferred{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 
     Graph graph_;
     Resource buffers_;

@@ -185,7 +185,9 @@ typedef struct SuppleLevelDraw {
 
 /** SUPPLE_TESSELLATION_LEVELS: what is drawn. For draw i, draw command i of `indirect`. If no patch has its capacity in
  * a frame, the command draws no instances. Levels decide how many vertices are written: SuppleViewStatistics has the
- * number. All of it, arrays too, is valid until the group is destroyed or made anew. */
+ * number. All of it, arrays too, is valid until the group is destroyed or made anew.
+ * Groups of a view have the same `indices` and `patches`. Their commands lie in one buffer, and so do their buckets. So
+ * one call can draw several groups (docs/integration.md). */
 typedef struct SuppleLevelOutput {
     uint32_t structSize;
     uint32_t drawCount; /**< entries of draws, indirect and buckets */
