@@ -122,6 +122,10 @@ Status View::createBuffers() {
     addMember(clear_);
     addMember(static_);
     addMember(indicesRelease_);
+    return createMapped();
+}
+
+Status View::createMapped() {
     const gpu::BufferRequest staging{"supple view staging", uploadBytes() * framesInFlight_,
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const gpu::BufferRequest readback{"supple view statistics", readbackBytes() * framesInFlight_,
@@ -132,7 +136,7 @@ Status View::createBuffers() {
         gpu::MemoryKind kind;
     } sets[] = {{&staging_, staging, gpu::MemoryKind::upload}, {&readback_, readback, gpu::MemoryKind::readback}};
     for (const auto& [target, wanted, kind] : sets) {
-        Result<gpu::BufferSet> set = gpu::BufferSet::create(device, {&wanted, 1}, kind);
+        Result<gpu::BufferSet> set = gpu::BufferSet::create(*device_, {&wanted, 1}, kind);
         if (!set) {
             return set.error();
         }

@@ -97,6 +97,7 @@ public:
 
 private:
     [[nodiscard]] Status createBuffers();
+    [[nodiscard]] Status createMapped();               ///< for uploads, and for what the host reads
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
     [[nodiscard]] Status createSolver(surface::Programs& passes);
     [[nodiscard]] uint32_t budget() const;
