@@ -38,11 +38,13 @@ SUPPLE_SHARED_FUNCTION vec4 turnFromTo(vec3 a, vec3 b) {
 // ill-conditioned.
 SUPPLE_SHARED_FUNCTION vec4 frameTurn(vec3 u, vec3 m, vec3 v, vec3 n) {
     bool back = dot3(u, v) < 0.0f;
-    vec4 q = turnFromTo(u * (back ? -1.0f : 1.0f), v);
+    SUPPLE_PRECISE vec3 from = u * (back ? -1.0f : 1.0f);
+    vec4 q = turnFromTo(from, v);
     if (back) q = turned(q, vec4(m, 0.0f));
     vec3 k = turnedVector(q, m);
     back = dot3(k, n) < 0.0f;
-    vec4 p = turnFromTo(k * (back ? -1.0f : 1.0f), n);
+    from = k * (back ? -1.0f : 1.0f);
+    vec4 p = turnFromTo(from, n);
     if (back) p = turned(p, vec4(v, 0.0f));
     return turned(p, q);
 }
@@ -125,7 +127,9 @@ SUPPLE_SHARED_FUNCTION LimbTurns bentLimb(vec3 a, vec3 b, vec3 c, vec3 goal, vec
     SUPPLE_PRECISE vec3 middle = a + (n * along + e * height);
     LimbTurns turns;
     SUPPLE_PRECISE vec3 end = a + n * distance;
-    vec3 u2 = direction(middle - a), v2 = direction(end - middle);
+    SUPPLE_PRECISE vec3 upper = middle - a;
+    SUPPLE_PRECISE vec3 lower = end - middle;
+    vec3 u2 = direction(upper), v2 = direction(lower);
     turns.root = frameTurn(u, m, u2, normal);
     turns.middle = frameTurn(v, mOfMiddle, v2, normal);
     turns.end = end;
@@ -136,7 +140,7 @@ SUPPLE_SHARED_FUNCTION LimbTurns bentLimb(vec3 a, vec3 b, vec3 c, vec3 goal, vec
 // degrees between where the eye looks in the pose and the goal, and has at 160.
 SUPPLE_SHARED_FUNCTION float aheadWeight(vec3 forward, vec3 toGoal) {
     SUPPLE_PRECISE float ahead = (dot3(forward, toGoal) + 0.93969262f) * 2.2743161f;
-    return clamp(ahead, 0.0f, 1.0f);
+    return min(max(ahead, 0.0f), 1.0f);
 }
 
 // The rotation about a joint after which the ray from the eye along `forward`, a unit vector, passes the goal; none if there
@@ -152,7 +156,8 @@ SUPPLE_SHARED_FUNCTION vec4 aimedTurn(vec3 joint, vec3 eye, vec3 forward, vec3 g
     vec3 a = direction(p), b = direction(r);
     vec3 across = direction(acrossFrom(up, a));
     bool back = dot3(a, b) < -0.999f;
-    vec4 q = turnFromTo(a * (back ? -1.0f : 1.0f), b);
+    SUPPLE_PRECISE vec3 from = a * (back ? -1.0f : 1.0f);
+    vec4 q = turnFromTo(from, b);
     if (back) q = turned(q, vec4(across, 0.0f));
     if (!(discriminant > squares * 1e-4f && s > 0.0f)) q = noTurn();
     return q;

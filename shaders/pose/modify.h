@@ -120,7 +120,8 @@ void aimChain(Modifier own) {
         uint node = chainNode(own, i);
         Placed joint = placedNode(node), eye = placedPoint(last, own.pole);
         vec3 forward = turnedVector(eye.rotation, own.axis);
-        if (i == 0u) weight = weight * aheadWeight(forward, direction(own.target - joint.position));
+        SUPPLE_PRECISE vec3 way = own.target - joint.position;
+        if (i == 0u) weight = weight * aheadWeight(forward, direction(way));
         vec4 turn = aimedTurn(joint.position, eye.position, forward, own.target, vec3(0.0f, 1.0f, 0.0f));
         SUPPLE_PRECISE float part = weight * (node == last ? 1.0f : own.share);
         turn = partOfTurn(limitedTurn(turn, own.limit.x, own.limit.y), part);
