@@ -432,9 +432,23 @@ TEST(Allocation, ACallbackThatFailsLeavesTheContextUsable) {
     ASSERT_NE(device, nullptr);
     const auto validation = device->validation();
     {
+        // Without memory for a block, pieces have their own.
         BlockMemory memory(*device);
         memory.failAt = 0;
         LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.memory = memory.callbacks(); });
+        EXPECT_EQ(context.result(), SUPPLE_OK);
+        EXPECT_GT(memory.live(), 0u);
+    }
+    const auto withoutBlocks = [](BlockMemory& memory) {
+        return [&memory](SuppleContextDesc& desc) {
+            desc.memory = memory.callbacks();
+            desc.memoryBlockSize = 1;
+        };
+    };
+    {
+        BlockMemory memory(*device);
+        memory.failAt = 0;
+        LoggedContext context(*device, withoutBlocks(memory));
         EXPECT_EQ(context.result(), SUPPLE_ERROR_DEVICE_MEMORY);
         EXPECT_EQ(context.handle(), nullptr);
         EXPECT_EQ(context.takeCount(SUPPLE_MESSAGE_DEVICE_MEMORY), 1u);
@@ -442,7 +456,7 @@ TEST(Allocation, ACallbackThatFailsLeavesTheContextUsable) {
     }
     {
         BlockMemory memory(*device);
-        LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.memory = memory.callbacks(); });
+        LoggedContext context(*device, withoutBlocks(memory));
         ASSERT_EQ(context.result(), SUPPLE_OK);
         const size_t live = memory.live();
         for (const bool unmapped : {false, true}) {

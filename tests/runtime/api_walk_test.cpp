@@ -572,7 +572,7 @@ void contexts(Rows& r) {
         return result;
     };
     r.refuse(kCreate, "desc null", kSilent, [=](World& w) { return create(w, nullptr); });
-    for (const size_t size : {size_t{0}, size_t{4}, sizeof(SuppleContextDesc) - 1}) {
+    for (const size_t size : {size_t{0}, size_t{4}, runtime::kFirstSize<SuppleContextDesc> - 1}) {
         const int message = size == 0 ? int{SUPPLE_MESSAGE_STRUCT_SIZE} : kSilent;
         r.refuse(kCreate, "desc->structSize " + std::to_string(size), message, [=](World& w) {
             SuppleContextDesc desc = w.contextDesc();
