@@ -435,20 +435,17 @@ TEST(Allocation, ACallbackThatFailsLeavesTheContextUsable) {
         // Without memory for a block, pieces have their own.
         BlockMemory memory(*device);
         memory.failAt = 0;
-        LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.memory = memory.callbacks(); });
+        LoggedContext context(*device, [&](SuppleContextDesc& desc) {
+            desc.memory = memory.callbacks();
+            desc.memoryBlockSize = 0;
+        });
         EXPECT_EQ(context.result(), SUPPLE_OK);
         EXPECT_GT(memory.live(), 0u);
     }
-    const auto withoutBlocks = [](BlockMemory& memory) {
-        return [&memory](SuppleContextDesc& desc) {
-            desc.memory = memory.callbacks();
-            desc.memoryBlockSize = 1;
-        };
-    };
     {
         BlockMemory memory(*device);
         memory.failAt = 0;
-        LoggedContext context(*device, withoutBlocks(memory));
+        LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.memory = memory.callbacks(); });
         EXPECT_EQ(context.result(), SUPPLE_ERROR_DEVICE_MEMORY);
         EXPECT_EQ(context.handle(), nullptr);
         EXPECT_EQ(context.takeCount(SUPPLE_MESSAGE_DEVICE_MEMORY), 1u);
@@ -456,7 +453,7 @@ TEST(Allocation, ACallbackThatFailsLeavesTheContextUsable) {
     }
     {
         BlockMemory memory(*device);
-        LoggedContext context(*device, withoutBlocks(memory));
+        LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.memory = memory.callbacks(); });
         ASSERT_EQ(context.result(), SUPPLE_OK);
         const size_t live = memory.live();
         for (const bool unmapped : {false, true}) {
