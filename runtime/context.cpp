@@ -18,8 +18,6 @@ Timings::Shortfall shortfallOf(const View& view, uint64_t frame) {
     return {true, statistics->droppedInstanceCount, uint64_t{lacking} * vertexBytes(view.desc().vertexFormat)};
 }
 
-constexpr VkDeviceSize kMemoryBlockSize = VkDeviceSize{256} << 20;
-
 gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
     gpu::MemorySource source;
     source.allocate = [callbacks](const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
@@ -69,7 +67,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     if (desc.memory != nullptr) {
         deviceDesc.memorySource = memorySourceOf(*desc.memory);
     }
-    deviceDesc.memoryBlockSize = desc.memoryBlockSize > 0 ? desc.memoryBlockSize : kMemoryBlockSize;
+    deviceDesc.memoryBlockSize = desc.memoryBlockSize;
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
     deviceDesc.drawQueueFamily = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
     context->families_ = {desc.queueFamily, deviceDesc.drawQueueFamily};

@@ -437,7 +437,7 @@ TEST(Allocation, ACallbackThatFailsLeavesTheContextUsable) {
         memory.failAt = 0;
         LoggedContext context(*device, [&](SuppleContextDesc& desc) {
             desc.memory = memory.callbacks();
-            desc.memoryBlockSize = 0;
+            desc.memoryBlockSize = VkDeviceSize{256} << 20;
         });
         EXPECT_EQ(context.result(), SUPPLE_OK);
         EXPECT_GT(memory.live(), 0u);

@@ -90,7 +90,7 @@ protected:
         device = testDevice();
         ASSERT_NE(device, nullptr);
         memory = std::make_unique<CountedMemory>(*device);
-        makeContext(1);
+        makeContext(0);
     }
     void makeContext(VkDeviceSize blockSize) {
         context = nullptr;
@@ -195,7 +195,7 @@ TEST_F(MemoryUse, IsWhatTheCallbacksGaveToTheByte) {
 
 /// Many characters share few allocations, and what they leave goes back.
 TEST_F(MemoryUse, SixtyCharactersTakeFewBlocks) {
-    makeContext(0);
+    makeContext(VkDeviceSize{256} << 20);
     const SuppleView view = createView();
     std::vector<SuppleAsset> tubes(60);
     std::vector<SuppleGroup> groups;
@@ -237,7 +237,7 @@ TEST_F(MemoryUse, SixtyCharactersTakeFewBlocks) {
 
 /// A block is never what exceeds a budget.
 TEST_F(MemoryUse, NoBlockExceedsABudget) {
-    makeContext(0);
+    makeContext(VkDeviceSize{256} << 20);
     const VkDeviceSize before = total(use());
     SuppleAsset tube{};
     ASSERT_EQ(suppleSetMemoryBudget(context->handle(), before + (VkDeviceSize{2} << 20), nullptr, nullptr), SUPPLE_OK);

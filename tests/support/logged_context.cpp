@@ -12,7 +12,6 @@ namespace supple::test {
 LoggedContext::LoggedContext(host::Device& device, const std::function<void(SuppleContextDesc&)>& adjust)
     : device_(device) {
     SuppleContextDesc desc = host::contextDesc(device);
-    desc.memoryBlockSize = 1; // every piece is an allocation, which the layer poison fills and tests may let fail
     desc.log = log;
     desc.logUser = this;
     if (adjust) {

@@ -301,10 +301,10 @@ typedef struct SuppleContextDesc {
      * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
-    /** Bytes of the largest block; 0: 256 MiB. Device memory is allocated by the block, each as large as all before it
+    /** Bytes of the largest block, 256 MiB say; 0: none. Device memory is allocated by the block, each as large as all before it
      * of its kind, from 8 MiB on (1 MiB if it is mapped). A block is freed when nothing is in it. What takes more than
      * half of the largest, or what no block has room for within the budget (suppleSetMemoryBudget), is an allocation of
-     * its own. 1: everything is, for a host whose callbacks share out blocks themselves. */
+     * its own. 0: everything is, for a host whose callbacks share out blocks themselves. */
     VkDeviceSize memoryBlockSize;
 } SuppleContextDesc;
 
