@@ -28,26 +28,52 @@ VkDeviceSize& spareOf(const Device& device, MemoryKind kind) {
 
 } // namespace
 
-MemoryBlocks::Block* MemoryBlocks::makeBlock(const Device& device, const VkMemoryRequirements& requirements,
-                                             MemoryKind kind) {
+VkDeviceSize MemoryBlocks::nextSize(const Device& device, const VkMemoryRequirements& requirements,
+                                    MemoryKind kind) const {
     VkDeviceSize size = 0; // of those before it
     for (const Block& block : blocks_) {
-        size += block.kind == kind && block.typeBits == requirements.memoryTypeBits ? block.ranges.size() : 0;
+        size += block.serves(requirements, kind) ? block.ranges.size() : 0;
     }
     size = std::max({size, requirements.size, kind == MemoryKind::deviceLocal ? kFirstBlock : kFirstVisibleBlock});
     size = std::min(size, largestBlock(device)) / kBlockAlignment * kBlockAlignment;
     const MemoryLedger& ledger = *device.ledger;
-    if (size < requirements.size || (ledger.budget != 0 && ledger.use.total() + size > ledger.budget)) {
-        return nullptr;
+    const bool allowed = ledger.budget == 0 || ledger.use.total() + size <= ledger.budget;
+    return allowed && size >= requirements.size ? size : 0;
+}
+
+MemoryBlocks::Piece MemoryBlocks::takeOf(Block& block, const Device& device, const VkMemoryRequirements& requirements) {
+    const std::optional<uint64_t> offset = block.ranges.take(requirements.size, requirements.alignment);
+    if (!offset) {
+        return {};
     }
+    Piece piece{block.memory, &block, *offset, requirements.size};
+    piece.memory.offset += *offset;
+    if (piece.memory.mapped != nullptr) {
+        piece.memory.mapped = static_cast<std::byte*>(piece.memory.mapped) + *offset;
+    }
+    spareOf(device, block.kind) -= requirements.size;
+    return piece;
+}
+
+MemoryBlocks::Piece MemoryBlocks::takeOfNew(const Device& device, const VkMemoryRequirements& requirements,
+                                            MemoryKind kind) {
+    const VkDeviceSize size = nextSize(device, requirements, kind);
+    if (size == 0) {
+        return {};
+    }
+    // What may throw comes before there is memory to lose: a new block has room for its first piece.
+    std::list<Block> made;
+    made.push_back({{}, FreeRanges(size), kind, requirements.memoryTypeBits});
     const VkMemoryRequirements wanted{size, kBlockAlignment, requirements.memoryTypeBits};
     const Result<HostMemory> memory = allocateHostMemory(device, wanted, kind, "supple block", "a block of memory");
     if (!memory) {
-        return nullptr;
+        return {};
     }
+    made.back().memory = *memory;
     spareOf(device, kind) += size;
     ++device.ledger->use.allocations;
-    return &blocks_.emplace_back(Block{*memory, FreeRanges(size), kind, requirements.memoryTypeBits});
+    blocks_.splice(blocks_.end(), made);
+    return takeOf(blocks_.back(), device, requirements);
 }
 
 MemoryBlocks::Piece MemoryBlocks::take(const Device& device, const VkMemoryRequirements& requirements,
@@ -55,31 +81,17 @@ MemoryBlocks::Piece MemoryBlocks::take(const Device& device, const VkMemoryRequi
     if (requirements.size > largestBlock(device) / 2 || requirements.alignment > kBlockAlignment) {
         return {};
     }
-    const auto takeOf = [&](Block& block) -> Piece {
-        const std::optional<uint64_t> offset = block.ranges.take(requirements.size, requirements.alignment);
-        if (!offset) {
-            return {};
-        }
-        Piece piece{block.memory, &block, *offset, requirements.size};
-        piece.memory.offset += *offset;
-        if (piece.memory.mapped != nullptr) {
-            piece.memory.mapped = static_cast<std::byte*>(piece.memory.mapped) + *offset;
-        }
-        spareOf(device, kind) -= requirements.size;
-        return piece;
-    };
     for (Block& block : blocks_) {
-        if (block.kind == kind && block.typeBits == requirements.memoryTypeBits) {
-            if (const Piece piece = takeOf(block); piece.block != nullptr) {
+        if (block.serves(requirements, kind)) {
+            if (const Piece piece = takeOf(block, device, requirements); piece.block != nullptr) {
                 return piece;
             }
         }
     }
-    Block* const made = makeBlock(device, requirements, kind);
-    return made != nullptr ? takeOf(*made) : Piece{};
+    return takeOfNew(device, requirements, kind);
 }
 
-void MemoryBlocks::give(const Device& device, const Piece& piece) {
+void MemoryBlocks::give(const Device& device, const Piece& piece) noexcept {
     Block& block = *piece.block;
     block.ranges.give(piece.offset, piece.bytes);
     spareOf(device, block.kind) += piece.bytes;

@@ -18,6 +18,10 @@ class MemoryBlocks {
         FreeRanges ranges;
         MemoryKind kind = MemoryKind::deviceLocal;
         uint32_t typeBits = 0;
+
+        [[nodiscard]] bool serves(const VkMemoryRequirements& requirements, MemoryKind of) const {
+            return kind == of && typeBits == requirements.memoryTypeBits;
+        }
     };
 
 public:
@@ -32,10 +36,14 @@ public:
     /// Empty: the piece needs memory of its own, as it is large beside a block, or as there is no memory for a block or
     /// none in the budget.
     [[nodiscard]] Piece take(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind);
-    void give(const Device& device, const Piece& piece);
+    void give(const Device& device, const Piece& piece) noexcept;
 
 private:
-    [[nodiscard]] Block* makeBlock(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind);
+    /// 0: no block, as it would exceed the budget or be too small.
+    [[nodiscard]] VkDeviceSize nextSize(const Device& device, const VkMemoryRequirements& requirements,
+                                        MemoryKind kind) const;
+    [[nodiscard]] static Piece takeOf(Block& block, const Device& device, const VkMemoryRequirements& requirements);
+    [[nodiscard]] Piece takeOfNew(const Device& device, const VkMemoryRequirements& requirements, MemoryKind kind);
 
     std::list<Block> blocks_; ///< pieces have their addresses
 };
