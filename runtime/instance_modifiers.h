@@ -85,7 +85,8 @@ public:
         uint32_t count = 0;
         for (uint32_t i = 0; i < before.modifierCount(); ++i) {
             const std::span<const uint32_t> words = before.modifier(other.morphCount_, i);
-            std::vector<uint32_t> places = skinning::modifierPlaces(words);
+            skinning::ChainPlaces room;
+            const std::span<uint32_t> places = skinning::modifierPlaces(words, room);
             std::transform(places.begin(), places.end(), places.begin(), moved);
             if (std::find(places.begin(), places.end(), cage::kNone) == places.end()) {
                 const std::span<uint32_t> target = state.modifier(morphCount_, count);

@@ -15,7 +15,7 @@ using PlacedModifiers = std::array<PlacedModifier, SUPPLE_MAX_MODIFIERS>;
 /// Fills the first `desc.modifierCount` of `modifiers`, or names the first rule of supple_playback.h that is broken.
 [[nodiscard]] Status readModifiers(const Asset& asset, const SuppleModifiersDesc& desc, PlacedModifiers& modifiers);
 
-/// Of a modifier that has those words, or the rule that is broken.
+/// What the modifier with these words is to do from now on, or the rule that is broken.
 [[nodiscard]] Result<ModifierGoal> readModifierTarget(std::span<const uint32_t> words,
                                                       const SuppleModifierTarget& target);
 

@@ -281,7 +281,8 @@ void Playback::boundModifiers(uint32_t slot) {
     for (uint32_t i = 0; i < own.modifierCount(); ++i) {
         const std::span<const uint32_t> words = own.modifier(push_.morphCount, i);
         moves = moves || skinning::modifierKind(words) == kModifierHandOver;
-        for (const uint32_t place : skinning::modifierPlaces(words)) {
+        skinning::ChainPlaces room;
+        for (const uint32_t place : skinning::modifierPlaces(words, room)) {
             turned.push_back(asset_->clipTable->nodes[place]);
         }
     }

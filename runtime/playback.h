@@ -59,7 +59,7 @@ public:
 
     /// Replaces the instance's list. The group must have room for modifiers.
     void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers);
-    /// Of a modifier that is there.
+    /// The instance must have this modifier.
     void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal);
     [[nodiscard]] bool takesModifiers() const { return modifiers_.areTaken(); }
     [[nodiscard]] uint32_t modifierCount(uint32_t slot) { return state(slot).modifierCount(); }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
+#include <vector>
 
 namespace supple::skinning {
 namespace {
@@ -91,7 +92,7 @@ std::optional<Modifier> limbOf(const cage::Character& character, std::span<const
     if (parent == cage::kNone) {
         return std::nullopt;
     }
-    // Of a chain whose joints are all called alike, each is a bone.
+    // If all joints of a chain are called alike, each is a bone.
     if (letters(parent) != letters(joint) && !letters(parent).empty()) {
         const uint32_t middle = firstOfBone(parent), above = jointParents[middle];
         if (above != cage::kNone) {
@@ -126,11 +127,11 @@ glm::vec3 restHinge(const cage::Character& character, const Modifier& limb) {
 void writeModifier(const ClipTable& table, const Modifier& modifier, std::span<uint32_t> words) {
     std::fill(words.begin(), words.begin() + 4 * kModifierElements, 0u);
     words[0] = modifier.kind | modifier.flags << 8;
-    std::vector<uint32_t> places;
+    ChainPlaces places{};
     for (uint32_t i = 0; i < modifier.chainLength; ++i) {
-        places.push_back(table.places[modifier.chain[i]]);
+        places[i] = table.places[modifier.chain[i]];
     }
-    writeModifierPlaces(places, words);
+    writeModifierPlaces(std::span(places).first(modifier.chainLength), words);
     const SplitTime fade = splitTime(modifier.fadeStart);
     const bool limited = modifier.limit > 0.0f;
     const double half = 0.5 * static_cast<double>(modifier.limit);
@@ -167,12 +168,11 @@ uint32_t modifierFlags(std::span<const uint32_t> words) {
     return words[0] >> 8;
 }
 
-std::vector<uint32_t> modifierPlaces(std::span<const uint32_t> words) {
-    std::vector<uint32_t> places;
+std::span<uint32_t> modifierPlaces(std::span<const uint32_t> words, ChainPlaces& room) {
     for (uint32_t i = 0; i < words[1]; ++i) {
-        places.push_back(i % 2 == 0 ? words[4 + i / 2] & 0xFFFFu : words[4 + i / 2] >> 16);
+        room[i] = i % 2 == 0 ? words[4 + i / 2] & 0xFFFFu : words[4 + i / 2] >> 16;
     }
-    return places;
+    return std::span(room).first(words[1]);
 }
 
 void writeModifierPlaces(std::span<const uint32_t> places, std::span<uint32_t> words) {

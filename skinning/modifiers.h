@@ -11,7 +11,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace supple::skinning {
 
@@ -56,8 +55,9 @@ void writeModifierTurn(const glm::vec4& rotation, float weight, std::span<uint32
 void writeModifierPoints(const glm::vec3& target, const glm::vec3& pole, std::span<uint32_t> words);
 [[nodiscard]] uint32_t modifierKind(std::span<const uint32_t> words);
 [[nodiscard]] uint32_t modifierFlags(std::span<const uint32_t> words);
-/// Node places of another table, each by `moved`, which gives kNone for one that is gone: then the modifier is, too.
-[[nodiscard]] std::vector<uint32_t> modifierPlaces(std::span<const uint32_t> words);
+/// The places of the chain's nodes in the clip table, from the top down. They lie in `room`.
+using ChainPlaces = std::array<uint32_t, shared::kMaxChain>;
+[[nodiscard]] std::span<uint32_t> modifierPlaces(std::span<const uint32_t> words, ChainPlaces& room);
 void writeModifierPlaces(std::span<const uint32_t> places, std::span<uint32_t> words);
 
 } // namespace supple::skinning

@@ -1,4 +1,4 @@
-// supple_found.poses().h, modifiers.
+// supple_playback.h, modifiers.
 #include "runtime/api/poses.h"
 #include "runtime/modifiers_desc.h"
 
@@ -26,18 +26,21 @@ SuppleResult suppleSetModifiers(SuppleContext handle, SuppleInstance instance, c
         if (const auto fault = takeIn(context, kHere, "modifiers", given, desc)) {
             return *fault;
         }
-        runtime::PlacedModifiers modifiers;
-        if (found.poses().playback() == nullptr &&
-            std::any_of(desc.modifiers, desc.modifiers + (desc.modifiers != nullptr ? desc.modifierCount : 0),
-                        [](const SuppleModifier& m) { return m.fadeDuration > 0.0f; })) {
-            return refuse(context, found, ErrorCode::argument, kHere,
-                          "a weight fades, and the group has no time: it was created without SUPPLE_POSES_PLAYBACK");
-        }
-        const Status valid = runtime::readModifiers(found.asset(), desc, modifiers);
+        runtime::PlacedModifiers room;
+        const Status valid = runtime::readModifiers(found.asset(), desc, room);
         if (!valid) {
             return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
-        found.poses().setModifiers(instance.slot, std::span(modifiers).first(desc.modifierCount));
+        const std::span<const runtime::PlacedModifier> modifiers = std::span(room).first(desc.modifierCount);
+        const auto fades = std::find_if(modifiers.begin(), modifiers.end(),
+                                        [](const auto& m) { return m.modifier.fadeDuration > 0.0f; });
+        if (found.poses().playback() == nullptr && fades != modifiers.end()) {
+            return refuse(context, found, ErrorCode::argument, kHere,
+                          "modifier " + std::to_string(fades - modifiers.begin()) +
+                              ": its weight fades, and the group has no time: it was created without "
+                              "SUPPLE_POSES_PLAYBACK");
+        }
+        found.poses().setModifiers(instance.slot, modifiers);
         return SUPPLE_OK;
     });
 }

@@ -42,7 +42,7 @@ public:
 private:
     /// A file's materials, behind the others; returns its Look, without tints.
     Look addMaterials(Device& device, const supple::Asset& asset);
-    /// Of the material that was added last.
+    /// Gives the material that was added last its textures.
     void addTextureSet(Textures textures);
     /// The number of its image.
     uint32_t addTexture(Device& device, const supple::Asset& asset, const SuppleTextureInfo& texture, bool isColor);

@@ -51,7 +51,7 @@ public:
     /// The view's, of all figures.
     [[nodiscard]] SuppleVertexStreams streams() const;
 
-    /// Of the newest completed frame; all zero if there is none.
+    /// What the newest completed frame drew; all zero if there is none.
     [[nodiscard]] SuppleViewStatistics statistics() const;
     /// Supple's passes in that frame, in its order.
     [[nodiscard]] std::vector<PassMilliseconds> passTimes() const;

@@ -103,7 +103,7 @@ void writeDraw(uint run, uint c) {
         for (uint k = 1u; k < kLodRecordWords / 4u; ++k) lodTargets[to + k] = uvec4(0u);
     }
 }
-// Of the dispatch whose runs begin with this one.
+// The words of the dispatch whose first run this is.
 void writeDispatch(uint run, uint dispatch) {
     uint end = run + 1u;
     while (end < push.runCount && dispatchOf(end) == dispatch) ++end;

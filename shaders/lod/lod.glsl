@@ -24,7 +24,7 @@ uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodP
 uint formSamples(uint form, uint capacity) { return formSides(form) * (capacity + 1u) * (capacity + 1u) / 4u; }
 // The bucket of a run and capacity, where the group's runs begin at `first`.
 uint bucketIndex(uint first, uint run, uint c) { return first * kLodBucketStride + (run - first) * kCapacityCount + c; }
-// Of the words of a run.
+// What the first and the second word of a run say.
 uint runForm(uint word) { return word & 255u; }
 uint firstOfGroup(uint word, uint run) { return min(word & kNoDispatch, run); }
 // Patches of one draw instance (surface/lod/grid.h).

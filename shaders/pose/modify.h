@@ -32,7 +32,7 @@ Modifier modifierAt(uint element) {
     SUPPLE_PRECISE Modifier own;
     own.kind = ids.x & 255u;
     own.flags = ids.x >> 8u;
-    own.chainLength = ids.y;
+    own.chainLength = min(ids.y, kMaxChain);
     own.chain = state(element + 1u);
     own.weight = fadedWeight(course.x, course.y, course.z, timeSum(now, -vec2(limits)).x);
     own.share = course.w;
@@ -67,7 +67,7 @@ Placed placedPoint(uint node, vec3 point) {
     placed.position = through(localMatrix(node, t), point);
     vec4 own = localRotation(node, t);
     placed.above = noTurn();
-    for (uint n = parentOf(node); n != kNoNode; n = parentOf(n)) {
+    for (uint n = parentOf(node), k = 0u; n != kNoNode && k < push.nodeCount; n = parentOf(n), ++k) {
         Transform parent = nodeLocal(n);
         placed.position = through(localMatrix(n, parent), placed.position);
         placed.above = turned(localRotation(n, parent), placed.above);
@@ -79,7 +79,7 @@ Placed placedNode(uint node) { return placedPoint(node, vec3(0.0f)); }
 
 Affine globalAbove(uint node) {
     SUPPLE_PRECISE Affine global = identity();
-    for (uint n = parentOf(node); n != kNoNode; n = parentOf(n)) {
+    for (uint n = parentOf(node), k = 0u; n != kNoNode && k < push.nodeCount; n = parentOf(n), ++k) {
         global = combined(localMatrix(n, nodeLocal(n)), global);
     }
     return global;
@@ -164,7 +164,7 @@ void handOver(Modifier own) {
 
 void modifyInstance(uint first) {
     uint flags = state(first).y;
-    uint count = (flags & kStateBindPose) != 0u ? 0u : (flags >> kStateModifierShift) & 31u;
+    uint count = (flags & kStateBindPose) != 0u ? 0u : min((flags >> kStateModifierShift) & 31u, kMaxModifiers);
     uint element = first + modifiersBegin(push.morphCount);
     for (uint i = 0u; i < count; ++i) {
         Modifier own = modifierAt(element + i * kModifierElements);

@@ -565,7 +565,7 @@ public:
         desc.modifierCount = static_cast<uint32_t>(modifiers.size());
         return suppleSetModifiers(context_, handle_, &desc);
     }
-    /// Of a modifier that is there.
+    /// Changes a modifier of the list.
     [[nodiscard]] SuppleResult setModifierTarget(uint32_t index, const SuppleModifierTarget& target) const {
         return suppleSetModifierTarget(context_, handle_, index, &target);
     }
@@ -578,7 +578,7 @@ public:
         return suppleSetMatrixPose(context_, handle_, jointMatrices.data(),
                                    static_cast<uint32_t>(jointMatrices.size() / 16));
     }
-    /// Of some joints, with morph weights.
+    /// Poses some joints, or all with morph weights.
     [[nodiscard]] SuppleResult setJointMatrices(const SuppleJointMatricesDesc& matrices) const {
         return suppleSetJointMatrices(context_, handle_, &matrices);
     }
