@@ -13,7 +13,8 @@ namespace supple::bench {
 
 namespace {
 
-constexpr uint32_t kSceneVertices = 1u << 20; ///< of a view
+constexpr uint32_t kSceneVertices = 1u << 20;                  ///< of a view
+constexpr VkDeviceSize kMemoryBlock = VkDeviceSize{256} << 20; ///< as a host of many characters asks for
 constexpr float kSpacing = 2.0f;
 constexpr float kFieldOfView = 1.0f, kPictureHeight = 1080.0f, kAspect = 16.0f / 9.0f;
 constexpr double kFrameSeconds = 1.0 / 60.0;
@@ -28,6 +29,7 @@ Result<std::unique_ptr<SceneStage>> SceneStage::create(host::Device& device, Sup
     desc.mapping = mapping;
     desc.getInstanceProcAddr = CommandWatch::getInstanceProcAddr();
     desc.memory = &stage->memory_.callbacks();
+    desc.memoryBlockSize = kMemoryBlock;
     desc.log = log;
     desc.logUser = stage.get();
     Status status = stage->check(supple::Context::create(desc, stage->context_), "suppleCreateContext");

@@ -312,11 +312,11 @@ typedef struct SuppleModifiersDesc {
  * has, but do nothing in the bind pose and in poses of matrices. They are executed in order, each on what the one
  * before left, after the layers and root motion and before skinning: with SUPPLE_POSES_PLAYBACK on the device, else on
  * the CPU, where weights do not fade. suppleGetJointTransform has what they do, to the bit. Turns are exact if no joint
- * above scales unevenly or mirrors. A group of which no instance has ever had one costs no more than one without the
- * flag. A view that culls leaves out instances before they are posed only if all that their modifiers turn moves in
+ * above scales unevenly or mirrors. With PLAYBACK, a group of which no instance has ever had one records no pass for
+ * them. A view that culls leaves out instances before they are posed only if all that their modifiers turn moves in
  * some clip, or hangs on what does, and none is HAND_OVER. The array is read during the call. Errors: the group has not
  * the flag; too many; a kind, flag or joint that does not exist; a chain that is longer than the skeleton, or has a
- * joint with a fixed matrix; a number out of range or not finite; a rotation of length 0. */
+ * joint with a fixed matrix; a number out of range or not finite; a rotation of length 0; a fade, without PLAYBACK. */
 SUPPLE_API SuppleResult suppleSetModifiers(SuppleContext context, SuppleInstance instance,
                                            const SuppleModifiersDesc* modifiers);
 

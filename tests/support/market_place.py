@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Runs the market place and looks at what it says and shows.
 
-check.py SUPPLE_SCENE FOLDER
+market_place.py SUPPLE_SCENE FOLDER
 
 With room for all vertices, levels are not scaled, and every figure is drawn. With nine tenths of what they want, no more than
 that is written, still everybody is there, and the picture is nearly the same. Without them it is another picture.
 """
 
 import pathlib
-import struct
 import subprocess
 import sys
-import zlib
+
+from png_rows import read_png
 
 FIGURES, ROOM, SIZE = 4, 600000, "800x450"
 
@@ -27,39 +27,10 @@ def run(program, picture, figures, budget):
     return {words[0]: float(words[1]) for words in lines if len(words) == 2}
 
 
-def unfiltered(kind, line, before, step):
-    """A line of a PNG as it was before the filter."""
-    out = bytearray(line)
-    for i in range(len(out)):
-        a = out[i - step] if i >= step else 0
-        b, c = before[i], before[i - step] if i >= step else 0
-        p = a + b - c
-        nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-        out[i] = (out[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
-    return out
-
-
-def pixels(path):
-    """The bytes of an 8-bit PNG, row by row, and how many a pixel has."""
-    data, at, packed, head = path.read_bytes(), 8, b"", None
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        head = struct.unpack(">IIBBBBB", body) if kind == b"IHDR" else head
-        packed += body if kind == b"IDAT" else b""
-        at += 12 + length
-    step = {2: 3, 6: 4}[head[3]]
-    stride, raw = head[0] * step + 1, zlib.decompress(packed)
-    rows, before = [], bytes(stride - 1)
-    for y in range(head[1]):
-        before = unfiltered(raw[y * stride], raw[y * stride + 1:(y + 1) * stride], before, step)
-        rows.append(bytes(before))
-    return b"".join(rows), step
-
-
 def difference(a, b):
     """The share of pixels that differ by more than an eye forgives."""
-    (left, step), (right, _) = pixels(a), pixels(b)
+    (rows, step), (others, _) = read_png(a), read_png(b)
+    left, right = b"".join(rows), b"".join(others)
     count = len(left) // step
     unlike = sum(any(abs(left[i + c] - right[i + c]) > 40 for c in range(3)) for i in range(0, len(left), step))
     return unlike / count
