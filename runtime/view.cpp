@@ -37,10 +37,21 @@ constexpr VkDeviceSize kRunBytes = VkDeviceSize{kLodRunWords} * 4;
 static_assert(sizeof(LodDispatch) == 4 * kLodDispatchWords &&
               sizeof(VkDrawIndexedIndirectCommand) == 4 * kLodDrawWords);
 
-/// As many as are asked for. Else as many as `maxVertices` has padding for, up to a default.
-uint32_t roomForRuns(const SuppleViewDesc& desc) {
+constexpr VkDeviceSize kWordBytesOfRun =
+    VkDeviceSize{SUPPLE_LOD_RECORDS(kRunStep) - SUPPLE_LOD_RECORDS(0)} * 4 / kRunStep;
+
+/// How much of a view's words a device can bind: narrow ones read them as texels.
+VkDeviceSize wordLimitOf(const gpu::Device& device) {
+    return device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
+}
+
+/// As many as are asked for. Else as many as `maxVertices` has padding for, up to a default and to a quarter of what
+/// the device can bind.
+uint32_t roomForRuns(const gpu::Device& device, const SuppleViewDesc& desc) {
+    const uint32_t most =
+        std::min(static_cast<uint32_t>(wordLimitOf(device) / 4 / kWordBytesOfRun) / kRunStep * kRunStep, kDefaultRuns);
     const uint32_t wanted =
-        desc.maxRuns > 0 ? desc.maxRuns : std::min(desc.maxVertices / kPaddingOfRun + 1, kDefaultRuns);
+        desc.maxRuns > 0 ? desc.maxRuns : std::clamp(desc.maxVertices / kPaddingOfRun + 1, 1u, std::max(most, 1u));
     return std::min((wanted + kRunStep - 1) / kRunStep * kRunStep, kMaxViewRuns);
 }
 
@@ -62,7 +73,7 @@ Result<std::shared_ptr<View>> View::create(const gpu::Device& device, surface::P
     view->hostWords_.resize(kLodSolution);
     const std::vector<uint32_t> patterns = surface::lod::patternWords();
     std::copy(patterns.begin(), patterns.end(), view->hostWords_.begin() + kLodPatterns);
-    view->takenRuns_.resize(roomForRuns(desc));
+    view->takenRuns_.resize(roomForRuns(device, desc));
     view->runWords_.resize(view->takenRuns_.size() * kLodRunWords);
     view->giveRuns(0, view->maxRuns());
     view->solved_.resize(framesInFlight);
@@ -85,8 +96,7 @@ Status View::createBuffers() {
     const VkDeviceSize vertices = desc_.maxVertices;
     const VkDeviceSize fixed = recordOffset();
     const VkDeviceSize wordBytes = fixed + vertices / kMinSamples * kRecordBytes;
-    // Narrow devices read the words as texels.
-    const VkDeviceSize wordLimit = device.mapping.wide ? device.limits.maxStorageBufferRange : device.bufferWindow(16);
+    const VkDeviceSize wordLimit = wordLimitOf(device);
     const VkDeviceSize records = wordLimit > fixed ? (wordLimit - fixed) / kRecordBytes : 0;
     const VkDeviceSize most = std::min<VkDeviceSize>(
         (records + 1) * kMinSamples - 1, device.limits.maxStorageBufferRange / vertexBytes(desc_.vertexFormat));

@@ -347,9 +347,20 @@ TEST(OutputNames, OfMemoryAreThoseThatTheHeaderLists) {
             EXPECT_EQ(createGroup(own.handle(), desc.asset, desc).result, SUPPLE_OK);
         }
     }
+    NamedMemory blocks(*device);
+    {
+        LoggedContext own(*device, [&](SuppleContextDesc& desc) {
+            desc.memory = &blocks.callbacks;
+            desc.memoryBlockSize = 16u << 20;
+        });
+        SuppleAsset asset{};
+        ASSERT_EQ(createTube(own.handle(), asset), SUPPLE_OK);
+    }
     std::set<std::string> all = memory.names;
     all.insert(memory.visibleNames.begin(), memory.visibleNames.end());
+    all.insert(blocks.names.begin(), blocks.names.end());
     EXPECT_EQ(all, documentedNames());
+    EXPECT_FALSE(memory.names.contains("supple block"));
     std::set<std::string> twice;
     std::ranges::set_intersection(memory.names, memory.visibleNames, std::inserter(twice, twice.end()));
     EXPECT_EQ(twice, (std::set<std::string>{"supple parameter pairs", "supple skin tables",

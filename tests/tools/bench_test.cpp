@@ -16,6 +16,9 @@ using supple::test::writeText;
 
 class Bench : public supple::test::CommandTest {};
 
+/// Times are not judged, so a driver may take what it has compiled before: that is two thirds of the run.
+const std::string kQuick = "bench --quick --driver-cache";
+
 std::set<std::string> names(const Json& list) {
     std::set<std::string> result;
     for (const Json& entry : list) {
@@ -71,10 +74,9 @@ void expectScene(const Json& scene, const std::string& out) {
         rows.insert(use + ", " + row["poses"].get<std::string>() + ", " + row["characters"].dump());
         ASSERT_FALSE(row.contains("refused")) << row;
         for (const char* key : {"dispatches", "barriers", "setUs", "recordUs", "frameMs", "vertices", "memoryBytes",
-                                "coefficientBytes", "vertexBytes", "allocations", "allocationsHeld"}) {
+                                "coefficientBytes", "vertexBytes", "allocations"}) {
             EXPECT_TRUE(finitePositive(row[key])) << key << " of " << row;
         }
-        EXPECT_GE(row["allocations"], row["allocationsHeld"]) << row;
         EXPECT_EQ(row.contains("unseenMs") && finitePositive(row["unseenMs"]), use == "view") << row;
         if (use == "view") {
             EXPECT_LE(row["vertices"], 1u << 20) << "the view's budget";
@@ -96,7 +98,7 @@ void expectScene(const Json& scene, const std::string& out) {
 
 TEST_F(Bench, QuickRunIsWhole) {
     const std::vector<Expected> cages = expectedCages();
-    const Outcome outcome = runOnDevice("bench --quick --json quick.json --plots plots");
+    const Outcome outcome = runOnDevice(kQuick + " --json quick.json --plots plots");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const Json result = Json::parse(readText(file("quick.json")), nullptr, false);
     ASSERT_TRUE(result.is_object());
@@ -220,7 +222,7 @@ TEST_F(Bench, QuickRunIsWhole) {
 }
 
 TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
-    const Outcome outcome = runOnDevice("bench --quick --cages none --crowd 2 --no-loading --json classical.json");
+    const Outcome outcome = runOnDevice(kQuick + " --cages none --crowd 2 --no-loading --json classical.json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const Json result = Json::parse(readText(file("classical.json")), nullptr, false);
     ASSERT_TRUE(result.is_object());
@@ -256,7 +258,7 @@ TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
 }
 
 TEST_F(Bench, CrowdGoesFromPoseToVertices) {
-    const Outcome outcome = runOnDevice("bench --quick --cages none --crowd 3 --json crowd.json");
+    const Outcome outcome = runOnDevice(kQuick + " --cages none --crowd 3 --json crowd.json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const Json result = Json::parse(readText(file("crowd.json")), nullptr, false);
     ASSERT_TRUE(result.is_object());
@@ -280,7 +282,7 @@ TEST_F(Bench, CrowdGoesFromPoseToVertices) {
         }
     }
     EXPECT_EQ(rows, (std::set<std::string>{"prep 4 3", "prep 8 1", "pm 4 3", "pm 8 1"}));
-    const Outcome none = runOnDevice("bench --quick --cages none --json none.json");
+    const Outcome none = runOnDevice(kQuick + " --cages none --json none.json");
     ASSERT_EQ(none.exitCode, 0) << none.err;
     EXPECT_FALSE(Json::parse(readText(file("none.json")), nullptr, false).contains("crowd"));
     expectFailure(run("bench --crowd -1"), 2, "--crowd");

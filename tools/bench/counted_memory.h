@@ -16,9 +16,7 @@ public:
     CountedMemory& operator=(const CountedMemory&) = delete;
 
     [[nodiscard]] const SuppleMemoryCallbacks& callbacks() const { return callbacks_; }
-    /// Successful calls of `allocate` so far.
-    [[nodiscard]] uint32_t allocations() const { return allocations_; }
-    /// Of these, the pieces that were not freed.
+    /// Pieces that were allocated and not freed.
     [[nodiscard]] uint32_t held() const { return allocations_ - frees_; }
 
 private:

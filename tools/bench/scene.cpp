@@ -87,8 +87,8 @@ double wholeFrame(const PassTimes& frame) {
     return frame.whole;
 }
 
-/// Commands, times and memory of what stands on the stage. `allocationsBefore`: when it was empty.
-Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc, uint32_t allocationsBefore) {
+/// Commands, times and memory of what stands on the stage.
+Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc) {
     const Result<HostTimes> host = timeHost(stage, desc.frames);
     const Result<SceneTimes> times = host ? timePasses(stage, desc.frames) : Result<SceneTimes>(host.error());
     const Result<uint64_t> vertices = times ? stage.vertices() : Result<uint64_t>(times.error());
@@ -115,21 +115,19 @@ Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc, uint32_t all
                 {"memoryBytes", memory->deviceLocal + memory->hostVisible},
                 {"coefficientBytes", memory->coefficients},
                 {"vertexBytes", memory->vertices + memory->streams},
-                {"allocations", stage.countedMemory().allocations() - allocationsBefore},
-                {"allocationsHeld", stage.countedMemory().held()}};
+                {"allocations", stage.countedMemory().held()}};
 }
 
 Result<Json> measureRow(SceneStage& stage, const SceneDesc& desc, SceneUse use, uint32_t characters) {
     Json row{{"characters", characters},
              {"use", use.inView ? "view" : "rate " + std::to_string(SceneStage::kRate)},
              {"poses", use.played ? "played" : "posed"}};
-    const uint32_t allocations = stage.countedMemory().allocations();
     Status status = stage.build(characters);
     if (!status && status.error().code == ErrorCode::limit) {
         row["refused"] = status.error().message;
         status = success();
     } else if (status) {
-        const Result<Json> measured = measureStage(stage, desc, allocations);
+        const Result<Json> measured = measureStage(stage, desc);
         status = measured ? success() : Status(measured.error());
         if (measured) {
             row.update(*measured);
@@ -150,7 +148,6 @@ Result<Json> measureRow(SceneStage& stage, const SceneDesc& desc, SceneUse use, 
 /// One, two and four views of the same characters.
 Result<Json> measureFurtherViews(SceneStage& stage, const SceneDesc& desc) {
     Json rows = Json::array();
-    const uint32_t allocations = stage.countedMemory().allocations();
     Status status = stage.build(desc.viewedCharacters);
     for (uint32_t views = 1; views <= kMostViews && status; ++views) {
         if (views > 1) {
@@ -159,7 +156,7 @@ Result<Json> measureFurtherViews(SceneStage& stage, const SceneDesc& desc) {
         if (!status || views == kMostViews - 1) {
             continue;
         }
-        const Result<Json> measured = measureStage(stage, desc, allocations);
+        const Result<Json> measured = measureStage(stage, desc);
         status = measured ? success() : Status(measured.error());
         if (measured) {
             Json row{{"characters", desc.viewedCharacters}, {"views", views}};

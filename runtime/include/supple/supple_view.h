@@ -62,8 +62,9 @@ typedef struct SuppleViewDesc {
      * default: 1, 1/2, 1/4, 0. */
     float elasticities[SUPPLE_PRIORITY_COUNT];
     /** Runs of patches that there is room for, up to SUPPLE_MAX_VIEW_RUNS, of 9 KB each; rounded up to a multiple
-     * of 64. 0: as many as maxVertices has padding for, at most 1024. A character takes a run per class and material,
-     * about three to six. FRAGMENTS and POLYGONS take no runs, but a view has at most as many groups of these. */
+     * of 64. 0: as many as maxVertices has padding for, at most 1024, and at most a quarter of what the device can
+     * bind. A character takes a run per class and material, about three to six. FRAGMENTS and POLYGONS take no runs,
+     * but a view has at most as many groups of these. */
     uint32_t maxRuns;
 } SuppleViewDesc;
 
