@@ -1,5 +1,6 @@
-# supple_embed_kernels(TARGET path...): compiles GLSL (paths below shaders/) to SPIR-V at build time, for either mapping
-# (shaders/shared/mapping.glsl) and optimized, and makes each available to TARGET as a header
+# supple_embed_kernels(TARGET [SHARED] path...): compiles GLSL (paths below shaders/) to SPIR-V at build time, for either mapping
+# (shaders/shared/mapping.glsl) and, if SHARED, for dispatches that groups share (shaders/shared/task.glsl), optimized, and makes
+# each available to TARGET as a header
 # "shaders/<path with / and . as _>.h" that defines a `gpu::Spirv` of that name. A path may end in +NAME: compiled with the macro
 # NAME defined, and the name ends in _NAME; +NAME+OTHER: with both.
 # supple_kernel_table(TARGET NAMESPACE path...): of kernels that TARGET embeds, makes "NAMESPACE/kernels.h" with
@@ -31,7 +32,7 @@ endif()
 # unrolled call functions for what is precise (tests/runtime/precise_test.cpp).
 set(SUPPLE_SPIRV_PASSES
     --eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite --loop-unroll --ccp
-    --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+    --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions --private-to-local
     --scalar-replacement=100 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
     --ssa-rewrite --ccp --eliminate-dead-branches
     --scalar-replacement=100 --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
@@ -50,12 +51,19 @@ macro(supple_shader_entry entry)
 endmacro()
 
 function(supple_embed_kernels target)
+    cmake_parse_arguments(arg "SHARED" "" "" ${ARGN})
     set(directory ${supple_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${directory}/shaders)
-    foreach(entry IN LISTS ARGN)
+    set(forms NARROW WIDE)
+    if(arg_SHARED)
+        list(APPEND forms WIDE+TASKS)
+    endif()
+    foreach(entry IN LISTS arg_UNPARSED_ARGUMENTS)
         set(includes "")
-        foreach(mapping NARROW WIDE)
-            supple_shader_entry(${entry}+${mapping})
+        set(arrays "")
+        foreach(form IN LISTS forms)
+            supple_shader_entry(${entry}+${form})
+            list(APPEND arrays ${shader_name})
             string(APPEND includes "#include \"shaders/${shader_name}.h\"\n")
             if(SUPPLE_COMPILED_SHADERS)
                 continue()
@@ -69,15 +77,16 @@ function(supple_embed_kernels target)
                 COMMAND ${CMAKE_COMMAND} -DNAME=${shader_name} -DSPIRV=${base}.opt.spv -DOUT=${base}.h
                         -P ${supple_shader_script}
                 DEPENDS ${shader_source} ${supple_shader_script} DEPFILE ${base}.d
-                COMMENT "GLSL ${entry}+${mapping}" VERBATIM)
+                COMMENT "GLSL ${entry}+${form}" VERBATIM)
             target_sources(${target} PRIVATE ${base}.h)
         endforeach()
         string(MAKE_C_IDENTIFIER ${entry} name)
+        list(JOIN arrays ", " arrays)
         file(CONFIGURE OUTPUT ${directory}/shaders/${name}.h CONTENT "// Made by cmake/supple_shaders.cmake.
 #pragma once
 #include \"gpu/spirv.h\"
 ${includes}
-static const supple::gpu::Spirv ${name}{${name}_NARROW, ${name}_WIDE};
+static const supple::gpu::Spirv ${name}{${arrays}};
 " @ONLY)
     endforeach()
     target_include_directories(${target} PRIVATE ${directory})

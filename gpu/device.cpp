@@ -208,6 +208,20 @@ std::string disabledFeature(const void* chain) {
     return {};
 }
 
+bool enablesAddresses(const void* chain) {
+    bool enabled = false;
+    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
+            const auto& own = *reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next);
+            enabled = enabled || own.bufferDeviceAddress == VK_TRUE;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES) {
+            const auto& own = *reinterpret_cast<const VkPhysicalDeviceBufferDeviceAddressFeatures*>(next);
+            enabled = enabled || own.bufferDeviceAddress == VK_TRUE;
+        }
+    }
+    return enabled;
+}
+
 bool hasIndirectFirstInstance(const Functions& vk, VkPhysicalDevice physicalDevice, const void* chain) {
     VkPhysicalDeviceFeatures2 offered{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     vk.GetPhysicalDeviceFeatures2(physicalDevice, &offered);
@@ -236,6 +250,10 @@ Status checkFit(const DeviceDesc& desc) {
     const std::string disabled = desc.enabledFeatures != nullptr ? disabledFeature(desc.enabledFeatures) : "";
     if (!disabled.empty()) {
         return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
+    }
+    if (desc.shareDispatches && desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
+        return Error{ErrorCode::disabled,
+                     "shared dispatches: the device was created without the feature bufferDeviceAddress"};
     }
     return success();
 }
@@ -275,6 +293,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.maxBufferSize = maintenance4.maxBufferSize;
     d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
     d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
+    d.mapping.sharesDispatches = d.mapping.wide && desc.shareDispatches;
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
     d.drawIndirectFirstInstance = hasIndirectFirstInstance(d.vk, desc.physicalDevice, desc.enabledFeatures);
 

@@ -36,6 +36,7 @@ struct DeviceDesc {
     VkDeviceSize memoryBlockSize = 0;      ///< of the largest block; pieces of more than half of it have their own
     bool debugUtils = false;
     MappingChoice mapping = MappingChoice::automatic;
+    bool shareDispatches = false; ///< in the wide mapping
 };
 
 class Uploads;
@@ -94,6 +95,9 @@ struct Requirements {
 /// The first feature Supple needs that a chain given to vkCreateDevice (VkDeviceCreateInfo::pNext) does not enable, or
 /// empty.
 [[nodiscard]] std::string disabledFeature(const void* chain);
+
+/// Whether such a chain enables bufferDeviceAddress.
+[[nodiscard]] bool enablesAddresses(const void* chain);
 
 /// Whether the feature drawIndirectFirstInstance is there, and enabled as far as the chain tells: it may be enabled by
 /// VkDeviceCreateInfo::pEnabledFeatures instead.

@@ -17,6 +17,7 @@ namespace supple::gpu {
 #define SUPPLE_DEVICE_FUNCTIONS(X)                                                                                     \
     X(CreateBuffer)                                                                                                    \
     X(DestroyBuffer)                                                                                                   \
+    X(GetBufferDeviceAddress)                                                                                          \
     X(GetBufferMemoryRequirements)                                                                                     \
     X(AllocateMemory)                                                                                                  \
     X(FreeMemory)                                                                                                      \

@@ -52,6 +52,9 @@ Result<HostMemory> allocateHostMemory(const Device& device, const VkMemoryRequir
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = requirements.size;
     info.memoryTypeIndex = type;
+    VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    info.pNext = device.mapping.sharesDispatches ? &flags : nullptr;
     VkResult result = device.vk.AllocateMemory(device.handle, &info, device.allocator, &memory.memory);
     if (result != VK_SUCCESS) {
         return vulkanError(result, what);

@@ -19,6 +19,9 @@ Result<BufferHandle> createBuffer(const Device& device, const BufferRequest& req
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = request.size;
     info.usage = request.usage;
+    if (device.mapping.sharesDispatches && (request.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0) {
+        info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    }
     VkBuffer buffer = VK_NULL_HANDLE;
     const VkResult result = device.vk.CreateBuffer(device.handle, &info, device.allocator, &buffer);
     if (result != VK_SUCCESS) {

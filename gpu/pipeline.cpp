@@ -53,6 +53,18 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     return layout;
 }
 
+Result<ComputeLayout> ComputeLayout::ofShared(const Device& device, std::span<const Binding> bindings,
+                                              uint32_t pushBytes, const char* name) {
+    if (!device.mapping.sharesDispatches) {
+        return create(device, bindings, pushBytes, name);
+    }
+    Result<ComputeLayout> layout = create(device, {}, sizeof(shared::TasksPush), name);
+    if (layout) {
+        layout->ofTasks = true;
+    }
+    return layout;
+}
+
 Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLayout layout, const Spirv& spirv,
                                              std::span<const Constant> constants, const char* name) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -172,6 +184,13 @@ void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& ker
     device.vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->get());
     device.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &set, 0,
                                     nullptr);
+    device.vk.CmdPushConstants(commandBuffer, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                               static_cast<uint32_t>(push.size()), push.data());
+}
+
+void bindByAddress(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel,
+                   std::span<const std::byte> push) {
+    device.vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->get());
     device.vk.CmdPushConstants(commandBuffer, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                static_cast<uint32_t>(push.size()), push.data());
 }

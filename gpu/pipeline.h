@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "gpu/handle.h"
 #include "gpu/spirv.h"
+#include "shaders/shared/tasks.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,9 +46,13 @@ struct ComputeLayout {
     std::vector<Binding> bindings; ///< of the device's mapping
     SetLayoutHandle setLayout;
     PipelineLayoutHandle pipelineLayout;
+    bool ofTasks = false; ///< no bindings, the push constants of shared dispatches
 
     [[nodiscard]] static Result<ComputeLayout> create(const Device& device, std::span<const Binding> bindings,
                                                       uint32_t pushBytes, const char* name);
+    /// Of kernels that can share dispatches (gpu::Spirv::tasks): of tasks if the device's mapping shares them.
+    [[nodiscard]] static Result<ComputeLayout> ofShared(const Device& device, std::span<const Binding> bindings,
+                                                        uint32_t pushBytes, const char* name);
 };
 
 struct Constant {
@@ -59,6 +64,9 @@ struct Constant {
 
 /// What the device's mapping runs.
 [[nodiscard]] inline std::span<const uint32_t> wordsOf(const Device& device, const Spirv& spirv) {
+    if (device.mapping.sharesDispatches && !spirv.tasks.empty()) {
+        return spirv.tasks;
+    }
     return device.mapping.wide ? spirv.wide : spirv.narrow;
 }
 
@@ -96,6 +104,14 @@ template <class Push>
 void bind(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, VkDescriptorSet set,
           const Push& push) {
     bind(device, commandBuffer, kernel, set, std::as_bytes(std::span(&push, 1)));
+}
+
+/// The same for a kernel that binds no set.
+void bindByAddress(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel,
+                   std::span<const std::byte> push);
+template <class Push>
+void bindByAddress(const Device& device, VkCommandBuffer commandBuffer, const Kernel& kernel, const Push& push) {
+    bindByAddress(device, commandBuffer, kernel, std::as_bytes(std::span(&push, 1)));
 }
 
 /// What a dispatch may have in x: the least that devices must take at most, so that splits are the same everywhere.

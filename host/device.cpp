@@ -373,6 +373,7 @@ Status Device::createDevice(const DeviceOptions& options) {
     requirements_.features13.dynamicRendering = VK_TRUE;
     requirements_.features13.synchronization2 = VK_TRUE;
     requirements_.features12.drawIndirectCount = all.of12.drawIndirectCount; // host/view_draws.h
+    requirements_.features12.bufferDeviceAddress = VK_TRUE; // every Vulkan 1.3 device: SUPPLE_CONTEXT_SHARED_DISPATCHES
     requirements_.features12.pNext = &requirements_.features13;
     // Many draws by one command (docs/integration.md).
     features11_ = vkStruct<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);

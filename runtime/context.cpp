@@ -1,5 +1,7 @@
 #include "runtime/context.h"
 
+#include "shaders/shared_count_tasks_comp.h"
+
 #include "surface/grid.h"
 
 #include <algorithm>
@@ -68,6 +70,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
         deviceDesc.memorySource = memorySourceOf(*desc.memory);
     }
     deviceDesc.memoryBlockSize = desc.memoryBlockSize;
+    deviceDesc.shareDispatches = (desc.flags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0;
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
     deviceDesc.drawQueueFamily = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
     context->families_ = {desc.queueFamily, deviceDesc.drawQueueFamily};
@@ -84,6 +87,11 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->device_->uploads = &context->uploads_;
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
     context->kernels_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
+    if (const Status rooms =
+            context->taskRooms_.create(d, *context->pipelines_, shared_count_tasks_comp, context->framesInFlight_);
+        !rooms) {
+        return rooms.error();
+    }
 
     Result<surface::Programs> passes = surface::Programs::create(d, *context->pipelines_, shaders);
     if (!passes) {
@@ -210,7 +218,14 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     origin_ = nextOrigin_;
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
-    return success();
+    taskRooms_.beginFrame(frame);
+    return reserveTasks({});
+}
+
+Status Context::reserveTasks(const gpu::TaskNeeds& more) {
+    gpu::TaskNeeds needs = more;
+    groups.forEach([&](const Group& group) { needs += group.taskNeeds(); });
+    return taskRooms_.reserve(*device_, frame_, needs);
 }
 
 void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore) {
@@ -300,6 +315,9 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::disabled, "suppleCreateGroup: instancesOf: " + asset->character.name +
                                               ": an instance hides a part, and the device was created without the "
                                               "feature drawIndirectFirstInstance"};
+    }
+    if (const Status room = reserveTasks((*group)->taskNeeds()); !room) {
+        return room.error();
     }
     tellNotes(**group);
     tellBuiltLate(*asset);
@@ -408,6 +426,11 @@ Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
             status = remake(remaking, id, group, remade);
         }
     });
+    gpu::TaskNeeds more;
+    for (const Remade& own : remade) {
+        more += own.group->taskNeeds();
+    }
+    status = status ? reserveTasks(more) : status;
     if (!status) {
         return status.error();
     }

@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/pipelines.h"
 #include "gpu/static_buffers.h"
+#include "gpu/tasks.h"
 #include "gpu/uploads.h"
 #include "runtime/asset.h"
 #include "runtime/group.h"
@@ -81,6 +82,7 @@ public:
 
     /// What a reader has to say of a character.
     void tellWarnings(const cage::Character& character) const;
+    [[nodiscard]] const gpu::Device& device() const { return *device_; }
     [[nodiscard]] bool isWide() const { return device_->mapping.wide; } ///< gpu/mapping.h
     /// Whether draws can leave out parts: their indirect commands then have a first instance.
     [[nodiscard]] bool hidesInDraws() const { return device_->drawIndirectFirstInstance; }
@@ -153,6 +155,10 @@ private:
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
+    /// Of linked groups.
+    [[nodiscard]] gpu::TaskNeeds taskNeeds(const Group* groups) const;
+    /// Room for what all groups record in this frame, and `more`.
+    [[nodiscard]] Status reserveTasks(const gpu::TaskNeeds& more);
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;
@@ -169,6 +175,7 @@ private:
     std::unique_ptr<SharedKernels> kernels_;
     surface::Programs surface_;
     gpu::StaticBuffers pairs_;
+    gpu::TaskRooms taskRooms_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
     gpu::Uploads uploads_;
     mutable uint64_t statesAsked_ = 0; ///< gpu::StaticCount::number

@@ -36,6 +36,7 @@ static_assert(legacyAccess(kFirst.access) ==
 struct Frame {
     const gpu::Device& device;
     VkCommandBuffer commands;
+    gpu::Dispatches& dispatches; ///< into it, of surfaces
     uint64_t number = 0;
     uint32_t framesInFlight = 2;
     double time = 0.0;       ///< the host's, in seconds
@@ -57,7 +58,7 @@ struct Frame {
         }
         return false;
     }
-    void computeBarrier() const { gpu::computeBarrier(device, commands); }
+    void computeBarrier() const { dispatches.computeBarrier(); }
     /// Vertices that a view has for all its groups; kRoomForAll if even all instances fit at their coarsest.
     [[nodiscard]] uint32_t roomOf(const View& view) const {
         uint64_t least = 0;
@@ -135,21 +136,21 @@ PassCost recordUpload(const Frame& frame, Group& group) {
 }
 
 PassCost recordAttributes(const Frame& frame, Tessellation& surface, surface::Round&) {
-    return surface.recordAttributes(frame.commands, frame.number);
+    return surface.recordAttributes(frame.dispatches, frame.number);
 }
 
-template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
+template <PassCost (Tessellation::*record)(gpu::Dispatches&) const>
 PassCost recordSurface(const Frame& frame, Tessellation& surface, surface::Round&) {
-    return (surface.*record)(frame.commands);
+    return (surface.*record)(frame.dispatches);
 }
 template <PassCost (Tessellation::*record)(surface::Round&) const>
 PassCost recordInRounds(const Frame&, Tessellation& surface, surface::Round& round) {
     return (surface.*record)(round);
 }
 /// All surfaces of a group together.
-template <PassCost (Tessellation::*record)(VkCommandBuffer) const>
+template <PassCost (Tessellation::*record)(gpu::Dispatches&) const>
 PassCost recordSurfaces(const Frame& frame, Group& group) {
-    return group.surfaces().record([&](const Tessellation& surface) { return (surface.*record)(frame.commands); });
+    return group.surfaces().record([&](const Tessellation& surface) { return (surface.*record)(frame.dispatches); });
 }
 
 template <Playback::Part part>
@@ -159,11 +160,11 @@ bool poses(Group& group) {
 
 template <Playback::Part part>
 PassCost recordPose(const Frame& frame, Group& group) {
-    return poses<part>(group) ? group.poses().recordPart(frame.commands, part, group.windows()) : PassCost{};
+    return poses<part>(group) ? group.poses().recordPart(frame.dispatches, part, group.windows()) : PassCost{};
 }
 
 PassCost recordBounds(const Frame& frame, Group& group) {
-    return group.hasBounds() ? group.recordBounds(frame.commands) : PassCost{};
+    return group.hasBounds() ? group.recordBounds(frame.dispatches) : PassCost{};
 }
 
 /// What the host reads frames later.
@@ -188,7 +189,7 @@ bool isShortOfRoom(const Frame& frame, const Group& group) {
 /// If even the coarsest surfaces of all instances might not have room, those that are left out are found first.
 PassCost recordSizes(const Frame& frame, Group& group) {
     if (isShortOfRoom(frame, group)) {
-        group.culling()->recordSizes(frame.commands, group.leastVertices());
+        group.culling()->recordSizes(frame.dispatches, group.leastVertices());
     }
     return {};
 }
@@ -198,7 +199,7 @@ PassCost recordList(const Frame& frame, Group& group) {
         return {};
     }
     const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
-    return group.culling()->recordList(frame.commands, budgeted ? frame.roomOf(*group.view()) : shared::kRoomForAll);
+    return group.culling()->recordList(frame.dispatches, budgeted ? frame.roomOf(*group.view()) : shared::kRoomForAll);
 }
 
 template <Stage stage>
@@ -216,8 +217,8 @@ bool countsRates(Group& group) {
 PassCost recordPatchLevels(const Frame& frame, Group& group) {
     PassCost cost = recordSurfaces<&Tessellation::recordPatchLevels>(frame, group);
     if (countsRates(group)) {
-        gpu::disjointBarrier(frame.device, frame.commands);
-        cost += group.culling()->recordDemand(frame.commands);
+        frame.dispatches.disjointBarrier();
+        cost += group.culling()->recordDemand(frame.dispatches);
     }
     return cost;
 }
@@ -237,8 +238,8 @@ PassCost recordRates(const Frame& frame, Group& group) {
     if (!choosesRates(group)) {
         return {};
     }
-    gpu::disjointBarrier(frame.device, frame.commands);
-    return group.culling()->recordRates(frame.commands, countsRates(group));
+    frame.dispatches.disjointBarrier();
+    return group.culling()->recordRates(frame.dispatches, countsRates(group));
 }
 
 /// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
@@ -372,10 +373,12 @@ void recordBarrier(const Frame& frame, Behind behind) {
         break;
     case Behind::arguments:
         barrier({kCompute, kWrite}, {kCompute | kIndirect, kRead | kWrite | kIndirectRead});
+        frame.dispatches.count();
         break;
     case Behind::places:
         barrier({kCompute, kWrite}, {kCompute | kIndirect | VK_PIPELINE_STAGE_2_COPY_BIT,
                                      kRead | kWrite | kIndirectRead | VK_ACCESS_2_TRANSFER_READ_BIT});
+        frame.dispatches.count();
         break;
     case Behind::readback:
         barrier({VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
@@ -397,15 +400,19 @@ void recordBarrier(const Frame& frame, Behind behind) {
     }
 }
 
-/// Times what a pass records of a group.
+/// Times what a pass records of a group: then groups share no dispatch.
 struct Timed {
     SupplePass pass;
     Timings::Recording& timing;
+    gpu::Dispatches& dispatches;
 
     template <class Record>
     void operator()(const Group& group, uint32_t surface, Record&& record) const {
         timing.beginPass();
         const PassCost cost = record();
+        if (timing.isOpen()) {
+            dispatches.flush();
+        }
         if (cost.bytes > 0 || cost.onDevice) {
             timing.endPass(pass, group.link.handle, surface, cost);
         }
@@ -423,7 +430,7 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
         });
     };
     if (!timed.timing.isOpen()) {
-        surface::inRounds(frame.device, frame.commands, [&](surface::Round& round) {
+        surface::inRounds(frame.dispatches, [&](surface::Round& round) {
             forEachSurface([&](Group& group, uint32_t surface) {
                 (void)row.work.ofSurface(frame, group.surfaces()[surface], round);
             });
@@ -434,7 +441,7 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
         timed(group, surface, [&] {
             Tessellation& own = group.surfaces()[surface];
             PassCost cost;
-            own.inRounds(frame.commands, [&](surface::Round& round) {
+            own.inRounds(frame.dispatches, [&](surface::Round& round) {
                 const PassCost ofRound = row.work.ofSurface(frame, own, round);
                 cost = round.number == 0 ? ofRound : cost;
             });
@@ -447,13 +454,14 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
     if (row.timed) {
         frame.device.beginLabel(frame.commands, passName(row.pass));
     }
-    const Timed timed{row.pass, timing};
+    const Timed timed{row.pass, timing, frame.dispatches};
     if (row.work.ofSurface != nullptr) {
         recordEachSurface(frame, row, timed);
     } else {
         frame.forEach(
             [&](Group& group) { timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); }); });
     }
+    frame.dispatches.flush();
     if (row.timed) {
         frame.device.endLabel(frame.commands);
     }
@@ -462,10 +470,10 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
 
 void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
     frame.device.beginLabel(frame.commands, passName(row.pass));
-    const Timed timed{row.pass, timing};
+    const Timed timed{row.pass, timing, frame.dispatches};
     frame.forEach([&](Group& group) {
         const auto record = [&](uint32_t surface) {
-            timed(group, surface, [&] { return group.stages().record(frame.commands, stage, surface); });
+            timed(group, surface, [&] { return group.stages().record(frame.dispatches, stage, surface); });
         };
         const auto surfaces = static_cast<uint32_t>(group.surfaces().size());
         for (uint32_t surface = 0; row.perSurface && surface < surfaces; ++surface) {
@@ -611,6 +619,14 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
     return success();
 }
 
+gpu::TaskNeeds Context::taskNeeds(const Group* groups) const {
+    gpu::TaskNeeds needs;
+    for (const Group* group = groups; device_->mapping.sharesDispatches && group != nullptr; group = group->link.next) {
+        needs += group->taskNeeds();
+    }
+    return needs;
+}
+
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
     if (Status open = checkOpen("suppleRecord"); !open) {
         return open;
@@ -620,13 +636,14 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return linked.error();
     }
     const gpu::Device& device = *device_;
-    Frame frame{device, commandBuffer, frame_, framesInFlight_, desc.time, *linked, *this};
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
         gpu::memoryBarrier(device, commandBuffer,
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
+    gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, taskNeeds(*linked));
+    Frame frame{device, commandBuffer, *dispatches, frame_, framesInFlight_, desc.time, *linked, *this};
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;

@@ -290,6 +290,17 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.windowCount = windows().count();
 }
 
+gpu::TaskNeeds Group::taskNeeds() const {
+    const uint32_t windows = listing_.windows().count();
+    const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
+    gpu::TaskNeeds needs{windows * (Playback::kParts + stages), windows * (1 + stages)};
+    needs += {windows + Culling::kGroupPasses + gpu::TaskDispatches::kPhases, windows + 1}; // bounds and lists
+    for (const auto& surface : surfaces_) {
+        needs += surface->taskNeeds();
+    }
+    return needs;
+}
+
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
@@ -367,8 +378,8 @@ bool Group::findUnseen() {
     return instances_.use_count() > 1 ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), poses());
 }
 
-PassCost Group::recordBounds(VkCommandBuffer commandBuffer) const {
-    return culling_ != nullptr ? culling_->recordBounds(commandBuffer) : listedBounds_->record(commandBuffer);
+PassCost Group::recordBounds(gpu::Dispatches& dispatches) const {
+    return culling_ != nullptr ? culling_->recordBounds(dispatches) : listedBounds_->record(dispatches);
 }
 
 void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) {

@@ -65,6 +65,8 @@ public:
     [[nodiscard]] Status setRate(uint32_t rate);
     /// Without the asset's tables, the view's buffers, and the instances of another group.
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
+    /// Of its surfaces in a frame.
+    [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -110,7 +112,7 @@ public:
     /// Notes that the frame has something of the group. recordStatics() and recordUpload() do so themselves.
     void noteRecorded(uint64_t frame) { lastRecordedFrame_ = frame; }
     /// If hasBounds().
-    PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
     void recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame);
     /// What the group hands to the queue family that draws; withView: and what its view does.

@@ -1,5 +1,7 @@
 #include "runtime/playback.h"
 
+#include "gpu/tasks.h"
+
 #include "skinning/joints.h"
 #include "skinning/split_time.h"
 
@@ -120,13 +122,7 @@ Status Playback::createBuffers(const Desc& desc) {
 Status Playback::createSets(const Desc& desc) {
     const gpu::Device& device = *desc.device;
     const uint32_t windows = (capacity_ + windowSize_ - 1) / windowSize_;
-    Result<gpu::DescriptorPoolHandle> pool =
-        gpu::createDescriptorPool(device, kernels_->layout(), windows, "supple pose");
-    if (!pool) {
-        return pool.error();
-    }
-    pool_ = std::move(*pool);
-    Status status = success();
+    Status status = sets_.create(device, kernels_->layout(), windows, "supple pose");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(device, buffer, format, offset, size, name, status);
     };
@@ -139,11 +135,6 @@ Status Playback::createSets(const Desc& desc) {
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
                        scratchBytes = push_.scratchStride * gpu::kVec4Bytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
-        const Result<VkDescriptorSet> set = gpu::allocateSet(device, kernels_->layout(), pool_.get(), "supple pose");
-        if (!set) {
-            return set.error();
-        }
-        sets_.push_back(*set);
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
         const auto range = [&](VkBuffer buffer, VkDeviceSize bytes) {
@@ -168,7 +159,7 @@ Status Playback::createSets(const Desc& desc) {
             {kInstanceTexelBinding, {}, instanceView},
         };
         if (status) {
-            gpu::writeSet(device, kernels_->layout(), *set, resources);
+            sets_.write(device, kernels_->layout(), w, resources);
         }
     }
     return status;
@@ -479,7 +470,7 @@ void Playback::cancelUpload(uint64_t frame) {
     masksChanged_ = masksChanged_ || masksFrame_ == frame;
 }
 
-void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const {
+void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);
     push.timeHigh = time.high;
@@ -488,36 +479,37 @@ void Playback::record(VkCommandBuffer commandBuffer, Part part, uint32_t window,
     push.instanceCount = count;
     switch (part) {
     case Part::locals:
-        kernels_->recordLocals(commandBuffer, sets_[window], adds_, push);
+        kernels_->recordLocals(dispatches, sets_[window], adds_, push);
         break;
     case Part::roots:
-        kernels_->recordRoots(commandBuffer, sets_[window], push);
+        kernels_->recordRoots(dispatches, sets_[window], push);
         break;
     case Part::modifiers:
-        kernels_->recordModifiers(commandBuffer, sets_[window], push);
+        kernels_->recordModifiers(dispatches, sets_[window], push);
         break;
     case Part::palette:
-        kernels_->recordPalette(commandBuffer, sets_[window], mode_, push);
+        kernels_->recordPalette(dispatches, sets_[window], mode_, push);
         break;
     }
 }
 
 void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
-    const auto dispatch = [&](auto&& record) {
-        gpu::computeBarrier(*device_, commandBuffer);
-        record(sets_[0], PosePush{}); // of no instances
-    };
+    gpu::OwnDispatches own(*device_, commandBuffer);
+    gpu::Dispatches& dispatches = *own;
+    const gpu::BoundSet& set = sets_[0];
+    const PosePush none{}; // of no instances
     for (const bool adds : {false, true}) {
-        dispatch(
-            [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordLocals(commandBuffer, set, adds, push); });
+        dispatches.computeBarrier();
+        kernels_->recordLocals(dispatches, set, adds, none);
     }
-    dispatch([&](VkDescriptorSet set, const PosePush& push) { kernels_->recordRoots(commandBuffer, set, push); });
+    dispatches.computeBarrier();
+    kernels_->recordRoots(dispatches, set, none);
     if (takesModifiers()) {
-        dispatch(
-            [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordModifiers(commandBuffer, set, push); });
+        dispatches.computeBarrier();
+        kernels_->recordModifiers(dispatches, set, none);
     }
-    dispatch(
-        [&](VkDescriptorSet set, const PosePush& push) { kernels_->recordPalette(commandBuffer, set, mode_, push); });
+    dispatches.computeBarrier();
+    kernels_->recordPalette(dispatches, set, mode_, none);
 }
 
 gpu::MemoryUse Playback::memoryUse() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "gpu/bound_sets.h"
 #include "gpu/memory.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
@@ -97,8 +98,9 @@ public:
     void cancelUpload(uint64_t frame);
 
     enum class Part { locals, roots, modifiers, palette };
+    static constexpr uint32_t kParts = 4;
     /// A part of the pass over `count` instances of a window, whose entries of the list begin at `first`.
-    void record(VkCommandBuffer commandBuffer, Part part, uint32_t window, uint32_t first, uint32_t count) const;
+    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const {
         return part == Part::roots ? roots_ : part == Part::modifiers ? modifies_ : true;
@@ -166,8 +168,7 @@ private:
 
     gpu::BufferSet buffers_, staging_;
     gpu::TexelViews views_;
-    gpu::DescriptorPoolHandle pool_;
-    std::vector<VkDescriptorSet> sets_; ///< by window
+    gpu::BoundSets sets_; ///< by window
 };
 
 } // namespace supple::runtime

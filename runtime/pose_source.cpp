@@ -118,14 +118,13 @@ public:
     }
     void cancelFrame(uint64_t frame) override { playback_.cancelUpload(frame); }
     [[nodiscard]] bool has(Playback::Part part) const override { return playback_.has(part); }
-    PassCost recordPart(VkCommandBuffer commandBuffer, Playback::Part part,
+    PassCost recordPart(gpu::Dispatches& dispatches, Playback::Part part,
                         const InstanceWindows& windows) const override {
         if (!has(part)) {
             return {};
         }
-        windows.forEach([&](uint32_t w) {
-            playback_.record(commandBuffer, part, w, windows.firstEntry(w), windows.listed[w].count);
-        });
+        windows.forEach(
+            [&](uint32_t w) { playback_.record(dispatches, part, w, windows.firstEntry(w), windows.listed[w].count); });
         if (part != Playback::Part::palette) { // whose poses are what is counted
             return {0, 0, windows.visible > 0};
         }

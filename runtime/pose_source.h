@@ -69,7 +69,7 @@ public:
     }
     /// The pose pass has four parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
-    virtual PassCost recordPart(VkCommandBuffer /*commandBuffer*/, Playback::Part /*part*/,
+    virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {
         return {};
     }

@@ -3,7 +3,7 @@
 namespace supple::runtime {
 
 Status SurfaceSets::create(const Desc& desc, const std::function<void(const Which&, SetContents&)>& fill) {
-    sets_.assign(size_t{desc.windows} * 4, {}); // also without kinds: passes ask for them and bind none
+    sets_.assign(size_t{desc.windows} * kSetsOfWindow, {}); // also without kinds: passes ask for them and bind none
     if (desc.kinds.empty()) {
         return success();
     }
@@ -16,27 +16,21 @@ Status SurfaceSets::create(const Desc& desc, const std::function<void(const Whic
             }
         }
     }
-    for (const surface::SetKind kind : desc.kinds) {
-        Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(
-            *desc.device, desc.passes->layout(kind), static_cast<uint32_t>(all.size()), "supple surface");
-        if (!pool) {
-            return pool.error();
-        }
-        pools_.push_back(std::move(*pool));
-    }
+    // Addresses are by binding, which says the same in all kinds.
+    bound_.resize(desc.device->mapping.sharesDispatches ? 1 : desc.kinds.size());
     Status status = success();
-    for (const Which& which : all) {
+    for (size_t k = 0; k < bound_.size() && status; ++k) {
+        status = bound_[k].create(*desc.device, desc.passes->layout(desc.kinds[k]), static_cast<uint32_t>(all.size()),
+                                  "supple surface");
+    }
+    for (size_t i = 0; i < all.size() && status; ++i) {
         SetContents contents(*desc.device, views_, status);
-        fill(which, contents);
+        fill(all[i], contents);
+        for (size_t k = 0; k < bound_.size() && status; ++k) {
+            bound_[k].write(*desc.device, desc.passes->layout(desc.kinds[k]), i, contents.resources());
+        }
         for (size_t k = 0; k < desc.kinds.size() && status; ++k) {
-            const gpu::ComputeLayout& layout = desc.passes->layout(desc.kinds[k]);
-            const Result<VkDescriptorSet> set =
-                gpu::allocateSet(*desc.device, layout, pools_[k].get(), "supple surface");
-            if (!set) {
-                return set.error();
-            }
-            gpu::writeSet(*desc.device, layout, *set, contents.resources());
-            sets_[index(which)][static_cast<size_t>(desc.kinds[k])] = *set;
+            sets_[index(all[i])][static_cast<size_t>(desc.kinds[k])] = bound_[std::min(k, bound_.size() - 1)][i];
         }
     }
     return status;

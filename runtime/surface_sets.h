@@ -1,6 +1,7 @@
 // The descriptor sets that surface passes bind: for each window of instances, coefficient pool and kind of output.
 #pragma once
 
+#include "gpu/bound_sets.h"
 #include "gpu/memory.h"
 #include "gpu/pipeline.h"
 #include "surface/program.h"
@@ -24,6 +25,9 @@ public:
     }
     void texels(uint32_t binding, VkFormat format, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes,
                 const char* name) {
+        if (device_->mapping.sharesDispatches) {
+            return; // tasks read no texels
+        }
         resources_.push_back({binding, {}, views_->make(*device_, buffer, format, offset, bytes, name, *status_)});
     }
     [[nodiscard]] std::span<const gpu::BoundResource> resources() const { return resources_; }
@@ -34,6 +38,8 @@ private:
     Status* status_;
     std::vector<gpu::BoundResource> resources_;
 };
+
+inline constexpr uint32_t kSetsOfWindow = 4; ///< by SurfaceSets::Which
 
 class SurfaceSets {
 public:
@@ -59,7 +65,7 @@ private:
         return (which.window * 2 + which.pool) * 2 + (which.previous ? 1 : 0);
     }
     std::vector<surface::Sets> sets_;
-    std::vector<gpu::DescriptorPoolHandle> pools_; ///< one a kind
+    std::vector<gpu::BoundSets> bound_; ///< one a kind; of tasks one for all kinds
     gpu::TexelViews views_;
 };
 

@@ -176,7 +176,7 @@ Status View::createSolver(surface::Programs& passes) {
         return solver.error();
     }
     solver_ = *solver;
-    const gpu::ComputeLayout& layout = passes.layout(surface::SetKind::levels);
+    const gpu::ComputeLayout& layout = passes.solverLayout();
     Result<gpu::DescriptorPoolHandle> pool = gpu::createDescriptorPool(*device_, layout, 1, "supple view");
     if (!pool) {
         return pool.error();

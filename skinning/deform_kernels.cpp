@@ -147,7 +147,7 @@ Result<DeformKernels> DeformKernels::create(const gpu::Device& device, gpu::Pipe
     made.device_ = &device;
     made.pipelines_ = &pipelines;
     Result<gpu::ComputeLayout> layout =
-        gpu::ComputeLayout::create(device, bindings, sizeof(DeformPush), "supple deform");
+        gpu::ComputeLayout::ofShared(device, bindings, sizeof(DeformPush), "supple deform");
     if (!layout) {
         return layout.error();
     }
@@ -186,22 +186,21 @@ Status DeformKernels::prepareGather() {
     return success();
 }
 
-void DeformKernels::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+void DeformKernels::record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                            const shared::DeformPush& push) const {
-    record(commandBuffer, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set, push);
+    record(dispatches, kernels_[static_cast<size_t>(mode)][push.firstInfluences != 0 ? 1 : 0], set, push);
 }
 
-void DeformKernels::recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set,
+void DeformKernels::recordGather(gpu::Dispatches& dispatches, const gpu::BoundSet& set,
                                  const shared::DeformPush& push) const {
-    record(commandBuffer, gather_, set, push);
+    record(dispatches, gather_, set, push);
 }
 
-void DeformKernels::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+void DeformKernels::record(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
                            const shared::DeformPush& push) const {
-    gpu::bind(*device_, commandBuffer, kernel, set, push);
     const uint64_t lanes = uint64_t{push.vertexCount} * push.instanceCount;
     const uint64_t local = device_->mapping.localSize;
-    gpu::dispatchLinear(*device_, commandBuffer, (lanes + local - 1) / local);
+    dispatches.dispatch(kernel, set, push, (lanes + local - 1) / local);
 }
 
 } // namespace supple::skinning

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "gpu/dispatches.h"
 #include "gpu/pipelines.h"
 #include "shaders/shared/deform.h"
 #include "skinning/pose.h"
@@ -65,13 +66,13 @@ public:
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Records one dispatch over a window of instances; `set` binds the window's buffers. `push.firstInfluences` as the
     /// table has it. What it needs must have been prepared.
-    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+    void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                 const shared::DeformPush& push) const;
     /// Copies the vertices of a piece out of the whole deformed cage (shaders/deform/gather.comp).
-    void recordGather(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DeformPush& push) const;
+    void recordGather(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::DeformPush& push) const;
 
 private:
-    void record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+    void record(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
                 const shared::DeformPush& push) const;
 
     const gpu::Device* device_ = nullptr;

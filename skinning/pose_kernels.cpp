@@ -36,7 +36,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
     PoseKernels made;
     made.device_ = &device;
     made.pipelines_ = &pipelines;
-    Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(device, bindings, sizeof(PosePush), "supple pose");
+    Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::ofShared(device, bindings, sizeof(PosePush), "supple pose");
     if (!layout) {
         return layout.error();
     }
@@ -78,33 +78,32 @@ Status PoseKernels::prepare(SkinningMode mode) {
     return success();
 }
 
-void PoseKernels::record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push,
+void PoseKernels::record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push,
                          const gpu::Kernel& kernel, uint64_t groups) const {
-    gpu::bind(*device_, commandBuffer, kernel, set, push);
-    gpu::dispatchLinear(*device_, commandBuffer, groups);
+    dispatches.dispatch(kernel, set, push, groups);
 }
 
-void PoseKernels::recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds,
+void PoseKernels::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, bool adds,
                                const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(commandBuffer, set, push, locals_[adds ? 1 : 0], (items * push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, locals_[adds ? 1 : 0], (items * push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
-    record(commandBuffer, set, push, roots_, (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, roots_, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordModifiers(VkCommandBuffer commandBuffer, VkDescriptorSet set, const PosePush& push) const {
+void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
-    record(commandBuffer, set, push, modifiers_, (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, modifiers_, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                                 const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(commandBuffer, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

@@ -2,6 +2,7 @@
 // pass reads.
 #pragma once
 
+#include "gpu/dispatches.h"
 #include "gpu/pipelines.h"
 #include "shaders/shared/pose.h"
 #include "skinning/deform_kernels.h"
@@ -20,12 +21,12 @@ public:
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Each records one dispatch over a window of instances; a barrier stands between each two. `adds`: some instance
     /// has an additive layer; code that no one runs costs time on CPU devices. Roots only where one has root motion.
-    void recordLocals(VkCommandBuffer commandBuffer, VkDescriptorSet set, bool adds,
+    void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, bool adds,
                       const shared::PosePush& push) const;
-    void recordRoots(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push) const;
+    void recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     /// Only where one has modifiers.
-    void recordModifiers(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push) const;
-    void recordPalette(VkCommandBuffer commandBuffer, VkDescriptorSet set, SkinningMode mode,
+    void recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
+    void recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                        const shared::PosePush& push) const;
 
 private:
@@ -34,7 +35,7 @@ private:
         gpu::Kernel roots, modifiers, palette;
     };
     [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
-    void record(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::PosePush& push,
+    void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
                 const gpu::Kernel& kernel, uint64_t groups) const;
 
     const gpu::Device* device_ = nullptr;

@@ -21,11 +21,11 @@ std::vector<DispatchSize> sizesOf(std::initializer_list<const Steps*> passes) {
     return sizes;
 }
 
-void recordBarrier(const gpu::Device& device, VkCommandBuffer commandBuffer, Order order) {
+void recordBarrier(gpu::Dispatches& dispatches, Order order) {
     if (order == Order::after) {
-        gpu::computeBarrier(device, commandBuffer);
+        dispatches.computeBarrier();
     } else if (order != Order::free) {
-        gpu::disjointBarrier(device, commandBuffer);
+        dispatches.disjointBarrier();
     }
 }
 
@@ -34,19 +34,19 @@ bool beginsRound(const Step& step) {
     return step.order == Order::disjoint || step.order == Order::after;
 }
 
-void dispatch(const gpu::Device& device, VkCommandBuffer commandBuffer, const Step& step, const Window& window) {
-    std::array<std::byte, gpu::kPushConstantBytes> push = step.push;
-    std::memcpy(push.data(), &window.push, sizeof(window.push));
-    gpu::bind(device, commandBuffer, step.kernel, window.sets[static_cast<size_t>(step.sets)],
-              std::span<const std::byte>(push).first(step.pushBytes));
+void dispatch(gpu::Dispatches& dispatches, const Step& step, const Window& window) {
+    std::array<std::byte, gpu::kPushConstantBytes> words = step.push;
+    std::memcpy(words.data(), &window.push, sizeof(window.push));
+    const std::span<const std::byte> push = std::span<const std::byte>(words).first(step.pushBytes);
+    const gpu::BoundSet& bound = window.sets[static_cast<size_t>(step.sets)];
     if (step.size.isOneGroup()) {
-        device.vk.CmdDispatch(commandBuffer, 1, 1, 1);
+        dispatches.dispatch(step.kernel, bound, push, 1);
     } else if (window.arguments != VK_NULL_HANDLE) {
-        device.vk.CmdDispatchIndirect(commandBuffer, window.arguments,
-                                      window.firstArgument + step.argument * window.argumentStride);
+        dispatches.dispatchIndirect(step.kernel, bound, push, window.arguments,
+                                    window.firstArgument + step.argument * window.argumentStride);
     } else {
         const uint64_t elements = uint64_t{step.size.elements} * window.push.instanceCount;
-        gpu::dispatchLinear(device, commandBuffer, (elements + step.size.perGroup - 1) / step.size.perGroup);
+        dispatches.dispatch(step.kernel, bound, push, (elements + step.size.perGroup - 1) / step.size.perGroup);
     }
 }
 
@@ -56,7 +56,7 @@ bool Round::advance() {
     if (next == Order::free) {
         return false;
     }
-    recordBarrier(device, commandBuffer, next);
+    recordBarrier(dispatches, next);
     ++number;
     next = Order::free;
     return true;
@@ -71,16 +71,15 @@ void record(Round& round, std::span<const Step> steps, const Window& window) {
             return;
         }
         if (number == round.number) {
-            dispatch(round.device, round.commandBuffer, step, window);
+            dispatch(round.dispatches, step, window);
         }
     }
 }
 
-void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<const Step> steps,
-            const Window& window) {
+void record(gpu::Dispatches& dispatches, std::span<const Step> steps, const Window& window) {
     for (const Step& step : steps) {
-        recordBarrier(device, commandBuffer, step.order);
-        dispatch(device, commandBuffer, step, window);
+        recordBarrier(dispatches, step.order);
+        dispatch(dispatches, step, window);
     }
 }
 

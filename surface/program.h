@@ -2,7 +2,7 @@
 // decides nothing.
 #pragma once
 
-#include "gpu/pipeline.h"
+#include "gpu/dispatches.h"
 #include "shaders/shared/lod.h"
 #include "shaders/shared/window.h"
 
@@ -28,7 +28,7 @@ enum class SetKind : uint32_t {
     count
 };
 inline constexpr size_t kSetKinds = static_cast<size_t>(SetKind::count);
-using Sets = std::array<VkDescriptorSet, kSetKinds>;
+using Sets = std::array<gpu::BoundSet, kSetKinds>;
 
 /// Instances that one descriptor set of each kind reaches, and what shaders are told about them.
 struct Window {
@@ -83,8 +83,7 @@ using Steps = std::vector<Step>;
 /// Groups share the barriers inside of a pass: it is recorded in rounds. In a round are, of every group, the steps that
 /// wait for nothing but the barriers behind the rounds before.
 struct Round {
-    const gpu::Device& device;
-    VkCommandBuffer commandBuffer = VK_NULL_HANDLE;
+    gpu::Dispatches& dispatches;
     uint32_t number = 0;
     Order next = Order::free; ///< what the steps of the next round ask for; free: nobody has one
 
@@ -94,8 +93,8 @@ struct Round {
 
 /// Calls record(round) for every round that there is.
 template <class Record>
-void inRounds(const gpu::Device& device, VkCommandBuffer commandBuffer, Record&& record) {
-    Round round{device, commandBuffer};
+void inRounds(gpu::Dispatches& dispatches, Record&& record) {
+    Round round{dispatches};
     do {
         record(round);
     } while (round.advance());
@@ -106,8 +105,7 @@ void record(Round& round, std::span<const Step> steps, const Window& window);
 
 /// Records all steps in order. Before each comes the barrier that its order asks for; only patchLevels and places begin
 /// with one. Allocates nothing.
-void record(const gpu::Device& device, VkCommandBuffer commandBuffer, std::span<const Step> steps,
-            const Window& window);
+void record(gpu::Dispatches& dispatches, std::span<const Step> steps, const Window& window);
 
 /// Between passes the caller records a barrier from compute writes to compute reads. The order is vertex, assemble,
 /// levels, deepen, evaluate, motion. `patch` may come at any time after assemble, and `attributes` at any time after

@@ -19,8 +19,7 @@ namespace {
 using namespace shared;
 
 static_assert(sizeof(PatchPush) <= sizeof(ConstructPush) && sizeof(EdgePush) <= sizeof(EvaluatePush) &&
-              sizeof(LevelsPush) <= sizeof(AttributesPush) && sizeof(DepthPush) <= sizeof(LodPush) &&
-              sizeof(LodSolvePush) <= sizeof(LodPush));
+              sizeof(LevelsPush) <= sizeof(AttributesPush) && sizeof(DepthPush) <= sizeof(LodPush));
 
 using gpu::narrowTexels;
 using gpu::storage;
@@ -72,6 +71,9 @@ constexpr struct {
     {wideStorage(kLodBinding), in({evaluateLevels, attributes})},
     {narrowTexels(kLodTexelBinding), in({evaluateLevels, attributes, levels})},
 };
+
+/// What the solver binds: the view's words.
+constexpr gpu::Binding kSolverBindings[] = {storage(kLodBinding)};
 
 constexpr uint32_t storageBuffers(SetKind kind) {
     uint32_t narrow = 0, wide = 0;
@@ -138,12 +140,18 @@ Result<Programs> Programs::create(const gpu::Device& device, gpu::Pipelines& pip
             }
         }
         Result<gpu::ComputeLayout> layout =
-            gpu::ComputeLayout::create(device, bindings, kLayouts[kind].pushBytes, kLayouts[kind].name);
+            gpu::ComputeLayout::ofShared(device, bindings, kLayouts[kind].pushBytes, kLayouts[kind].name);
         if (!layout) {
             return layout.error();
         }
         passes.layouts_[kind] = std::move(*layout);
     }
+    Result<gpu::ComputeLayout> solver =
+        gpu::ComputeLayout::create(device, kSolverBindings, sizeof(LodSolvePush), "supple view");
+    if (!solver) {
+        return solver.error();
+    }
+    passes.solverLayout_ = std::move(*solver);
     return passes;
 }
 
@@ -167,7 +175,7 @@ Result<Program> Programs::prepare(const Tables& tables, const ProgramOptions& op
 Result<Programs::Solver> Programs::prepareSolver() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const auto get = [&](Kernel kernel, const char* name) {
-        return batch.get(layout(SetKind::levels), shaders_[kernel], {}, name);
+        return batch.get(solverLayout_, shaders_[kernel], {}, name);
     };
     const Solver solver{get(Kernel::lodSolve, "supple level budget"), get(Kernel::lodCount, "supple level counts"),
                         get(Kernel::lodBuckets, "supple level buckets")};

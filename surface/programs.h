@@ -26,20 +26,22 @@ public:
     [[nodiscard]] Result<Program> prepare(const Tables& tables, const ProgramOptions& options,
                                           const Evaluation& evaluation);
 
-    /// The kernels that solve a view's budget, one after the other, with shared::LodSolvePush and a set of kind
-    /// `levels`. The second is dispatched as one workgroup a run, the others as one.
+    /// The kernels that solve a view's budget, one after the other, with shared::LodSolvePush and a set of
+    /// solverLayout(). The second is dispatched as one workgroup a run, the others as one.
     struct Solver {
         gpu::Kernel solve, count, place;
     };
     [[nodiscard]] Result<Solver> prepareSolver();
 
     [[nodiscard]] const gpu::ComputeLayout& layout(SetKind sets) const { return layouts_[static_cast<size_t>(sets)]; }
+    [[nodiscard]] const gpu::ComputeLayout& solverLayout() const { return solverLayout_; }
 
 private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     Shaders shaders_;
     std::array<gpu::ComputeLayout, kSetKinds> layouts_;
+    gpu::ComputeLayout solverLayout_;
 };
 
 } // namespace supple::surface

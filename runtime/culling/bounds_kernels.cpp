@@ -1,5 +1,7 @@
 #include "runtime/culling/bounds_kernels.h"
 
+#include "gpu/tasks.h"
+
 #include "shaders/bounds_bounds_comp.h"
 #include "shaders/bounds_demand_comp.h"
 #include "shaders/bounds_list_comp.h"
@@ -71,7 +73,7 @@ Result<BoundsKernels> BoundsKernels::create(const gpu::Device& device, gpu::Pipe
     made.pipelines_ = &pipelines;
     Status status = success();
     const auto makeLayout = [&](gpu::ComputeLayout& target, std::span<const gpu::Binding> bindings, const char* name) {
-        Result<gpu::ComputeLayout> made = gpu::ComputeLayout::create(device, bindings, kPushBytes, name);
+        Result<gpu::ComputeLayout> made = gpu::ComputeLayout::ofShared(device, bindings, kPushBytes, name);
         status = made ? success() : made.error();
         if (made) {
             target = std::move(*made);
@@ -124,11 +126,10 @@ Status BoundsKernels::prepareRates() {
 }
 
 template <class Push>
-void BoundsKernels::record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set,
+void BoundsKernels::record(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
                            const Push& push, uint64_t groups) const {
     if (groups > 0) {
-        gpu::bind(*device_, commandBuffer, kernel, set, push);
-        gpu::dispatchLinear(*device_, commandBuffer, groups);
+        dispatches.dispatch(kernel, set, push, groups);
     }
 }
 
@@ -136,39 +137,40 @@ uint64_t BoundsKernels::groupsFor(uint32_t lanes) const {
     return (uint64_t{lanes} + device_->mapping.localSize - 1) / device_->mapping.localSize;
 }
 
-void BoundsKernels::recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const BoundsPush& push) const {
-    record(commandBuffer, kernels_.bounds, set, push,
+void BoundsKernels::recordBounds(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const BoundsPush& push) const {
+    record(dispatches, kernels_.bounds, set, push,
            device_->mapping.wide ? push.instanceCount : groupsFor(push.instanceCount));
 }
 
-void BoundsKernels::recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const SizePush& push) const {
-    record(commandBuffer, kernels_.sizes, set, push, groupsFor(push.instanceCount));
+void BoundsKernels::recordSizes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const SizePush& push) const {
+    record(dispatches, kernels_.sizes, set, push, groupsFor(push.instanceCount));
 }
 
-void BoundsKernels::recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const DemandPush& push) const {
-    record(commandBuffer, rateKernels_.demand, set, push, groupsFor(push.instanceCount));
+void BoundsKernels::recordDemand(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const DemandPush& push) const {
+    record(dispatches, rateKernels_.demand, set, push, groupsFor(push.instanceCount));
 }
 
-void BoundsKernels::recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, ListPush push) const {
+void BoundsKernels::recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, ListPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
-    record(commandBuffer, kernels_.list, set, push, 1);
+    record(dispatches, kernels_.list, set, push, 1);
 }
 
-void BoundsKernels::recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, RatesPush push) const {
+void BoundsKernels::recordRates(gpu::Dispatches& dispatches, const gpu::BoundSet& set, RatesPush push) const {
     push.maxGroups = gpu::maxGroupsInX(*device_);
-    record(commandBuffer, rateKernels_.rates, set, push, 1);
+    record(dispatches, rateKernels_.rates, set, push, 1);
 }
 
-void BoundsKernels::recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow,
-                                 VkDescriptorSet ofGroup) const {
+void BoundsKernels::recordWarmUp(VkCommandBuffer commandBuffer, const gpu::BoundSet& ofWindow,
+                                 const gpu::BoundSet& ofGroup) const {
+    gpu::OwnDispatches dispatches(*device_, commandBuffer);
     const std::array<std::byte, kPushBytes> push{};
     for (const gpu::Kernel* kernel :
          {&kernels_.bounds, &kernels_.sizes, &kernels_.list, &rateKernels_.demand, &rateKernels_.rates}) {
         if (kernel->pipeline != nullptr) { // rates are made when a group has some
-            gpu::computeBarrier(*device_, commandBuffer);
-            gpu::bind(*device_, commandBuffer, *kernel, kernel == &kernels_.bounds ? ofWindow : ofGroup,
-                      std::span<const std::byte>(push));
-            gpu::dispatchLinear(*device_, commandBuffer, 0);
+            (*dispatches).computeBarrier();
+            (*dispatches)
+                .dispatch(*kernel, kernel == &kernels_.bounds ? ofWindow : ofGroup, std::span<const std::byte>(push),
+                          0);
         }
     }
 }

@@ -7,6 +7,7 @@
 // frame, is the view's.
 #pragma once
 
+#include "gpu/dispatches.h"
 #include "gpu/pipeline.h"
 #include "gpu/pipelines.h"
 #include "shaders/shared/bounds.h"
@@ -70,18 +71,18 @@ public:
     [[nodiscard]] const gpu::ComputeLayout& listLayout() const { return listLayout_; }
 
     /// Nothing if push.instanceCount is 0. `set` is the window's.
-    void recordBounds(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::BoundsPush& push) const;
+    void recordBounds(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::BoundsPush& push) const;
     // `set` is the group's.
     /// Nothing if push.instanceCount is 0.
-    void recordSizes(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::SizePush& push) const;
+    void recordSizes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::SizePush& push) const;
     /// For empty groups too: the arguments are then those of no instances. push.maxGroups is filled in.
-    void recordList(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::ListPush push) const;
+    void recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, shared::ListPush push) const;
     /// Behind the list: what instances of several rates need. Nothing if push.instanceCount is 0.
-    void recordDemand(VkCommandBuffer commandBuffer, VkDescriptorSet set, const shared::DemandPush& push) const;
+    void recordDemand(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::DemandPush& push) const;
     /// As recordList, behind it and the view's solution.
-    void recordRates(VkCommandBuffer commandBuffer, VkDescriptorSet set, shared::RatesPush push) const;
+    void recordRates(gpu::Dispatches& dispatches, const gpu::BoundSet& set, shared::RatesPush push) const;
     /// Context::recordWarmUp.
-    void recordWarmUp(VkCommandBuffer commandBuffer, VkDescriptorSet ofWindow, VkDescriptorSet ofGroup) const;
+    void recordWarmUp(VkCommandBuffer commandBuffer, const gpu::BoundSet& ofWindow, const gpu::BoundSet& ofGroup) const;
 
 private:
     struct Kernels {
@@ -93,7 +94,7 @@ private:
     [[nodiscard]] Kernels kernels(gpu::Pipelines::Batch& batch) const;
     [[nodiscard]] RateKernels rateKernels(gpu::Pipelines::Batch& batch) const;
     template <class Push>
-    void record(VkCommandBuffer commandBuffer, const gpu::Kernel& kernel, VkDescriptorSet set, const Push& push,
+    void record(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set, const Push& push,
                 uint64_t groups) const;
     [[nodiscard]] uint64_t groupsFor(uint32_t lanes) const;
 

@@ -16,25 +16,6 @@ VkDescriptorBufferInfo whole(VkBuffer buffer) {
     return {buffer, 0, VK_WHOLE_SIZE};
 }
 
-/// Makes a pool and allocates as many sets of it as there are entries in `sets`.
-Status allocateSets(const gpu::Device& device, const gpu::ComputeLayout& layout, const char* name,
-                    gpu::DescriptorPoolHandle& pool, std::span<VkDescriptorSet> sets) {
-    Result<gpu::DescriptorPoolHandle> made =
-        gpu::createDescriptorPool(device, layout, static_cast<uint32_t>(sets.size()), name);
-    if (!made) {
-        return made.error();
-    }
-    pool = std::move(*made);
-    for (VkDescriptorSet& set : sets) {
-        const Result<VkDescriptorSet> own = gpu::allocateSet(device, layout, pool.get(), name);
-        if (!own) {
-            return own.error();
-        }
-        set = *own;
-    }
-    return success();
-}
-
 } // namespace
 
 uint32_t Culling::firstRateList() const {
@@ -111,9 +92,8 @@ void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 Status Culling::createSets(const Buffers& buffers) {
     clear_.add(*device_, states_);
     addMember(clear_);
-    boundsSets_.resize(windows_->count());
-    Status status = allocateSets(*device_, kernels_->boundsLayout(), "supple bounds", boundsPool_, boundsSets_);
-    status = status ? allocateSets(*device_, kernels_->listLayout(), "supple list", listPool_, {&listSet_, 1}) : status;
+    Status status = boundsSets_.create(*device_, kernels_->boundsLayout(), windows_->count(), "supple bounds");
+    status = status ? listSets_.create(*device_, kernels_->listLayout(), 1, "supple list") : status;
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(*device_, buffer, format, offset, size, name, status);
     };
@@ -138,7 +118,7 @@ Status Culling::createSets(const Buffers& buffers) {
     if (!status) {
         return status;
     }
-    gpu::writeSet(*device_, kernels_->listLayout(), listSet_, resources);
+    listSets_.write(*device_, kernels_->listLayout(), 0, resources);
     const size_t own = resources.size();
     for (uint32_t w = 0; w < windows_->count() && status; ++w) {
         const VkDeviceSize first = windows_->firstSlot(w) * cageBytes, bytes = windows_->slots(w) * cageBytes;
@@ -148,18 +128,29 @@ Status Culling::createSets(const Buffers& buffers) {
                              {},
                              view(buffers.cages, VK_FORMAT_R32G32B32A32_SFLOAT, first, bytes, "supple deformed cage")});
         if (status) {
-            gpu::writeSet(*device_, kernels_->boundsLayout(), boundsSets_[w], resources);
+            boundsSets_.write(*device_, kernels_->boundsLayout(), w, resources);
         }
     }
-    if (status && occlusion_ != nullptr) {
-        std::vector<VkDescriptorSet> sets(framesInFlight_);
-        status = allocateSets(*device_, occlusion_->layout(), "supple occlusion", occlusionPool_, sets);
-        for (size_t f = 0; f < sets.size() && status; ++f) {
-            gpu::writeSet(*device_, occlusion_->layout(), sets[f], std::span(resources).first(own));
-            occlusionSets_.push_back({sets[f], 0});
-        }
+    return status && occlusion_ != nullptr ? createOcclusionSets(std::span(resources).first(own)) : status;
+}
+
+Status Culling::createOcclusionSets(std::span<const gpu::BoundResource> resources) {
+    Result<gpu::DescriptorPoolHandle> pool =
+        gpu::createDescriptorPool(*device_, occlusion_->layout(), framesInFlight_, "supple occlusion");
+    if (!pool) {
+        return pool.error();
     }
-    return status;
+    occlusionPool_ = std::move(*pool);
+    for (uint32_t f = 0; f < framesInFlight_; ++f) {
+        const Result<VkDescriptorSet> set =
+            gpu::allocateSet(*device_, occlusion_->layout(), occlusionPool_.get(), "supple occlusion");
+        if (!set) {
+            return set.error();
+        }
+        gpu::writeSet(*device_, occlusion_->layout(), *set, resources);
+        occlusionSets_.push_back({*set, 0});
+    }
+    return success();
 }
 
 void Culling::listParts(const InstanceSlots& slots) {
@@ -214,12 +205,12 @@ void Culling::addTransfers(Transfers& transfers) const {
     transfers.add(bounds_.buffer());
 }
 
-PassCost Culling::recordBounds(VkCommandBuffer commandBuffer) const {
+PassCost Culling::recordBounds(gpu::Dispatches& dispatches) const {
     BoundsPush push = push_;
     for (uint32_t w = 0; w < windows_->count(); ++w) {
         push.instanceCount = windows_->listed[w].count;
         push.firstSlot = windows_->firstSlot(w);
-        kernels_->recordBounds(commandBuffer, boundsSets_[w], push);
+        kernels_->recordBounds(dispatches, boundsSets_[w], push);
         push.firstEntry += push.instanceCount;
     }
     return {windows_->visible, windows_->visible * kBoundsBytes};
@@ -246,32 +237,32 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     return {0, 0, true};
 }
 
-void Culling::recordSizes(VkCommandBuffer commandBuffer, uint32_t leastVertices) const {
-    kernels_->recordSizes(commandBuffer, listSet_, {0, windows_->visible, leastVertices});
+void Culling::recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const {
+    kernels_->recordSizes(dispatches, listSets_[0], {0, windows_->visible, leastVertices});
 }
 
-PassCost Culling::recordList(VkCommandBuffer commandBuffer, uint32_t room) const {
+PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room) const {
     ListPush push{};
     push.room = room;
     push.levels = windows_->capacity;
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
-    kernels_->recordList(commandBuffer, listSet_, push);
+    kernels_->recordList(dispatches, listSets_[0], push);
     return {0, 0, true};
 }
 
-PassCost Culling::recordDemand(VkCommandBuffer commandBuffer) const {
+PassCost Culling::recordDemand(gpu::Dispatches& dispatches) const {
     DemandPush push{};
     push.instanceCount = windows_->visible;
     push.rateCount = rateCount_;
     push.firstRate = firstRate_;
     std::copy(std::begin(rateVertices_), std::end(rateVertices_), push.vertices);
-    kernels_->recordDemand(commandBuffer, listSet_, push);
+    kernels_->recordDemand(dispatches, listSets_[0], push);
     return {0, 0, windows_->visible > 0};
 }
 
-PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const {
+PassCost Culling::recordRates(gpu::Dispatches& dispatches, bool counted) const {
     RatesPush push{};
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
@@ -289,7 +280,7 @@ PassCost Culling::recordRates(VkCommandBuffer commandBuffer, bool counted) const
     push.masks = firstMask(windows_->capacity);
     push.maskWords = DrawnParts::wordsOf(parts_.size());
     std::copy(std::begin(rateVertices_), std::end(rateVertices_), push.vertices);
-    kernels_->recordRates(commandBuffer, listSet_, push);
+    kernels_->recordRates(dispatches, listSets_[0], push);
     return {0, 0, windows_->visible > 0};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "gpu/bound_sets.h"
 #include "gpu/buffer_plan.h"
 #include "runtime/change_staging.h"
 #include "runtime/culling/bounds_kernels.h"
@@ -22,6 +23,7 @@ namespace supple::runtime {
 /// Recording allocates nothing.
 class Culling final : public Visibility, public gpu::FrameMembers {
 public:
+    static constexpr uint32_t kGroupPasses = 4; ///< beside the bounds of windows: sizes, list, demand, rates
     /// What is dispatched and drawn for the instances of one rate.
     struct Rate {
         uint32_t vertices = 0; ///< of an instance
@@ -68,21 +70,21 @@ public:
     void addTransfers(Transfers& transfers) const override;
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
-        kernels_->recordWarmUp(commandBuffer, boundsSets_[0], listSet_);
+        kernels_->recordWarmUp(commandBuffer, boundsSets_[0], listSets_[0]);
     }
-    PassCost recordBounds(VkCommandBuffer commandBuffer) const;
+    PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// Behind the bounds, before sizes and list. `place`: of the frame among those in flight, whose descriptor set no
     /// frame uses any more; `generation` tells whether that set has this pyramid.
     PassCost recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
                              uint64_t generation);
     /// What the listed instances need, each `leastVertices` at least. Only if that may be more than there is.
-    void recordSizes(VkCommandBuffer commandBuffer, uint32_t leastVertices) const;
+    void recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const;
     /// `room`: vertices, or shared::kRoomForAll.
-    PassCost recordList(VkCommandBuffer commandBuffer, uint32_t room) const;
+    PassCost recordList(gpu::Dispatches& dispatches, uint32_t room) const;
     /// With rates, behind the list: what the listed instances need in the budget.
-    PassCost recordDemand(VkCommandBuffer commandBuffer) const;
+    PassCost recordDemand(gpu::Dispatches& dispatches) const;
     /// With rates, behind the view's solution: the lists of all rates. `counted`: the budget scales levels.
-    PassCost recordRates(VkCommandBuffer commandBuffer, bool counted) const;
+    PassCost recordRates(gpu::Dispatches& dispatches, bool counted) const;
 
     [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot
     /// The draws of all surfaces that have rates become none, until a frame lists instances.
@@ -105,6 +107,7 @@ public:
     }
 
 private:
+    [[nodiscard]] Status createOcclusionSets(std::span<const gpu::BoundResource> resources);
     /// Where what a surface needs begins.
     struct Place {
         uint32_t firstArgument = 0;               ///< of its construction, in arguments_
@@ -146,10 +149,10 @@ private:
     gpu::PlannedBuffer bounds_, states_, list_, table_;
     ChangeStaging tables_, masks_;
     ZeroedOnce clear_; ///< of states_
-    gpu::DescriptorPoolHandle boundsPool_, listPool_, occlusionPool_;
+    gpu::DescriptorPoolHandle occlusionPool_;
     gpu::TexelViews views_;
-    std::vector<VkDescriptorSet> boundsSets_; ///< by window
-    VkDescriptorSet listSet_ = VK_NULL_HANDLE;
+    gpu::BoundSets boundsSets_; ///< by window
+    gpu::BoundSets listSets_;   ///< one
     struct OcclusionSet {
         VkDescriptorSet set = VK_NULL_HANDLE;
         uint64_t generation = 0; ///< of the pyramid that it was written with

@@ -26,13 +26,7 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
     addMember(clear_);
     const gpu::ComputeLayout& layout = desc_.kernels->boundsLayout();
     const InstanceWindows& windows = *desc_.windows;
-    Result<gpu::DescriptorPoolHandle> pool =
-        gpu::createDescriptorPool(device, layout, windows.count(), "supple bounds");
-    if (!pool) {
-        return pool.error();
-    }
-    pool_ = std::move(*pool);
-    Status status = success();
+    Status status = sets_.create(device, layout, windows.count(), "supple bounds");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(device, buffer, format, offset, size, name, status);
     };
@@ -40,11 +34,6 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
     const VkDeviceSize cageBytes = VkDeviceSize{desc_.cageStride} * gpu::kVec4Bytes;
     const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listBytes, "supple instances");
     for (uint32_t w = 0; w < windows.count() && status; ++w) {
-        const Result<VkDescriptorSet> set = gpu::allocateSet(device, layout, pool_.get(), "supple bounds");
-        if (!set) {
-            return set.error();
-        }
-        sets_.push_back(*set);
         const VkDeviceSize first = windows.firstSlot(w) * cageBytes, bytes = windows.slots(w) * cageBytes;
         const gpu::BoundResource resources[] = {
             {kBoundsCageBinding, {cages, first, bytes}, VK_NULL_HANDLE},
@@ -58,7 +47,7 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
             {kCullViewBinding, {rest_.buffer(), 0, kViewBytes}, VK_NULL_HANDLE},
         };
         if (status) {
-            gpu::writeSet(device, layout, sets_.back(), resources);
+            sets_.write(device, layout, w, resources);
         }
     }
     return status;
@@ -68,7 +57,7 @@ SuppleBufferRange ListedBounds::bounds() const {
     return {bounds_.buffer(), 0, bounds_.size(), static_cast<uint32_t>(kBoundsBytes)};
 }
 
-PassCost ListedBounds::record(VkCommandBuffer commandBuffer) const {
+PassCost ListedBounds::record(gpu::Dispatches& dispatches) const {
     const InstanceWindows& windows = *desc_.windows;
     BoundsPush push{};
     push.vertexCount = desc_.cageVertices;
@@ -80,7 +69,7 @@ PassCost ListedBounds::record(VkCommandBuffer commandBuffer) const {
         if (windows.drawCount() > 1) { // each window has a place of its own in the list
             push.firstEntry = windows.firstDrawnSlot(w);
         }
-        desc_.kernels->recordBounds(commandBuffer, sets_[w], push);
+        desc_.kernels->recordBounds(dispatches, sets_[w], push);
         push.firstEntry += push.instanceCount;
     }
     return {windows.visible, windows.visible * kBoundsBytes};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "gpu/bound_sets.h"
 #include "gpu/buffer_plan.h"
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/instance_windows.h"
@@ -29,7 +30,7 @@ public:
     /// When the plan is carried out. `list`: all visible instances of the group by slot, capacity entries.
     [[nodiscard]] Status createSets(VkBuffer cages, VkBuffer list);
 
-    PassCost record(VkCommandBuffer commandBuffer) const;
+    PassCost record(gpu::Dispatches& dispatches) const;
 
     [[nodiscard]] SuppleBufferRange bounds() const; ///< by slot, as of Culling
 
@@ -38,9 +39,8 @@ private:
     gpu::PlannedBuffer bounds_;
     gpu::PlannedBuffer rest_; ///< what the pass reads and writes for views: a view that sees everything, and states
     ZeroedOnce clear_;        ///< of rest_: a view of zeros has no planes and no limits, and levels are 0
-    gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
-    std::vector<VkDescriptorSet> sets_; ///< by window
+    gpu::BoundSets sets_; ///< by window
 };
 
 } // namespace supple::runtime

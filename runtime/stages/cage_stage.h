@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/buffer_plan.h"
+#include "gpu/dispatches.h"
 #include "gpu/frame_member.h"
 #include "gpu/pipelines.h"
 #include "runtime/asset_match.h"
@@ -38,7 +39,7 @@ struct CageBuffers {
 
 /// What a stage is told of a frame.
 struct CageFrame {
-    VkCommandBuffer commands = VK_NULL_HANDLE;
+    gpu::Dispatches& dispatches; ///< what is recorded beside them comes before those that wait
     uint64_t number = 0;
     /// Since the group's last recording, by the host's time (SuppleRecordDesc.time); never negative. 0 in the first.
     double seconds = 0.0;

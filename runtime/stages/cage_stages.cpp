@@ -51,6 +51,7 @@ Status CageStageTable::makePipelines(const PlannedStages& planned, const gpu::De
 
 Status CageStages::create(CageStageTable& table, gpu::Pipelines& pipelines, const CageStageDesc& desc) {
     const std::span<const CageStageRow> rows = table.rows();
+    device_ = desc.device;
     stages_.resize(rows.size());
     for (size_t row = 0; row < rows.size(); ++row) {
         if (!rows[row].wants(desc)) {
@@ -147,8 +148,8 @@ void CageStages::findNew(const InstanceSlots& slots) {
     }
 }
 
-CageFrame CageStages::frame(VkCommandBuffer commandBuffer, uint32_t surface) const {
-    return {commandBuffer, frame_, seconds_, *windows_, newSlots_, surface};
+CageFrame CageStages::frame(gpu::Dispatches& dispatches, uint32_t surface) const {
+    return {dispatches, frame_, seconds_, *windows_, newSlots_, surface};
 }
 
 VkDeviceSize CageStages::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time,
@@ -158,13 +159,14 @@ VkDeviceSize CageStages::recordUpload(VkCommandBuffer commandBuffer, uint64_t fr
     time_ = time;
     timed_ = true;
     findNew(slots);
+    gpu::SingleDispatches dispatches(*device_, commandBuffer);
     VkDeviceSize bytes = 0;
-    forEach([&](CageStage& stage) { bytes += stage.recordUpload(this->frame(commandBuffer, SUPPLE_NO_SURFACE)); });
+    forEach([&](CageStage& stage) { bytes += stage.recordUpload(this->frame(dispatches, SUPPLE_NO_SURFACE)); });
     return bytes;
 }
 
-PassCost CageStages::record(VkCommandBuffer commandBuffer, size_t row, uint32_t surface) {
-    return has(row) ? stages_[row]->record(frame(commandBuffer, surface)) : PassCost{};
+PassCost CageStages::record(gpu::Dispatches& dispatches, size_t row, uint32_t surface) {
+    return has(row) ? stages_[row]->record(frame(dispatches, surface)) : PassCost{};
 }
 
 void CageStages::cancelFrame(uint64_t frame) {

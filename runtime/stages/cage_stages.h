@@ -51,23 +51,28 @@ public:
     /// The deformed cages that a surface is made from.
     [[nodiscard]] const gpu::PlannedBuffer& cagesOf(uint32_t surface) const;
     [[nodiscard]] bool has(size_t row) const { return stages_[row] != nullptr; }
+    /// How often stages are recorded in a frame, at most.
+    [[nodiscard]] uint32_t count(uint32_t surfaces) const {
+        return static_cast<uint32_t>(stages_.size()) * std::max(surfaces, 1u);
+    }
     /// Whether instances may be left out by what is known of them before they are posed (CageStageRow::keepsReach).
     [[nodiscard]] bool keepReach() const { return keepReach_; }
 
     /// Begins a frame of the group at the host's time: finds who is new, then records the uploads of all stages.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, const InstanceSlots& slots);
     /// In a frame that recordUpload() has begun. `surface`: if the row is recorded for each of them.
-    PassCost record(VkCommandBuffer commandBuffer, size_t row, uint32_t surface = SUPPLE_NO_SURFACE);
+    PassCost record(gpu::Dispatches& dispatches, size_t row, uint32_t surface = SUPPLE_NO_SURFACE);
     void cancelFrame(uint64_t frame) override;
 
 private:
     void findNew(const InstanceSlots& slots);
-    [[nodiscard]] CageFrame frame(VkCommandBuffer commandBuffer, uint32_t surface) const;
+    [[nodiscard]] CageFrame frame(gpu::Dispatches& dispatches, uint32_t surface) const;
     template <class F>
     void forEach(F&& visit) const {
         std::for_each(stages_.begin(), stages_.end(), [&](const auto& stage) { stage ? visit(*stage) : void(); });
     }
 
+    const gpu::Device* device_ = nullptr;
     std::vector<std::unique_ptr<CageStage>> stages_; ///< by row; null: the group does not have it
     bool keepReach_ = true;
     VkDeviceSize cageBytes_ = 0; ///< of all instances

@@ -1,5 +1,6 @@
 #include "runtime/stages/deform.h"
 
+#include "gpu/tasks.h"
 #include "runtime/stages/deform_sets.h"
 
 namespace supple::runtime {
@@ -26,17 +27,18 @@ public:
     }
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
-        gpu::computeBarrier(*device_, commandBuffer);
+        gpu::OwnDispatches dispatches(*device_, commandBuffer);
+        (*dispatches).computeBarrier();
         shared::DeformPush push{}; // of no instances
         push.firstInfluences = asset_->firstInfluences;
-        kernels_->record(commandBuffer, sets_[0], instances_->skinning(), push);
+        kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
 
     PassCost record(const CageFrame& frame) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
         const uint32_t vertices = asset_->character.cage.vertexCount();
         frame.windows.forEach([&](uint32_t w) {
-            kernels_->record(frame.commands, sets_[w], layout.mode,
+            kernels_->record(frame.dispatches, sets_[w], layout.mode,
                              {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride,
                               stride_, layout.morphWeights, asset_->firstInfluences});
         });

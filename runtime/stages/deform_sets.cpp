@@ -9,23 +9,13 @@ using namespace supple::shared;
 Status DeformSets::create(const Desc& desc) {
     const gpu::Device& device = *desc.device;
     const InstanceWindows& windows = *desc.windows;
-    Result<gpu::DescriptorPoolHandle> pool =
-        gpu::createDescriptorPool(device, *desc.layout, windows.count(), "supple deform");
-    if (!pool) {
-        return pool.error();
-    }
-    pool_ = std::move(*pool);
-    Status status = success();
+    Status status = sets_.create(device, *desc.layout, windows.count(), "supple deform");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(device, buffer, format, offset, size, name, status);
     };
     const VkBufferView table = view(desc.table, VK_FORMAT_R32G32B32A32_UINT, 0, desc.tableBytes, "supple deform table");
     const VkBufferView list = view(desc.list, VK_FORMAT_R32_UINT, 0, desc.listBytes, "supple instances");
     for (uint32_t w = 0; w < windows.count() && status; ++w) {
-        const Result<VkDescriptorSet> set = gpu::allocateSet(device, *desc.layout, pool_.get(), "supple deform");
-        if (!set) {
-            return set.error();
-        }
         const auto range = [&](const InstanceArray& run) {
             const VkDeviceSize bytes = run.stride * gpu::kVec4Bytes;
             return VkDescriptorBufferInfo{run.buffer, windows.firstSlot(w) * bytes, windows.slots(w) * bytes};
@@ -43,8 +33,7 @@ Status DeformSets::create(const Desc& desc) {
             {kInstanceTexelBinding, {}, list},
         };
         if (status) {
-            gpu::writeSet(device, *desc.layout, *set, resources);
-            sets_.push_back(*set);
+            sets_.write(device, *desc.layout, w, resources);
         }
     }
     return status;

@@ -1,11 +1,9 @@
 // The descriptor sets of the deform pass, one a window of instances.
 #pragma once
 
+#include "gpu/bound_sets.h"
 #include "gpu/memory.h"
-#include "gpu/pipeline.h"
 #include "runtime/instance_windows.h"
-
-#include <vector>
 
 namespace supple::runtime {
 
@@ -30,12 +28,11 @@ public:
     [[nodiscard]] Status create(const Desc& desc);
 
     [[nodiscard]] bool empty() const { return sets_.empty(); }
-    [[nodiscard]] VkDescriptorSet operator[](uint32_t window) const { return sets_[window]; }
+    [[nodiscard]] const gpu::BoundSet& operator[](uint32_t window) const { return sets_[window]; }
 
 private:
-    gpu::DescriptorPoolHandle pool_;
     gpu::TexelViews views_;
-    std::vector<VkDescriptorSet> sets_;
+    gpu::BoundSets sets_;
 };
 
 } // namespace supple::runtime

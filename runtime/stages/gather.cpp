@@ -1,5 +1,6 @@
 #include "runtime/stages/gather.h"
 
+#include "gpu/tasks.h"
 #include "runtime/stages/deform_sets.h"
 
 namespace supple::runtime {
@@ -53,10 +54,11 @@ public:
     }
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
+        gpu::OwnDispatches dispatches(*device_, commandBuffer);
         for (const Piece& piece : pieces_) {
             if (piece.of != nullptr) {
-                gpu::computeBarrier(*device_, commandBuffer);
-                kernels_->recordGather(commandBuffer, piece.sets[0], {}); // of no instances
+                (*dispatches).computeBarrier();
+                kernels_->recordGather(*dispatches, piece.sets[0], {}); // of no instances
             }
         }
     }
@@ -73,7 +75,7 @@ public:
         frame.windows.forEach([&](uint32_t w) {
             push.firstInstance = frame.windows.firstEntry(w);
             push.instanceCount = frame.windows.listed[w].count;
-            kernels_->recordGather(frame.commands, piece.sets[w], push);
+            kernels_->recordGather(frame.dispatches, piece.sets[w], push);
         });
         const uint64_t points = uint64_t{push.vertexCount} * frame.windows.visible;
         return {points, points * gpu::kVec4Bytes};

@@ -31,17 +31,17 @@ void InstanceState::takeOver(InstanceState& other, uint32_t count) {
 
 void InstanceState::recordMove(const CageFrame& frame) const {
     // The entry barrier of a frame lets transfers write, but not read what stages wrote.
-    gpu::memoryBarrier(*device_, frame.commands,
+    gpu::memoryBarrier(*device_, frame.dispatches.commandBuffer(),
                        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
     const VkBufferCopy region{0, 0, movedCount_ * bytes_};
-    device_->vk.CmdCopyBuffer(frame.commands, moved_->buffer(0), buffer(), 1, &region);
+    device_->vk.CmdCopyBuffer(frame.dispatches.commandBuffer(), moved_->buffer(0), buffer(), 1, &region);
 }
 
 VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
     const auto zero = [&](uint32_t first, uint32_t count) {
         if (count > 0) {
-            device_->vk.CmdFillBuffer(frame.commands, buffer(), first * bytes_, count * bytes_, 0);
+            device_->vk.CmdFillBuffer(frame.dispatches.commandBuffer(), buffer(), first * bytes_, count * bytes_, 0);
         }
         return count * bytes_;
     };
@@ -58,7 +58,7 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
         slots =
             slots.first(static_cast<size_t>(std::lower_bound(slots.begin(), slots.end(), movedCount_) - slots.begin()));
         if (!slots.empty()) {
-            gpu::memoryBarrier(*device_, frame.commands,
+            gpu::memoryBarrier(*device_, frame.dispatches.commandBuffer(),
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
         }

@@ -27,12 +27,12 @@ public:
 
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEdgeLevels(surface::Round& round) const override;
-    PassCost recordPatchLevels(VkCommandBuffer commandBuffer) const override;
-    PassCost recordDepths(VkCommandBuffer commandBuffer) const override;
-    PassCost recordPlaces(VkCommandBuffer commandBuffer) const override;
+    PassCost recordPatchLevels(gpu::Dispatches& dispatches) const override;
+    PassCost recordDepths(gpu::Dispatches& dispatches) const override;
+    PassCost recordPlaces(gpu::Dispatches& dispatches) const override;
     PassCost recordDeepen(surface::Round& round) const override;
     [[nodiscard]] bool writesLevelAttributes() const override { return built_.outputs.streams.has(Stream::attributes); }
-    PassCost recordLevelAttributes(VkCommandBuffer commandBuffer) const override;
+    PassCost recordLevelAttributes(gpu::Dispatches& dispatches) const override;
     PassCost recordEvaluate(surface::Round& round) const override;
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
     PassCost recordMotion(surface::Round& round) const override;
@@ -193,18 +193,18 @@ PassCost Levels::recordEdgeLevels(surface::Round& round) const {
     return visibility_->cost(program_.edgeLevels.size(), 0);
 }
 
-PassCost Levels::recordPatchLevels(VkCommandBuffer commandBuffer) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.patchLevels, levelWindow(w)); });
+PassCost Levels::recordPatchLevels(gpu::Dispatches& dispatches) const {
+    windows().forEach([&](uint32_t w) { surface::record(dispatches, program_.patchLevels, levelWindow(w)); });
     return visibility_->cost(patchesAtLevels(), 0);
 }
 
-PassCost Levels::recordDepths(VkCommandBuffer commandBuffer) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.depths, levelWindow(w)); });
+PassCost Levels::recordDepths(gpu::Dispatches& dispatches) const {
+    windows().forEach([&](uint32_t w) { surface::record(dispatches, program_.depths, levelWindow(w)); });
     return {0, 0, findsDepths() && windows().visible > 0};
 }
 
-PassCost Levels::recordPlaces(VkCommandBuffer commandBuffer) const {
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.places, levelWindow(w)); });
+PassCost Levels::recordPlaces(gpu::Dispatches& dispatches) const {
+    windows().forEach([&](uint32_t w) { surface::record(dispatches, program_.places, levelWindow(w)); });
     return visibility_->cost(patchesAtLevels(), 0);
 }
 
@@ -223,11 +223,11 @@ PassCost Levels::recordDeepen(surface::Round& round) const {
     return {0, 0, windows().visible > 0};
 }
 
-PassCost Levels::recordLevelAttributes(VkCommandBuffer commandBuffer) const {
+PassCost Levels::recordLevelAttributes(gpu::Dispatches& dispatches) const {
     if (!writesLevelAttributes()) {
         return {};
     }
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.attributes, placed(w, sets(w))); });
+    windows().forEach([&](uint32_t w) { surface::record(dispatches, program_.attributes, placed(w, sets(w))); });
     return {0, 0, windows().visible > 0};
 }
 

@@ -99,7 +99,7 @@ PassCost OneRate::recordMotion(surface::Round& round) const {
             return;
         }
         if (!first) {
-            gpu::disjointBarrier(round.device, round.commandBuffer); // other instances
+            round.dispatches.disjointBarrier(); // other instances
         }
         first = false;
         surface::Window window;

@@ -147,16 +147,16 @@ surface::Window OwnVertices::oneInstance(const surface::Sets& sets) const {
     return window;
 }
 
-void OwnVertices::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
-    record(commandBuffer, program_.attributes, oneInstance(sets(0)));
+void OwnVertices::recordAttributeSteps(gpu::Dispatches& dispatches) const {
+    surface::record(dispatches, program_.attributes, oneInstance(sets(0)));
 }
 
-PassCost OwnVertices::recordAttributes(VkCommandBuffer commandBuffer, uint64_t frame) {
+PassCost OwnVertices::recordAttributes(gpu::Dispatches& dispatches, uint64_t frame) {
     if (!attributes_.due()) {
         return {};
     }
     attributes_.record(frame);
-    recordAttributeSteps(commandBuffer);
+    recordAttributeSteps(dispatches);
     return {vertexCount_, streams_.staticBytes()};
 }
 

@@ -39,7 +39,7 @@ public:
                                     const Visibility& visibility) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     [[nodiscard]] bool attributesDue() const override { return attributes_.due(); }
-    PassCost recordAttributes(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    PassCost recordAttributes(gpu::Dispatches& dispatches, uint64_t frame) override;
 
 protected:
     using Tessellation::Tessellation;
@@ -52,7 +52,7 @@ protected:
     [[nodiscard]] Status createIndices(IndexBytes indices);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
-    virtual void recordAttributeSteps(VkCommandBuffer commandBuffer) const;
+    virtual void recordAttributeSteps(gpu::Dispatches& dispatches) const;
     [[nodiscard]] surface::Window oneInstance(const surface::Sets& sets) const;
 
     uint32_t vertexCount_ = 0; ///< of an instance

@@ -34,6 +34,7 @@ public:
     void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
 
+    [[nodiscard]] gpu::TaskNeeds taskNeeds() const override;
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(surface::Round& round) const override;
     PassCost recordMotion(surface::Round& round) const override;
@@ -42,7 +43,7 @@ public:
 
 protected:
     [[nodiscard]] uint32_t scratchStride() const override;
-    void recordAttributeSteps(VkCommandBuffer commandBuffer) const override;
+    void recordAttributeSteps(gpu::Dispatches& dispatches) const override;
 
 private:
     /// A rate that instances may have. Its vertices lie in the instance's behind those of the coarser rates.
@@ -222,6 +223,14 @@ uint32_t Rates::scratchStride() const {
     return most;
 }
 
+gpu::TaskNeeds Rates::taskNeeds() const {
+    gpu::TaskNeeds needs = OwnVertices::taskNeeds();
+    for (const Rate& rate : own_) {
+        needs += taskNeedsOf(rate.program);
+    }
+    return needs;
+}
+
 void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {
     OwnVertices::recordWarmUp(commandBuffer);
     for (const Rate& rate : own_) {
@@ -229,9 +238,9 @@ void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {
     }
 }
 
-void Rates::recordAttributeSteps(VkCommandBuffer commandBuffer) const {
+void Rates::recordAttributeSteps(gpu::Dispatches& dispatches) const {
     for (const Rate& rate : own_) {
-        record(commandBuffer, rate.program.attributes, oneInstance(rate.sets.at({0, pool_, false})));
+        surface::record(dispatches, rate.program.attributes, oneInstance(rate.sets.at({0, pool_, false})));
     }
 }
 
@@ -239,19 +248,18 @@ void Rates::recordRates(const surface::Round& round, bool previous) const {
     if (round.number > 0) {
         return;
     }
-    const VkCommandBuffer commandBuffer = round.commandBuffer;
     bool first = true;
     for (uint32_t r = 0; r < places_.size(); ++r) {
         const Rate& rate = own_[places_[r]];
         windows().forEach([&](uint32_t w) {
             if (!first && usesScratch()) {
-                gpu::computeBarrier(*desc_.device, commandBuffer);
+                round.dispatches.computeBarrier();
             }
             first = false;
             surface::Window window = culling().window(w, desc_.surface, r);
             window.sets = rate.sets.at({w, previous ? 1 - pool_ : pool_, previous});
-            record(commandBuffer, previous ? rate.program.motion : rate.program.evaluate,
-                   previous ? ofPast(window) : window);
+            surface::record(round.dispatches, previous ? rate.program.motion : rate.program.evaluate,
+                            previous ? ofPast(window) : window);
         });
     }
 }

@@ -135,11 +135,12 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer) const {
 
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program,
                                 const SurfaceSets& sets) const {
+    gpu::OwnDispatches dispatches(*desc_.device, commandBuffer);
     const auto nothing = [&](const surface::Steps& steps, const surface::Sets& bound) {
         surface::Window window; // of no instances
         window.sets = bound;
-        gpu::computeBarrier(*desc_.device, commandBuffer);
-        record(commandBuffer, steps, window);
+        (*dispatches).computeBarrier();
+        surface::record(*dispatches, steps, window);
     };
     for (const surface::Steps* steps :
          {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
@@ -149,6 +150,19 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Pr
     if (writesMotion()) {
         nothing(program.motion, sets.at({0, 1, true}));
     }
+}
+
+gpu::TaskNeeds Tessellation::taskNeedsOf(const surface::Program& program) const {
+    size_t steps = 2 * program.motion.size(); // instances with a past and without
+    for (const surface::Steps* own :
+         {&program.vertex, &program.assemble, &program.patch, &program.attributes, &program.edgeLevels,
+          &program.patchLevels, &program.depths, &program.places, &program.deepen, &program.evaluate}) {
+        steps += own->size();
+    }
+    // Another rate may have samples where this one has none: a step a range and pass.
+    steps += 3 * tables().ranges.size();
+    const auto windows = listing_->windows().count();
+    return {static_cast<uint32_t>(steps) * windows, kSetsOfWindow * windows};
 }
 
 VkDeviceSize Tessellation::recordUpload(VkCommandBuffer, uint64_t, bool) {
@@ -180,11 +194,11 @@ PassCost Tessellation::recordStage(surface::Round& round, surface::Stage stage) 
     return visibility_->cost(points, coefficients * gpu::kVec4Bytes);
 }
 
-PassCost Tessellation::recordPatch(VkCommandBuffer commandBuffer) const {
+PassCost Tessellation::recordPatch(gpu::Dispatches& dispatches) const {
     if (!writesPatches()) {
         return {};
     }
-    windows().forEach([&](uint32_t w) { record(commandBuffer, program_.patch, seen(w)); });
+    windows().forEach([&](uint32_t w) { surface::record(dispatches, program_.patch, seen(w)); });
     const uint64_t points = tables().patches.size();
     return visibility_->cost(points, points * kPatchStride * gpu::kVec4Bytes);
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "gpu/buffer_plan.h"
+#include "gpu/tasks.h"
 #include "runtime/culling/culling.h"
 #include "runtime/instance_set.h"
 #include "runtime/recorded_once.h"
@@ -87,6 +88,8 @@ public:
                                             const Visibility& visibility);
 
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
+    /// Of its passes in a frame.
+    [[nodiscard]] virtual gpu::TaskNeeds taskNeeds() const { return taskNeedsOf(program_); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     // Output; the API asks for what a tessellation of this kind has.
     [[nodiscard]] virtual SuppleTessellation kind() const = 0;
@@ -110,29 +113,29 @@ public:
     // them.
     /// Records a pass in rounds, of this surface alone: calls record(round) for each.
     template <class Record>
-    void inRounds(VkCommandBuffer commandBuffer, Record&& record) const {
-        surface::inRounds(*desc_.device, commandBuffer, std::forward<Record>(record));
+    void inRounds(gpu::Dispatches& dispatches, Record&& record) const {
+        surface::inRounds(dispatches, std::forward<Record>(record));
     }
     /// How far the origin of the coordinates has moved since the group's last recording.
     void setPastStep(const glm::vec3& step) { pastStep_ = step; }
     /// `changed`: the list of instances has.
     virtual VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed);
     [[nodiscard]] virtual bool attributesDue() const { return false; }
-    virtual PassCost recordAttributes(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/) { return {}; }
+    virtual PassCost recordAttributes(gpu::Dispatches& /*dispatches*/, uint64_t /*frame*/) { return {}; }
     [[nodiscard]] bool has(surface::Stage stage) const { return !stepsOf(stage).empty(); }
     PassCost recordStage(surface::Round& round, surface::Stage stage) const;
     [[nodiscard]] bool writesPatches() const { return memory_.patches().buffer() != VK_NULL_HANDLE; }
-    PassCost recordPatch(VkCommandBuffer commandBuffer) const;
+    PassCost recordPatch(gpu::Dispatches& dispatches) const;
     // Groups of a view, in this order; the view solves its budget before places.
     virtual PassCost recordEdgeLevels(surface::Round& /*round*/) const { return {}; }
-    virtual PassCost recordPatchLevels(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordPatchLevels(gpu::Dispatches& /*dispatches*/) const { return {}; }
     [[nodiscard]] bool findsDepths() const { return !program_.depths.empty(); }
-    virtual PassCost recordDepths(VkCommandBuffer /*commandBuffer*/) const { return {}; }
-    virtual PassCost recordPlaces(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordDepths(gpu::Dispatches& /*dispatches*/) const { return {}; }
+    virtual PassCost recordPlaces(gpu::Dispatches& /*dispatches*/) const { return {}; }
     [[nodiscard]] bool deepens() const { return !program_.deepen.empty(); }
     virtual PassCost recordDeepen(surface::Round& /*round*/) const { return {}; }
     [[nodiscard]] virtual bool writesLevelAttributes() const { return false; }
-    virtual PassCost recordLevelAttributes(VkCommandBuffer /*commandBuffer*/) const { return {}; }
+    virtual PassCost recordLevelAttributes(gpu::Dispatches& /*dispatches*/) const { return {}; }
     virtual PassCost recordEvaluate(surface::Round& round) const = 0;
     [[nodiscard]] bool writesTangents() const { return built_.outputs.streams.has(Stream::tangents); }
     /// Previous positions.
@@ -182,12 +185,8 @@ protected:
         window.push.pastZ = pastStep_.z;
         return window;
     }
-    void record(VkCommandBuffer commandBuffer, std::span<const surface::Step> steps,
-                const surface::Window& window) const {
-        surface::record(*desc_.device, commandBuffer, steps, window);
-    }
-
     void recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program, const SurfaceSets& sets) const;
+    [[nodiscard]] gpu::TaskNeeds taskNeedsOf(const surface::Program& program) const;
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.

@@ -2,11 +2,12 @@
 // instance. Wide mapping: one workgroup per instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS BoundsPush
 #include "shaders/bounds/cull.glsl"
 
-layout(set = 0, binding = kBoundsBinding, std430) writeonly buffer Bounds { vec4 bounds[]; };
-layout(set = 0, binding = kCullViewBinding, std430) readonly buffer View { CullView view; };
-layout(push_constant) uniform Push { BoundsPush push; };
+BUFFER(writeonly, Bounds, kBoundsBinding, std430, vec4, bounds)
+BUFFER(readonly, View, kCullViewBinding, std430, CullView, views)
+#define view views.at[0]
 
 #define LOD_CAMERA view.camera
 #include "shaders/lod/measure.glsl"
@@ -69,11 +70,11 @@ void store(uint entry, Box box) {
     float diagonal = empty ? 0.0 : lengthOf(box.high - box.low);
     float level = levelOf(push.longest * diagonal, push.bend * diagonal,
                           pixelsPerUnit(0.5 * box.low + 0.5 * box.high, 0.5 * diagonal));
-    bounds[2u * slot] = vec4(low, level);
-    bounds[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
+    bounds.at[2u * slot] = vec4(low, level);
+    bounds.at[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
     uint last = ((view.ranks >> (8u * priority)) & 255u) * kSizeBins + kSizeBins; // not to be judged: the last to go
-    states[slot].x = box.sound ? rankOf(low, high, priority) : last;
-    if ((entry & kInstanceIsNew) != 0u) states[slot].y = 0u; // the memory may never have been written
+    states.at[slot].x = box.sound ? rankOf(low, high, priority) : last;
+    if ((entry & kInstanceIsNew) != 0u) states.at[slot].y = 0u; // the memory may never have been written
 }
 
 void main() {

@@ -2,6 +2,10 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/bounds.h"
 
-layout(set = 0, binding = kBoundsStateBinding, std430) buffer States { uvec2 states[]; };
+#ifdef PUSH_CONSTANTS
+#include "shaders/shared/push.glsl"
+#endif
+
+BUFFER(, States, kBoundsStateBinding, std430, uvec2, states)
 
 LOADED_BUFFER(uint, hostEntry, HostList, kHostListBinding, usamplerBuffer, kHostListTexelBinding, x)

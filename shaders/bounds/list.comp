@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define LIST_PUSH ListPush
+#define PUSH_CONSTANTS ListPush
 #include "shaders/bounds/list.glsl"
 
-layout(set = 0, binding = kSizeBinding, std430) readonly buffer Sizes { uint sizes[]; };
+BUFFER(readonly, Sizes, kSizeBinding, std430, uint, sizes)
 
 shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
@@ -19,7 +19,7 @@ uint saturatingSum(uint a, uint b) { return a + min(b, ~a); }
 uint threshold() {
     uint lane = gl_LocalInvocationID.x, each = (kSizeRanks + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(lane * each, kSizeRanks), end = min(begin + each, kSizeRanks), own = 0u; // the largest first
-    for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes[kSizeRanks - 1u - i]);
+    for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes.at[kSizeRanks - 1u - i]);
     sumsOf[lane] = own;
     if (lane == 0u) localThreshold = 0u;
     barrier();
@@ -28,7 +28,7 @@ uint threshold() {
     if (before <= push.room && saturatingSum(before, own) > push.room) {
         uint i = begin;
         for (uint sum = before; i < end; ++i) {
-            sum = saturatingSum(sum, sizes[kSizeRanks - 1u - i]);
+            sum = saturatingSum(sum, sizes.at[kSizeRanks - 1u - i]);
             if (sum > push.room) break;
         }
         localThreshold = kSizeRanks - i;
@@ -48,28 +48,29 @@ uvec4 kind(uint entry, uvec2 state, uint leftOut) {
 }
 
 void storeHeader(uint at, uvec4 counts, uint listed) {
-    argumentWords[at] = counts.x + counts.y;
-    argumentWords[at + 1u] = counts.x;
-    argumentWords[at + 2u] = listed;
-    argumentWords[at + 3u] = counts.z;
-    argumentWords[at + 4u] = counts.w;
+    argumentWords.at[at] = counts.x + counts.y;
+    argumentWords.at[at + 1u] = counts.x;
+    argumentWords.at[at + 2u] = listed;
+    argumentWords.at[at + 3u] = counts.z;
+    argumentWords.at[at + 4u] = counts.w;
 }
 
 // Lanes share the arguments of a window.
 void storeArguments(uint which, uint instances, uint window) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
-        uvec4 argument = tableElements[push.windowCount + i];
+        uvec4 argument = tableElements.at[push.windowCount + i];
         if (argument.z == which)
             storeDispatch(argument.w + push.argumentStride * window, argument.x * instances, argument.y);
     }
 }
 
 void main() {
+    if (isFurtherWorkgroup()) return;
     uint lane = gl_LocalInvocationID.x;
     uvec4 total = uvec4(0u);
     uint listed = 0u, leftOut = push.room != kRoomForAll ? threshold() : 0u;
     for (uint w = 0u; w < push.windowCount; ++w) {
-        uvec4 window = tableElements[w];
+        uvec4 window = tableElements.at[w];
         uvec2 run = runOf(window);
         uvec4 own = uvec4(0u);
         for (uint i = run.x; i < run.y; ++i) {
@@ -94,14 +95,14 @@ void main() {
             uvec4 one = kind(entry, now, leftOut);
             bool drawn = one.x + one.y > 0u;
             if (drawn) {
-                list[all] = slot;
+                list.at[all] = slot;
                 ++all;
                 uint place = one.x != 0u ? places.x : places.y;
-                list[place] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
-                list[place + push.levels] = floatBitsToUint(bounds[2u * slot].w);
+                list.at[place] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
+                list.at[place + push.levels] = floatBitsToUint(bounds.at[2u * slot].w);
                 places += one.xy;
             }
-            states[slot].y = one.x != 0u ? kDrawnWithPast : drawn ? kDrawn : 0u;
+            states.at[slot].y = one.x != 0u ? kDrawnWithPast : drawn ? kDrawn : 0u;
         }
         if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
         storeArguments(kCountWindow, counts.x + counts.y, w);

@@ -1,25 +1,24 @@
-// For the passes that list instances: one workgroup, of which every lane takes a run of entries. LIST_PUSH is the struct of push
-// constants.
+// For the passes that list instances: one workgroup, of which every lane takes a run of entries. Needs PUSH_CONSTANTS.
 #include "shaders/bounds/cull.glsl"
 
-layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;
-layout(set = 0, binding = kListBinding, std430) buffer List { uint list[]; };
-layout(set = 0, binding = kListArgumentBinding, std430) writeonly buffer Arguments { uint argumentWords[]; };
-layout(set = 0, binding = kListTableBinding, std430) readonly buffer Table { uvec4 tableElements[]; };
-layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
-layout(push_constant) uniform Push { LIST_PUSH push; };
+BUFFER(, List, kListBinding, std430, uint, list)
+BUFFER(writeonly, Arguments, kListArgumentBinding, std430, uint, argumentWords)
+BUFFER(readonly, Table, kListTableBinding, std430, uvec4, tableElements)
+BUFFER(readonly, Bounds, kBoundsBinding, std430, vec4, bounds)
 
-uvec2 state(uint slot) {
-    if (kWide) return states[slot];
-    return texelFetch(stateTexels, int(slot)).xy;
-}
+#ifdef WIDE
+uvec2 state(uint slot) { return states.at[slot]; }
+#else
+layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer stateTexels;
+uvec2 state(uint slot) { return texelFetch(stateTexels, int(slot)).xy; }
+#endif
 
 void storeDispatch(uint at, uint elements, uint perGroup) {
     uint groups = elements / perGroup + (elements % perGroup != 0u ? 1u : 0u);
     uint rows = max(groups / push.maxGroups + (groups % push.maxGroups != 0u ? 1u : 0u), 1u);
-    argumentWords[at] = groups / rows + (groups % rows != 0u ? 1u : 0u);
-    argumentWords[at + 1u] = rows;
-    argumentWords[at + 2u] = 1u;
+    argumentWords.at[at] = groups / rows + (groups % rows != 0u ? 1u : 0u);
+    argumentWords.at[at + 1u] = rows;
+    argumentWords.at[at + 2u] = 1u;
 }
 
 // The lane's run of a window's entries.

@@ -3,11 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#define PUSH_CONSTANTS OcclusionPush
 #include "shaders/bounds/cull.glsl"
 
-layout(set = 0, binding = kBoundsBinding, std430) readonly buffer Bounds { vec4 bounds[]; };
+BUFFER(readonly, Bounds, kBoundsBinding, std430, vec4, bounds)
 layout(set = 0, binding = kPyramidBinding) uniform texture2D pyramid;
-layout(push_constant) uniform Push { OcclusionPush push; };
 
 // Pixels of level 0, and depth: more than the rounding from clip space on.
 const float kPixelSlack = 0.02;
@@ -67,6 +67,6 @@ bool isHidden(vec3 low, vec3 high) {
 void main() {
     uint index = min(invocationIndex(), push.instanceCount - 1u);
     uint slot = hostEntry(push.firstEntry + index) & kInstanceSlotMask;
-    vec4 low = bounds[2u * slot], high = bounds[2u * slot + 1u];
-    if (states[slot].x != 0u && high.w == 0.0 && isHidden(low.xyz, high.xyz)) states[slot] = uvec2(0u, kOccluded);
+    vec4 low = bounds.at[2u * slot], high = bounds.at[2u * slot + 1u];
+    if (states.at[slot].x != 0u && high.w == 0.0 && isHidden(low.xyz, high.xyz)) states.at[slot] = uvec2(0u, kOccluded);
 }

@@ -3,11 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define LIST_PUSH RatesPush
+#define PUSH_CONSTANTS RatesPush
 #include "shaders/bounds/list.glsl"
 #include "shaders/shared/lod.h"
 
-layout(set = 0, binding = kViewWordsBinding, std430) buffer Words { uint words[]; };
+BUFFER(, Words, kViewWordsBinding, std430, uint, words)
 
 // The demand pass does not tell levels above this apart.
 const float kMostOverRate = exp2(float(kRatedBins - 4u) / float(kBinsPerOctave));
@@ -15,9 +15,9 @@ const float kMostOverRate = exp2(float(kRatedBins - 4u) / float(kBinsPerOctave))
 shared uint countsOf[kMaxRates * kMaxLanes];
 
 uint rateOf(uint entry) {
-    float level = bounds[2u * (entry & kInstanceSlotMask)].w, scale = 1.0;
+    float level = bounds.at[2u * (entry & kInstanceSlotMask)].w, scale = 1.0;
     uint priority = SUPPLE_INSTANCE_PRIORITY(entry), rate = 0u;
-    if (push.counted != 0u) scale = uintBitsToFloat(words[kLodSolution + 4u + priority]);
+    if (push.counted != 0u) scale = uintBitsToFloat(words.at[kLodSolution + 4u + priority]);
     for (; rate + 1u < push.rateCount; ++rate) {
         float enough = float(push.firstRate << rate);
         if (!(scale * min(level, kMostOverRate * enough) > enough)) break;
@@ -28,24 +28,24 @@ uint rateOf(uint entry) {
 // `first`: entry of the rate's list.
 void storeDraw(uint i, uvec4 draw, uint instances, uint first) {
     uint at = push.firstDraw + 5u * i;
-    argumentWords[at] = draw.x;
-    argumentWords[at + 1u] = draw.z * instances;
-    argumentWords[at + 2u] = draw.y;
-    argumentWords[at + 3u] = 0u;
-    argumentWords[at + 4u] = draw.z * first;
+    argumentWords.at[at] = draw.x;
+    argumentWords.at[at + 1u] = draw.z * instances;
+    argumentWords.at[at + 2u] = draw.y;
+    argumentWords.at[at + 3u] = 0u;
+    argumentWords.at[at + 4u] = draw.z * first;
 }
 
 bool isDrawn(uint entry) { return state(entry & kInstanceSlotMask).y != 0u; }
 bool shows(uint entry, uint part) {
     if ((entry & kInstanceHidesParts) == 0u) return true;
     uint mask = push.masks + (entry & kInstanceSlotMask) * push.maskWords + 1u;
-    return (list[mask + part / 32u] >> (part & 31u) & 1u) == 0u;
+    return (list.at[mask + part / 32u] >> (part & 31u) & 1u) == 0u;
 }
 
 // List `number` of every rate: those of all `entries` that show the part. And the draws that read it.
 void listPart(uint number, uint entries) {
     uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x, each = (entries + lanes - 1u) / lanes;
-    uint part = tableElements[push.windowCount + push.argumentCount + push.drawCount + number - 1u].x;
+    uint part = tableElements.at[push.windowCount + push.argumentCount + push.drawCount + number - 1u].x;
     uint first = (1u + number) * push.capacity;
     uvec2 run = min(uvec2(lane, lane + 1u) * each, uvec2(entries));
     uint totals[kMaxRates], places[kMaxRates];
@@ -69,22 +69,23 @@ void listPart(uint number, uint entries) {
         uint entry = hostEntry(i);
         if (!isDrawn(entry) || !shows(entry, part)) continue;
         uint rate = rateOf(entry);
-        list[places[rate]] = entry & kInstanceSlotMask;
+        list.at[places[rate]] = entry & kInstanceSlotMask;
         places[rate] += 1u;
     }
     for (uint i = lane; i < push.drawCount; i += lanes) {
-        uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
+        uvec4 draw = tableElements.at[push.windowCount + push.argumentCount + i];
         if (draw.w >> kDrawListShift == number) storeDraw(i, draw, totals[draw.w & ((1u << kDrawListShift) - 1u)], first);
     }
 }
 
 void main() {
+    if (isFurtherWorkgroup()) return;
     uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x, entries = 0u;
     uint totals[kMaxRates];
     uvec2 places[kMaxRates];
     for (uint r = 0u; r < kMaxRates; ++r) totals[r] = 0u;
     for (uint w = 0u; w < push.windowCount; ++w) {
-        uvec4 window = tableElements[w];
+        uvec4 window = tableElements.at[w];
         uvec2 run = runOf(window);
         entries += window.y;
         for (uint r = 0u; r < push.rateCount; ++r) countsOf[r * lanes + lane] = 0u;
@@ -102,9 +103,9 @@ void main() {
             uint list = push.rateLists + r * push.rateStride;
             places[r] = list + before + uvec2(totals[r], window.w);
             totals[r] += count;
-            if (lane == 0u) argumentWords[push.rateCounts + r * push.windowCount + w] = count;
+            if (lane == 0u) argumentWords.at[push.rateCounts + r * push.windowCount + w] = count;
             for (uint i = lane; i < push.argumentCount; i += lanes) {
-                uvec4 argument = tableElements[push.windowCount + i];
+                uvec4 argument = tableElements.at[push.windowCount + i];
                 if (argument.z == kCountRate + r)
                     storeDispatch(argument.w + push.argumentStride * w, argument.x * count, argument.y);
             }
@@ -114,17 +115,17 @@ void main() {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask, drawn = state(slot).y;
             if (drawn == 0u) continue;
             uint rate = rateOf(entry), flags = entry & ~kInstanceSlotMask;
-            list[places[rate].x] = slot;
-            list[places[rate].y] = (slot - window.z) | flags | (drawn == kDrawnWithPast ? 0u : kInstanceIsNew);
+            list.at[places[rate].x] = slot;
+            list.at[places[rate].y] = (slot - window.z) | flags | (drawn == kDrawnWithPast ? 0u : kInstanceIsNew);
             places[rate] += 1u;
         }
     }
     for (uint i = lane; i < push.drawCount; i += lanes) {
-        uvec4 draw = tableElements[push.windowCount + push.argumentCount + i];
+        uvec4 draw = tableElements.at[push.windowCount + push.argumentCount + i];
         if (draw.w >> kDrawListShift == 0u) storeDraw(i, draw, totals[draw.w], 0u);
     }
     for (uint number = 1u; number <= push.partCount; ++number) listPart(number, entries);
     if (lane == 0u && push.counted != 0u) {
-        for (uint r = 0u; r < push.rateCount; ++r) atomicAdd(words[kLodSolution + 1u], totals[r] * push.vertices[r]);
+        for (uint r = 0u; r < push.rateCount; ++r) atomicAdd(words.at[kLodSolution + 1u], totals[r] * push.vertices[r]);
     }
 }

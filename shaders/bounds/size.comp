@@ -2,14 +2,14 @@
 // passes that say what is seen and the list pass.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define PUSH_CONSTANTS SizePush
 #include "shaders/bounds/cull.glsl"
 
-layout(set = 0, binding = kSizeBinding, std430) buffer Sizes { uint sizes[]; };
-layout(push_constant) uniform Push { SizePush push; };
+BUFFER(, Sizes, kSizeBinding, std430, uint, sizes)
 
 void main() {
     uint index = invocationIndex();
     if (index >= push.instanceCount) return;
-    uint rank = min(states[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x, kSizeRanks);
-    if (rank > 0u) atomicAdd(sizes[rank - 1u], push.vertices);
+    uint rank = min(states.at[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x, kSizeRanks);
+    if (rank > 0u) atomicAdd(sizes.at[rank - 1u], push.vertices);
 }

@@ -88,7 +88,7 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
             normal += cross(b, d) + cross(d, e);
             last = e;
         }
-        pool[normalIndex + run] = vec4(normal, 0.0);
+        pool.at[normalIndex + run] = vec4(normal, 0.0);
     }
 }
 
@@ -101,7 +101,7 @@ void put(uint to, vec3 p) {
         return;
     }
 #endif
-    pool[to] = vec4(p, 0.0);
+    pool.at[to] = vec4(p, 0.0);
 }
 
 #ifdef TRIANGLES
@@ -248,7 +248,7 @@ void makeChains(uvec4 block, uint lane) {
         barrier();
         for (uint n = lane; n < vertices * fan.y; n += kBlockLanes) {
             uint of = n / fan.y, chain = tableElement(block.y + 2u * of + 1u).x;
-            pool[base + chain + (level - 2u) * fan.y + n - of * fan.y] = localPoints[first + n];
+            pool.at[base + chain + (level - 2u) * fan.y + n - of * fan.y] = localPoints[first + n];
         }
     }
 }
@@ -273,7 +273,7 @@ void main() {
         uvec4 a = tableElement(record), b = tableElement(record + 1u);
         readNet(record);
         storeLimits(a.z, base + a.w, base + b.y);
-        if (b.x != 0u) pool[base + b.x - 1u] = vec4(centre, 0.0);
+        if (b.x != 0u) pool.at[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }
     uvec4 block = tableElement(push.table + lane / kBlockLanes);

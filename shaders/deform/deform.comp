@@ -9,9 +9,10 @@
 layout(constant_id = kMorphsConstant) const bool kMorphs = false;
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // else linear blending
 
-layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer DeformedCage { vec4 deformedCage[]; };
+BUFFER(writeonly, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 
-layout(push_constant) uniform Push { DeformPush push; };
+#define PUSH_CONSTANTS DeformPush
+#include "shaders/shared/push.glsl"
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
@@ -25,5 +26,5 @@ void main() {
     uint id = min(invocationIndex(), push.vertexCount * push.instanceCount - 1u);
     uint entry = id / push.vertexCount, instance = instanceSlot(entry);
     uint index = id - entry * push.vertexCount;
-    deformedCage[instance * push.cageStride + index] = deformedVertex(index, instance * push.poseStride);
+    deformedCage.at[instance * push.cageStride + index] = deformedVertex(index, instance * push.poseStride);
 }

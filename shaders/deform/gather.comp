@@ -6,9 +6,10 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/mapping.glsl"
 
-layout(set = 0, binding = kDeformedCageBinding, std430) writeonly buffer Piece { vec4 piece[]; };
+BUFFER(writeonly, Piece, kDeformedCageBinding, std430, vec4, piece)
 
-layout(push_constant) uniform Push { DeformPush push; };
+#define PUSH_CONSTANTS DeformPush
+#include "shaders/shared/push.glsl"
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
@@ -19,5 +20,5 @@ void main() {
     uint id = min(invocationIndex(), push.vertexCount * push.instanceCount - 1u);
     uint entry = id / push.vertexCount, instance = instanceSlot(entry);
     uint index = id - entry * push.vertexCount;
-    piece[instance * push.cageStride + index] = whole(instance * push.poseStride + table(index / 4u)[index & 3u]);
+    piece.at[instance * push.cageStride + index] = whole(instance * push.poseStride + table(index / 4u)[index & 3u]);
 }

@@ -39,10 +39,10 @@ const bool kDirections = (kOutputs & kOutputDirections) != 0u;
 const bool kMapFrames = (kOutputs & kOutputMapFrames) != 0u;
 const bool kMoreUvs = (kOutputs & (kOutputUvs1 | kOutputFaceUvs | kOutputMapFrames)) != 0u;
 
-layout(set = 0, binding = kAttributeBinding, std430) writeonly buffer Attributes { uvec4 attributes[]; };
-layout(set = 0, binding = kUv1Binding, std430) writeonly buffer Uvs1 { vec2 uvs1[]; };
-layout(set = 0, binding = kFaceUvBinding, std430) writeonly buffer FaceUvs { vec2 faceUvs[]; };
-layout(set = 0, binding = kDirectionOutputBinding, std430) writeonly buffer Directions { uint directions[]; };
+BUFFER(writeonly, Attributes, kAttributeBinding, std430, uvec4, attributes)
+BUFFER(writeonly, Uvs1, kUv1Binding, std430, vec2, uvs1)
+BUFFER(writeonly, FaceUvs, kFaceUvBinding, std430, vec2, faceUvs)
+BUFFER(writeonly, Directions, kDirectionOutputBinding, std430, uint, directions)
 
 const uint kCorners = kDomain == kPentagonDomain ? 5u : kDomain == kQuadDomain ? 4u : kDomain == kEdgeDomain ? 2u
                       : kDomain == kVertexDomain ? 1u : 3u;
@@ -177,9 +177,9 @@ Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k
 
 void store(uint vertex, Sample s) {
     uvec4 color = uvec4(ivec4(s.color + 0.5));
-    attributes[vertex] = uvec4(floatBitsToUint(s.uv), color.xz | color.yw << 16u);
-    if ((kOutputs & kOutputUvs1) != 0u) uvs1[vertex] = s.more.xy;
-    if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs[vertex] = s.more.zw;
+    attributes.at[vertex] = uvec4(floatBitsToUint(s.uv), color.xz | color.yw << 16u);
+    if ((kOutputs & kOutputUvs1) != 0u) uvs1.at[vertex] = s.more.xy;
+    if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs.at[vertex] = s.more.zw;
 }
 Sample weighted(Corners c, float w[5]) {
     Sample s = Sample(vec2(0.0), vec4(0.0), vec4(0.0));
@@ -230,7 +230,7 @@ void storeDirection(uint vertex, Corners c, Slopes slopes) {
         longest = 1.0;
     }
     ivec2 q = ivec2(round(d / longest * vec2(32767.0, 16383.0)));
-    directions[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
+    directions.at[vertex] = (uint(q.x) & 0xFFFFu) | (uint(q.y) & 0x7FFFu) << 16u | (c.side > 0.0 ? kNegativeFrame : 0u);
 }
 
 // The slopes of smooth texture coordinates, which have derivatives of their own, in the map's frame. In the table of samples

@@ -91,10 +91,10 @@ void storeRow(uint j, uint side) {
 #ifdef WIDE
     barrier();
     if (patchesHere == kPatchLanes) {
-        [[unroll]] for (uint s = 0u; s < side; ++s) surface16[storesTo[s] + j * side] = localSamples[storesFrom[s]];
+        [[unroll]] for (uint s = 0u; s < side; ++s) surface16.at[storesTo[s] + j * side] = localSamples[storesFrom[s]];
     } else {
         for (uint s = 0u; s < side; ++s)
-            if (storesTo[s] != kNoVertex) surface16[storesTo[s] + j * side] = localSamples[storesFrom[s]];
+            if (storesTo[s] != kNoVertex) surface16.at[storesTo[s] + j * side] = localSamples[storesFrom[s]];
     }
     barrier();
 #endif

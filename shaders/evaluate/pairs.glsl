@@ -1,5 +1,5 @@
 // The parameter pairs (t, 1 - t) of a rate's samples.
-layout(set = 0, binding = kPairBinding, std430) readonly buffer Pairs { vec2 pairs[]; };
+BUFFER(readonly, Pairs, kPairBinding, std430, vec2, pairs)
 
 // A rate that is known when the pipeline is made. In the narrow mapping loops over samples are unrolled and weights are
 // constants; in the wide one lanes divide by a constant to find their patch and row, which is cheap.
@@ -17,7 +17,7 @@ vec2 parameterPair(uint k, uint rate) {
         float inverse = uintBitsToFloat((127u << 24) - floatBitsToUint(float(kRate)));
         p = vec2(float(k) * inverse, float(kRate - k) * inverse);
     } else {
-        p = pairs[SUPPLE_FIRST_PAIR(rate) + k];
+        p = pairs.at[SUPPLE_FIRST_PAIR(rate) + k];
     }
     return p;
 }

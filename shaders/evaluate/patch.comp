@@ -9,7 +9,7 @@
 #include "shaders/surface/pool.glsl"
 #include "shaders/evaluate/bicubic.glsl"
 
-layout(set = 0, binding = kPatchCoefficientBinding, std430) writeonly buffer PatchCoefficients { vec4 coefficients[]; };
+BUFFER(writeonly, PatchCoefficients, kPatchCoefficientBinding, std430, vec4, coefficients)
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * header.poolStride;
@@ -22,9 +22,9 @@ void main() {
         vec3 g = vec3(0.0);
         if (!past) g = poolVector(base + netIndex(net, kClass == kPolarPatch, corner));
         if (!past && k != corner) g += poolVector(base + netIndex(net, kClass == kPolarPatch, k));
-        coefficients[target + k] = vec4(g, 0.0);
+        coefficients.at[target + k] = vec4(g, 0.0);
         vec3 h = vec3(0.0);
         if (kClass == kPerturbedPatch) h = poolVector(base + perturbationIndex(tableElement(record + 2u), k));
-        coefficients[target + 16u + SUPPLE_PREP_FACE_EDGE(k)] = vec4(h, 0.0);
+        coefficients.at[target + 16u + SUPPLE_PREP_FACE_EDGE(k)] = vec4(h, 0.0);
     }
 }

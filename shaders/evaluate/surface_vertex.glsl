@@ -2,12 +2,12 @@
 // tangent, in a word of its own.
 layout(constant_id = kVertexFormatConstant) const uint kVertexFormat = kVertex16;
 
-layout(set = 0, binding = kSurfaceBinding, std430) writeonly buffer Surface16 { uvec4 surface16[]; };
-layout(set = 0, binding = kSurfaceBinding, scalar) writeonly buffer SurfaceVectors { vec3 surfaceVectors[]; };
+BUFFER(writeonly, Surface16, kSurfaceBinding, std430, uvec4, surface16)
+BUFFER(writeonly, SurfaceVectors, kSurfaceBinding, scalar, vec3, surfaceVectors)
 
 layout(constant_id = kTangentsConstant) const bool kTangents = false;
-layout(set = 0, binding = kTangentBinding, std430) writeonly buffer Tangents { uint tangents[]; };
-layout(set = 0, binding = kDirectionBinding, std430) readonly buffer Directions { uint directions[]; };
+BUFFER(writeonly, Tangents, kTangentBinding, std430, uint, tangents)
+BUFFER(readonly, Directions, kDirectionBinding, std430, uint, directions)
 
 #include "shaders/evaluate/frame.glsl"
 
@@ -43,7 +43,7 @@ uint tangentWord(uint direction, Frame f) {
     return (bits.x & 0xFFFFu) | (bits.y & 0x7FFFu) << 16u | (direction & kNegativeFrame);
 }
 void storeTangent(uint vertex, uint own, Frame f) {
-    if (kTangents) tangents[vertex] = tangentWord(directions[own], f);
+    if (kTangents) tangents.at[vertex] = tangentWord(directions.at[own], f);
 }
 
 // Previous positions lie in the space of this frame: they are less by what the origin has moved since the frame they come from.
@@ -58,12 +58,12 @@ void setPast(bool isNew) {
 void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     if (kVertexFormat == kVertexPosition) {
         precise vec3 past = position - pastStep; // the same bits if that is zero
-        surfaceVectors[vertex] = past;
+        surfaceVectors.at[vertex] = past;
     } else if (kVertexFormat == kVertex24) {
-        surfaceVectors[2u * vertex] = position;
-        surfaceVectors[2u * vertex + 1u] = unitNormal(normal);
+        surfaceVectors.at[2u * vertex] = position;
+        surfaceVectors.at[2u * vertex + 1u] = unitNormal(normal);
     } else {
-        surface16[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
+        surface16.at[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
 }
 
@@ -82,8 +82,8 @@ uvec3 normalWords(vec3 normal) {
     return floatBitsToUint(unitNormal(normal));
 }
 void storePosition(uint vertex, vec3 position, uint word) {
-    if (kVertexFormat == kVertex16) surface16[vertex] = uvec4(floatBitsToUint(position), word);
+    if (kVertexFormat == kVertex16) surface16.at[vertex] = uvec4(floatBitsToUint(position), word);
     else if (kVertexFormat == kVertexPosition) storeSurfaceVertex(vertex, position, vec3(0.0));
-    else surfaceVectors[kVertexStores * vertex] = position;
+    else surfaceVectors.at[kVertexStores * vertex] = position;
 }
-void storeNormal(uint vertex, uvec3 words) { surfaceVectors[kVertexStores * vertex + 1u] = uintBitsToFloat(words); }
+void storeNormal(uint vertex, uvec3 words) { surfaceVectors.at[kVertexStores * vertex + 1u] = uintBitsToFloat(words); }

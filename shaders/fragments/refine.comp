@@ -13,7 +13,7 @@
 #include "shaders/fragments/fragment.glsl"
 
 void writePoint(uint target, vec3 p) {
-    scratch[lane.instance * header.scratchStride + lane.write + target * lane.fragments + lane.fragment] = vec4(p, 0.0);
+    scratch.at[lane.instance * header.scratchStride + lane.write + target * lane.fragments + lane.fragment] = vec4(p, 0.0);
 }
 
 void refineCell(uint neighbours) {

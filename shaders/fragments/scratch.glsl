@@ -2,8 +2,13 @@
 layout(constant_id = kSourceConstant) const uint kSource = kFromScratch; // the level that is read
 layout(constant_id = kWorkConstant) const uint kKind = kInBulk;        // of work
 
-layout(set = 0, binding = kScratchBinding, std430) buffer Scratch { vec4 scratch[]; };
+BUFFER(, Scratch, kScratchBinding, std430, vec4, scratch)
+#ifdef WIDE
+vec3 scratchPoint(uint i) { return scratch.at[i].xyz; }
+#else
 layout(set = 0, binding = kScratchTexelBinding) uniform samplerBuffer scratchTexels;
+vec3 scratchPoint(uint i) { return texelFetch(scratchTexels, int(i)).xyz; }
+#endif
 
 struct Lane {
     uint listed; // the entry of the list
@@ -40,7 +45,5 @@ vec3 point(uint i) {
     uint at = lane.read + i * lane.fragments + lane.fragment;
     if (kSource != kFromScratch)
         return netPoint(lane.instance * header.poolStride + tableWord(at), lane.listed, kSource == kFromPastNet);
-    at += lane.instance * header.scratchStride;
-    if (kWide) return scratch[at].xyz;
-    return texelFetch(scratchTexels, int(at)).xyz;
+    return scratchPoint(lane.instance * header.scratchStride + at);
 }

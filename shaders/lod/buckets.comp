@@ -8,15 +8,15 @@
 #include "shaders/shared/surface.h"
 #include "shaders/lod/lod.glsl"
 
-layout(set = 0, binding = kLodBinding, std430) writeonly buffer LodTargets { uvec4 lodTargets[]; };
+BUFFER(writeonly, LodTargets, kLodBinding, std430, uvec4, lodTargets)
 layout(push_constant) uniform Push { LodSolvePush push; };
 
 shared uint sumRecords[kMaxLanes], sumVertices[kMaxLanes];
 
-uint formOf(uint run) { return runForm(lodWords[kLodRuns + kLodRunWords * run]); }
-uint dispatchOf(uint run) { return lodWords[kLodRuns + kLodRunWords * run + 1u] >> 16u; }
+uint formOf(uint run) { return runForm(lodWords.at[kLodRuns + kLodRunWords * run]); }
+uint dispatchOf(uint run) { return lodWords.at[kLodRuns + kLodRunWords * run + 1u] >> 16u; }
 uint bucketWord(uint run, uint c) {
-    uint first = firstOfGroup(lodWords[kLodRuns + kLodRunWords * run + 1u], run);
+    uint first = firstOfGroup(lodWords.at[kLodRuns + kLodRunWords * run + 1u], run);
     return SUPPLE_LOD_BUCKETS(push.runs) + 4u * bucketIndex(first, run, c);
 }
 uint drawWord(uint run, uint c) { return SUPPLE_LOD_DRAWS(push.runs) + kLodDrawWords * (run * kCapacityCount + c); }
@@ -40,7 +40,7 @@ Place sizeOf(uint first, uint end) {
     for (uint run = first; run < end; ++run) {
         uint form = formOf(run);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
-            uint samples = formSamples(form, capacityOf(c)), whole = padded(lodWords[drawWord(run, c) + kLodDrawCount], samples);
+            uint samples = formSamples(form, capacityOf(c)), whole = padded(lodWords.at[drawWord(run, c) + kLodDrawCount], samples);
             sum.record += whole;
             sum.vertex += whole * samples;
         }
@@ -54,7 +54,7 @@ uint groupsBefore(uint run) {
         uint form = formOf(run - 1u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
             uint samples = formSamples(form, capacityOf(c));
-            groups += groupsOf(padded(lodWords[drawWord(run - 1u, c) + kLodDrawCount], samples), samples);
+            groups += groupsOf(padded(lodWords.at[drawWord(run - 1u, c) + kLodDrawCount], samples), samples);
         }
     }
     return groups;
@@ -66,41 +66,41 @@ void placeRuns(uint first, uint end, inout Place at, uint room) {
         if (run > first && dispatchOf(run) != dispatchOf(run - 1u)) group = 0u;
         uint form = formOf(run), bucket = bucketWord(run, 0u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c, bucket += 4u) {
-            uint samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c) + kLodDrawCount, count = lodWords[draw];
-            lodWords[bucket] = at.record;
-            lodWords[bucket + 1u] = at.vertex;
-            lodWords[bucket + 2u] = 0u;
-            lodWords[bucket + 3u] = group;
+            uint samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c) + kLodDrawCount, count = lodWords.at[draw];
+            lodWords.at[bucket] = at.record;
+            lodWords.at[bucket + 1u] = at.vertex;
+            lodWords.at[bucket + 2u] = 0u;
+            lodWords.at[bucket + 3u] = group;
             uint whole = padded(count, samples);
             at.counted += count;
             if (whole > (room - at.vertex) / samples) { // only where even levels of 1 are too many
                 uint n = patchesPerDraw(samples);
                 whole = (room - at.vertex) / (n * samples) * n;
                 count = min(count, whole);
-                lodWords[draw] = count;
+                lodWords.at[draw] = count;
             }
             at.record += whole;
             at.vertex += whole * samples;
             at.patches += count;
             group += groupsOf(whole, samples);
         }
-        lodWords[bucket] = at.record; // the next run's first, or the end of the group's
+        lodWords.at[bucket] = at.record; // the next run's first, or the end of the group's
     }
 }
 
 void writeDraw(uint run, uint c) {
     uint form = formOf(run), samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c), bucket = bucketWord(run, c);
-    uint count = lodWords[draw + kLodDrawCount], whole = padded(count, samples);
-    uint record = lodWords[bucket], vertex = lodWords[bucket + 1u], grid = kLodGrids + 2u * (form * kCapacityCount + c);
-    lodWords[draw] = lodWords[grid + 1u];
-    lodWords[draw + kLodDrawCount] = whole / patchesPerDraw(samples);
-    lodWords[draw + 2u] = lodWords[grid];
-    lodWords[draw + 3u] = vertex;
-    lodWords[draw + 4u] = 0u;
+    uint count = lodWords.at[draw + kLodDrawCount], whole = padded(count, samples);
+    uint record = lodWords.at[bucket], vertex = lodWords.at[bucket + 1u], grid = kLodGrids + 2u * (form * kCapacityCount + c);
+    lodWords.at[draw] = lodWords.at[grid + 1u];
+    lodWords.at[draw + kLodDrawCount] = whole / patchesPerDraw(samples);
+    lodWords.at[draw + 2u] = lodWords.at[grid];
+    lodWords.at[draw + 3u] = vertex;
+    lodWords.at[draw + 4u] = 0u;
     for (uint i = count; i < whole; ++i) { // empty records: evaluation makes points of them
         uint to = (SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (record + i)) / 4u;
-        lodTargets[to] = uvec4(kEmptyRecord, 0u, vertex + i * samples, c);
-        for (uint k = 1u; k < kLodRecordWords / 4u; ++k) lodTargets[to + k] = uvec4(0u);
+        lodTargets.at[to] = uvec4(kEmptyRecord, 0u, vertex + i * samples, c);
+        for (uint k = 1u; k < kLodRecordWords / 4u; ++k) lodTargets.at[to + k] = uvec4(0u);
     }
 }
 // The words of the dispatch whose first run this is.
@@ -109,25 +109,25 @@ void writeDispatch(uint run, uint dispatch) {
     while (end < push.runCount && dispatchOf(end) == dispatch) ++end;
     uint first = bucketWord(run, 0u), last = bucketWord(end - 1u, kCapacityCount - 1u);
     uint samples = formSamples(formOf(end - 1u), capacityOf(kCapacityCount - 1u));
-    uint firstRecord = lodWords[first], endRecord = lodWords[last + 4u], recordCount = endRecord - firstRecord;
-    uint groupCount = kWide ? lodWords[last + 3u] + groupsOf(endRecord - lodWords[last], samples)
+    uint firstRecord = lodWords.at[first], endRecord = lodWords.at[last + 4u], recordCount = endRecord - firstRecord;
+    uint groupCount = kWide ? lodWords.at[last + 3u] + groupsOf(endRecord - lodWords.at[last], samples)
                             : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
     uint at = SUPPLE_LOD_DISPATCHES(push.runs) + kLodDispatchWords * dispatch;
-    lodWords[at] = groupCount > 0u ? (groupCount + rows - 1u) / rows : 0u;
-    lodWords[at + 1u] = rows;
-    lodWords[at + 2u] = 1u;
-    lodWords[at + 3u] = firstRecord;
-    lodWords[at + 4u] = recordCount;
-    lodWords[at + 5u] = (first - SUPPLE_LOD_BUCKETS(push.runs)) / 4u;
-    lodWords[at + 6u] = (end - run) * kCapacityCount;
-    lodWords[at + 7u] = groupCount;
+    lodWords.at[at] = groupCount > 0u ? (groupCount + rows - 1u) / rows : 0u;
+    lodWords.at[at + 1u] = rows;
+    lodWords.at[at + 2u] = 1u;
+    lodWords.at[at + 3u] = firstRecord;
+    lodWords.at[at + 4u] = recordCount;
+    lodWords.at[at + 5u] = (first - SUPPLE_LOD_BUCKETS(push.runs)) / 4u;
+    lodWords.at[at + 6u] = (end - run) * kCapacityCount;
+    lodWords.at[at + 7u] = groupCount;
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uint room = push.room;
-    if (push.rated != 0u) room -= min(room, lodWords[kLodRated]); // where levels fall short, rates are at their coarsest
+    if (push.rated != 0u) room -= min(room, lodWords.at[kLodRated]); // where levels fall short, rates are at their coarsest
 
     // Each lane places some runs behind those of the lanes before. If there is no room for all, one lane places all of them.
     uint each = (push.runCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
@@ -163,12 +163,12 @@ void main() {
             patches += sumRecords[i];
             counted += sumVertices[i];
         }
-        lodWords[kLodSolution + 1u] = vertices > room ? at.vertex : vertices;
-        lodWords[kLodSolution + 2u] = patches;
-        lodWords[kLodSolution + 9u] = counted;
-        lodWords[kLodSolution + 10u] = lodWords[kLodHidden];
-        lodWords[kLodHidden] = 0u;
-        if (push.rated != 0u) lodWords[kLodRated] = 0u;
+        lodWords.at[kLodSolution + 1u] = vertices > room ? at.vertex : vertices;
+        lodWords.at[kLodSolution + 2u] = patches;
+        lodWords.at[kLodSolution + 9u] = counted;
+        lodWords.at[kLodSolution + 10u] = lodWords.at[kLodHidden];
+        lodWords.at[kLodHidden] = 0u;
+        if (push.rated != 0u) lodWords.at[kLodRated] = 0u;
     }
     for (uint b = lane; b < push.runCount * kCapacityCount; b += gl_WorkGroupSize.x)
         writeDraw(b / kCapacityCount, b % kCapacityCount);

@@ -20,15 +20,15 @@ void main() {
         uint first = SUPPLE_LOD_COUNTS(push.runs) + (run * kPriorityCount + p) * kCountBins;
         uint capacities = kLodCapacities + p * kLodBinStride + kFirstCountBin;
         [[dont_unroll]] for (uint bin = lane; bin < kCountBins; bin += gl_WorkGroupSize.x) {
-            uint count = lodWords[first + bin];
+            uint count = lodWords.at[first + bin];
             if (count > 0u) {
-                atomicAdd(counts[min(lodWords[capacities + bin], kCapacityCount - 1u)], count);
-                lodWords[first + bin] = 0u;
+                atomicAdd(counts[min(lodWords.at[capacities + bin], kCapacityCount - 1u)], count);
+                lodWords.at[first + bin] = 0u;
             }
         }
     }
     barrier();
     uint draws = SUPPLE_LOD_DRAWS(push.runs) + kLodDrawWords * kCapacityCount * run;
     for (uint c = lane; run < push.runCount && c < kCapacityCount; c += gl_WorkGroupSize.x)
-        lodWords[draws + kLodDrawWords * c + kLodDrawCount] = counts[c];
+        lodWords.at[draws + kLodDrawWords * c + kLodDrawCount] = counts[c];
 }

@@ -31,12 +31,13 @@ uvec4 depthsOf(uint depth) {
 
 void storeDispatch(uint at, uint lanes) {
     uint groups = (lanes + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, rows = max((groups + kMostGroups - 1u) / kMostGroups, 1u);
-    scratchWords[at] = (groups + rows - 1u) / rows;
-    scratchWords[at + 1u] = rows;
-    scratchWords[at + 2u] = 1u;
+    scratchWords.at[at] = (groups + rows - 1u) / rows;
+    scratchWords.at[at + 1u] = rows;
+    scratchWords.at[at + 2u] = 1u;
 }
 
 void main() {
+    if (isFurtherWorkgroup()) return;
     uint lane = gl_LocalInvocationID.x, entries = instanceCount(), each = (entries + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(lane * each, entries), end = min(begin + each, entries);
     uvec4 own = uvec4(0u);
@@ -51,15 +52,15 @@ void main() {
     }
     for (uint i = begin; i < end; ++i) {
         uint entry = instanceEntry(i), instance = slotOf(entry), depth = depthOf(i, entry);
-        pool[instance * header.poolStride + header.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
+        pool.at[instance * header.poolStride + header.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
         uvec4 listed = depthsOf(depth);
         [[dont_unroll]] for (uint d = 0u; d < kDepths; ++d) {
-            if (listed[d] != 0u) scratchWords[levelBase(places[d]) + header.depths + kDepthEntries + d] = entry;
+            if (listed[d] != 0u) scratchWords.at[levelBase(places[d]) + header.depths + kDepthEntries + d] = entry;
         }
         places += listed;
     }
     for (uint d = lane; d < kDepths; d += gl_WorkGroupSize.x) {
-        scratchWords[header.depths + kDepthCounts + d] = counts[d];
+        scratchWords.at[header.depths + kDepthCounts + d] = counts[d];
         storeDispatch(header.depths + kDepthDispatches + 3u * d, tableElement(header.depthLanes)[d] * counts[d]);
     }
 }

@@ -141,6 +141,6 @@ void main() {
     precise vec3 middle = (x0 + x1) * 0.5;
     precise float radius = 0.5 * curve.curveLength;
     float level = levelOf(curve.curveLength, curve.bend, pixelsPerUnit(middle, radius));
-    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);
-    if (edge == 0u && header.depths != 0u) scratchWords[levelBase(instance) + header.depths] = 0u; // what patches raise
+    scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);
+    if (edge == 0u && header.depths != 0u) scratchWords.at[levelBase(instance) + header.depths] = 0u; // what patches raise
 }

@@ -3,21 +3,20 @@
 #include "shaders/shared/lod.h"
 
 #ifdef LOD_WRITE
-layout(set = 0, binding = kLodBinding, std430) coherent buffer Lod { uint lodWords[]; };
+BUFFER(coherent, Lod, kLodBinding, std430, uint, lodWords)
 #else
-layout(set = 0, binding = kLodBinding, std430) readonly buffer Lod { uint lodWords[]; };
+BUFFER(readonly, Lod, kLodBinding, std430, uint, lodWords)
 #endif
-layout(set = 0, binding = kLodBinding, std430) readonly buffer LodElements { uvec4 lodElements[]; };
-layout(set = 0, binding = kLodTexelBinding) uniform usamplerBuffer lodTexels;
+BUFFER(readonly, LodElements, kLodBinding, std430, uvec4, lodElements)
 
-uvec4 lodElement(uint i) {
-    if (kWide) return lodElements[i];
-    return texelFetch(lodTexels, int(i));
-}
-uint lodWord(uint i) {
-    if (kWide) return lodWords[i];
-    return texelFetch(lodTexels, int(i >> 2u))[i & 3u];
-}
+#ifdef WIDE
+uvec4 lodElement(uint i) { return lodElements.at[i]; }
+uint lodWord(uint i) { return lodWords.at[i]; }
+#else
+layout(set = 0, binding = kLodTexelBinding) uniform usamplerBuffer lodTexels;
+uvec4 lodElement(uint i) { return texelFetch(lodTexels, int(i)); }
+uint lodWord(uint i) { return texelFetch(lodTexels, int(i >> 2u))[i & 3u]; }
+#endif
 
 uint capacityOf(uint index) { return SUPPLE_LOD_CAPACITY(index); }
 uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }

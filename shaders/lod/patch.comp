@@ -401,16 +401,16 @@ void countPatch(bool counted, uint run, uint form, uint priority, uint bin, uint
         if (first) own = uvec3(commonSums[0], commonSums[1], commonSums[2]);
     }
     if (!counted) return;
-    atomicAdd(lodWords[split], own.x);
-    if (own.y > 0u) atomicAdd(lodWords[split + 1u], own.y);
-    atomicAdd(lodWords[place], own.z);
+    atomicAdd(lodWords.at[split], own.x);
+    if (own.y > 0u) atomicAdd(lodWords.at[split + 1u], own.y);
+    atomicAdd(lodWords.at[place], own.z);
 }
 
 // Whether the instance hides the patch's part. What it hides is counted where its first patch is.
 bool isHidden(uint listed, uint instance, uint patchIndex, uint part, bool inside) {
     if ((listed & kInstanceHidesParts) == 0u) return false;
     uint mask = push.masks + (push.window.firstSlot + instance) * push.maskWords;
-    if (inside && patchIndex == 0u && push.countsHidden != 0u) atomicAdd(lodWords[kLodHidden], instanceWord(mask));
+    if (inside && patchIndex == 0u && push.countsHidden != 0u) atomicAdd(lodWords.at[kLodHidden], instanceWord(mask));
     return (instanceWord(mask + 1u + part / 32u) >> (part & 31u) & 1u) != 0u;
 }
 
@@ -458,13 +458,13 @@ void main() {
     float at = (clamp(log2(max(level, 1e-3)), -float(kOctavesBelow), 7.99) + float(kOctavesBelow)) * float(kBinsPerOctave);
     uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * float(kSplitUnit)), kSplitUnit);
     if (inside) {
-        scratchWords[target] = counted ? bin : kNoBin;
-        scratchWords[target + 1u] = floatBitsToUint(own.x);
-        scratchWords[target + 2u] = floatBitsToUint(own.y);
+        scratchWords.at[target] = counted ? bin : kNoBin;
+        scratchWords.at[target + 1u] = floatBitsToUint(own.x);
+        scratchWords.at[target + 2u] = floatBitsToUint(own.y);
     }
     countPatch(counted, run, form, priority, bin, weight);
     bool chains = patchClass == kLoopIrregularPatch || patchClass == kLoopIrregularSharpPatch || patchClass == kIrregularPatch ||
                   patchClass == kIrregularSharpPatch;
     // Patches of hidden parts count too, so that hiding a part changes no other one.
-    if (!kCubics && inside && chains) atomicMax(scratchWords[words + header.depths], floatBitsToUint(level));
+    if (!kCubics && inside && chains) atomicMax(scratchWords.at[words + header.depths], floatBitsToUint(level));
 }

@@ -22,7 +22,7 @@ uvec2 levelPair(float level) {
 // Through the binding that places are taken with. If the buffer were bound twice, synchronization validation would see groups read
 // what others write.
 void storeElement(uint to, uvec4 words) {
-    for (uint k = 0u; k < 4u; ++k) lodWords[to + k] = words[k];
+    for (uint k = 0u; k < 4u; ++k) lodWords.at[to + k] = words[k];
 }
 
 void main() {
@@ -52,12 +52,12 @@ void main() {
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords[firstBucket + 4u * i + 2u], n);
+            if (n > 0u) taken[i] = atomicAdd(lodWords.at[firstBucket + 4u * i + 2u], n);
         }
         barrier();
         place += taken[local];
     } else if (drawn) {
-        place = atomicAdd(lodWords[bucket + 2u], 1u);
+        place = atomicAdd(lodWords.at[bucket + 2u], 1u);
     }
     if (!drawn || place >= lodWord(bucket + 4u) - lodWord(bucket)) return;
 
@@ -91,7 +91,9 @@ void main() {
     }
     uint samples = formSamples(form, capacityOf(capacity));
     uint to = SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place);
-    if (to + kLodRecordWords > uint(lodWords.length())) return;
+#ifndef TASKS // an address knows no length; what the solver has found a place for fits
+    if (to + kLodRecordWords > uint(lodWords.at.length())) return;
+#endif
     storeElement(to, uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
                            lodWord(bucket + 1u) + place * samples, capacity));
     for (uint k = 0u; k < 3u; ++k) storeElement(to + 4u * (k + 1u), uvec4(pairs[2u * k], pairs[2u * k + 1u]));

@@ -47,17 +47,17 @@ uvec2 demand(float x) {
         [[dont_unroll]] for (uint f = 0u; f < kLodForms; ++f) {
             if ((push.forms & (1u << f)) == 0u) continue;
             [[dont_unroll]] for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
-                uint weight = lodWords[kLodSplit + (p * kLodForms + f) * kLodBinStride + bin];
+                uint weight = lodWords.at[kLodSplit + (p * kLodForms + f) * kLodBinStride + bin];
                 if (weight > 0u)
                     add(sum, weight, formSamples(f, capacityOf(capacityOfBin(bin, scaled))));
             }
         }
         if (push.rated == 0u) continue;
         [[dont_unroll]] for (uint bin = lane; bin < kRatedBins; bin += gl_WorkGroupSize.x) {
-            if (float(bin) > scaled) add(sum, lodWords[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
+            if (float(bin) > scaled) add(sum, lodWords.at[kLodRatedMore + p * kRatedBins + bin], kSplitUnit);
         }
     }
-    if (push.rated != 0u && lane == 0u) add(sum, lodWords[kLodRated], kSplitUnit);
+    if (push.rated != 0u && lane == 0u) add(sum, lodWords.at[kLodRated], kSplitUnit);
     sumHigh[lane] = sum.x;
     sumLow[lane] = sum.y;
     barrier();
@@ -111,21 +111,21 @@ void main() {
         [[dont_unroll]] for (uint bin = lane; bin < kLodBinStride; bin += gl_WorkGroupSize.x) {
             uint c = 0u;
             if (!tooMany) c = capacityOfBin(bin, SUPPLE_LOD_SCALED(push.elasticity[p], x));
-            lodWords[kLodCapacities + p * kLodBinStride + bin] = c;
+            lodWords.at[kLodCapacities + p * kLodBinStride + bin] = c;
         }
         [[dont_unroll]] for (uint i = lane; i < kLodForms * kLodBinStride; i += gl_WorkGroupSize.x)
-            lodWords[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
+            lodWords.at[kLodSplit + p * kLodForms * kLodBinStride + i] = 0u;
         [[dont_unroll]] for (uint i = lane; push.rated != 0u && i < kRatedBins; i += gl_WorkGroupSize.x)
-            lodWords[kLodRatedMore + p * kRatedBins + i] = 0u;
+            lodWords.at[kLodRatedMore + p * kRatedBins + i] = 0u;
     }
     if (lane == 0u) {
-        lodWords[kLodSolution] = floatBitsToUint(x);
-        lodWords[kLodSolution + 3u] = x > float(kElasticSteps) ? 1u : 0u;
+        lodWords.at[kLodSolution] = floatBitsToUint(x);
+        lodWords.at[kLodSolution + 3u] = x > float(kElasticSteps) ? 1u : 0u;
         [[dont_unroll]] for (uint p = 0u; p < kPriorityCount; ++p) {
             float scaled = SUPPLE_LOD_SCALED(push.elasticity[p], x);
-            lodWords[kLodSolution + 4u + p] =
+            lodWords.at[kLodSolution + 4u + p] =
                 floatBitsToUint(tooMany ? 0.0 : x == 0.0 ? 1.0 : exp2(-scaled / float(kBinsPerOctave)));
         }
-        lodWords[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
+        lodWords.at[kLodSolution + 8u] = wanted.x << 24u | wanted.y >> 8u;
     }
 }

@@ -248,7 +248,7 @@ void evaluateSectors() {
         [[unroll]] for (uint c = 0u; c < (kPatchSamples + kPatchLanes - 1u) / kPatchLanes; ++c) {
             uint s = c * kPatchLanes + lane;
             if ((c + 1u) * kPatchLanes <= kPatchSamples || s < kPatchSamples)
-                surface16[vertex + s] = localSamples[p * kPatchSamples + s];
+                surface16.at[vertex + s] = localSamples[p * kPatchSamples + s];
         }
     }
 }

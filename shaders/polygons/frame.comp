@@ -28,7 +28,7 @@ void main() {
         tangent = vec3(1.0, 0.0, 0.0);
     }
     uint frame = base + header.frames + kFrameElements * index;
-    pool[frame] = vec4(position, vertex.w < 0.0 ? -1.0 : 1.0);
+    pool.at[frame] = vec4(position, vertex.w < 0.0 ? -1.0 : 1.0);
     storePool(frame + kFrameNormal, normal);
     storePool(frame + kFrameTangent, tangent);
 }

@@ -21,10 +21,11 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 }
 
 // -1 where the pose mirrors, else 1.
-float sideOfFrame(uint frame) {
-    if (kWide) return pool[frame].w;
-    return texelFetch(poolTexels, int(frame)).w;
-}
+#ifdef WIDE
+float sideOfFrame(uint frame) { return pool.at[frame].w; }
+#else
+float sideOfFrame(uint frame) { return texelFetch(poolTexels, int(frame)).w; }
+#endif
 
 void main() {
     uint item = itemOfLane(), index = elementOf(item), entry = entryOf(item), instance = slotOf(entry);
@@ -51,6 +52,6 @@ void main() {
         const mat3 axes = mat3(x, y, side * z);
         vec3 du, dv;
         axesAcross(coordinates, du, dv);
-        tangents[vertex] = tangentWord(tableWord(header.directions + index), Frame(axes * du, axes * dv, normal));
+        tangents.at[vertex] = tangentWord(tableWord(header.directions + index), Frame(axes * du, axes * dv, normal));
     }
 }

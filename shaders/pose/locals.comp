@@ -34,6 +34,6 @@ void main() {
     } else {
         uint quad = item - push.nodeCount - 1u;
         precise vec4 weights = morphWeights(first, quad);
-        posed[instance * push.poseStride + push.morphWeights + quad] = weights;
+        posed.at[instance * push.poseStride + push.morphWeights + quad] = weights;
     }
 }

@@ -6,15 +6,15 @@
 #include "shaders/pose/limbs.h"
 #include "shaders/pose/time.h"
 
-layout(set = 0, binding = kScratchPoseBinding, std430) buffer Scratch { vec4 scratch[]; };
+BUFFER(, Scratch, kScratchPoseBinding, std430, vec4, scratch)
 
 uint locals = 0u; // of the instance
 Transform nodeLocal(uint node) {
     uint i = locals + kAffineElements * node;
     Transform t;
-    t.translation = scratch[i].xyz;
-    t.rotation = scratch[i + 1u];
-    t.scale = scratch[i + 2u].xyz;
+    t.translation = scratch.at[i].xyz;
+    t.rotation = scratch.at[i + 1u];
+    t.scale = scratch.at[i + 2u].xyz;
     return t;
 }
 bool listed = false;
@@ -22,13 +22,13 @@ void keepLocal(uint node, Transform t) {
     precise Transform local = t;
     uint i = locals + kAffineElements * node;
     if (listed) {
-        scratch[i] = vec4(local.translation, 0.0);
-        scratch[i + 1u] = local.rotation;
+        scratch.at[i] = vec4(local.translation, 0.0);
+        scratch.at[i + 1u] = local.rotation;
     }
 }
 Affine placement() {
     uint i = locals + kAffineElements * push.nodeCount;
-    return rowsOf(scratch[i], scratch[i + 1u], scratch[i + 2u]);
+    return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
 }
 #include "shaders/pose/modify.h"
 

@@ -9,15 +9,16 @@
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
 layout(constant_id = kWorkgroupRowsConstant) const uint kLocalRows = 1u; // 3 * kWorkgroupNodes with the wide mapping
 
-layout(set = 0, binding = kScratchPoseBinding, std430) coherent buffer Scratch { vec4 scratch[]; };
-layout(set = 0, binding = kScratchPoseTexelBinding) uniform samplerBuffer scratchTexels;
+BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
 
 shared vec4 localRows[kLocalRows];
 
-vec4 localRow(uint i) {
-    if (kWide) return scratch[i];
-    return texelFetch(scratchTexels, int(i));
-}
+#ifdef WIDE
+vec4 localRow(uint i) { return scratch.at[i]; }
+#else
+layout(set = 0, binding = kScratchPoseTexelBinding) uniform samplerBuffer scratchTexels;
+vec4 localRow(uint i) { return texelFetch(scratchTexels, int(i)); }
+#endif
 Affine placeAt(uint i) { return rowsOf(localRow(i), localRow(i + 1u), localRow(i + 2u)); }
 Transform localAt(uint i) {
     Transform t;
@@ -36,7 +37,7 @@ Affine globalAt(uint matrices, uint node) {
         m = Affine(localRows[i], localRows[i + 1u], localRows[i + 2u]);
     } else {
         i += matrices;
-        m = Affine(scratch[i], scratch[i + 1u], scratch[i + 2u]);
+        m = Affine(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
     }
     return m;
 }
@@ -49,9 +50,9 @@ void keepGlobal(uint matrices, uint node, Affine global) {
         localRows[i + 2u] = m.z;
     } else {
         i += matrices;
-        scratch[i] = m.x;
-        scratch[i + 1u] = m.y;
-        scratch[i + 2u] = m.z;
+        scratch.at[i] = m.x;
+        scratch.at[i + 1u] = m.y;
+        scratch.at[i + 2u] = m.z;
     }
 }
 
@@ -64,9 +65,9 @@ Affine globalOf(uint matrices, uint node) {
 
 void storePosed(uint i, Affine m) {
     precise Affine placed = m;
-    posed[i] = placed.x;
-    posed[i + 1u] = placed.y;
-    posed[i + 2u] = placed.z;
+    posed.at[i] = placed.x;
+    posed.at[i + 1u] = placed.y;
+    posed.at[i + 2u] = placed.z;
 }
 
 void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine place) {
@@ -81,7 +82,7 @@ void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine plac
         uint i = pose + kDualQuaternionTransform + kDualQuaternionElements * joint;
         storePosed(i, own);
         precise vec4 rotation = rotationOf(own);
-        posed[i + 3u] = rotation;
+        posed.at[i + 3u] = rotation;
     } else {
         storePosed(pose + kLinearElements * joint, combined(place, own));
     }

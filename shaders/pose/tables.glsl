@@ -3,11 +3,12 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/pose.h"
 
-layout(push_constant) uniform Push { PosePush push; };
+#define PUSH_CONSTANTS PosePush
+#include "shaders/shared/push.glsl"
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
-layout(set = 0, binding = kPosedBinding, std430) writeonly buffer Posed { vec4 posed[]; };
+BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
 
 LOADED_BUFFER(uvec4, table, Table, kClipTableBinding, usamplerBuffer, kClipTableTexelBinding, xyzw)
 LOADED_BUFFER(uvec4, state, States, kStateBinding, usamplerBuffer, kStateTexelBinding, xyzw)

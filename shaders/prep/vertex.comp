@@ -35,5 +35,5 @@ void main() {
     uint sectors = header & ~kBoundaryClass;
     vec3 normal = weightedFan(base + vertex, tangent, face, words, cageBase, meshPoint(cageBase + vertex), weights + 1u,
                               sectors, boundary, kFan == kFewFan);
-    if (boundary) pool[face + sectors] = vec4(normal, 0.0); // a normal, no position: shared/prep.h
+    if (boundary) pool.at[face + sectors] = vec4(normal, 0.0); // a normal, no position: shared/prep.h
 }

@@ -2,5 +2,5 @@
 // adds none.
 void storePool(uint i, vec3 v) {
     precise vec3 canonical = withPositiveZeros(v);
-    pool[i] = vec4(canonical, 0.0);
+    pool.at[i] = vec4(canonical, 0.0);
 }

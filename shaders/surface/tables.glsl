@@ -10,10 +10,15 @@
 #define PUSH_CONSTANTS EvaluatePush
 #endif
 #endif
-layout(push_constant) uniform Push { PUSH_CONSTANTS push; };
+#include "shaders/shared/push.glsl"
 #include "shaders/shared/instances.glsl"
 
+#ifdef TASKS
+layout(buffer_reference, std430) readonly buffer Header { TableHeader words; };
+TableHeader header = Header(bufferOfTask(kTableHeaderBinding)).words;
+#else
 layout(set = 0, binding = kTableHeaderBinding) uniform Header { TableHeader header; };
+#endif
 
 // A dispatch works on items: each is one of the `push.count` elements of one instance.
 uint itemCount() { return push.count * instanceCount(); }

@@ -2,6 +2,7 @@
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/culling/occlusion_kernels.h"
 
+#include "gpu/bound_sets.h"
 #include "gpu/memory.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/gpu_surface.h"
@@ -185,19 +186,13 @@ public:
             return views.back().get();
         };
         const auto count = static_cast<uint32_t>(windows.size());
-        Result<gpu::DescriptorPoolHandle> pool =
-            gpu::createDescriptorPool(device_, bounds_.boundsLayout(), count, "test");
-        Result<gpu::DescriptorPoolHandle> listPool =
-            gpu::createDescriptorPool(device_, bounds_.listLayout(), 1, "test");
-        EXPECT_TRUE(pool.ok() && listPool.ok());
-        Result<VkDescriptorSet> listSet = gpu::allocateSet(device_, bounds_.listLayout(), listPool->get(), "test");
-        EXPECT_TRUE(listSet.ok());
+        gpu::BoundSets sets, listSets;
+        EXPECT_TRUE(sets.create(device_, bounds_.boundsLayout(), count, "test").ok());
+        EXPECT_TRUE(listSets.create(device_, bounds_.listLayout(), 1, "test").ok());
         const VkBufferView stateTexels = texels(states_, VK_FORMAT_R32G32_UINT, 0, states_.size());
         const VkBufferView hostTexels = texels(hostList, VK_FORMAT_R32_UINT, 0, hostList.size());
-        std::vector<VkDescriptorSet> sets;
-        for (const ListWindow& window : windows) {
-            Result<VkDescriptorSet> set = gpu::allocateSet(device_, bounds_.boundsLayout(), pool->get(), "test");
-            EXPECT_TRUE(set.ok());
+        for (uint32_t w = 0; w < count; ++w) {
+            const ListWindow& window = windows[w];
             const VkDeviceSize cageBytes = VkDeviceSize{scene.cageStride} * 16;
             const VkDeviceSize offset = window.firstSlot * cageBytes;
             const VkDeviceSize range = std::min(scene.windowSize, scene.slots - window.firstSlot) * cageBytes;
@@ -218,11 +213,10 @@ public:
                 {kCullViewBinding, whole(view)},
                 {kSizeBinding, whole(sizes)},
             };
-            gpu::writeSet(device_, bounds_.boundsLayout(), *set, resources);
-            if (sets.empty()) {
-                gpu::writeSet(device_, bounds_.listLayout(), *listSet, resources);
+            sets.write(device_, bounds_.boundsLayout(), w, resources);
+            if (w == 0) {
+                listSets.write(device_, bounds_.listLayout(), 0, resources);
             }
-            sets.push_back(*set);
         }
         const Pyramid& pyramid = scene.pyramid;
         Result<gpu::DescriptorPoolHandle> occlusionPool =
@@ -245,8 +239,9 @@ public:
         }
         EXPECT_TRUE(host_
                         .submitAndWait([&](VkCommandBuffer commands) {
+                            gpu::SingleDispatches dispatches(device_, commands);
                             for (uint32_t w = 0; w < count; ++w) {
-                                bounds_.recordBounds(commands, sets[w],
+                                bounds_.recordBounds(dispatches, sets[w],
                                                      {scene.vertexCount, scene.cageStride, windows[w].firstEntry,
                                                       windows[w].entries, windows[w].firstSlot, kMargin, kLongest,
                                                       kBend});
@@ -265,7 +260,7 @@ public:
                                 gpu::computeBarrier(device_, commands);
                             }
                             if (scene.room != kRoomForAll) {
-                                bounds_.recordSizes(commands, *listSet,
+                                bounds_.recordSizes(dispatches, listSets[0],
                                                     {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
                                 gpu::computeBarrier(device_, commands);
                             }
@@ -276,7 +271,7 @@ public:
                                                 scene.slots,
                                                 scene.room,
                                                 0};
-                            bounds_.recordList(commands, *listSet, push);
+                            bounds_.recordList(dispatches, listSets[0], push);
                             gpu::memoryBarrier(device_, commands,
                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
                                                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT});

@@ -101,7 +101,7 @@ public:
         push.stride = stride_;
         push.ahead = apart ? 1 : 0;
         push.blend = static_cast<float>(std::min(frame.seconds, 1.0));
-        recordPush(frame.commands, push);
+        recordPush(frame.dispatches.commandBuffer(), push);
         return {push.vertexCount * push.instanceCount, 16ull * push.vertexCount * push.instanceCount};
     }
 

@@ -280,7 +280,9 @@ private:
                (properties_.memoryTypes[type].propertyFlags & required) != required) {
             ++type;
         }
-        const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, requirements.size, type};
+        const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
+                                              VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
+        const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, requirements.size, type};
         const VkResult result = vkAllocateMemory(device_.handle(), &info, nullptr, &out.memory);
         return result == VK_SUCCESS && visible
                    ? vkMapMemory(device_.handle(), out.memory, 0, VK_WHOLE_SIZE, 0, &out.mapped)
@@ -356,9 +358,22 @@ TEST(OutputNames, OfMemoryAreThoseThatTheHeaderLists) {
         SuppleAsset asset{};
         ASSERT_EQ(createTube(own.handle(), asset), SUPPLE_OK);
     }
+    NamedMemory shared(*device);
+    {
+        LoggedContext own(*device, [&](SuppleContextDesc& desc) {
+            desc.memory = &shared.callbacks;
+            desc.mapping = SUPPLE_MAPPING_WIDE;
+            desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
+        });
+        SuppleAsset asset{};
+        ASSERT_EQ(createTube(own.handle(), asset), SUPPLE_OK);
+        EXPECT_EQ(createGroup(own.handle(), asset).result, SUPPLE_OK);
+    }
     std::set<std::string> all = memory.names;
     all.insert(memory.visibleNames.begin(), memory.visibleNames.end());
     all.insert(blocks.names.begin(), blocks.names.end());
+    all.insert(shared.names.begin(), shared.names.end());
+    all.insert(shared.visibleNames.begin(), shared.visibleNames.end());
     EXPECT_EQ(all, documentedNames());
     EXPECT_FALSE(memory.names.contains("supple block"));
     std::set<std::string> twice;

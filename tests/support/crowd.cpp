@@ -53,10 +53,11 @@ void Commands::wait() {
     }
 }
 
-CrowdContext::CrowdContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight)
+CrowdContext::CrowdContext(host::Device& device, SuppleMapping mapping, uint32_t framesInFlight, uint32_t flags)
     : LoggedContext(device, [&](SuppleContextDesc& desc) {
           desc.mapping = mapping;
           desc.framesInFlight = framesInFlight;
+          desc.flags |= flags;
       }) {
     EXPECT_EQ(result(), SUPPLE_OK);
 }

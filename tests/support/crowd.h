@@ -54,7 +54,7 @@ private:
 class CrowdContext : public LoggedContext {
 public:
     explicit CrowdContext(host::Device& device, SuppleMapping mapping = SUPPLE_MAPPING_AUTO,
-                          uint32_t framesInFlight = 2);
+                          uint32_t framesInFlight = 2, uint32_t flags = 0); ///< SuppleContextFlags
 
     [[nodiscard]] bool valid() const { return handle() != nullptr; } ///< a failure was recorded when not
 

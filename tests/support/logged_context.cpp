@@ -5,6 +5,7 @@
 #include "tools/gltf/writer.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace supple::test {
@@ -14,6 +15,9 @@ LoggedContext::LoggedContext(host::Device& device, const std::function<void(Supp
     SuppleContextDesc desc = host::contextDesc(device);
     desc.log = log;
     desc.logUser = this;
+    if (std::getenv("SUPPLE_TEST_SHARED_DISPATCHES") != nullptr) { // any suite can be run with them
+        desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
+    }
     if (adjust) {
         adjust(desc);
     }

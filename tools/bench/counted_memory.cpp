@@ -37,6 +37,9 @@ VkResult CountedMemory::allocate(const VkMemoryRequirements* requirements, VkMem
     auto info = host::vkStruct<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = requirements->size;
     info.memoryTypeIndex = type;
+    auto flags = host::vkStruct<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT; // SUPPLE_CONTEXT_SHARED_DISPATCHES
+    info.pNext = &flags;
     *out = {};
     VkResult result = vkAllocateMemory(own.device_, &info, nullptr, &out->memory);
     if (result == VK_SUCCESS && (required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {

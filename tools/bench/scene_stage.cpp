@@ -27,6 +27,7 @@ Result<std::unique_ptr<SceneStage>> SceneStage::create(host::Device& device, Sup
     std::unique_ptr<SceneStage> stage(new SceneStage(device, use));
     SuppleContextDesc desc = host::contextDesc(device);
     desc.mapping = mapping;
+    desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
     desc.getInstanceProcAddr = CommandWatch::getInstanceProcAddr();
     desc.memory = &stage->memory_.callbacks();
     desc.memoryBlockSize = kMemoryBlock;

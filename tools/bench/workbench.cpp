@@ -183,28 +183,31 @@ Status Workbench::recordWarmUp(SuppleGroup group, VkCommandBuffer commands) {
 
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
     const runtime::Tessellation& surface = inside_->group(group).surfaces()[0];
-    surface.inRounds(commands, [&](surface::Round& round) { (void)surface.recordEvaluate(round); });
+    gpu::SingleDispatches dispatches(inside_->context->device(), commands);
+    surface.inRounds(dispatches, [&](surface::Round& round) { (void)surface.recordEvaluate(round); });
 }
 
 void Workbench::recordSkin(SuppleGroup id, VkCommandBuffer commands) const {
     runtime::Group& group = inside_->group(id);
     using Part = runtime::Playback::Part;
+    gpu::SingleDispatches dispatches(inside_->context->device(), commands);
     for (const Part part : {Part::locals, Part::roots, Part::modifiers, Part::palette}) {
         if (group.poses().has(part)) {
-            group.poses().recordPart(commands, part, group.windows());
+            group.poses().recordPart(dispatches, part, group.windows());
             computeBarrier(commands);
         }
     }
-    group.stages().record(commands, 0); // deform
+    group.stages().record(dispatches, 0); // deform
 }
 
 void Workbench::recordCompute(SuppleGroup id, VkCommandBuffer commands) const {
     const runtime::Tessellation& surface = inside_->group(id).surfaces()[0];
     recordSkin(id, commands);
     computeBarrier(commands);
+    gpu::SingleDispatches dispatches(inside_->context->device(), commands);
     for (const surface::Stage stage : {surface::Stage::vertex, surface::Stage::assemble}) {
         if (surface.has(stage)) {
-            surface.inRounds(commands, [&](surface::Round& round) { (void)surface.recordStage(round, stage); });
+            surface.inRounds(dispatches, [&](surface::Round& round) { (void)surface.recordStage(round, stage); });
             computeBarrier(commands);
         }
     }

@@ -227,8 +227,13 @@ typedef enum SuppleMapping {
 
 /** Options of a context. */
 typedef enum SuppleContextFlags {
-    SUPPLE_CONTEXT_DEBUG_UTILS = 1,  /**< the host enabled VK_EXT_debug_utils: label passes, name objects */
-    SUPPLE_CONTEXT_ASYNC_COMPUTE = 2 /**< suppleRecord releases the outputs from queueFamily to drawQueueFamily */
+    SUPPLE_CONTEXT_DEBUG_UTILS = 1,   /**< the host enabled VK_EXT_debug_utils: label passes, name objects */
+    SUPPLE_CONTEXT_ASYNC_COMPUTE = 2, /**< suppleRecord releases the outputs from queueFamily to drawQueueFamily */
+    /** Groups share dispatches: a frame of many different characters takes few more commands than that of one. The
+     * feature bufferDeviceAddress must be enabled, and SuppleMemoryCallbacks.allocate must allocate with
+     * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. Surfaces have the same bits. With SUPPLE_RECORD_TIMINGS each group has
+     * dispatches of its own, to be timed. Without effect in the narrow mapping (docs/shared_dispatches.md). */
+    SUPPLE_CONTEXT_SHARED_DISPATCHES = 4
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
@@ -250,7 +255,8 @@ typedef struct SuppleMemoryCallbacks {
      *
      * name is for the host's statistics, and valid during the call. It is "supple block" for a block
      * (SuppleContextDesc.memoryBlockSize). Else it is the name of the first buffer in the memory, and says whose it is:
-     * - context: "supple parameter pairs"; on CPU devices "supple timings";
+     * - context: "supple parameter pairs"; on CPU devices "supple timings"; with SUPPLE_CONTEXT_SHARED_DISPATCHES
+     *   "supple tasks", "supple tasks staging";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
      * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices";
      * - its boxes, for the host: "supple bounds, read back";
@@ -301,10 +307,10 @@ typedef struct SuppleContextDesc {
      * SUPPLE_ERROR_ARGUMENT. Null: one pipeline after the other. */
     SuppleRunJobsFunction runJobs;
     void* jobsUser; /**< handed to runJobs */
-    /** Bytes of the largest block, 256 MiB say; 0: none. Device memory is allocated by the block, each as large as all before it
-     * of its kind, from 8 MiB on (1 MiB if it is mapped). A block is freed when nothing is in it. What takes more than
-     * half of the largest, or what no block has room for within the budget (suppleSetMemoryBudget), is an allocation of
-     * its own. 0: everything is, for a host whose callbacks share out blocks themselves. */
+    /** Bytes of the largest block, 256 MiB say; 0: none. Device memory is allocated by the block, each as large as all
+     * before it of its kind, from 8 MiB on (1 MiB if it is mapped). A block is freed when nothing is in it. What takes
+     * more than half of the largest, or what no block has room for within the budget (suppleSetMemoryBudget), is an
+     * allocation of its own. 0: everything is, for a host whose callbacks share out blocks themselves. */
     VkDeviceSize memoryBlockSize;
 } SuppleContextDesc;
 

@@ -1,0 +1,298 @@
+#include "gpu/tasks.h"
+
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace supple::gpu {
+
+namespace {
+
+using shared::kMaxTasks;
+using shared::Task;
+using shared::TaskRun;
+using shared::TasksPush;
+
+constexpr VkDeviceSize kTaskBytes = sizeof(Task), kPushBytes = kPushConstantBytes, kListBytes = sizeof(TaskRun),
+                       kBuffersBytes = sizeof(VkDeviceAddress) * shared::kTaskBindings,
+                       kArgumentBytes = sizeof(VkDispatchIndirectCommand);
+static_assert(kTaskBytes == 32 && kPushBytes % 16 == 0 && kBuffersBytes % 16 == 0, "as the shaders read them");
+constexpr VkDeviceSize kPartAlignment = 256;
+/// Workgroups of a dispatch: firstGroup has 32 bits.
+constexpr uint64_t kMaxGroups = 0xFFFF0000u;
+/// Of the kernel that counts: each takes its share of the dispatches.
+constexpr uint32_t kCountingGroups = 64;
+
+constexpr VkDeviceSize aligned(VkDeviceSize bytes) {
+    return (bytes + kPartAlignment - 1) / kPartAlignment * kPartAlignment;
+}
+/// Entries of lists: each task, and one behind each list.
+constexpr VkDeviceSize entries(uint32_t tasks) {
+    return VkDeviceSize{2} * tasks;
+}
+
+} // namespace
+
+VkDeviceAddress addressOf(const Device& device, VkBuffer buffer) {
+    VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+    info.buffer = buffer;
+    return buffer == VK_NULL_HANDLE ? 0 : device.vk.GetBufferDeviceAddress(device.handle, &info);
+}
+
+Result<std::unique_ptr<TaskRoom>> TaskRoom::create(const Device& device, const TaskNeeds& needs, uint32_t number) {
+    auto room = std::make_unique<TaskRoom>();
+    Offsets& at = room->offsets_;
+    at.pushes = aligned(entries(needs.tasks) * kTaskBytes);
+    at.buffers = aligned(at.pushes + needs.tasks * kPushBytes);
+    at.lists = aligned(at.buffers + needs.buffers * kBuffersBytes);
+    at.arguments = aligned(at.lists + needs.tasks * kListBytes);
+    const VkDeviceSize bytes = at.arguments + needs.tasks * kArgumentBytes;
+    const BufferRequest staging{"supple tasks staging", at.arguments, VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    const BufferRequest local{"supple tasks", bytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT};
+    Result<BufferSet> written = BufferSet::create(device, {&staging, 1}, MemoryKind::upload);
+    Result<BufferSet> read =
+        written ? BufferSet::create(device, {&local, 1}, MemoryKind::deviceLocal) : Result<BufferSet>(written.error());
+    if (!read) {
+        return read.error();
+    }
+    room->capacity_ = needs;
+    room->staging_ = std::move(*written);
+    room->local_ = std::move(*read);
+    room->address_ = addressOf(device, room->local_.buffer(0));
+    room->waiting_.resize(needs.tasks);
+    room->recordings_ = uint64_t{number} << 32u;
+    return room;
+}
+
+Status TaskRooms::create(const Device& device, Pipelines& pipelines, const Spirv& counts, uint32_t framesInFlight) {
+    frames_.resize(framesInFlight);
+    if (!device.mapping.sharesDispatches) {
+        return success();
+    }
+    Result<ComputeLayout> layout =
+        ComputeLayout::create(device, {}, sizeof(shared::CountTasksPush), "supple shared dispatches");
+    if (!layout) {
+        return layout.error();
+    }
+    layout_ = std::move(*layout);
+    const Result<Kernel> kernel = pipelines.get(layout_, counts, {}, "supple sizes of shared dispatches");
+    if (!kernel) {
+        return kernel.error();
+    }
+    counts_ = *kernel;
+    return success();
+}
+
+void TaskRooms::beginFrame(uint64_t frame) {
+    Frame& own = frames_[frame % frames_.size()];
+    own.outgrown.clear();
+    if (own.room != nullptr) {
+        own.room->clear();
+    }
+}
+
+Status TaskRooms::reserve(const Device& device, uint64_t frame, const TaskNeeds& needs) {
+    Frame& own = frames_[frame % frames_.size()];
+    if (!device.mapping.sharesDispatches || needs.tasks == 0 || (own.room != nullptr && own.room->holds(needs))) {
+        return success();
+    }
+    // Half as many more: groups come one by one.
+    Result<std::unique_ptr<TaskRoom>> room =
+        TaskRoom::create(device, {needs.tasks + needs.tasks / 2, needs.buffers + needs.buffers / 2}, ++made_);
+    if (!room) {
+        return room.error();
+    }
+    if (own.room != nullptr) {
+        own.outgrown.push_back(std::move(own.room));
+    }
+    own.room = std::move(*room);
+    return success();
+}
+
+TaskDispatches::TaskDispatches(const Device& device, VkCommandBuffer commandBuffer, TaskRoom& room,
+                               const Kernel& counts, const TaskNeeds& needs)
+    : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), recording_(++room.recordings_) {
+    nextWaiting_ = nextList_ = room.tasksTaken_.fetch_add(needs.tasks);
+    nextListed_ = 2 * nextWaiting_;
+    nextBuffers_ = room.buffersTaken_.fetch_add(needs.buffers);
+    firstPhase_ = nextList_ + needs.tasks - kPhases;
+    std::fill_n(lists() + firstPhase_, kPhases, TaskRun{});
+    const auto part = [](VkDeviceSize first, VkDeviceSize each, VkDeviceSize from, VkDeviceSize count) {
+        return VkBufferCopy{first + from * each, first + from * each, count * each};
+    };
+    const TaskRoom::Offsets& at = room.offsets_;
+    const VkBufferCopy parts[] = {part(0, kTaskBytes, nextListed_, entries(needs.tasks)),
+                                  part(at.pushes, kPushBytes, nextWaiting_, needs.tasks),
+                                  part(at.buffers, kBuffersBytes, nextBuffers_, needs.buffers),
+                                  part(at.lists, kListBytes, nextList_, needs.tasks)};
+    device.vk.CmdCopyBuffer(commandBuffer, room.staging_.buffer(0), room.local_.buffer(0),
+                            static_cast<uint32_t>(std::size(parts)), parts);
+}
+
+TaskRun* TaskDispatches::lists() const {
+    return reinterpret_cast<TaskRun*>(room_->staging_.mapped(0) + room_->offsets_.lists);
+}
+
+VkDeviceAddress TaskDispatches::addressOfBuffers(TaskBuffers& buffers) {
+    if (buffers.writtenIn != recording_) {
+        const VkDeviceSize offset = room_->offsets_.buffers + nextBuffers_++ * kBuffersBytes;
+        std::memcpy(room_->staging_.mapped(0) + offset, buffers.at.data(), kBuffersBytes);
+        buffers.where = room_->address_ + offset;
+        buffers.writtenIn = recording_;
+    }
+    return buffers.where;
+}
+
+TaskDispatches::Chain& TaskDispatches::chainOf(const Kernel& kernel, bool isCounted) {
+    const auto end = chains_.begin() + static_cast<ptrdiff_t>(chainCount_);
+    const auto known = std::find_if(chains_.begin(), end, [&](const Chain& chain) {
+        return chain.kernel->pipeline == kernel.pipeline && chain.isCounted == isCounted;
+    });
+    if (known != end) {
+        return *known;
+    }
+    if (chainCount_ == kChains) {
+        flush();
+    }
+    chains_[chainCount_] = {&kernel, isCounted, nullptr, nullptr};
+    return chains_[chainCount_++];
+}
+
+void TaskDispatches::add(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push, uint64_t groups,
+                         VkDeviceAddress arguments) {
+    Chain& chain = chainOf(kernel, arguments != 0);
+    const VkDeviceSize offset = room_->offsets_.pushes + nextWaiting_ * kPushBytes;
+    std::memcpy(room_->staging_.mapped(0) + offset, push.data(), push.size());
+    Waiting& task = room_->waiting_[nextWaiting_++];
+    task = {{addressOfBuffers(*bound.buffers), room_->address_ + offset, arguments, 0, 0}, groups, nullptr};
+    (chain.last != nullptr ? chain.last->next : chain.first) = &task;
+    chain.last = &task;
+}
+
+void TaskDispatches::recordNothing(const Kernel& kernel) {
+    bindByAddress(device(), commandBuffer(), kernel, TasksPush{0, 1});
+    dispatchLinear(device(), commandBuffer(), 0);
+}
+
+void TaskDispatches::dispatch(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
+                              uint64_t groups) {
+    if (room_ == nullptr) {
+        recordNothing(kernel);
+    } else if (groups > 0) {
+        add(kernel, bound, push, groups, 0);
+    }
+}
+
+void TaskDispatches::dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
+                                      VkBuffer arguments, VkDeviceSize offset) {
+    if (room_ == nullptr) {
+        recordNothing(kernel);
+    } else {
+        add(kernel, bound, push, 0, addressOf(device(), arguments) + offset);
+    }
+}
+
+void TaskDispatches::list(Task task, uint32_t firstGroup) {
+    task.firstGroup = firstGroup;
+    std::memcpy(room_->staging_.mapped(0) + nextListed_++ * kTaskBytes, &task, kTaskBytes);
+}
+
+void TaskDispatches::bindListed(const Kernel& kernel, uint32_t count, uint32_t groups) {
+    const TasksPush push{room_->address_ + (nextListed_ - count) * kTaskBytes, count};
+    list({}, groups);
+    bindByAddress(device(), commandBuffer(), kernel, push);
+}
+
+void TaskDispatches::recordChain(const Chain& chain) {
+    uint32_t count = 0;
+    uint64_t groups = 0;
+    const auto dispatchListed = [&] {
+        bindListed(*chain.kernel, count, static_cast<uint32_t>(groups));
+        dispatchLinear(device(), commandBuffer(), groups);
+        count = 0;
+        groups = 0;
+    };
+    for (const Waiting* task = chain.first; task != nullptr; task = task->next) {
+        if (count == kMaxTasks || (count > 0 && groups + task->groups > kMaxGroups)) {
+            dispatchListed();
+        }
+        list(task->task, static_cast<uint32_t>(groups));
+        groups += task->groups;
+        ++count;
+    }
+    dispatchListed();
+}
+
+void TaskDispatches::recordCountedChain(const Chain& chain) {
+    const auto dispatchListed = [&](uint32_t count) {
+        lists()[nextList_] = {nextListed_ - count, count};
+        ++lists()[firstPhase_ + phase_].count;
+        bindListed(*chain.kernel, count, 0);
+        device().vk.CmdDispatchIndirect(commandBuffer(), room_->local_.buffer(0),
+                                        room_->offsets_.arguments + nextList_++ * kArgumentBytes);
+    };
+    uint32_t count = 0;
+    for (const Waiting* task = chain.first; task != nullptr; task = task->next) {
+        if (count == kMaxTasks) {
+            dispatchListed(std::exchange(count, 0));
+        }
+        list(task->task, 0);
+        ++count;
+    }
+    dispatchListed(count);
+}
+
+void TaskDispatches::flush() {
+    for (size_t i = 0; i < chainCount_; ++i) {
+        if (chains_[i].isCounted) {
+            recordCountedChain(chains_[i]);
+        } else {
+            recordChain(chains_[i]);
+        }
+    }
+    chainCount_ = 0;
+}
+
+void TaskDispatches::count() {
+    flush();
+    if (room_ == nullptr) {
+        return;
+    }
+    ++phase_;
+    lists()[firstPhase_ + phase_].first = nextList_;
+    shared::CountTasksPush push{};
+    push.tasks = room_->address_;
+    push.lists = room_->address_ + room_->offsets_.lists;
+    push.arguments = room_->address_ + room_->offsets_.arguments;
+    push.phase = firstPhase_ + phase_;
+    push.maxGroups = maxGroupsInX(device());
+    bindByAddress(device(), commandBuffer(), *counts_, push);
+    device().vk.CmdDispatch(commandBuffer(), kCountingGroups, 1, 1);
+    constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    memoryBarrier(device(), commandBuffer(), {kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                  {kCompute | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+}
+
+OwnDispatches::OwnDispatches(const Device& device, VkCommandBuffer commandBuffer) {
+    if (device.mapping.sharesDispatches) {
+        chosen_ = &tasks_.emplace(device, commandBuffer);
+    } else {
+        chosen_ = &single_.emplace(device, commandBuffer);
+    }
+}
+
+OwnDispatches::OwnDispatches(const Device& device, VkCommandBuffer commandBuffer, const TaskRooms& rooms,
+                             uint64_t frame, const TaskNeeds& needs) {
+    TaskRoom* const room = rooms.roomOf(frame);
+    if (room != nullptr && needs.tasks > 0) {
+        chosen_ = &tasks_.emplace(device, commandBuffer, *room, rooms.counts(), needs);
+    } else {
+        chosen_ = &single_.emplace(device, commandBuffer);
+    }
+}
+
+} // namespace supple::gpu
