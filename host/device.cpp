@@ -355,15 +355,7 @@ Status Device::choosePhysicalDevice(const DeviceOptions& options) {
     return Error{ErrorCode::unsupported, "device " + options.device + " not found (have: " + have + ")"};
 }
 
-Status Device::createDevice(const DeviceOptions& options) {
-    if (!findQueueFamily(physicalDevice_, queueFamily_))
-        return Error{ErrorCode::unsupported, "no queue that does graphics and compute"};
-    vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memoryProperties_);
-
-    requirements_.structSize = sizeof requirements_;
-    requirements_.instanceVersion = kInstanceVersion;
-    if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
-        return Error{ErrorCode::unsupported, requirements_.reason};
+void Device::enableFeatures() {
     SupportedFeatures all;
     readSupportedFeatures(physicalDevice_, all);
     const VkPhysicalDeviceFeatures& supported = all.of10.features;
@@ -387,6 +379,18 @@ Status Device::createDevice(const DeviceOptions& options) {
     features_.features.drawIndirectFirstInstance = supported.drawIndirectFirstInstance; // suppleSetPartVisible
     features_.features.shaderStorageBufferArrayDynamicIndexing = supported.shaderStorageBufferArrayDynamicIndexing;
     anisotropy_ = supported.samplerAnisotropy == VK_TRUE;
+}
+
+Status Device::createDevice(const DeviceOptions& options) {
+    if (!findQueueFamily(physicalDevice_, queueFamily_))
+        return Error{ErrorCode::unsupported, "no queue that does graphics and compute"};
+    vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memoryProperties_);
+
+    requirements_.structSize = sizeof requirements_;
+    requirements_.instanceVersion = kInstanceVersion;
+    if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
+        return Error{ErrorCode::unsupported, requirements_.reason};
+    enableFeatures();
 
     constexpr float kPriority = 1.0f;
     auto queueInfo = vkStruct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);

@@ -167,6 +167,7 @@ private:
     [[nodiscard]] Status createInstance(const DeviceOptions& options);
     [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
+    void enableFeatures(); ///< what Supple asks for, and what the hosts' own drawing wants on top
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
     /// Whether its clock can be read beside the host's.
     [[nodiscard]] bool readsClocks() const;

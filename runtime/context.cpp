@@ -47,6 +47,30 @@ gpu::RunJobs runJobsOf(const SuppleContextDesc& desc) {
     };
 }
 
+gpu::DeviceDesc deviceDescOf(const SuppleContextDesc& desc) {
+    gpu::DeviceDesc device;
+    device.instance = desc.instance;
+    device.physicalDevice = desc.physicalDevice;
+    device.device = desc.device;
+    device.queueFamily = desc.queueFamily;
+    const bool handsOver = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
+    device.drawQueueFamily = handsOver ? desc.drawQueueFamily : desc.queueFamily;
+    device.getInstanceProcAddr = desc.getInstanceProcAddr;
+    device.pipelineCache = desc.pipelineCache;
+    device.allocator = desc.allocator;
+    device.enabledFeatures = desc.enabledFeatures;
+    if (desc.memory != nullptr) {
+        device.memorySource = memorySourceOf(*desc.memory);
+    }
+    device.memoryBlockSize = desc.memoryBlockSize;
+    device.shareDispatches = (desc.flags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0;
+    device.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
+    device.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
+                     : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
+                                                           : gpu::MappingChoice::automatic;
+    return device;
+}
+
 } // namespace
 
 Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, const surface::Shaders& shaders,
@@ -57,27 +81,9 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->logUser_ = desc.logUser;
     context->framesInFlight_ = desc.framesInFlight == 0 ? 2 : desc.framesInFlight;
 
-    gpu::DeviceDesc deviceDesc;
-    deviceDesc.instance = desc.instance;
-    deviceDesc.physicalDevice = desc.physicalDevice;
-    deviceDesc.device = desc.device;
-    deviceDesc.queueFamily = desc.queueFamily;
-    deviceDesc.getInstanceProcAddr = desc.getInstanceProcAddr;
-    deviceDesc.pipelineCache = desc.pipelineCache;
-    deviceDesc.allocator = desc.allocator;
-    deviceDesc.enabledFeatures = desc.enabledFeatures;
-    if (desc.memory != nullptr) {
-        deviceDesc.memorySource = memorySourceOf(*desc.memory);
-    }
-    deviceDesc.memoryBlockSize = desc.memoryBlockSize;
-    deviceDesc.shareDispatches = (desc.flags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0;
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
-    deviceDesc.drawQueueFamily = context->asyncCompute_ ? desc.drawQueueFamily : desc.queueFamily;
+    const gpu::DeviceDesc deviceDesc = deviceDescOf(desc);
     context->families_ = {desc.queueFamily, deviceDesc.drawQueueFamily};
-    deviceDesc.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
-    deviceDesc.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
-                         : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
-                                                               : gpu::MappingChoice::automatic;
     Result<gpu::Device> device = gpu::Device::create(deviceDesc);
     if (!device) {
         return device.error();

@@ -59,11 +59,17 @@ struct Frame {
         return false;
     }
     void computeBarrier() const { dispatches.computeBarrier(); }
-    /// Vertices that a view has for all its groups; kRoomForAll if even all instances fit at their coarsest.
-    [[nodiscard]] uint32_t roomOf(const View& view) const {
-        uint64_t least = 0;
-        forEach([&](Group& group) { least += group.view() == &view ? group.leastVerticesOfAll() : 0; });
-        return least <= view.room() ? shared::kRoomForAll : view.room();
+    /// Tells each view what its groups need (View::roomInFrame).
+    void findRoom() const {
+        forEach([&](Group& leader) {
+            if (!leader.link.leadsView) {
+                return;
+            }
+            View& view = *leader.view();
+            uint64_t least = 0;
+            forEach([&](Group& group) { least += group.view() == &view ? group.leastVerticesOfAll() : 0; });
+            view.setRoomInFrame(least <= view.room() ? shared::kRoomForAll : view.room());
+        });
     }
 };
 
@@ -183,12 +189,12 @@ PassCost recordOcclusion(const Frame& frame, Group& group) {
                                             *group.view()->depthPyramid(), group.view()->pyramidGeneration());
 }
 
-bool isShortOfRoom(const Frame& frame, const Group& group) {
-    return group.view() != nullptr && group.leastVertices() > 0 && frame.roomOf(*group.view()) != shared::kRoomForAll;
+bool isShortOfRoom(const Group& group) {
+    return group.view() != nullptr && group.view()->roomInFrame() != shared::kRoomForAll && group.leastVertices() > 0;
 }
 /// If even the coarsest surfaces of all instances might not have room, those that are left out are found first.
 PassCost recordSizes(const Frame& frame, Group& group) {
-    if (isShortOfRoom(frame, group)) {
+    if (isShortOfRoom(group)) {
         group.culling()->recordSizes(frame.dispatches, group.leastVertices());
     }
     return {};
@@ -199,7 +205,7 @@ PassCost recordList(const Frame& frame, Group& group) {
         return {};
     }
     const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
-    return group.culling()->recordList(frame.dispatches, budgeted ? frame.roomOf(*group.view()) : shared::kRoomForAll);
+    return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll);
 }
 
 template <Stage stage>
@@ -367,7 +373,7 @@ void recordBarrier(const Frame& frame, Behind behind) {
                 {kCompute | VK_PIPELINE_STAGE_2_COPY_BIT, kRead | kWrite | VK_ACCESS_2_TRANSFER_READ_BIT});
         break;
     case Behind::sizes:
-        if (frame.any([&](const Group& group) { return isShortOfRoom(frame, group); })) {
+        if (frame.any([](const Group& group) { return isShortOfRoom(group); })) {
             frame.computeBarrier();
         }
         break;
@@ -656,6 +662,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     recordEmptyViews(frame, groups.second);
     recordBarrier(frame, Behind::uploads);
     frame.groups = groups.first;
+    frame.findRoom();
     for (const Row& row : kPasses) {
         if (row.work.isCageStages()) {
             recordCageStages(frame, stages_.rows(), timing);

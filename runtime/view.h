@@ -41,6 +41,9 @@ public:
     [[nodiscard]] shared::LodCamera levelCamera() const;
     /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
     [[nodiscard]] uint32_t room() const;
+    /// The same for a frame's groups; kRoomForAll if even all instances fit at their coarsest.
+    [[nodiscard]] uint32_t roomInFrame() const { return roomInFrame_; }
+    void setRoomInFrame(uint32_t room) { roomInFrame_ = room; }
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
@@ -133,6 +136,7 @@ private:
     ZeroedOnce clear_;   ///< of histograms, which the solver clears from then on
     RecordedOnce indicesRelease_;
     RecordedOnce noDraws_; ///< due: the last frame of the view may have left draws
+    uint32_t roomInFrame_ = shared::kRoomForAll;
     uint64_t recordedFrame_ = 0;
     struct Solved {
         uint64_t frame = 0;

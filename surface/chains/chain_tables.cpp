@@ -1,6 +1,7 @@
 #include "surface/chains/chain_tables.h"
 
 #include "shaders/shared/subdivision.h"
+#include "surface/build.h"
 #include "surface/chains/kernels.h"
 #include "surface/chains/net_lists.h"
 
