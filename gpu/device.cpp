@@ -251,10 +251,6 @@ Status checkFit(const DeviceDesc& desc) {
     if (!disabled.empty()) {
         return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
     }
-    if (desc.shareDispatches && desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
-        return Error{ErrorCode::disabled,
-                     "shared dispatches: the device was created without the feature bufferDeviceAddress"};
-    }
     return success();
 }
 
@@ -294,6 +290,10 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
     d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
     d.mapping.sharesDispatches = d.mapping.wide && desc.shareDispatches;
+    if (d.mapping.sharesDispatches && desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
+        return Error{ErrorCode::disabled,
+                     "shared dispatches: the device was created without the feature bufferDeviceAddress"};
+    }
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
     d.drawIndirectFirstInstance = hasIndirectFirstInstance(d.vk, desc.physicalDevice, desc.enabledFeatures);
 

@@ -94,11 +94,16 @@ void TaskRooms::beginFrame(uint64_t frame) {
     }
 }
 
+bool TaskRooms::holds(const Device& device, uint64_t frame, const TaskNeeds& needs) const {
+    const TaskRoom* const room = roomOf(frame);
+    return !device.mapping.sharesDispatches || needs.tasks == 0 || (room != nullptr && room->holds(needs));
+}
+
 Status TaskRooms::reserve(const Device& device, uint64_t frame, const TaskNeeds& needs) {
-    Frame& own = frames_[frame % frames_.size()];
-    if (!device.mapping.sharesDispatches || needs.tasks == 0 || (own.room != nullptr && own.room->holds(needs))) {
+    if (holds(device, frame, needs)) {
         return success();
     }
+    Frame& own = frames_[frame % frames_.size()];
     // Half as many more: groups come one by one.
     Result<std::unique_ptr<TaskRoom>> room =
         TaskRoom::create(device, {needs.tasks + needs.tasks / 2, needs.buffers + needs.buffers / 2}, ++made_);

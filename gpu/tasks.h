@@ -34,8 +34,9 @@ public:
     /// `number`: of the room, so that recordings in different ones are told apart.
     [[nodiscard]] static Result<std::unique_ptr<TaskRoom>> create(const Device& device, const TaskNeeds& needs,
                                                                   uint32_t number);
+    /// Beside what the frame's recordings have taken.
     [[nodiscard]] bool holds(const TaskNeeds& needs) const {
-        return needs.tasks <= capacity_.tasks && needs.buffers <= capacity_.buffers;
+        return needs.tasks <= capacity_.tasks - tasksTaken_ && needs.buffers <= capacity_.buffers - buffersTaken_;
     }
     /// For another frame.
     void clear() {
@@ -74,6 +75,8 @@ public:
                                 uint32_t framesInFlight);
     /// The frame that had the place before is complete.
     void beginFrame(uint64_t frame);
+    /// Whether the frame has room for a recording; always, if the device's mapping shares no dispatches.
+    [[nodiscard]] bool holds(const Device& device, uint64_t frame, const TaskNeeds& needs) const;
     /// Sees to it that the frame has room for all that is recorded in it from now on.
     [[nodiscard]] Status reserve(const Device& device, uint64_t frame, const TaskNeeds& needs);
 

@@ -197,6 +197,10 @@ Status Context::beginFrame(uint64_t frame, uint64_t completedFrame) {
 }
 
 Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
+    taskRooms_.beginFrame(frame);
+    if (Status room = reserveTasks(frame, {}); !room) {
+        return room;
+    }
     warnOfUnrecorded();
     // Before anything is freed: what was timed may be of views that go now.
     Status timed = timings.beginFrame(
@@ -224,14 +228,16 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     origin_ = nextOrigin_;
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
-    taskRooms_.beginFrame(frame);
-    return reserveTasks({});
+    return success();
 }
 
-Status Context::reserveTasks(const gpu::TaskNeeds& more) {
+Status Context::reserveTasks(uint64_t frame, const gpu::TaskNeeds& more) {
+    if (!device_->mapping.sharesDispatches) {
+        return success();
+    }
     gpu::TaskNeeds needs = more;
     groups.forEach([&](const Group& group) { needs += group.taskNeeds(); });
-    return taskRooms_.reserve(*device_, frame_, needs);
+    return taskRooms_.reserve(*device_, frame, needs);
 }
 
 void Context::setMemoryBudget(VkDeviceSize bytes, std::function<bool(const gpu::MemoryRequest&)> allowsMore) {
@@ -322,7 +328,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
                                               ": an instance hides a part, and the device was created without the "
                                               "feature drawIndirectFirstInstance"};
     }
-    if (const Status room = reserveTasks((*group)->taskNeeds()); !room) {
+    if (const Status room = reserveTasks(frame_, (*group)->taskNeeds()); !room) {
         return room.error();
     }
     tellNotes(**group);
@@ -436,7 +442,7 @@ Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
     for (const Remade& own : remade) {
         more += own.group->taskNeeds();
     }
-    status = status ? reserveTasks(more) : status;
+    status = status ? reserveTasks(frame_, more) : status;
     if (!status) {
         return status.error();
     }

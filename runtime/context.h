@@ -157,8 +157,8 @@ private:
     void replace(std::vector<Remade>& remade);
     /// Of linked groups.
     [[nodiscard]] gpu::TaskNeeds taskNeeds(const Group* groups) const;
-    /// Room for what all groups record in this frame, and `more`.
-    [[nodiscard]] Status reserveTasks(const gpu::TaskNeeds& more);
+    /// Room for what all groups record in the frame from now on, and `more`.
+    [[nodiscard]] Status reserveTasks(uint64_t frame, const gpu::TaskNeeds& more);
 
     SuppleLogFunction log_ = nullptr;
     void* logUser_ = nullptr;

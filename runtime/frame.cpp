@@ -489,6 +489,7 @@ void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, 
             record(SUPPLE_NO_SURFACE);
         }
     });
+    frame.dispatches.flush();
     frame.device.endLabel(frame.commands);
     frame.computeBarrier();
 }
@@ -642,13 +643,17 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return linked.error();
     }
     const gpu::Device& device = *device_;
+    const gpu::TaskNeeds needs = taskNeeds(*linked);
+    if (!taskRooms_.holds(device, frame_, needs)) { // the frame began without it
+        return Error{ErrorCode::deviceMemory, "suppleRecord: there is no memory for shared dispatches"};
+    }
     device.beginLabel(commandBuffer, "supple");
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
         gpu::memoryBarrier(device, commandBuffer,
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
-    gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, taskNeeds(*linked));
+    gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, needs);
     Frame frame{device, commandBuffer, *dispatches, frame_, framesInFlight_, desc.time, *linked, *this};
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {

@@ -225,8 +225,11 @@ uint32_t Rates::scratchStride() const {
 
 gpu::TaskNeeds Rates::taskNeeds() const {
     gpu::TaskNeeds needs = OwnVertices::taskNeeds();
-    for (const Rate& rate : own_) {
+    for (const Rate& rate : own_) { // attributes
         needs += taskNeedsOf(rate.program);
+    }
+    for (const uint32_t place : places_) { // several may draw one rate
+        needs += taskNeedsOf(own_[place].program);
     }
     return needs;
 }

@@ -159,8 +159,6 @@ gpu::TaskNeeds Tessellation::taskNeedsOf(const surface::Program& program) const 
           &program.patchLevels, &program.depths, &program.places, &program.deepen, &program.evaluate}) {
         steps += own->size();
     }
-    // Another rate may have samples where this one has none: a step a range and pass.
-    steps += 3 * tables().ranges.size();
     const auto windows = listing_->windows().count();
     return {static_cast<uint32_t>(steps) * windows, kSetsOfWindow * windows};
 }

@@ -81,6 +81,11 @@ public:
                                          glm::translate(glm::mat4(1.0f), {2.5f * x + shift, 2.5f * y, -0.1f * y}));
     }
     void run() { context_.run(groups_); }
+    void endGroups() {
+        for (const std::unique_ptr<Crowd>& crowd : crowds_) {
+            crowd->end();
+        }
+    }
     [[nodiscard]] std::span<const SuppleGroup> groups() const { return groups_; }
 
     /// What was drawn, without the numbers of vertices.
@@ -182,6 +187,27 @@ TEST_F(SharedDispatches, GroupsThatAreMadeInAFrameHaveRoom) {
     EXPECT_TRUE(scene.drawn() == expected.drawn());
 }
 
+TEST_F(SharedDispatches, GroupsThatComeAndGoInAFrameHaveRoom) {
+    CrowdContext context(*device, SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    const Use use{"pm", SUPPLE_SCHEME_PM, 0, {}};
+    context.beginFrame();
+    std::vector<std::unique_ptr<Scene>> scenes;
+    const Status ran = device->submitAndWait([&](VkCommandBuffer commands) {
+        for (uint32_t i = 0; i < 5; ++i) {
+            scenes.push_back(std::make_unique<Scene>(context, use, 1));
+            EXPECT_EQ(context.record(commands, scenes.back()->groups()), SUPPLE_OK);
+            if (i < 4) { // what it takes of the frame's room stays taken
+                scenes.back()->endGroups();
+            }
+        }
+    });
+    EXPECT_TRUE(ran.ok());
+    CrowdContext plain(*device, SUPPLE_MAPPING_WIDE);
+    Scene expected(plain, use, 1);
+    expected.run();
+    EXPECT_TRUE(scenes.back()->drawn() == expected.drawn());
+}
+
 TEST_F(SharedDispatches, TimingsTellEachGroup) {
     CrowdContext context(*device, SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
     CrowdContext plain(*device, SUPPLE_MAPPING_WIDE);
@@ -203,12 +229,17 @@ TEST_F(SharedDispatches, NeedTheFeature) {
     VkPhysicalDeviceVulkan12Features of12 = *static_cast<const VkPhysicalDeviceVulkan12Features*>(features.pNext);
     of12.bufferDeviceAddress = VK_FALSE;
     features.pNext = &of12;
-    LoggedContext context(*device, [&](SuppleContextDesc& desc) {
-        desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
-        desc.enabledFeatures = &features;
-    });
-    EXPECT_EQ(context.result(), SUPPLE_ERROR_UNSUPPORTED);
-    const std::vector<LogLine> lines = context.takeLines();
+    const auto made = [&](SuppleMapping mapping) {
+        return std::make_unique<LoggedContext>(*device, [&](SuppleContextDesc& desc) {
+            desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
+            desc.enabledFeatures = &features;
+            desc.mapping = mapping;
+        });
+    };
+    EXPECT_EQ(made(SUPPLE_MAPPING_NARROW)->result(), SUPPLE_OK) << "it shares none";
+    const std::unique_ptr<LoggedContext> context = made(SUPPLE_MAPPING_WIDE);
+    EXPECT_EQ(context->result(), SUPPLE_ERROR_UNSUPPORTED);
+    const std::vector<LogLine> lines = context->takeLines();
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_NE(lines[0].text.find("bufferDeviceAddress"), std::string::npos) << lines[0].text;
 }

@@ -229,7 +229,7 @@ typedef enum SuppleMapping {
 typedef enum SuppleContextFlags {
     SUPPLE_CONTEXT_DEBUG_UTILS = 1,   /**< the host enabled VK_EXT_debug_utils: label passes, name objects */
     SUPPLE_CONTEXT_ASYNC_COMPUTE = 2, /**< suppleRecord releases the outputs from queueFamily to drawQueueFamily */
-    /** Groups share dispatches: a frame of many different characters takes few more commands than that of one. The
+    /** Groups share dispatches: a frame of many different characters has few more of them than a frame of one. The
      * feature bufferDeviceAddress must be enabled, and SuppleMemoryCallbacks.allocate must allocate with
      * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. Surfaces have the same bits. With SUPPLE_RECORD_TIMINGS each group has
      * dispatches of its own, to be timed. Without effect in the narrow mapping (docs/shared_dispatches.md). */
