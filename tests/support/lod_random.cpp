@@ -26,7 +26,7 @@ constexpr const char* kRandomEdge = R"(
         if (kind == 1u) level = 2.0 * floor(0.5 * level) + 1.0;
         if (kind == 2u) level = 1.000001;
     }
-    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);)";
+    scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);)";
 
 /// And capacities up to four octaves above what a patch needs.
 constexpr const char* kRandomCapacity = R"(
@@ -40,7 +40,7 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     // Optimized, as the layouts have the bindings of their mapping alone.
     const auto edgeLevels = [&](const std::string& borders) {
         return optimized(compileEdited("lod/edge.comp",
-                                       "    scratchWords[levelBase(instance) + edge] = floatBitsToUint(level);",
+                                       "    scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);",
                                        kRandomEdge, macros + borders));
     };
     const auto patchLevels = [&](const std::string& borders) {
