@@ -46,8 +46,8 @@ public:
                                   VkBuffer arguments, VkDeviceSize offset) = 0;
     /// Records what was dispatched since the last time.
     virtual void flush() = 0;
-    /// What dispatchIndirect() is told from here on, until the next count(), is on the device, and visible. A barrier
-    /// stands behind it if there is need of one.
+    /// To be called when the device has written sizes, behind a barrier. Until the next call, dispatchIndirect() is
+    /// told of these sizes alone. What the call records itself has its own barrier.
     virtual void count() {}
 
     /// gpu::computeBarrier and gpu::disjointBarrier, behind all that was dispatched.

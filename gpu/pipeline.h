@@ -50,7 +50,8 @@ struct ComputeLayout {
 
     [[nodiscard]] static Result<ComputeLayout> create(const Device& device, std::span<const Binding> bindings,
                                                       uint32_t pushBytes, const char* name);
-    /// Of kernels that can share dispatches (gpu::Spirv::tasks): of tasks if the device's mapping shares them.
+    /// For kernels that can share dispatches (gpu::Spirv::tasks). If the device's mapping shares them, it is a layout
+    /// of tasks: no bindings, and the push constants of shared dispatches.
     [[nodiscard]] static Result<ComputeLayout> ofShared(const Device& device, std::span<const Binding> bindings,
                                                         uint32_t pushBytes, const char* name);
 };

@@ -21,7 +21,7 @@ static_assert(kTaskBytes == 32 && kPushBytes % 16 == 0 && kBuffersBytes % 16 == 
 constexpr VkDeviceSize kPartAlignment = 256;
 /// Workgroups of a dispatch: firstGroup has 32 bits.
 constexpr uint64_t kMaxGroups = 0xFFFF0000u;
-/// Of the kernel that counts: each takes its share of the dispatches.
+/// Workgroups of the kernel that counts. Each takes its share of the dispatches.
 constexpr uint32_t kCountingGroups = 64;
 
 constexpr VkDeviceSize aligned(VkDeviceSize bytes) {

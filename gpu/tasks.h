@@ -146,15 +146,16 @@ private:
     size_t chainCount_ = 0;
 };
 
-/// Of the kind that the device's mapping asks for.
+/// The kind of dispatches that the device's mapping asks for.
 class OwnDispatches {
 public:
-    /// Of no workgroups.
+    /// For a warm-up: all dispatches have no workgroups.
     OwnDispatches(const Device& device, VkCommandBuffer commandBuffer);
     /// The frame's room has the needs.
     OwnDispatches(const Device& device, VkCommandBuffer commandBuffer, const TaskRooms& rooms, uint64_t frame,
                   const TaskNeeds& needs);
     [[nodiscard]] Dispatches& operator*() { return *chosen_; }
+    [[nodiscard]] Dispatches* operator->() { return chosen_; }
 
 private:
     std::optional<SingleDispatches> single_;

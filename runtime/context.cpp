@@ -1,7 +1,6 @@
 #include "runtime/context.h"
 
 #include "shaders/shared_count_tasks_comp.h"
-
 #include "surface/grid.h"
 
 #include <algorithm>

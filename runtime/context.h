@@ -155,7 +155,7 @@ private:
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
-    /// Of linked groups.
+    /// What linked groups need in one recording.
     [[nodiscard]] gpu::TaskNeeds taskNeeds(const Group* groups) const;
     /// Room for what all groups record in the frame from now on, and `more`.
     [[nodiscard]] Status reserveTasks(uint64_t frame, const gpu::TaskNeeds& more);

@@ -628,7 +628,10 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
 
 gpu::TaskNeeds Context::taskNeeds(const Group* groups) const {
     gpu::TaskNeeds needs;
-    for (const Group* group = groups; device_->mapping.sharesDispatches && group != nullptr; group = group->link.next) {
+    if (!device_->mapping.sharesDispatches) {
+        return needs;
+    }
+    for (const Group* group = groups; group != nullptr; group = group->link.next) {
         needs += group->taskNeeds();
     }
     return needs;

@@ -65,7 +65,7 @@ public:
     [[nodiscard]] Status setRate(uint32_t rate);
     /// Without the asset's tables, the view's buffers, and the instances of another group.
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
-    /// Of its surfaces in a frame.
+    /// What its passes need in a frame.
     [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }

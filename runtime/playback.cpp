@@ -1,7 +1,6 @@
 #include "runtime/playback.h"
 
 #include "gpu/tasks.h"
-
 #include "skinning/joints.h"
 #include "skinning/split_time.h"
 

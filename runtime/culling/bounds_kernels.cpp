@@ -1,7 +1,6 @@
 #include "runtime/culling/bounds_kernels.h"
 
 #include "gpu/tasks.h"
-
 #include "shaders/bounds_bounds_comp.h"
 #include "shaders/bounds_demand_comp.h"
 #include "shaders/bounds_list_comp.h"
@@ -167,10 +166,9 @@ void BoundsKernels::recordWarmUp(VkCommandBuffer commandBuffer, const gpu::Bound
     for (const gpu::Kernel* kernel :
          {&kernels_.bounds, &kernels_.sizes, &kernels_.list, &rateKernels_.demand, &rateKernels_.rates}) {
         if (kernel->pipeline != nullptr) { // rates are made when a group has some
-            (*dispatches).computeBarrier();
-            (*dispatches)
-                .dispatch(*kernel, kernel == &kernels_.bounds ? ofWindow : ofGroup, std::span<const std::byte>(push),
-                          0);
+            dispatches->computeBarrier();
+            dispatches->dispatch(*kernel, kernel == &kernels_.bounds ? ofWindow : ofGroup,
+                                 std::span<const std::byte>(push), 0);
         }
     }
 }

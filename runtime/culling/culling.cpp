@@ -131,26 +131,14 @@ Status Culling::createSets(const Buffers& buffers) {
             boundsSets_.write(*device_, kernels_->boundsLayout(), w, resources);
         }
     }
-    return status && occlusion_ != nullptr ? createOcclusionSets(std::span(resources).first(own)) : status;
-}
-
-Status Culling::createOcclusionSets(std::span<const gpu::BoundResource> resources) {
-    Result<gpu::DescriptorPoolHandle> pool =
-        gpu::createDescriptorPool(*device_, occlusion_->layout(), framesInFlight_, "supple occlusion");
-    if (!pool) {
-        return pool.error();
-    }
-    occlusionPool_ = std::move(*pool);
-    for (uint32_t f = 0; f < framesInFlight_; ++f) {
-        const Result<VkDescriptorSet> set =
-            gpu::allocateSet(*device_, occlusion_->layout(), occlusionPool_.get(), "supple occlusion");
-        if (!set) {
-            return set.error();
+    if (status && occlusion_ != nullptr) {
+        status = occlusionSets_.create(*device_, occlusion_->layout(), framesInFlight_, "supple occlusion");
+        for (uint32_t f = 0; f < framesInFlight_ && status; ++f) {
+            occlusionSets_.write(*device_, occlusion_->layout(), f, std::span(resources).first(own));
         }
-        gpu::writeSet(*device_, occlusion_->layout(), *set, resources);
-        occlusionSets_.push_back({*set, 0});
+        pyramids_.assign(framesInFlight_, 0);
     }
-    return success();
+    return status;
 }
 
 void Culling::listParts(const InstanceSlots& slots) {
@@ -221,10 +209,10 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     if (windows_->visible == 0) {
         return {};
     }
-    OcclusionSet& own = occlusionSets_[place];
-    if (own.generation != generation) {
-        occlusion_->writePyramid(own.set, pyramid.imageView, pyramid.layout);
-        own.generation = generation;
+    const VkDescriptorSet set = occlusionSets_[place].set;
+    if (pyramids_[place] != generation) {
+        occlusion_->writePyramid(set, pyramid.imageView, pyramid.layout);
+        pyramids_[place] = generation;
     }
     OcclusionPush push{};
     std::copy_n(pyramid.viewProjection, 16, push.columns);
@@ -233,7 +221,7 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
     push.height = pyramid.height;
     push.levels = pyramid.mipLevels;
     push.reversed = (pyramid.flags & SUPPLE_DEPTH_REVERSED) != 0 ? 1 : 0;
-    occlusion_->record(commandBuffer, own.set, push);
+    occlusion_->record(commandBuffer, set, push);
     return {0, 0, true};
 }
 

@@ -107,7 +107,6 @@ public:
     }
 
 private:
-    [[nodiscard]] Status createOcclusionSets(std::span<const gpu::BoundResource> resources);
     /// Where what a surface needs begins.
     struct Place {
         uint32_t firstArgument = 0;               ///< of its construction, in arguments_
@@ -149,15 +148,11 @@ private:
     gpu::PlannedBuffer bounds_, states_, list_, table_;
     ChangeStaging tables_, masks_;
     ZeroedOnce clear_; ///< of states_
-    gpu::DescriptorPoolHandle occlusionPool_;
     gpu::TexelViews views_;
-    gpu::BoundSets boundsSets_; ///< by window
-    gpu::BoundSets listSets_;   ///< one
-    struct OcclusionSet {
-        VkDescriptorSet set = VK_NULL_HANDLE;
-        uint64_t generation = 0; ///< of the pyramid that it was written with
-    };
-    std::vector<OcclusionSet> occlusionSets_; ///< by frame in flight
+    gpu::BoundSets boundsSets_;      ///< by window
+    gpu::BoundSets listSets_;        ///< one
+    gpu::BoundSets occlusionSets_;   ///< by frame in flight
+    std::vector<uint64_t> pyramids_; ///< by frame in flight: the generation of the one that its set binds; 0: none
 };
 
 } // namespace supple::runtime

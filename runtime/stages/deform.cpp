@@ -28,7 +28,7 @@ public:
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
-        (*dispatches).computeBarrier();
+        dispatches->computeBarrier();
         shared::DeformPush push{}; // of no instances
         push.firstInfluences = asset_->firstInfluences;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);

@@ -57,7 +57,7 @@ public:
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
         for (const Piece& piece : pieces_) {
             if (piece.of != nullptr) {
-                (*dispatches).computeBarrier();
+                dispatches->computeBarrier();
                 kernels_->recordGather(*dispatches, piece.sets[0], {}); // of no instances
             }
         }

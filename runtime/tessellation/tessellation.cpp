@@ -139,7 +139,7 @@ void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Pr
     const auto nothing = [&](const surface::Steps& steps, const surface::Sets& bound) {
         surface::Window window; // of no instances
         window.sets = bound;
-        (*dispatches).computeBarrier();
+        dispatches->computeBarrier();
         surface::record(*dispatches, steps, window);
     };
     for (const surface::Steps* steps :

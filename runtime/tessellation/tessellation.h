@@ -88,7 +88,7 @@ public:
                                             const Visibility& visibility);
 
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
-    /// Of its passes in a frame.
+    /// What its passes need in a frame.
     [[nodiscard]] virtual gpu::TaskNeeds taskNeeds() const { return taskNeedsOf(program_); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     // Output; the API asks for what a tessellation of this kind has.

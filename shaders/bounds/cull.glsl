@@ -1,10 +1,8 @@
-// Bindings of all passes of bounds and culling.
+// Bindings of all passes of bounds and culling. Needs PUSH_CONSTANTS.
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/bounds.h"
 
-#ifdef PUSH_CONSTANTS
 #include "shaders/shared/push.glsl"
-#endif
 
 BUFFER(, States, kBoundsStateBinding, std430, uvec2, states)
 

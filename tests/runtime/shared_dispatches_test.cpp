@@ -161,10 +161,8 @@ TEST_F(SharedDispatches, DoNotCountCharacters) {
             dispatches[characters / 6] = wrapped.dispatches + wrapped.indirectDispatches;
             barriers[characters / 6] = wrapped.barriers;
         }
-        const uint64_t more = (dispatches[1] - dispatches[0]) / 4;
-        std::printf("%s: %llu dispatches of two characters, %llu more a character\n", use.name,
-                    static_cast<unsigned long long>(dispatches[0]), static_cast<unsigned long long>(more));
-        EXPECT_EQ(more, 0u);
+        EXPECT_GT(dispatches[0], 4u);
+        EXPECT_EQ(dispatches[1], dispatches[0]);
         EXPECT_EQ(barriers[1], barriers[0]);
     }
 }
