@@ -1,7 +1,8 @@
 #include "gpu/device.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace supple::gpu {
@@ -271,9 +272,10 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
         const std::string text = std::string("the device gives no ") + name;
-        // Loaders and drivers hand out what the instance's version has. Only these functions are newer than 1.2.
-        const bool isNew =
-            std::strcmp(name, "vkCmdPipelineBarrier2") == 0 || std::strcmp(name, "vkCmdWriteTimestamp2") == 0;
+        // Loaders and drivers hand out what the instance's version has. Only these functions are newer than 1.1.
+        constexpr std::array<std::string_view, 3> kNewer{"vkGetBufferDeviceAddress", "vkCmdPipelineBarrier2",
+                                                         "vkCmdWriteTimestamp2"};
+        const bool isNew = std::ranges::find(kNewer, name) != kNewer.end();
         return Error{ErrorCode::unsupported, isNew ? text + ": " + kNewInstance : text};
     }
 
