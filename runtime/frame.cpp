@@ -66,9 +66,13 @@ struct Frame {
                 return;
             }
             View& view = *leader.view();
-            uint64_t least = 0;
-            forEach([&](Group& group) { least += group.view() == &view ? group.leastVerticesOfAll() : 0; });
-            view.setRoomInFrame(least <= view.room() ? shared::kRoomForAll : view.room());
+            uint64_t vertices = 0, units = 0;
+            forEach([&](Group& group) {
+                vertices += group.view() == &view ? group.leastVerticesOfAll() : 0;
+                units += group.view() == &view ? group.poolUnitsOfAll() : 0;
+            });
+            const bool fit = vertices <= view.room() && units <= view.poolUnits();
+            view.setRoomInFrame(fit ? shared::kRoomForAll : view.room());
         });
     }
 };
@@ -133,11 +137,11 @@ PassCost recordUpload(const Frame& frame, Group& group) {
         group.recordWaiting(frame.commands, frame.number);
         return {0, statics.bytes};
     }
-    PassCost cost = group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin()});
-    cost.bytes += statics.bytes;
+    PassCost cost{0, statics.bytes};
     if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
         cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
     }
+    cost += group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin()});
     return cost;
 }
 
@@ -203,6 +207,9 @@ PassCost recordSizes(const Frame& frame, Group& group) {
 PassCost recordList(const Frame& frame, Group& group) {
     if (group.culling() == nullptr) {
         return {};
+    }
+    if (group.culling()->instanceUnits() > 0) {
+        frame.dispatches.disjointBarrier();
     }
     const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
     return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll);

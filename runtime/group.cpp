@@ -178,6 +178,10 @@ Status Group::createRest(const GroupShared& shared) {
     }
     if (view_ != nullptr) {
         planCulling(shared, device, staging);
+        status = checkPool();
+        if (!status) {
+            return status;
+        }
     }
     planBounds(shared, device);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
@@ -233,6 +237,7 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     desc.cageStride = instances_->cageStride();
     desc.parts = &drawnParts_;
     desc.firstRate = surfaces_.ladder().first;
+    desc.poolUnits = view_->poolUnits();
     std::vector<Culling::Surface> culled;
     for (const auto& surface : surfaces_) {
         culled.push_back(surface->culledSurface());
@@ -244,6 +249,16 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     culling->plan(device, staging);
     culling_ = culling.get();
     visibility_ = std::move(culling);
+}
+
+Status Group::checkPool() const {
+    if (culling_->instanceUnits() <= view_->poolUnits()) {
+        return success();
+    }
+    constexpr uint64_t kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
+    return Error{ErrorCode::limit, "an instance has " + std::to_string(culling_->instanceUnits() * kUnitBytes) +
+                                       " bytes of coefficients, the view has room for " +
+                                       std::to_string(view_->poolUnits() * kUnitBytes)};
 }
 
 void Group::planBounds(const GroupShared& shared, gpu::BufferPlan& device) {
@@ -350,6 +365,12 @@ void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
 
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
     noDraws_.renew();
+    if (view_ != nullptr && view_->poolUnits() > 0) {
+        if (passesFrame_ != view_->recordedBefore()) {
+            listing_.forgetAll(); // others have written where its coefficients were
+        }
+        culling_->takePool(view_->pool());
+    }
     passesFrame_ = lastRecordedFrame_ = frame.number;
     bool changed = listing_.changed(slots());
     PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);

@@ -121,6 +121,10 @@ public:
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
     [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
+    /// The same of the view's pool.
+    [[nodiscard]] uint64_t poolUnitsOfAll() const {
+        return culling_ != nullptr ? uint64_t{culling_->instanceUnits()} * windows().visible : 0;
+    }
 
     /// The host has asked for what it draws of the group.
     void noteOutputsAsked() { outputsAsked_ = true; }
@@ -152,6 +156,8 @@ private:
     [[nodiscard]] Status createRest(const GroupShared& shared);
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
     void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
+    /// Whether the view's pool has room for an instance.
+    [[nodiscard]] Status checkPool() const;
     [[nodiscard]] Status createVisibility();
     /// True if others than before are out of sight.
     bool findUnseen();

@@ -1,6 +1,7 @@
 #include "runtime/view.h"
 
 #include "runtime/culling/bounds_kernels.h"
+#include "shaders/shared/surface.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
@@ -32,6 +33,9 @@ constexpr uint32_t kDefaultRuns = 1024;
 constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
 static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
+/// Where the view's pool ends, and the solution behind it.
+constexpr VkDeviceSize kSolvedBytes = (kLodSolution - kLodPoolEnd) * VkDeviceSize{4} + sizeof(LodSolution);
+constexpr VkDeviceSize kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 constexpr VkDeviceSize kRunBytes = VkDeviceSize{kLodRunWords} * 4;
 static_assert(sizeof(LodDispatch) == 4 * kLodDispatchWords &&
@@ -111,9 +115,10 @@ Status View::createBuffers() {
         {"supple view", wordBytes, kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     cull_ = plan.add({"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     sizes_ =
-        plan.add({"supple view, sizes", kSizeRanks * VkDeviceSize{4}, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+        plan.add({"supple view, sizes", 2 * kSizeRanks * VkDeviceSize{4}, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     streams_.plan(plan, StreamSet::ofView(desc_.flags), desc_.vertexFormat, vertices, vertices, 1);
-    Status status = plan.create(device, gpu::MemoryKind::deviceLocal);
+    Status status = planPools(plan);
+    status = status ? plan.create(device, gpu::MemoryKind::deviceLocal) : status;
     if (!status) {
         return status;
     }
@@ -133,6 +138,25 @@ Status View::createBuffers() {
     addMember(static_);
     addMember(indicesRelease_);
     return createMapped();
+}
+
+Status View::planPools(gpu::BufferPlan& plan) {
+    const VkDeviceSize most = device_->bufferWindow(gpu::kVec4Bytes);
+    if (desc_.coefficientBytes > most) {
+        return Error{ErrorCode::limit, "coefficientBytes is " + std::to_string(desc_.coefficientBytes) +
+                                           ": the device's storage-buffer range or its texel-buffer elements allow at "
+                                           "most " +
+                                           std::to_string(most)};
+    }
+    poolUnits_ = static_cast<uint32_t>(desc_.coefficientBytes / kUnitBytes);
+    const bool motion = (desc_.flags & SUPPLE_VIEW_MOTION) != 0;
+    const uint32_t count = poolUnits_ == 0 ? 0 : motion ? 2 : 1;
+    for (uint32_t p = 0; p < count; ++p) {
+        pools_[p] = plan.add({"supple view, coefficients", poolUnits_ * kUnitBytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                              gpu::MemoryPurpose::coefficients});
+    }
+    return success();
 }
 
 Status View::createMapped() {
@@ -181,8 +205,8 @@ Status View::createSolver(surface::Programs& passes) {
     if (!pool) {
         return pool.error();
     }
-    pool_ = std::move(*pool);
-    const Result<VkDescriptorSet> set = gpu::allocateSet(*device_, layout, pool_.get(), "supple view");
+    descriptorPool_ = std::move(*pool);
+    const Result<VkDescriptorSet> set = gpu::allocateSet(*device_, layout, descriptorPool_.get(), "supple view");
     if (!set) {
         return set.error();
     }
@@ -296,7 +320,9 @@ uint32_t View::room() const {
 }
 
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
+    recordedBefore_ = recordedFrame_;
     recordedFrame_ = frame;
+    pool_ = pools_[1].buffer() != VK_NULL_HANDLE ? 1 - pool_ : 0;
     noDraws_.renew();
     if (indicesRelease_.due()) { // they are on the device by now
         indicesRelease_.record(frame);
@@ -324,7 +350,7 @@ VkDeviceSize View::uploadBytes() const {
 }
 
 VkDeviceSize View::readbackBytes() const {
-    return sizeof(LodSolution) + 2 * maxRuns() * kCountBytes; // of groups with and without runs
+    return kSolvedBytes + 2 * maxRuns() * kCountBytes; // of groups with and without runs
 }
 
 VkDeviceSize View::recordOffset() const {
@@ -398,7 +424,7 @@ void View::recordReadback(VkCommandBuffer commandBuffer) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
     solved_[place].frame = recordedFrame_;
     solved_[place].groups = 0;
-    const VkBufferCopy region{kLodSolution * VkDeviceSize{4}, place * readbackBytes(), sizeof(LodSolution)};
+    const VkBufferCopy region{kLodPoolEnd * VkDeviceSize{4}, place * readbackBytes(), kSolvedBytes};
     device_->vk.CmdCopyBuffer(commandBuffer, words_.buffer(), readback_.buffer(0), 1, &region);
 }
 
@@ -406,7 +432,7 @@ void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDevi
     const uint64_t place = recordedFrame_ % framesInFlight_;
     const uint32_t index = solved_[place].groups++;
     solved_[place].of[index] = group;
-    const VkBufferCopy region{offset, place * readbackBytes() + sizeof(LodSolution) + kCountBytes * index, kCountBytes};
+    const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
     device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
 }
 
@@ -414,8 +440,11 @@ SuppleViewStatistics View::read(size_t place) const {
     const Solved& solved = solved_[place];
     const std::byte* from = readback_.mapped(0) + place * readbackBytes();
     LodSolution solution;
-    std::memcpy(&solution, from, sizeof(solution));
+    std::memcpy(&solution, from + kSolvedBytes - sizeof(solution), sizeof(solution));
+    uint32_t units = 0;
+    std::memcpy(&units, from, sizeof(units));
     SuppleViewStatistics read{};
+    read.coefficientBytes = units * kUnitBytes;
     read.frame = solved.frame;
     std::copy_n(solution.scale, kPriorityCount, read.levelScales);
     read.vertexCount = solution.vertices;
@@ -424,7 +453,7 @@ SuppleViewStatistics View::read(size_t place) const {
     uint32_t patches = 0;
     for (uint32_t g = 0; g < solved.groups; ++g) {
         std::array<uint32_t, kListHeaderWords> counts{};
-        std::memcpy(counts.data(), from + sizeof(solution) + g * kCountBytes, sizeof(counts));
+        std::memcpy(counts.data(), from + kSolvedBytes + g * kCountBytes, sizeof(counts));
         read.drawnInstanceCount += counts[0];
         read.instanceCount += counts[2] + solved.of[g].unposed;
         read.unposedInstanceCount += solved.of[g].unposed;

@@ -41,10 +41,19 @@ public:
     [[nodiscard]] shared::LodCamera levelCamera() const;
     /// Vertices of the budget that patches can have; the rest is for what fills up draw instances.
     [[nodiscard]] uint32_t room() const;
-    /// The same for a frame's groups; kRoomForAll if even all instances fit at their coarsest.
+    /// The same for a frame's groups; kRoomForAll if even all instances fit at their coarsest, their coefficients too.
     [[nodiscard]] uint32_t roomInFrame() const { return roomInFrame_; }
     void setRoomInFrame(uint32_t room) { roomInFrame_ = room; }
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
+
+    /// The pools of coefficients that groups with levels share, of so many units (shared::kPoolUnit). 0: they have
+    /// pools of their own.
+    [[nodiscard]] uint32_t poolUnits() const { return poolUnits_; }
+    [[nodiscard]] const std::array<gpu::PlannedBuffer, 2>& pools() const { return pools_; }
+    /// That which the newest recording writes. With motion they take turns.
+    [[nodiscard]] uint32_t pool() const { return pool_; }
+    /// The last recording before the newest one.
+    [[nodiscard]] uint64_t recordedBefore() const { return recordedBefore_; }
 
     /// A group's windows take runs when it is created and give them back when it goes. The runs of `windows` windows,
     /// one after the other, each as `lod` lists them; patch ranges r of a window evaluate as dispatch firstRun + r.
@@ -100,6 +109,7 @@ public:
 
 private:
     [[nodiscard]] Status createBuffers();
+    [[nodiscard]] Status planPools(gpu::BufferPlan& plan);
     [[nodiscard]] Status createMapped();               ///< for uploads, and for what the host reads
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
     [[nodiscard]] Status createSolver(surface::Programs& passes);
@@ -118,9 +128,11 @@ private:
 
     gpu::BufferSet buffers_;
     gpu::PlannedBuffer words_, cull_, sizes_;
+    std::array<gpu::PlannedBuffer, 2> pools_;
+    uint32_t poolUnits_ = 0, pool_ = 0;
     VertexStreams streams_;
     surface::Programs::Solver solver_;
-    gpu::DescriptorPoolHandle pool_;
+    gpu::DescriptorPoolHandle descriptorPool_;
     gpu::TexelViews views_;
     VkDescriptorSet solverSet_ = VK_NULL_HANDLE;
     gpu::BufferSet staging_;  ///< the host's part of the words, and the view to cull by, a run a frame in flight
@@ -137,7 +149,7 @@ private:
     RecordedOnce indicesRelease_;
     RecordedOnce noDraws_; ///< due: the last frame of the view may have left draws
     uint32_t roomInFrame_ = shared::kRoomForAll;
-    uint64_t recordedFrame_ = 0;
+    uint64_t recordedFrame_ = 0, recordedBefore_ = 0;
     struct Solved {
         uint64_t frame = 0;
         uint32_t groups = 0;

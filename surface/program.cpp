@@ -34,6 +34,11 @@ bool beginsRound(const Step& step) {
     return step.order == Order::disjoint || step.order == Order::after;
 }
 
+/// Whether it writes into a pool that other groups have, too.
+bool sharesPool(const Step& step, const Window& window) {
+    return window.push.pools != 0 && (step.sets == SetKind::construct || step.sets == SetKind::levels);
+}
+
 void dispatch(gpu::Dispatches& dispatches, const Step& step, const Window& window) {
     std::array<std::byte, gpu::kPushConstantBytes> words = step.push;
     std::memcpy(words.data(), &window.push, sizeof(window.push));
@@ -71,6 +76,9 @@ void record(Round& round, std::span<const Step> steps, const Window& window) {
             return;
         }
         if (number == round.number) {
+            if (sharesPool(step, window)) {
+                round.dispatches.disjointBarrier();
+            }
             dispatch(round.dispatches, step, window);
         }
     }

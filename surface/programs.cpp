@@ -65,8 +65,8 @@ constexpr struct {
     {storage(kPairBinding), in({evaluate, attributes})},
     {storage(kScratchBinding), in({subdivide, levels})},
     {narrowTexels(kScratchTexelBinding), in({subdivide, levels})},
-    {wideStorage(kInstanceBinding), in({construct, evaluate, subdivide, levels})},
-    {narrowTexels(kInstanceTexelBinding), in({construct, evaluate, subdivide, levels})},
+    {wideStorage(kInstanceBinding), in({construct, evaluate, subdivide, evaluateLevels, levels})},
+    {narrowTexels(kInstanceTexelBinding), in({construct, evaluate, subdivide, evaluateLevels, levels})},
     {storage(kLodBinding), in({levels})},
     {wideStorage(kLodBinding), in({evaluateLevels, attributes})},
     {narrowTexels(kLodTexelBinding), in({evaluateLevels, attributes, levels})},
@@ -84,10 +84,10 @@ constexpr uint32_t storageBuffers(SetKind kind) {
     }
     return std::max(narrow, wide);
 }
-/// A new stream is one more buffer that evaluation or attributes write. But for the subdivision, layouts have room for
-/// it.
+/// A new stream is one more buffer that evaluation or attributes write. Layouts have room for it, but for those of
+/// subdivision and of levels.
 static_assert(storageBuffers(evaluate) < gpu::kMaxStorageBuffers &&
-              storageBuffers(evaluateLevels) < gpu::kMaxStorageBuffers &&
+              storageBuffers(evaluateLevels) <= gpu::kMaxStorageBuffers &&
               storageBuffers(attributes) < gpu::kMaxStorageBuffers &&
               storageBuffers(subdivide) <= gpu::kMaxStorageBuffers);
 

@@ -58,7 +58,7 @@ private:
 
 /// Coefficients per instance such that every instance starts on 256 bytes.
 [[nodiscard]] constexpr uint32_t poolStrideFor(uint32_t coefficients) {
-    return (coefficients + 15) / 16 * 16;
+    return (coefficients + shared::kPoolUnit - 1) / shared::kPoolUnit * shared::kPoolUnit;
 }
 
 /// A patch that is not in the tables yet, and which corners of the cage are its corners.

@@ -3,8 +3,8 @@
 //
 // The caller puts a barrier (compute to compute) between bounds and list, and behind the list one to what reads it
 // (compute, vertex shaders, indirect commands). If instances may have to be left out, the sizes of all groups of the
-// view come before the first list, with a barrier on either side; their buffer, kSizeRanks words cleared in every
-// frame, is the view's.
+// view come before the first list, with a barrier on either side; their buffer, two times kSizeRanks words cleared in
+// every frame, is the view's.
 #pragma once
 
 #include "gpu/dispatches.h"

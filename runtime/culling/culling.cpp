@@ -1,5 +1,7 @@
 #include "runtime/culling/culling.h"
 
+#include "shaders/shared/surface.h"
+
 #include <algorithm>
 
 namespace supple::runtime {
@@ -18,8 +20,13 @@ VkDescriptorBufferInfo whole(VkBuffer buffer) {
 
 } // namespace
 
+uint32_t Culling::firstPool() const {
+    const uint32_t first = (3 + DrawnParts::wordsOf(partCount())) * windows_->capacity;
+    return first + first % 2; // harness.glsl tells a slot's two words apart by the lowest bit
+}
+
 uint32_t Culling::firstRateList() const {
-    return (lists(partCount(), 0) * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return (firstPool() + 2 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
 }
 
 uint32_t Culling::rateStride() const {
@@ -32,6 +39,9 @@ void Culling::add(const Surface& surface) {
         arguments_.push_back({size.elements, size.perGroup, count, target});
     };
     Place place{static_cast<uint32_t>(arguments_.size()), {}, static_cast<uint32_t>(draws_.size())};
+    place.coefficients = surface.coefficients;
+    place.firstCoefficient = kPoolUnit * instanceUnits_;
+    instanceUnits_ += (surface.coefficients + kPoolUnit - 1) / kPoolUnit;
     for (const surface::DispatchSize& size : surface.sizes) {
         add(size, kCountWindow);
     }
@@ -63,6 +73,7 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Surfa
     culling->framesInFlight_ = desc.framesInFlight;
     culling->listed_.resize(desc.windows->count());
     culling->firstRate_ = desc.firstRate;
+    culling->poolUnits_ = desc.poolUnits;
     culling->push_.vertexCount = desc.cageVertices;
     culling->push_.cageStride = desc.cageStride;
     culling->drawnParts_ = desc.parts;
@@ -226,12 +237,15 @@ PassCost Culling::recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place,
 }
 
 void Culling::recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const {
-    kernels_->recordSizes(dispatches, listSets_[0], {0, windows_->visible, leastVertices});
+    kernels_->recordSizes(dispatches, listSets_[0], {0, windows_->visible, leastVertices, instanceUnits_});
 }
 
 PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room) const {
     ListPush push{};
     push.room = room;
+    push.poolRoom = poolUnits_;
+    push.poolUnits = instanceUnits_;
+    push.pools = firstPool() + pool_;
     push.levels = windows_->capacity;
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
@@ -272,6 +286,15 @@ PassCost Culling::recordRates(gpu::Dispatches& dispatches, bool counted) const {
     return {0, 0, windows_->visible > 0};
 }
 
+void Culling::tellPool(WindowPush& push, size_t surface) const {
+    const Place& place = places_[surface];
+    if (place.coefficients > 0) {
+        push.pools = firstPool() + pool_;
+        push.lastPool = poolUnits_ - instanceUnits_;
+        push.firstCoefficient = place.firstCoefficient;
+    }
+}
+
 surface::Window Culling::window(uint32_t window, size_t surface) const {
     const uint32_t arguments = firstArgument() + headerWords() + argumentStride() * window;
     surface::Window result;
@@ -279,6 +302,7 @@ surface::Window Culling::window(uint32_t window, size_t surface) const {
     result.push.instanceCount = (firstArgument() + kListHeaderWords * (1 + window)) | kCountOnDevice;
     result.push.slots = windows_->slots(window);
     result.push.firstSlot = windows_->firstSlot(window);
+    tellPool(result.push, surface);
     result.arguments = list_.buffer();
     result.firstArgument = (arguments + VkDeviceSize{3} * places_[surface].firstArgument) * kWordBytes;
     return result;

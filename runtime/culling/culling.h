@@ -34,7 +34,8 @@ public:
     struct Surface {
         std::vector<surface::DispatchSize> sizes; ///< dispatched for what is seen, by argument number
         surface::lod::InstanceMeasure measure;
-        float margin = 0.0f; ///< how far the surface may lie outside the box of its cage, as a part of its size
+        float margin = 0.0f;       ///< how far the surface may lie outside the box of its cage, as a part of its size
+        uint32_t coefficients = 0; ///< that an instance takes of the view's pool; 0: the group has a pool of its own
         /// None if levels are real numbers. Surfaces that have rates have equally many.
         std::vector<Rate> rates;
     };
@@ -47,6 +48,7 @@ public:
         uint32_t cageVertices = 0, cageStride = 0;
         const DrawnParts* parts = nullptr;
         uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
+        uint32_t poolUnits = 0; ///< of the view's pool (shared::kPoolUnit)
     };
     /// `needs`: of every surface of the group.
     [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, std::span<const Surface> surfaces);
@@ -66,6 +68,7 @@ public:
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
     [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size(), windows_->capacity}; }
     [[nodiscard]] surface::Window window(uint32_t window, size_t surface) const override;
+    void tellPool(shared::WindowPush& push, size_t surface) const override;
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
 
@@ -77,6 +80,10 @@ public:
     /// frame uses any more; `generation` tells whether that set has this pyramid.
     PassCost recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
                              uint64_t generation);
+    /// Units of the view's pool that an instance takes.
+    [[nodiscard]] uint32_t instanceUnits() const { return instanceUnits_; }
+    /// Of the view's two pools, that which the frame writes.
+    void takePool(uint32_t pool) { pool_ = pool; }
     /// What the listed instances need, each `leastVertices` at least. Only if that may be more than there is.
     void recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const;
     /// `room`: vertices, or shared::kRoomForAll.
@@ -103,7 +110,7 @@ public:
     [[nodiscard]] static uint32_t firstMask(uint32_t capacity) { return 3 * capacity; }
     /// How many times `capacity` words lie before the arguments.
     [[nodiscard]] static uint32_t lists(uint32_t parts, uint32_t rates) {
-        return 3 + DrawnParts::wordsOf(parts) + rates * (2 + parts);
+        return 3 + DrawnParts::wordsOf(parts) + 2 + rates * (2 + parts);
     }
 
 private:
@@ -112,13 +119,17 @@ private:
         uint32_t firstArgument = 0;               ///< of its construction, in arguments_
         std::vector<uint32_t> firstRateArguments; ///< by rate
         uint32_t firstDraw = 0;                   ///< in draws_
+        uint32_t coefficients = 0;                ///< as in Surface
+        uint32_t firstCoefficient = 0;            ///< of the surface, of those of an instance
     };
     void add(const Surface& surface);
     [[nodiscard]] uint32_t argumentStride() const { return 3 * static_cast<uint32_t>(arguments_.size()); }
     [[nodiscard]] uint32_t partCount() const { return drawnParts_->count(); }
     void listParts(const InstanceSlots& slots);
-    // Words of the list: all that are seen, those of every window, their levels; masks of parts; for every rate all,
-    // those of every window, those that show a part; then the arguments, the counts of rates and their draws.
+    // Words of the list: all that are seen, those of every window, their levels; masks of parts; two a slot for its
+    // places in the view's pool; for every rate all, those of every window, those that show a part; then the arguments,
+    // the counts of rates and their draws.
+    [[nodiscard]] uint32_t firstPool() const;
     [[nodiscard]] uint32_t firstRateList() const;
     [[nodiscard]] uint32_t rateStride() const;
     [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount_ * rateStride(); }
@@ -143,7 +154,9 @@ private:
     std::vector<uint32_t> drawParts_; ///< by draw
     std::vector<ListPart> parts_;     ///< room for all parts
     uint32_t hiddenParts_ = 0;        ///< entries of parts_ in use
-    VkDeviceSize maskBytes_ = 0;      ///< to upload
+    uint32_t poolUnits_ = 0, instanceUnits_ = 0;
+    uint32_t pool_ = 0;
+    VkDeviceSize maskBytes_ = 0; ///< to upload
 
     gpu::PlannedBuffer bounds_, states_, list_, table_;
     ChangeStaging tables_, masks_;

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] virtual InstanceList list() const = 0;
     /// The instances of a window, for the passes of the group's n-th surface. The sets are the caller's.
     [[nodiscard]] virtual surface::Window window(uint32_t window, size_t surface) const = 0;
+    /// Where instances of the surface have their coefficients.
+    virtual void tellPool(shared::WindowPush& push, size_t surface) const = 0;
     /// The cost of a pass, given what it writes per instance.
     [[nodiscard]] virtual PassCost cost(uint64_t points, uint64_t bytes) const = 0;
 
@@ -69,6 +71,7 @@ public:
         result.push.firstSlot = windows.firstSlot(window);
         return result;
     }
+    void tellPool(shared::WindowPush&, size_t) const override {} // by slot
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override {
         const uint32_t visible = listing_->windows().visible;
         return {points * visible, bytes * visible};

@@ -43,6 +43,8 @@ public:
 protected:
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
 
+    [[nodiscard]] SharedPools sharedPools() const override { return view()->pools(); }
+
 private:
     [[nodiscard]] uint32_t partCount() const { return static_cast<uint32_t>(desc_.asset->character.parts.size()); }
     [[nodiscard]] uint32_t runs() const { return static_cast<uint32_t>(tables().lod.runs.size()); }
@@ -128,6 +130,7 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Surface Levels::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
+    surface.coefficients = view()->poolUnits() > 0 ? tables().poolStride : 0;
     surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();
     return surface;
@@ -167,7 +170,9 @@ Status Levels::prepareRate(uint32_t) {
 
 VkDeviceSize Levels::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
     program_.setCamera(view()->levelCamera());
-    return Tessellation::recordUpload(commandBuffer, frame, changed);
+    const VkDeviceSize bytes = Tessellation::recordUpload(commandBuffer, frame, changed);
+    pool_ = view()->poolUnits() > 0 ? view()->pool() : pool_;
+    return bytes;
 }
 
 surface::Window Levels::levelWindow(uint32_t window) const {
@@ -182,6 +187,7 @@ surface::Window Levels::placed(uint32_t window, const surface::Sets& sets) const
     result.push.slots = windows().slots(window);
     result.push.firstSlot = windows().firstSlot(window);
     result.push.firstRun = firstRun_ + window * runs();
+    visibility_->tellPool(result.push, desc_.surface);
     result.arguments = view()->words();
     result.firstArgument = view()->dispatchOffset(result.push.firstRun);
     result.argumentStride = sizeof(LodDispatch);

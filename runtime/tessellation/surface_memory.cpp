@@ -36,10 +36,13 @@ void SurfaceMemory::plan(const Desc& desc, gpu::BufferPlan& device) {
     constexpr gpu::MemoryPurpose kCoefficients = gpu::MemoryPurpose::coefficients;
     const VkDeviceSize n = desc.capacity;
     const VkDeviceSize poolBytes = n * desc.poolStride * gpu::kVec4Bytes;
-    pools_[0] =
-        device.add({"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
-    pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0,
-                            kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+    pools_ = desc.pools;
+    if (!sharesPools()) {
+        pools_[0] = device.add(
+            {"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+        pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0,
+                                kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+    }
     patches_ = device.add({"supple patch coefficients",
                            desc.patches ? n * desc.patchCount * kPatchStride * gpu::kVec4Bytes : 0,
                            kScratch | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kCoefficients});
@@ -53,7 +56,9 @@ void SurfaceMemory::attach(const SurfaceInput& input, const InstanceListing& lis
     listing_ = &listing;
     list_ = list;
     for (const gpu::PlannedBuffer& pool : pools_) {
-        clear_.add(*desc_.device, pool);
+        if (!sharesPools()) {
+            clear_.add(*desc_.device, pool);
+        }
     }
 }
 
@@ -83,12 +88,16 @@ void SurfaceMemory::bindInput(const SurfaceSets::Which& which, const gpu::Static
     contents.buffer(kTableBinding, table, 0, tableBytes);
     contents.texels(kTable4TexelBinding, gpu::kUint4, table, 0, tableBytes, "supple surface tables");
     contents.texels(kTable1TexelBinding, kUint1, table, 0, tableBytes, "supple surface table words");
-    const uint32_t poolStride = desc_.poolStride;
-    bind(kPoolBinding, kPoolTexelBinding, pools_[which.pool], poolStride, "supple pool");
+    const auto bindPool = [&](uint32_t binding, uint32_t texels, const gpu::PlannedBuffer& pool) {
+        const VkDeviceSize bytes = sharesPools() ? 0 : desc_.poolStride * gpu::kVec4Bytes;
+        const VkDeviceSize size = sharesPools() ? pool.size() : count * bytes;
+        contents.buffer(binding, pool.buffer(), first * bytes, size);
+        contents.texels(texels, gpu::kFloat4, pool.buffer(), first * bytes, size, "supple pool");
+    };
+    bindPool(kPoolBinding, kPoolTexelBinding, pools_[which.pool]);
     // Without previous positions in a view kernels name it, but do not read it.
     const bool today = which.previous && desc_.inView;
-    bind(kTodaysPoolBinding, kTodaysPoolTexelBinding, pools_[today ? 1 - which.pool : which.pool], poolStride,
-         "supple pool");
+    bindPool(kTodaysPoolBinding, kTodaysPoolTexelBinding, pools_[today ? 1 - which.pool : which.pool]);
     bind(kCageBinding, kCageTexelBinding, input_.cages, desc_.cageStride, "supple deformed cage");
     if (input_.creaseAlphas.size() > 0) {
         bind(kAlphaBinding, kAlphaTexelBinding, input_.creaseAlphas, kCreaseSetElements, "supple crease alphas");
@@ -98,7 +107,7 @@ void SurfaceMemory::bindInput(const SurfaceSets::Which& which, const gpu::Static
     if (scratch_.size() > 0) {
         bind(kScratchBinding, kScratchTexelBinding, scratch_, desc_.scratchStride, "supple scratch");
     } else { // some kernels name it but never read it
-        bind(kScratchBinding, kScratchTexelBinding, pools_[which.pool], poolStride, "supple pool");
+        bindPool(kScratchBinding, kScratchTexelBinding, pools_[which.pool]);
     }
     if (patches_.size() > 0) {
         const VkDeviceSize bytes = VkDeviceSize{desc_.patchCount} * kPatchStride * gpu::kVec4Bytes;

@@ -21,6 +21,9 @@ struct SurfaceInput {
     gpu::PlannedBuffer creaseAlphas; ///< null if the character has no crease sets
 };
 
+/// Pools of coefficients that the groups of a view share, one a frame in turns if there is motion. Null: none.
+using SharedPools = std::array<gpu::PlannedBuffer, 2>;
+
 class SurfaceMemory {
 public:
     /// All pointers must outlive it.
@@ -34,6 +37,7 @@ public:
         bool patches = false; ///< SUPPLE_GROUP_PATCHES
         uint32_t patchCount = 0;
         uint32_t poolStride = 0, cageStride = 0; ///< of an instance, in elements (surface::Tables)
+        SharedPools pools;                       ///< in the place of the group's own
         uint32_t scratchStride = 0;              ///< 0: there is none
         bool sizesInScratch = false;             ///< of dispatches
     };
@@ -51,7 +55,8 @@ public:
     [[nodiscard]] const gpu::PlannedBuffer& patches() const { return patches_; }
     [[nodiscard]] const gpu::PlannedBuffer& scratch() const { return scratch_; }
     [[nodiscard]] bool hasMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
-    /// The zero coefficient, and the slots that no stage writes.
+    [[nodiscard]] bool sharesPools() const { return desc_.pools[0].buffer() != VK_NULL_HANDLE; }
+    /// The coefficients that no stage writes.
     [[nodiscard]] ZeroedOnce& clear() { return clear_; }
 
 private:

@@ -96,7 +96,8 @@ Status Tessellation::checkRate(uint32_t rate, uint32_t most) const {
 BoundBytes Tessellation::boundBytes() const {
     const VkDeviceSize patchBytes =
         built_.outputs.patches ? tables().patches.size() * kPatchStride * gpu::kVec4Bytes : 0;
-    return {std::max(tables().poolStride, scratchStride()) * gpu::kVec4Bytes, patchBytes};
+    const uint32_t poolStride = sharedPools()[0].buffer() != VK_NULL_HANDLE ? 0 : tables().poolStride;
+    return {std::max(poolStride, scratchStride()) * gpu::kVec4Bytes, patchBytes};
 }
 
 void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
@@ -105,6 +106,7 @@ void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
     desc.patches = built_.outputs.patches;
     desc.patchCount = static_cast<uint32_t>(tables().patches.size());
     desc.poolStride = tables().poolStride;
+    desc.pools = sharedPools();
     desc.cageStride = tables().cageStride;
     desc.scratchStride = scratchStride();
     desc.sizesInScratch = !program_.deepen.empty();

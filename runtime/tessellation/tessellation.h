@@ -191,6 +191,8 @@ protected:
                                   const surface::Program& program) const;
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
     virtual void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const = 0;
+    /// The pools of the view if its groups share them; else null.
+    [[nodiscard]] virtual SharedPools sharedPools() const { return {}; }
     /// Elements of an instance.
     [[nodiscard]] virtual uint32_t scratchStride() const { return program_.scratchStride; }
 

@@ -78,6 +78,7 @@ Crowd::Crowd(const Device& device, const CrowdOptions& options)
     viewDesc.flags |= options.occlusion ? SUPPLE_VIEW_OCCLUSION : 0;
     viewDesc.flags |= options.backFaces ? SUPPLE_VIEW_BACK_FACES : 0;
     viewDesc.maxVertices = budget_;
+    viewDesc.coefficientBytes = uint64_t{options.coefficients} << 20;
     must(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
 
     for (size_t k = 0; k < kKinds; ++k) {
@@ -205,6 +206,11 @@ std::vector<std::string> Crowd::report() const {
         lines.emplace_back(text);
         std::snprintf(text, sizeof text, "levels scaled by %.3f", static_cast<double>(drawn.levelScales[0]));
         lines.emplace_back(text);
+        if (drawn.coefficientBytes > 0) {
+            std::snprintf(text, sizeof text, "%.1f MiB of coefficients",
+                          static_cast<double>(drawn.coefficientBytes) / 0x100000);
+            lines.emplace_back(text);
+        }
     }
     if (context_.timings(timings_) != SUPPLE_OK)
         return lines;

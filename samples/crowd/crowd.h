@@ -39,6 +39,7 @@ struct CrowdOptions {
     std::array<std::string, kKinds> files; ///< GLB
     uint32_t count = 1000;
     uint32_t budget = 5'500'000; ///< surface vertices a frame
+    uint32_t coefficients = 0;   ///< MiB that those share who are drawn; 0: there is memory for all
     bool wall = false;           ///< nobody walks where it stands
     bool occlusion = false;
     bool backFaces = false; ///< leave out what faces away

@@ -39,6 +39,10 @@ Options readOptions(int argc, char** argv) {
     app.add_option("--budget", options.crowd.budget, "surface vertices a frame")
         ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
+    app.add_option("--coefficients", options.crowd.coefficients,
+                   "MiB that those share who are drawn; 0: memory for all characters")
+        ->check(CLI::Range(0u, 4095u))
+        ->capture_default_str();
     app.add_option("characters", options.crowd.files, "three GLB files, the second all of quads")
         ->capture_default_str();
     app.callback([&] {

@@ -1,40 +1,46 @@
-// List pass: the instances that are seen, in the host's order, and the arguments of what is dispatched and drawn for them.
+// List pass: the instances that are seen, in the host's order, the arguments of what is dispatched and drawn for them, and where
+// they have their coefficients.
 // One workgroup; every lane takes a run of entries, so that places follow from counts alone and are the same every time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define PUSH_CONSTANTS ListPush
 #include "shaders/bounds/list.glsl"
+#include "shaders/shared/lod.h"
 
+BUFFER(, Words, kViewWordsBinding, std430, uint, words)
 BUFFER(readonly, Sizes, kSizeBinding, std430, uint, sizes)
 
 shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
 shared uint localThreshold;
+shared uint firstPool; // of a window's instances
 
 uint saturatingSum(uint a, uint b) { return a + min(b, ~a); }
 
 // What is seen with a state up to this one has no room: whole bins of sizes go, the smallest first, so that all that is left
-// fits at its coarsest. Every group of the view finds the same.
-uint threshold() {
+// fits at its coarsest. Every group of the view finds the same. `need`: where sizes of what they need begin.
+uint threshold(uint need, uint room) {
     uint lane = gl_LocalInvocationID.x, each = (kSizeRanks + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(lane * each, kSizeRanks), end = min(begin + each, kSizeRanks), own = 0u; // the largest first
-    for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes.at[kSizeRanks - 1u - i]);
+    for (uint i = begin; i < end; ++i) own = saturatingSum(own, sizes.at[need + kSizeRanks - 1u - i]);
     sumsOf[lane] = own;
     if (lane == 0u) localThreshold = 0u;
     barrier();
     uint before = 0u;
     for (uint l = 0u; l < lane; ++l) before = saturatingSum(before, sumsOf[l]);
-    if (before <= push.room && saturatingSum(before, own) > push.room) {
+    if (before <= room && saturatingSum(before, own) > room) {
         uint i = begin;
         for (uint sum = before; i < end; ++i) {
-            sum = saturatingSum(sum, sizes.at[kSizeRanks - 1u - i]);
-            if (sum > push.room) break;
+            sum = saturatingSum(sum, sizes.at[need + kSizeRanks - 1u - i]);
+            if (sum > room) break;
         }
         localThreshold = kSizeRanks - i;
     }
     barrier();
-    return localThreshold;
+    uint found = localThreshold;
+    barrier(); // the next call writes it
+    return found;
 }
 
 // The entry with kInstanceIsNew as it is now.
@@ -68,7 +74,8 @@ void main() {
     if (isFurtherWorkgroup()) return;
     uint lane = gl_LocalInvocationID.x;
     uvec4 total = uvec4(0u);
-    uint listed = 0u, leftOut = push.room != kRoomForAll ? threshold() : 0u;
+    uint listed = 0u, leftOut = 0u;
+    if (push.room != kRoomForAll) leftOut = max(threshold(0u, push.room), threshold(kSizeRanks, push.poolRoom));
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements.at[w];
         uvec2 run = runOf(window);
@@ -85,10 +92,15 @@ void main() {
             before += l < lane ? one : uvec4(0u);
             counts += one;
         }
+        if (lane == 0u) {
+            uint units = push.poolUnits * (counts.x + counts.y);
+            firstPool = units > 0u ? atomicAdd(words.at[kLodPoolEnd], units) : 0u;
+        }
         barrier();
 
         uint all = push.all + total.x + total.y + before.x + before.y;
         uvec2 places = window.w + uvec2(before.x, counts.x + before.y);
+        uint pool = firstPool + push.poolUnits * (before.x + before.y);
         for (uint i = run.x; i < run.y; ++i) {
             uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
             uvec2 now = state(slot);
@@ -101,6 +113,8 @@ void main() {
                 list.at[place] = (slot - window.z) | (withPast(entry, now) & ~kInstanceSlotMask);
                 list.at[place + push.levels] = floatBitsToUint(bounds.at[2u * slot].w);
                 places += one.xy;
+                if (push.poolUnits > 0u) list.at[push.pools + 2u * slot] = pool;
+                pool += push.poolUnits;
             }
             states.at[slot].y = one.x != 0u ? kDrawnWithPast : drawn ? kDrawn : 0u;
         }

@@ -1,4 +1,4 @@
-// Size pass: the vertices that instances which are seen need at their coarsest, by rank. One lane an instance, between the
+// Size pass: what instances that are seen need at their coarsest, vertices and coefficients, by rank. One lane an instance, between the
 // passes that say what is seen and the list pass.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,5 +11,7 @@ void main() {
     uint index = invocationIndex();
     if (index >= push.instanceCount) return;
     uint rank = min(states.at[hostEntry(push.firstEntry + index) & kInstanceSlotMask].x, kSizeRanks);
-    if (rank > 0u) atomicAdd(sizes.at[rank - 1u], push.vertices);
+    if (rank == 0u) return;
+    atomicAdd(sizes.at[rank - 1u], push.vertices);
+    if (push.poolUnits > 0u) atomicAdd(sizes.at[kSizeRanks + rank - 1u], push.poolUnits);
 }

@@ -267,7 +267,7 @@ void makeLevel(uvec4 block, uint lane) {
 
 void main() {
     uint item = itemOfList(), lane = elementOf(item);
-    base = slotOfItem(item) * header.poolStride;
+    base = poolBase(slotOfItem(item));
     if (kMakes == kMakesLimits) {
         uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);

@@ -20,15 +20,15 @@ vec3 ringDiagonal(uint word, uint meshBase, vec3 p0) {
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * header.poolStride;
-    uint meshBase = instance * meshStride() + header.meshVertices;
+    uint base = poolBase(instance);
+    uint vertices = meshBase(instance) + header.meshVertices;
     if (kFan == kRegularFan) {
-        regularFan(index, base, meshBase);
+        regularFan(index, base, vertices);
         return;
     }
     uint record = 4u * push.table + 3u * index;
     uint slot = tableWord(record), weights = tableWord(record + 1u), limit = tableWord(record + 2u), words = header.ring + slot;
-    vec3 p0 = meshPoint(meshBase + ringCorner(tableWord(words), kRingVertex));
-    weightedFan(base + limit, base + header.tangents + slot, base + header.faces + slot, words, meshBase, p0, weights + 1u,
+    vec3 p0 = meshPoint(vertices + ringCorner(tableWord(words), kRingVertex));
+    weightedFan(base + limit, base + header.tangents + slot, base + header.faces + slot, words, vertices, p0, weights + 1u,
                 tableElement(weights).x, true, true);
 }

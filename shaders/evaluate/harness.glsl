@@ -31,7 +31,10 @@ struct PatchPlace {
 #ifdef LEVELS
 PatchPlace placeOf(const LodRecord r) {
     setPast(r.isNew);
-    return PatchPlace(push.table + kRecordElements * r.patchIndex, r.slot * header.poolStride, r.firstVertex, r.firstVertex,
+    // Frames have the places of their coefficients in turns: every slot has two words.
+    bool past = kVertexFormat == kVertexPosition && !r.isNew && push.window.pools != 0u;
+    uint pool = poolBaseIn(past ? push.window.pools ^ 1u : push.window.pools, r.slot);
+    return PatchPlace(push.table + kRecordElements * r.patchIndex, pool, r.firstVertex, r.firstVertex,
                       r.capacity, r.capacityIndex, r.isNew, r.isEmpty);
 }
 #else

@@ -12,7 +12,7 @@
 BUFFER(writeonly, PatchCoefficients, kPatchCoefficientBinding, std430, vec4, coefficients)
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * header.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = poolBase(instance);
     uint record = push.table + patchIndex * kRecordElements;
     NetRecord net = netRecord(record);
     uint target = kPatchStride * (instance * header.patchCount + push.firstPatch + patchIndex);

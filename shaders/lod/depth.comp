@@ -52,7 +52,7 @@ void main() {
     }
     for (uint i = begin; i < end; ++i) {
         uint entry = instanceEntry(i), instance = slotOf(entry), depth = depthOf(i, entry);
-        pool.at[instance * header.poolStride + header.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
+        pool.at[poolBase(instance) + header.depth] = vec4(float(depth), 0.0, 0.0, 0.0);
         uvec4 listed = depthsOf(depth);
         [[dont_unroll]] for (uint d = 0u; d < kDepths; ++d) {
             if (listed[d] != 0u) scratchWords.at[levelBase(places[d]) + header.depths + kDepthEntries + d] = entry;

@@ -134,7 +134,7 @@ EdgeCurve curveOf(uint base, uint edge) { return cubicCurve(base + tableElement(
 #endif
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = instance * header.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), edge = elementOf(item), base = poolBase(instance);
     EdgeCurve curve = curveOf(base, edge);
     edge += push.first;
     vec3 x0 = curve.x0, x1 = curve.x1;

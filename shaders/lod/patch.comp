@@ -418,7 +418,7 @@ void main() {
     bool inside = invocationIndex() < itemCount(), counted = inside;
     uint item = itemOfLane(), patchIndex = push.first + elementOf(item), listed = entryOf(item);
     uint instance = slotOf(listed), priority = SUPPLE_INSTANCE_PRIORITY(listed);
-    uint words = levelBase(instance), base = instance * header.poolStride;
+    uint words = levelBase(instance), base = poolBase(instance);
     uvec4 edges = tableElement(header.levelPatches + 2u * patchIndex), more = tableElement(header.levelPatches + 2u * patchIndex + 1u);
     uint patchClass = more.w & ((1u << kLodPartShift) - 1u), part = more.w >> kLodPartShift;
     if (isHidden(listed, instance, patchIndex, part, inside)) counted = false;

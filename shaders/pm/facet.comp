@@ -104,7 +104,7 @@ void innerFacet(uint record, uint base) {
 }
 
 void main() {
-    uint item = itemOfLane(), facet = elementOf(item), instance = instanceOf(item), base = instance * header.poolStride;
+    uint item = itemOfLane(), facet = elementOf(item), instance = instanceOf(item), base = poolBase(instance);
     if (kClass == kPolarPatch) polarFacet(push.table + 2u * facet, base, instance);
     else innerFacet(push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * facet, base);
 }

@@ -12,7 +12,7 @@
 BUFFER(writeonly, PatchCoefficients, kPatchCoefficientBinding, std430, vec4, coefficients)
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = instance * header.poolStride;
+    uint item = itemOfLane(), instance = instanceOf(item), patchIndex = elementOf(item), base = poolBase(instance);
     uint record = push.table + SUPPLE_PM_RECORD_ELEMENTS(kSides) * patchIndex;
     uint target = kPatchStride * (instance * header.patchCount + push.firstPatch + patchIndex);
     uint inner = base + centreIndex(record, kSides), tangents = base + header.tangents;

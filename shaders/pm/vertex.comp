@@ -153,7 +153,7 @@ void creasedFan(uint limit, uint tangent, uint face, uint words, uint cageBase, 
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
+    uint base = poolBase(instance), cageBase = instance * header.cageStride;
     if (kFan == kRegularFan) {
         regularFan(index, base, cageBase);
         return;

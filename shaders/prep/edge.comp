@@ -19,7 +19,7 @@ vec3 weighted(float w[6], vec3 tA, vec3 tB, vec3 B, vec3 SA, vec3 SB) {
 void main() {
     uint item = itemOfLane(), index = elementOf(item);
     uvec4 record = tableElement(push.table + index); // A, its spoke, B, its spoke
-    uint base = instanceOf(item) * header.poolStride, tangents = base + header.tangents, faces = base + header.faces;
+    uint base = poolBase(instanceOf(item)), tangents = base + header.tangents, faces = base + header.faces;
     uint weights = header.edgeClasses + kEdgeClassElements * SUPPLE_PREP_EDGE_CLASS(record.x, record.z);
     uint target = base + header.inner + 4u * index;
 
@@ -34,4 +34,7 @@ void main() {
     for (uint row = 0u; row < 4u; ++row)
         storePool(target + row,
                   weighted(float[6](w[0][row], w[1][row], w[2][row], w[3][row], w[4][row], w[5][row]), tA, tB, B, SA, SB));
+    // The zeros of edges without a perturbation, behind all others.
+    if (index == 0u)
+        for (uint k = 0u; k < 4u; ++k) pool.at[base + header.inner + 4u * push.count + k] = vec4(0.0);
 }

@@ -21,7 +21,7 @@ vec3 ringDiagonal(uint word, uint cageBase, vec3 p0) {
 
 void main() {
     uint item = itemOfLane(), instance = instanceOf(item), index = elementOf(item);
-    uint base = instance * header.poolStride, cageBase = instance * header.cageStride;
+    uint base = poolBase(instance), cageBase = instance * header.cageStride;
     if (kFan == kRegularFan) {
         regularFan(index, base, cageBase);
         return;

@@ -32,6 +32,8 @@
 // Masks, a part of the list that the host writes: for every slot wordsOf(parts) words (runtime/hidden_parts.h), how many
 // patches it hides and a bit for every part that it hides. They are read only where the entry in the host's list says
 // kInstanceHidesParts.
+// Pools, another part of the list: two words a slot, where its coefficients begin in the pool of the view (shaders/shared/surface.h).
+// Frames write the one and the other in turns, so that the place in the frame before is known too.
 // Arguments: kListHeaderWords words in all: seen, of those with a past, listed, left out for want of room, occluded;
 // the same of every window; then as the table says. Then, from rateCounts on, how many instances a rate and window has,
 // [rate][window]; from firstDraw on the draws.
@@ -74,7 +76,7 @@ struct CullView {
 };
 
 // Sizes are radii in pixels: kSizeBinsPerOctave bins an octave from 2^-kSizeOctavesBelow on. The buffer has the
-// vertices that instances of a rank need at least.
+// vertices that instances of a rank need at least, then the units of the view's pool that they take.
 SUPPLE_SHARED_CONST kSizeBins = 1024u;
 SUPPLE_SHARED_CONST kSizeBinsPerOctave = 64u;
 SUPPLE_SHARED_CONST kSizeOctavesBelow = 4u;
@@ -96,7 +98,8 @@ struct BoundsPush {
 struct SizePush {
     uint firstEntry; // of the host list
     uint instanceCount;
-    uint vertices; // that an instance needs at least
+    uint vertices;  // that an instance needs at least
+    uint poolUnits; // and what it takes of the view's pool
 };
 
 // Which instances an argument counts.
@@ -112,6 +115,9 @@ struct ListPush {
     uint argumentStride;
     uint levels;    // from entries to their levels
     uint room;      // for vertices, of all groups of the view; kRoomForAll: there is no size pass
+    uint poolRoom;  // the same for coefficients: units of the view's pool
+    uint poolUnits; // that an instance takes of it; 0: none
+    uint pools;     // words of the list in which slots have their places: every second from here on
     uint maxGroups; // of a dispatch in x
 };
 struct DemandPush {

@@ -4,6 +4,7 @@
 // runs that the view has room for, a number R that kernels are told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
+//   pool end      how many units of the view's pool have been given away in this frame
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of
@@ -77,7 +78,8 @@ SUPPLE_SHARED_CONST kElasticSteps = 512u;
 SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
 SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
-SUPPLE_SHARED_CONST kLodSolution = kLodGrids + 2u * kLodForms * kCapacityCount; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodPoolEnd = kLodGrids + 2u * kLodForms * kCapacityCount;
+SUPPLE_SHARED_CONST kLodSolution = kLodPoolEnd + 4u; // what stands before it comes from the host
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodRated = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;

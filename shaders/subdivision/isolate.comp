@@ -27,19 +27,19 @@ uvec3 rowAt(uint row) {
 }
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item);
+    uint item = itemOfLane(), instance = instanceOf(item), mesh = meshBase(instance) + push.from;
     uvec3 row = rowAt(elementOf(item));
     uvec2 begin = pairAt(row.x, 0u); // pairs, and the first vertex
-    vec3 first = vertexAt(instance, push.from + begin.y);
+    vec3 first = meshPoint(mesh + begin.y);
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < begin.x; ++i) {
-        uvec2 vertices = push.from + pairAt(row.x, i + 1u);
+        uvec2 vertices = mesh + pairAt(row.x, i + 1u);
         vec4 weights = uintBitsToFloat(tableElement(push.table - row.z + i / 2u));
         vec2 w = (i & 1u) == 0u ? weights.xy : weights.zw;
-        precise vec3 a = vertexAt(instance, vertices.x) - first, b = vertexAt(instance, vertices.y) - first;
+        precise vec3 a = meshPoint(vertices.x) - first, b = meshPoint(vertices.y) - first;
         sum = sum + w.x * a;
         sum = sum + w.y * b;
     }
     precise vec3 p = first + sum;
-    storePool(instance * header.poolStride + push.to + row.y, p);
+    storePool(poolBase(instance) + push.to + row.y, p);
 }

@@ -8,9 +8,8 @@
 
 #ifdef MESH_IN_POOL
 vec3 meshPoint(uint i) { return poolVector(i); }
-uint meshStride() { return header.poolStride; }
+uint meshBase(uint instance) { return poolBase(instance); }
 #else
 vec3 meshPoint(uint i) { return cageVertex(i); }
-uint meshStride() { return header.cageStride; }
+uint meshBase(uint instance) { return instance * header.cageStride; }
 #endif
-vec3 vertexAt(uint instance, uint i) { return meshPoint(instance * meshStride() + i); }

@@ -231,6 +231,7 @@ private:
         viewDesc.structSize = sizeof(viewDesc);
         viewDesc.maxVertices = 4096;
         viewDesc.flags = SUPPLE_VIEW_CULL | SUPPLE_VIEW_OCCLUSION;
+        viewDesc.coefficientBytes = 1 << 20;
         call("suppleCreateView", [&] { return suppleCreateView(handle(), &viewDesc, &view_); });
         const SuppleGroupDesc wanted[] = {
             {.flags = SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_BOUNDS,

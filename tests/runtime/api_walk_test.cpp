@@ -1102,6 +1102,9 @@ void views(Rows& r) {
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
     spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
     spoiled("too many runs", kBad, kRange, [](Desc& d) { d.maxRuns = SUPPLE_MAX_VIEW_RUNS + 1; });
+    spoiled("too few coefficients", kBad, kRange, [](Desc& d) { d.coefficientBytes = 255; });
+    spoiled("more coefficients than can be bound", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+            [](Desc& d) { d.coefficientBytes = uint64_t{1} << 40; });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,

@@ -4,6 +4,7 @@
 
 #include "gpu/bound_sets.h"
 #include "gpu/memory.h"
+#include "shaders/shared/lod.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/gpu_surface.h"
 
@@ -174,8 +175,9 @@ public:
         const host::Buffer arguments = upload(blank.data(), 4096 * 4);
         const host::Buffer tables = upload(table.data(), table.size());
         const host::Buffer view = upload(&scene.view, sizeof(scene.view));
-        const std::vector<uint32_t> noSizes(kSizeRanks);
+        const std::vector<uint32_t> noSizes(2 * kSizeRanks), noWords(kLodSolution);
         const host::Buffer sizes = upload(noSizes.data(), noSizes.size() * 4);
+        const host::Buffer words = upload(noWords.data(), noWords.size() * 4);
 
         std::vector<gpu::BufferViewHandle> views;
         const auto texels = [&](const host::Buffer& buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize range) {
@@ -212,6 +214,7 @@ public:
                 {kListTableBinding, whole(tables)},
                 {kCullViewBinding, whole(view)},
                 {kSizeBinding, whole(sizes)},
+                {kViewWordsBinding, whole(words)},
             };
             sets.write(device_, bounds_.boundsLayout(), w, resources);
             if (w == 0) {
@@ -264,13 +267,9 @@ public:
                                                     {0, static_cast<uint32_t>(scene.host.size()), scene.leastVertices});
                                 gpu::computeBarrier(device_, commands);
                             }
-                            const ListPush push{count,
-                                                static_cast<uint32_t>(scene.arguments.size()),
-                                                0,
-                                                kArgumentStride,
-                                                scene.slots,
-                                                scene.room,
-                                                0};
+                            const ListPush push{count,       static_cast<uint32_t>(scene.arguments.size()),
+                                                0,           kArgumentStride,
+                                                scene.slots, scene.room};
                             bounds_.recordList(dispatches, listSets[0], push);
                             gpu::memoryBarrier(device_, commands,
                                                {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},

@@ -3,6 +3,7 @@
 
 #include "tests/support/crowd.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -11,7 +12,8 @@ namespace supple::test {
 
 class TestView {
 public:
-    TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0, uint32_t maxRuns = 0)
+    TestView(CrowdContext& context, uint32_t maxVertices, uint32_t flags = 0, uint32_t maxRuns = 0,
+             uint64_t coefficientBytes = defaultCoefficientBytes())
         : context_(context) {
         SuppleViewDesc desc{};
         desc.structSize = sizeof(desc);
@@ -19,6 +21,7 @@ public:
         desc.maxVertices = maxVertices;
         desc.vertexFormat = SUPPLE_VERTEX_24;
         desc.maxRuns = maxRuns;
+        desc.coefficientBytes = coefficientBytes;
         EXPECT_EQ(suppleCreateView(context.handle(), &desc, &view_), SUPPLE_OK);
         camera.structSize = sizeof(camera);
         camera.pixelsPerUnit = 869.0f; // 720 lines, 45 degrees
@@ -43,6 +46,12 @@ public:
     }
 
 private:
+    /// SUPPLE_TEST_VIEW_COEFFICIENTS: what suites give their views that do not say it.
+    [[nodiscard]] static uint64_t defaultCoefficientBytes() {
+        const char* asked = std::getenv("SUPPLE_TEST_VIEW_COEFFICIENTS");
+        return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 0;
+    }
+
     CrowdContext& context_;
     SuppleView view_{};
 };

@@ -352,6 +352,13 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
         ->needs(view)
         ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--coefficients", options->coefficients,
+            "MiB of patch coefficients that the view's instances share while they are drawn; 0: memory for all")
+        ->needs(view)
+        ->check(CLI::Range(0u, 4095u))
+        ->capture_default_str();
     command->add_option("--hashes", options->hashes, "Write hashes of the patches that the view drew last")
         ->needs(view)
         ->type_name("OUT.txt");

@@ -72,6 +72,7 @@ Status ProfileStage::createView(std::span<const host::CharacterFile> files) {
     desc.flags = uint32_t{SUPPLE_VIEW_CULL} | (options_.motion ? uint32_t{SUPPLE_VIEW_MOTION} : 0) |
                  (options_.tangents ? uint32_t{SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS} : 0);
     desc.maxVertices = options_.budget;
+    desc.coefficientBytes = uint64_t{options_.coefficients} << 20;
     Status status = check(suppleCreateView(handle(), &desc, &view_), "suppleCreateView");
     if (!status) {
         return status;

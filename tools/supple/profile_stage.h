@@ -25,6 +25,7 @@ struct ProfileOptions {
     bool playback = false;
     bool view = false;
     uint32_t budget = 1000000; ///< of the view
+    uint32_t coefficients = 0; ///< of the view, MiB that its instances share; 0: each has its own
     std::string json, csv, trace, html;
     std::vector<std::string> sweeps;    ///< "instances=1,10", "rate=4,8": as typed
     std::string compare;                ///< an earlier result

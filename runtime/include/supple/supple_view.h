@@ -66,6 +66,11 @@ typedef struct SuppleViewDesc {
      * bind. A character takes a run per class and material, about three to six. FRAGMENTS and POLYGONS take no runs,
      * but a view has at most as many groups of these. */
     uint32_t maxRuns;
+    /** Bytes of patch coefficients that the groups with levels (SUPPLE_TESSELLATION_LEVELS) share, reserved at once;
+     * with MOTION twice. Instances that are drawn in a frame have theirs in it, and no others. Those that find no room
+     * are missing, as those that find no room for vertices: droppedInstanceCount counts them. suppleCreateGroup fails
+     * if an instance has more. 0: each group has memory for the coefficients of as many instances as its capacity. */
+    uint64_t coefficientBytes;
 } SuppleViewDesc;
 
 /** Creates a view without groups. Errors: unknown flags, or flags without the one that they go with; maxVertices below
@@ -246,6 +251,7 @@ typedef struct SuppleViewStatistics {
     uint32_t hiddenPatchCount;      /**< patches of drawn instances that suppleSetPartVisible left out */
     /** Visible instances that were not posed, as they surely are out of sight; instanceCount has them too. */
     uint32_t unposedInstanceCount;
+    uint64_t coefficientBytes; /**< of SuppleViewDesc.coefficientBytes: those that the drawn instances took */
 } SuppleViewStatistics;
 
 /** Statistics of the newest completed frame that recorded the view. SUPPLE_NOT_READY: there is none. Never waits. */
