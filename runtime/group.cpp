@@ -252,10 +252,14 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
 }
 
 Status Group::checkPool() const {
+    constexpr uint64_t kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
+    if (uint64_t{culling_->instanceUnits()} * desc_.capacity > UINT32_MAX) { // the device adds them up
+        return Error{ErrorCode::limit, std::to_string(desc_.capacity) + " instances have more than " +
+                                           std::to_string(kUnitBytes << 32) + " bytes of coefficients"};
+    }
     if (culling_->instanceUnits() <= view_->poolUnits()) {
         return success();
     }
-    constexpr uint64_t kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
     return Error{ErrorCode::limit, "an instance has " + std::to_string(culling_->instanceUnits() * kUnitBytes) +
                                        " bytes of coefficients, the view has room for " +
                                        std::to_string(view_->poolUnits() * kUnitBytes)};
@@ -365,7 +369,7 @@ void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
 
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
     noDraws_.renew();
-    if (view_ != nullptr && view_->poolUnits() > 0) {
+    if (culling_ != nullptr && culling_->instanceUnits() > 0) {
         if (passesFrame_ != view_->recordedBefore()) {
             listing_.forgetAll(); // others have written where its coefficients were
         }

@@ -2,12 +2,13 @@
 
 namespace supple::runtime {
 
-void Transfers::add(VkBuffer buffer, VkDeviceSize offset) {
+void Transfers::add(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
     if (buffer == VK_NULL_HANDLE) {
         return;
     }
     VkBufferMemoryBarrier2 barrier = gpu::bufferBarrier(buffer);
     barrier.offset = offset;
+    barrier.size = size;
     barrier.srcQueueFamilyIndex = families_.compute;
     barrier.dstQueueFamilyIndex = families_.draw;
     take(barrier);

@@ -17,8 +17,8 @@ struct QueueFamilies {
 /// What a group and its view hand over, buffer by buffer. Nothing is kept, so there may be any number of them.
 class Transfers {
 public:
-    /// Null handles are passed over. Bytes from `offset` on change hands.
-    void add(VkBuffer buffer, VkDeviceSize offset = 0);
+    /// Null handles are passed over. `size` bytes from `offset` on change hands.
+    void add(VkBuffer buffer, VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE);
 
 protected:
     explicit Transfers(QueueFamilies families) : families_(families) {}

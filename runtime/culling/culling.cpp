@@ -200,7 +200,12 @@ SuppleBufferRange Culling::bounds() const {
 }
 
 void Culling::addTransfers(Transfers& transfers) const {
-    transfers.add(list_.buffer());
+    // Not the places in the view's pool: the next frame reads them.
+    const VkDeviceSize pools = firstPool() * kWordBytes, behind = firstRateList() * kWordBytes;
+    transfers.add(list_.buffer(), 0, instanceUnits_ > 0 ? pools : VK_WHOLE_SIZE);
+    if (instanceUnits_ > 0) {
+        transfers.add(list_.buffer(), behind);
+    }
     transfers.add(bounds_.buffer());
 }
 

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] const gpu::PlannedBuffer& scratch() const { return scratch_; }
     [[nodiscard]] bool hasMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
     [[nodiscard]] bool sharesPools() const { return desc_.pools[0].buffer() != VK_NULL_HANDLE; }
-    /// The coefficients that no stage writes.
+    /// Own pools. No result depends on coefficients that no stage writes, but kernels may load them.
     [[nodiscard]] ZeroedOnce& clear() { return clear_; }
 
 private:

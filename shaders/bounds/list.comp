@@ -1,6 +1,6 @@
 // List pass: the instances that are seen, in the host's order, the arguments of what is dispatched and drawn for them, and where
-// they have their coefficients.
-// One workgroup; every lane takes a run of entries, so that places follow from counts alone and are the same every time.
+// they have their coefficients. Those places alone depend on which group comes first.
+// One workgroup; every lane takes a run of entries, so that places in lists follow from counts alone and are the same every time.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -34,7 +34,7 @@ void main() {
     for (uint row = 0u; row < 4u; ++row)
         storePool(target + row,
                   weighted(float[6](w[0][row], w[1][row], w[2][row], w[3][row], w[4][row], w[5][row]), tA, tB, B, SA, SB));
-    // The zeros of edges without a perturbation, behind all others.
+    // Edges without a perturbation have these zeros. They lie behind all others.
     if (index == 0u)
         for (uint k = 0u; k < 4u; ++k) pool.at[base + header.inner + 4u * push.count + k] = vec4(0.0);
 }

@@ -4,7 +4,7 @@
 // runs that the view has room for, a number R that kernels are told:
 //   patterns      the words of all capacities (surface/lod/pattern.h)
 //   grids         by form and capacity: (first index, index count) of a draw instance
-//   pool end      how many units of the view's pool have been given away in this frame
+//   pool end      four words, of which the first counts the units of the view's pool that this frame has given away
 //   solution      LodSolution
 //   capacities    by priority and bin: the index of the capacity that patches of the bin take
 //   split         by priority, form and bin: the histogram that the budget is solved with; a patch's weight of

@@ -17,7 +17,7 @@ struct WindowPush {
     uint firstRun;  // of the window, in the view (shared/lod.h)
     // Coefficients in the pool of a view (shared/surface.h):
     uint pools;            // in the list of instances, where the places of its slots begin; 0: the pool is the group's
-    uint lastPool;         // no place is taken for more
+    uint lastPool;         // places behind this one are read as this one
     uint firstCoefficient; // of the surface, in an instance's place
     // Previous positions: how far the origin of the coordinates has moved since the frame that they come from.
     float pastX, pastY, pastZ;

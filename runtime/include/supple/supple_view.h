@@ -67,14 +67,17 @@ typedef struct SuppleViewDesc {
      * but a view has at most as many groups of these. */
     uint32_t maxRuns;
     /** Bytes of patch coefficients that the groups with levels (SUPPLE_TESSELLATION_LEVELS) share, reserved at once;
-     * with MOTION twice. Instances that are drawn in a frame have theirs in it, and no others. Those that find no room
-     * are missing, as those that find no room for vertices: droppedInstanceCount counts them. suppleCreateGroup fails
-     * if an instance has more. 0: each group has memory for the coefficients of as many instances as its capacity. */
+     * with MOTION twice; rounded down to a multiple of 256, at least that. Instances that are drawn in a frame have
+     * theirs in it, and no others. Those that find no room are missing, as those that find no room for vertices, and
+     * droppedInstanceCount counts them: of instances that are equally large to a 64th octave of pixels, all or none.
+     * suppleCreateGroup fails if an instance has more than that. A group that a frame of its view leaves out has no
+     * motion in the next one. 0: each group has memory for the coefficients of as many instances as its capacity. */
     uint64_t coefficientBytes;
 } SuppleViewDesc;
 
 /** Creates a view without groups. Errors: unknown flags, or flags without the one that they go with; maxVertices below
- * 1024 or more than the device can bind (the log names the most); an elasticity outside of 0..1; memory. */
+ * 1024 or more than the device can bind (the log names the most), coefficientBytes below 256 or more than that; an
+ * elasticity outside of 0..1; memory. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
 /** The handle is dead at once. The view's groups keep what they need. They are drawn and culled as before, from the
  * camera that was set last. The depth pyramid is dropped: from the next suppleRecord on it hides nothing. */
@@ -233,8 +236,8 @@ SUPPLE_API SuppleResult suppleReadInstanceBounds(SuppleContext context, SuppleIn
 typedef struct SuppleViewStatistics {
     uint32_t structSize;
     /** 1: scaling down by elasticity was not enough, so all priorities were scaled further down alike. If even the
-     * coarsest levels did not fit, whole instances are missing: of the priorities with the largest elasticity first,
-     * and in each the smallest first. 0: it was enough. */
+     * coarsest levels did not fit, or the coefficients, whole instances are missing: of the priorities with the largest
+     * elasticity first, and in each the smallest first. 0: it was enough. */
     uint32_t shortfall;
     uint64_t frame; /**< of suppleBeginFrame */
     /** By priority: the factor that levels were multiplied by; 1 within the budget. */
