@@ -5,6 +5,7 @@
 #include "tests/tools/baked_files.h"
 #include "tests/tools/command_runner.h"
 #include "tests/tools/obj_file.h"
+#include "tools/common/word_hash.h"
 #include "tools/gltf/writer.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <sstream>
 #include <tuple>
 
 namespace supple::test {
@@ -537,6 +539,73 @@ TEST_F(BakeFiles, KhronosValidatorFindsNothing) {
     }
     EXPECT_EQ(clean, count) << outcome.out;
     std::printf("%zu files\n", count);
+}
+
+TEST(WordHashes, AreThoseOfTheSpecification) {
+    const auto hashOf = [](std::vector<uint32_t> words) {
+        tools::WordHash hash;
+        hash.add(std::as_bytes(std::span(words)));
+        return hash.value();
+    };
+    EXPECT_EQ(hashOf({}), 0u);
+    EXPECT_EQ(hashOf({0}), 0x3c237f2000000000u);
+    EXPECT_EQ(hashOf({1, 2, 3, 0x3F800000, 0xFFFFFFFF}), 0x4e6e43e68e0e5c17u);
+    std::vector<uint32_t> many(1000);
+    for (uint32_t i = 0; i < many.size(); ++i) {
+        many[i] = i * 2654435761u;
+    }
+    EXPECT_EQ(hashOf(many), 0x14224931f5cbee20u);
+    std::swap(many[3], many[7]);
+    EXPECT_NE(hashOf(many), 0x14224931f5cbee20u) << "the place counts";
+}
+
+/// The lines of `bake --hash` by their first words.
+std::map<std::string, std::string> hashesIn(const std::string& text) {
+    std::map<std::string, std::string> hashes;
+    std::istringstream lines(text);
+    for (std::string name, hash; lines >> name >> hash;) {
+        hashes[name] = hash;
+    }
+    return hashes;
+}
+
+TEST_F(BakeFiles, HashesTellWhatDiffers) {
+    const auto hashes = [&](const std::string& arguments) {
+        const Outcome outcome = runOnDevice("bake " + kSamplePip + " --hash " + arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return hashesIn(outcome.out);
+    };
+    const std::string pose = "--scheme pm --rate 2 --clip walk --time 0.4";
+    const std::map<std::string, std::string> walks = hashes(pose);
+    ASSERT_EQ(walks.size(), 3u);
+    for (const auto& [name, hash] : walks) {
+        EXPECT_EQ(hash.size(), 16u) << name;
+    }
+    std::map<std::string, std::string> wide = hashes(pose + " --mapping wide");
+    EXPECT_EQ(wide.at("palette"), walks.at("palette"));
+    EXPECT_EQ(wide.at("cage"), walks.at("cage"));
+    const std::map<std::string, std::string> later = hashes("--scheme pm --rate 2 --clip walk --time 0.5");
+    for (const char* name : {"palette", "cage", "surface"}) {
+        EXPECT_NE(later.at(name), walks.at(name)) << name;
+    }
+    const std::map<std::string, std::string> finer = hashes("--scheme pm --rate 4 --clip walk --time 0.4");
+    EXPECT_EQ(finer.at("cage"), walks.at("cage"));
+    EXPECT_NE(finer.at("surface"), walks.at("surface"));
+
+    // The cage that is written beside it has the words of the hash.
+    const std::map<std::string, std::string> cage =
+        hashes("--scheme cage --clip walk --time 0.4 -o " + file("cage.obj").string());
+    EXPECT_EQ(cage.size(), 2u);
+    EXPECT_EQ(cage.at("cage"), walks.at("cage"));
+    tools::WordHash written;
+    for (const glm::vec3& position : readObj(file("cage.obj")).v) {
+        const glm::vec4 vertex(position, 1.0f);
+        written.add(std::as_bytes(std::span(&vertex[0], 4)));
+    }
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(written.value()));
+    EXPECT_EQ(cage.at("cage"), text);
+    EXPECT_EQ(runOnDevice("bake " + kSamplePip).exitCode, 2) << "neither a file nor hashes";
 }
 
 } // namespace

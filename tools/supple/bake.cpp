@@ -1,6 +1,7 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
+#include "tools/common/word_hash.h"
 #include "tools/gltf/writer.h"
 #include "tools/supple/baked_mesh.h"
 #include "tools/supple/baked_obj.h"
@@ -13,10 +14,12 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace supple::tools {
 namespace {
@@ -29,6 +32,7 @@ struct BakeOptions {
     std::string patches;
     std::string basis = "stored"; ///< of the patches
     bool noTangentFrames = false;
+    bool hash = false;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
@@ -59,10 +63,10 @@ std::string bakeName(const std::string& text) {
 /// With all that the file has a place for.
 Result<Evaluation> evaluateForBake(Session& session, SuppleAsset asset, const cage::Character& character,
                                    const BakeOptions& options, const Pose& pose) {
-    const BakeFormat format = *bakeFormatOf(options.output);
+    const std::optional<BakeFormat> format = bakeFormatOf(options.output); // nothing: there is no file
     const bool surface = options.surface.scheme != kCageScheme;
-    const bool uvs = !character.cage.cornerUvs.empty();
-    const bool colors = format != BakeFormat::obj && !character.cage.cornerColors.empty();
+    const bool uvs = format && !character.cage.cornerUvs.empty();
+    const bool colors = format && format != BakeFormat::obj && !character.cage.cornerColors.empty();
     uint32_t flags = 0;
     if (surface && (uvs || colors)) {
         flags |= SUPPLE_GROUP_ATTRIBUTES;
@@ -98,6 +102,26 @@ Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, con
         warn(character.name + ": " + warning);
     }
     return host::writeWhole(options.output, file->bytes);
+}
+
+/// Of what the device wrote: of the instance, without padding.
+void printHashes(const Evaluation& baked, bool hasSurface) {
+    const auto print = [](const char* name, const WordHash& hash) {
+        std::printf("%-7s %016llx\n", name, static_cast<unsigned long long>(hash.value()));
+    };
+    const SuppleGroupInfo& info = baked.surfaces.front().output.info;
+    WordHash palette, cage, surface;
+    palette.add(baked.palette);
+    print("palette", palette);
+    cage.add(std::span(baked.deformedCage).first(size_t{info.cageVertexCount} * info.deformedCage.stride));
+    print("cage", cage);
+    for (const EvaluatedSurface& own : baked.surfaces) {
+        const size_t bytes = size_t{own.output.grid.vertexCount} * own.output.streams.vertices.stride;
+        surface.add(std::span(own.vertices).first(bytes));
+    }
+    if (hasSurface) {
+        print("surface", surface);
+    }
 }
 
 Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cage::Character& character) {
@@ -150,11 +174,14 @@ int runBake(const BakeOptions& options) {
         }
         const PatchBasis basis = options.basis == "bezier" ? PatchBasis::bezier : PatchBasis::stored;
         Status status = checkBasis(*baked, basis);
-        if (status) {
+        if (status && !options.output.empty()) {
             status = writeBaked(options, *baked, file->character);
         }
         if (status && !options.patches.empty()) {
             status = writePatches(options.patches, *baked, basis);
+        }
+        if (status && options.hash) {
+            printHashes(*baked, options.surface.scheme != kCageScheme);
         }
         return status;
     });
@@ -171,7 +198,6 @@ void bindBake(CLI::App& app, int& exitCode) {
             "-o,--output", options->output,
             "File to write. GLB: with materials, for any viewer; PLY: vertices and faces; OBJ: patch by patch, "
             "exactly as the device wrote it")
-        ->required()
         ->check(CLI::Validator(bakeName, ""))
         ->type_name("OUT.glb|OUT.ply|OUT.obj");
     command->add_flag("--no-tangent-frames", options->noTangentFrames,
@@ -185,6 +211,10 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"stored", "bezier"}))
         ->capture_default_str()
         ->needs(command->get_option("--patches"));
+    command->add_flag(
+        "--hash", options->hash,
+        "Print hashes of the words that the device wrote: joint palette and morph weights, deformed cage, "
+        "surface vertices. Then no file need be written");
     bindSurface(*command, options->surface, {kCageScheme});
     bindPose(*command, options->clip, options->time);
     command->add_flag("--rest-pose", options->restPose, "The rest pose instead: as the nodes of the file stand")
@@ -193,6 +223,9 @@ void bindBake(CLI::App& app, int& exitCode) {
     bindModifiers(*command, options->modifiers);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
+        if (options->output.empty() && !options->hash) {
+            throw CLI::RequiredError("--output");
+        }
         checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles),
                      {{"--output", options->output}, {"--patches", options->patches}});
         exitCode = runBake(*options);
