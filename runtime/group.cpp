@@ -252,17 +252,16 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
 }
 
 Status Group::checkPool() const {
-    constexpr uint64_t kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
     if (uint64_t{culling_->instanceUnits()} * desc_.capacity > UINT32_MAX) { // the device adds them up
         return Error{ErrorCode::limit, std::to_string(desc_.capacity) + " instances have more than " +
-                                           std::to_string(kUnitBytes << 32) + " bytes of coefficients"};
+                                           std::to_string(kPoolUnitBytes << 32) + " bytes of coefficients"};
     }
     if (culling_->instanceUnits() <= view_->poolUnits()) {
         return success();
     }
-    return Error{ErrorCode::limit, "an instance has " + std::to_string(culling_->instanceUnits() * kUnitBytes) +
+    return Error{ErrorCode::limit, "an instance has " + std::to_string(culling_->instanceUnits() * kPoolUnitBytes) +
                                        " bytes of coefficients, the view has room for " +
-                                       std::to_string(view_->poolUnits() * kUnitBytes)};
+                                       std::to_string(view_->poolUnits() * kPoolUnitBytes)};
 }
 
 void Group::planBounds(const GroupShared& shared, gpu::BufferPlan& device) {

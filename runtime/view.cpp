@@ -1,7 +1,6 @@
 #include "runtime/view.h"
 
 #include "runtime/culling/bounds_kernels.h"
-#include "shaders/shared/surface.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
@@ -35,7 +34,6 @@ static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
 /// Where the view's pool ends, and the solution behind it.
 constexpr VkDeviceSize kSolvedBytes = (kLodSolution - kLodPoolEnd) * VkDeviceSize{4} + sizeof(LodSolution);
-constexpr VkDeviceSize kUnitBytes = kPoolUnit * gpu::kVec4Bytes;
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
 constexpr VkDeviceSize kRunBytes = VkDeviceSize{kLodRunWords} * 4;
 static_assert(sizeof(LodDispatch) == 4 * kLodDispatchWords &&
@@ -148,11 +146,11 @@ Status View::planPools(gpu::BufferPlan& plan) {
                                            "most " +
                                            std::to_string(most)};
     }
-    poolUnits_ = static_cast<uint32_t>(desc_.coefficientBytes / kUnitBytes);
+    poolUnits_ = static_cast<uint32_t>(desc_.coefficientBytes / kPoolUnitBytes);
     const bool motion = (desc_.flags & SUPPLE_VIEW_MOTION) != 0;
     const uint32_t count = poolUnits_ == 0 ? 0 : motion ? 2 : 1;
     for (uint32_t p = 0; p < count; ++p) {
-        pools_[p] = plan.add({"supple view, coefficients", poolUnits_ * kUnitBytes,
+        pools_[p] = plan.add({"supple view, coefficients", poolUnits_ * kPoolUnitBytes,
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                               gpu::MemoryPurpose::coefficients});
     }
@@ -444,7 +442,7 @@ SuppleViewStatistics View::read(size_t place) const {
     uint32_t units = 0;
     std::memcpy(&units, from, sizeof(units));
     SuppleViewStatistics read{};
-    read.coefficientBytes = units * kUnitBytes;
+    read.coefficientBytes = units * kPoolUnitBytes;
     read.frame = solved.frame;
     std::copy_n(solution.scale, kPriorityCount, read.levelScales);
     read.vertexCount = solution.vertices;

@@ -7,6 +7,7 @@
 #include "runtime/vertex_streams.h"
 #include "shaders/shared/bounds.h"
 #include "shaders/shared/lod.h"
+#include "shaders/shared/surface.h"
 #include "supple/supple.h"
 #include "surface/programs.h"
 
@@ -17,6 +18,9 @@
 #include <vector>
 
 namespace supple::runtime {
+
+/// What the pool of a view is given away by.
+inline constexpr VkDeviceSize kPoolUnitBytes = shared::kPoolUnit * gpu::kVec4Bytes;
 
 class View final : public gpu::FrameMembers {
 public:

@@ -1,7 +1,6 @@
 // supple_view.h.
 #include "runtime/api/entry.h"
 #include "runtime/vertex_streams.h"
-#include "shaders/shared/surface.h"
 
 #include <bit>
 
@@ -37,7 +36,7 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
         if (desc.maxRuns > SUPPLE_MAX_VIEW_RUNS) {
             return refuse(context, ErrorCode::range, kHere, "maxRuns is above SUPPLE_MAX_VIEW_RUNS");
         }
-        if (desc.coefficientBytes > 0 && desc.coefficientBytes < shared::kPoolUnit * gpu::kVec4Bytes) {
+        if (desc.coefficientBytes > 0 && desc.coefficientBytes < runtime::kPoolUnitBytes) {
             return refuse(context, ErrorCode::range, kHere, "coefficientBytes is below 256");
         }
         if (!std::all_of(std::begin(desc.elasticities), std::end(desc.elasticities),

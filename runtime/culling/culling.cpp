@@ -21,7 +21,8 @@ VkDescriptorBufferInfo whole(VkBuffer buffer) {
 } // namespace
 
 uint32_t Culling::firstPool() const {
-    const uint32_t first = (3 + DrawnParts::wordsOf(partCount())) * windows_->capacity;
+    const uint32_t capacity = windows_->capacity,
+                   first = firstMask(capacity) + DrawnParts::wordsOf(partCount()) * capacity;
     return first + first % 2; // harness.glsl tells a slot's two words apart by the lowest bit
 }
 

@@ -82,7 +82,7 @@ public:
                              uint64_t generation);
     /// Units of the view's pool that an instance takes.
     [[nodiscard]] uint32_t instanceUnits() const { return instanceUnits_; }
-    /// Of the view's two pools, that which the frame writes.
+    /// The frame writes this one of the view's two pools.
     void takePool(uint32_t pool) { pool_ = pool; }
     /// What the listed instances need, each `leastVertices` at least. Only if that may be more than there is.
     void recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const;

@@ -1,11 +1,11 @@
 // What the passes of all surface schemes share: descriptor bindings, push constants, the records evaluation reads.
 //
 // Coefficient pool: vec4 elements, one run of `poolStride` an instance; what lies where is the scheme's (shared/prep.h,
-// shared/pm.h). A group has a run for every slot. In the pool of a view only instances that are drawn have a place, which holds the
-// runs of all their surfaces. The list pass says where it begins, in units of kPoolUnit. Every scheme stores canonical values: no -0. Limit points are positions; tangents and face
-// coefficients are offsets from their corner's limit point, so that beside sharp creases, where they are small, they
-// keep all of float's digits however far from the origin the patch lies. A coefficient's position is always the one sum
-// limit point + offset, so that both sides of a border see the same bits.
+// shared/pm.h). A group has a run for every slot. In the pool of a view only instances that are drawn have a place, which holds
+// the runs of all their surfaces. The list pass says where it begins, in units of kPoolUnit. Every scheme stores canonical
+// values: no -0. Limit points are positions; tangents and face coefficients are offsets from their corner's limit point, so
+// that beside sharp creases, where they are small, they keep all of float's digits however far from the origin the patch lies.
+// A coefficient's position is always the one sum limit point + offset, so that both sides of a border see the same bits.
 //
 // Tables (one block, read as uvec4 or as uint) begin with their header (shared/table_header.h) and with what the scheme's
 // construction needs. They end with

@@ -1,5 +1,5 @@
-// A hash of 32-bit words as a sum over them, so that it may be added up in any order: two sums of what is mixed of a
-// word and its place. It tells apart what differs by chance. It is not cryptographic.
+// A hash of 32-bit words: two sums over them, each of a mix of the word and its place, so that lanes of a device could
+// add it up in any order. It finds accidental differences. It is not cryptographic.
 #pragma once
 
 #include <cstddef>

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace supple::tools {
 namespace {
@@ -104,24 +105,56 @@ Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, con
     return host::writeWhole(options.output, file->bytes);
 }
 
-/// Of what the device wrote: of the instance, without padding.
-void printHashes(const Evaluation& baked, bool hasSurface) {
-    const auto print = [](const char* name, const WordHash& hash) {
-        std::printf("%-7s %016llx\n", name, static_cast<unsigned long long>(hash.value()));
-    };
+/// The joint palette with the morph weights behind it, as SuppleGroupInfo.poses has them, without padding.
+Result<std::vector<std::byte>> readPalette(Session& session, SuppleAsset asset, SuppleSkinning skinning,
+                                           const SuppleBufferRange& poses) {
+    SuppleAssetInfo info{};
+    info.structSize = sizeof info;
+    const Status status =
+        session.context->check(suppleGetAssetInfo(session.context->handle(), asset, &info), "suppleGetAssetInfo");
+    if (!status) {
+        return status.error();
+    }
+    Result<std::vector<std::byte>> palette = session.device->readBuffer(poses);
+    if (palette) {
+        const size_t joints = info.jointCount;
+        const size_t rows = skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? 3 + 4 * joints : 3 * joints;
+        palette->resize(sizeof(float) * (4 * rows + info.morphTargetCount));
+    }
+    return palette;
+}
+
+void printHash(const char* name, const WordHash& hash) {
+    std::printf("%-7s %016llx\n", name, static_cast<unsigned long long>(hash.value()));
+}
+
+/// The hashes of what the device wrote for the instance, without padding.
+void printHashes(std::span<const std::byte> palette, const Evaluation& baked, bool hasSurface) {
     const SuppleGroupInfo& info = baked.surfaces.front().output.info;
-    WordHash palette, cage, surface;
-    palette.add(baked.palette);
-    print("palette", palette);
-    cage.add(std::span(baked.deformedCage).first(size_t{info.cageVertexCount} * info.deformedCage.stride));
-    print("cage", cage);
-    for (const EvaluatedSurface& own : baked.surfaces) {
-        const size_t bytes = size_t{own.output.grid.vertexCount} * own.output.streams.vertices.stride;
-        surface.add(std::span(own.vertices).first(bytes));
+    WordHash ofPalette, ofCage, ofSurface;
+    ofPalette.add(palette);
+    ofCage.add(std::span(baked.deformedCage).first(size_t{info.cageVertexCount} * info.deformedCage.stride));
+    printHash("palette", ofPalette);
+    printHash("cage", ofCage);
+    if (!hasSurface) {
+        return;
     }
-    if (hasSurface) {
-        print("surface", surface);
+    for (const EvaluatedSurface& surface : baked.surfaces) {
+        const size_t bytes = size_t{surface.output.grid.vertexCount} * surface.output.streams.vertices.stride;
+        ofSurface.add(std::span(surface.vertices).first(bytes));
     }
+    printHash("surface", ofSurface);
+}
+
+/// Reads what only the hashes need, and prints them.
+Status writeHashes(Session& session, SuppleAsset asset, const BakeOptions& options, const Evaluation& baked) {
+    const Result<std::vector<std::byte>> palette =
+        readPalette(session, asset, skinningOf(options.surface.skinning), baked.surfaces.front().output.info.poses);
+    if (!palette) {
+        return palette.error();
+    }
+    printHashes(*palette, baked, options.surface.scheme != kCageScheme);
+    return success();
 }
 
 Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cage::Character& character) {
@@ -181,7 +214,7 @@ int runBake(const BakeOptions& options) {
             status = writePatches(options.patches, *baked, basis);
         }
         if (status && options.hash) {
-            printHashes(*baked, options.surface.scheme != kCageScheme);
+            status = writeHashes(session, *asset, options, *baked);
         }
         return status;
     });

@@ -63,20 +63,12 @@ Result<Evaluation> readGroup(Session& session, SuppleGroup group) {
         count = surface->output.info.surfaceCount;
         result.surfaces.push_back(std::move(*surface));
     }
-    const SuppleGroupInfo& info = result.surfaces.front().output.info;
-    Status status = readBack(*session.device, info.deformedCage, result.deformedCage);
-    status = status ? readBack(*session.device, info.poses, result.palette) : status;
+    const Status status =
+        readBack(*session.device, result.surfaces.front().output.info.deformedCage, result.deformedCage);
     if (!status) {
         return status.error();
     }
     return result;
-}
-
-/// The bytes that an instance has of SuppleGroupInfo.poses.
-size_t paletteBytes(SuppleSkinning skinning, const SuppleAssetInfo& info) {
-    const size_t joints = info.jointCount;
-    const bool dual = skinning == SUPPLE_SKINNING_DUAL_QUATERNION;
-    return sizeof(float) * ((dual ? 12 + 16 * joints : 12 * joints) + info.morphTargetCount);
 }
 
 /// A clip may move a vertex anywhere: a chain of large scales ends beyond what floats hold.
@@ -177,15 +169,8 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     if (!status) {
         return status.error();
     }
-    SuppleAssetInfo info{};
-    info.structSize = sizeof info;
-    status = context.check(suppleGetAssetInfo(context.handle(), asset, &info), "suppleGetAssetInfo");
-    if (!status) {
-        return status.error();
-    }
     Result<Evaluation> evaluation = readGroup(session, group);
     if (evaluation) {
-        evaluation->palette.resize(paletteBytes(desc.skinning, info));
         status = checkCage(*evaluation, character);
     }
     if (evaluation && status) {

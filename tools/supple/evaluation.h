@@ -32,7 +32,6 @@ struct EvaluatedSurface {
 };
 struct Evaluation {
     std::vector<EvaluatedSurface> surfaces; ///< one or more
-    std::vector<std::byte> palette; ///< joints and morph weights, as SuppleGroupInfo.poses has them, without padding
     std::vector<std::byte> deformedCage;
     /// Per face of the cage: 1 if the pose mirrors it (host::shared::isMirrored). Winding and normals of what the
     /// device wrote show the inside of such a face as the outside.

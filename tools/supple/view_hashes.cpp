@@ -1,30 +1,17 @@
 #include "tools/supple/view_hashes.h"
 
 #include "host/group_output.h"
+#include "tools/common/word_hash.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace supple::tools {
 namespace {
-
-/// FNV-1a, 64 bits.
-class Hash {
-public:
-    void add(const void* bytes, size_t count) {
-        const auto* byte = static_cast<const unsigned char*>(bytes);
-        for (size_t i = 0; i < count; ++i) {
-            value_ = (value_ ^ byte[i]) * 0x100000001B3u;
-        }
-    }
-    [[nodiscard]] uint64_t value() const { return value_; }
-
-private:
-    uint64_t value_ = 0xCBF29CE484222325u;
-};
 
 /// Group; slot; patch; capacity or rate; hash of the levels; hash of the vertices.
 using Line = std::array<uint64_t, 6>;
@@ -65,9 +52,9 @@ private:
         return values;
     }
 
-    void addVertices(Hash& hash, size_t first, size_t count) const {
+    void addVertices(WordHash& hash, size_t first, size_t count) const {
         for (const Stream& stream : streams_) {
-            hash.add(stream.bytes.data() + first * stream.stride, count * stream.stride);
+            hash.add(std::span(stream.bytes).subspan(first * stream.stride, count * stream.stride));
         }
     }
 
@@ -83,9 +70,8 @@ private:
             const auto [firstPatch, firstVertex, patchCount, unused] = (*buckets)[draw];
             for (uint32_t i = 0; i < patchCount; ++i) {
                 const Record& record = (*records)[firstPatch + i];
-                Hash levels;
-                levels.add(&record[4], sizeof(Record) - 4 * sizeof(uint32_t));
-                Hash vertices;
+                WordHash levels, vertices;
+                levels.add(std::as_bytes(std::span(record).subspan(4)));
                 addVertices(vertices, record[2], output_.levels.draws[draw].samplesPerPatch);
                 lines_.push_back({group_, record[1] & 0x0FFFFFFFu, record[0], output_.levels.draws[draw].capacity,
                                   levels.value(), vertices.value()});
@@ -110,7 +96,7 @@ private:
             const uint32_t instances = (*commands)[rate.firstDrawRange].instanceCount / patches;
             for (uint32_t i = 0; i < instances; ++i) {
                 const size_t base = size_t{(*slots)[i]} * output_.grid.verticesPerInstance;
-                Hash vertices;
+                WordHash vertices;
                 for (uint32_t d = 0; d < rate.drawRangeCount; ++d) {
                     const SuppleDrawRange& range = output_.grid.drawRanges[rate.firstDrawRange + d];
                     addVertices(vertices, base + range.firstVertex, size_t{range.patchCount} * range.samplesPerPatch);
