@@ -120,7 +120,9 @@ Status Group::createInstances(const GroupShared& shared) {
     }
     Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
         {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
-         shared.firstGeneration, shared.framesInFlight, (desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, shared.handsOver});
+         shared.firstGeneration, shared.framesInFlight,
+         StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0},
+         shared.handsOver});
     if (!instances) {
         return instances.error();
     }

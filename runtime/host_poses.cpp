@@ -39,7 +39,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
         states_.resize(size_t{instanceCount} * 4 * kStateElements);
         locals_.resize(instanceCount * table.nodes.size());
         hasLocals_.resize(instanceCount, 0);
-        twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0));
+        twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
     }
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);

@@ -28,7 +28,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
         status = desc.pose->prepare(desc.mode);
     }
-    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.modifiers)) {
+    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers)) {
         status = desc.asset->makeClips(*desc.device);
     }
     if (!status) {
@@ -48,7 +48,7 @@ uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
 BoundBytes InstanceSet::boundBytes(bool windowed) const {
     const skinning::PoseLayout layout = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
     return {std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes,
-                     poseWindowBytes(desc_.source, *desc_.asset, layout, desc_.modifiers)),
+                     poseWindowBytes(desc_.source, *desc_.asset, layout, desc_.room)),
             0};
 }
 
@@ -58,7 +58,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
     poses_ = makePoseSource(desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity,
-                                           desc_.framesInFlight, desc_.modifiers});
+                                           desc_.framesInFlight, desc_.room});
     addMember(*poses_);
     addMember(userData_);
     addMember(creaseAlphas_);

@@ -26,7 +26,7 @@ public:
         uint32_t capacity = 0;
         uint32_t firstGeneration = 1;
         uint32_t framesInFlight = 2;
-        bool modifiers = false; ///< instances may have some
+        StateRoom room;
         bool handsOver = false; ///< to another queue family: user data is written anew in every frame
     };
     /// Prepares the pipelines.

@@ -20,8 +20,19 @@ uint32_t padded(uint32_t elements) {
     return (elements + kPadding - 1) / kPadding * kPadding;
 }
 
-uint32_t stateStride(const skinning::PoseLayout& layout, bool modifiers) {
-    return padded(skinning::PlaybackState::elements(layout.morphCount, modifiers ? kMaxModifiers : 0));
+uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,
+                            const StateRoom& room) {
+    return room.transitions ? skinning::transitionElements(static_cast<uint32_t>(table.nodes.size()), layout.morphCount)
+                            : 0;
+}
+
+/// Where the transition begins in a state.
+uint32_t transitionBegin(const skinning::PoseLayout& layout, const StateRoom& room) {
+    return skinning::PlaybackState::elements(layout.morphCount, room.modifiers ? kMaxModifiers : 0);
+}
+
+uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
+    return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
 }
 
 uint32_t scratchStride(const skinning::ClipTable& table) {
@@ -36,8 +47,9 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 
 } // namespace
 
-VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, bool modifiers) {
-    return std::max(stateStride(layout, modifiers), scratchStride(*asset.clipTable)) * gpu::kVec4Bytes;
+VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
+    const skinning::ClipTable& table = *asset.clipTable;
+    return std::max(stateStride(table, layout, room), scratchStride(table)) * gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
@@ -58,28 +70,38 @@ Result<Playback> Playback::create(const Desc& desc) {
     push.levelCount = table.levelCount;
     push.restWeights = table.restWeights;
     push.clips = table.clips;
-    push.stateStride = stateStride(desc.layout, desc.modifiers);
+    push.stateStride = stateStride(table, desc.layout, desc.room);
+    push.transition = transitionBegin(desc.layout, desc.room);
     push.maskStride = skinning::maskElements(table);
     push.scratchStride = scratchStride(table);
     push.poseStride = desc.layout.stride;
     push.morphWeights = desc.layout.morphWeights;
+    playback.transitionElements_ = transitionElements(table, desc.layout, desc.room);
     playback.mode_ = desc.layout.mode;
 
-    playback.modifiers_ = InstanceModifiers(desc.modifiers ? desc.capacity : 0, push.morphCount);
+    playback.modifiers_ = InstanceModifiers(desc.room.modifiers ? desc.capacity : 0, push.morphCount);
     playback.states_.resize(size_t{desc.capacity} * push.stateStride * 4);
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
-    playback.twin_ = skinning::PoseTwin(table, desc.layout);
+    playback.twin_ = skinning::PoseTwin(table, desc.layout, push.transition);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ = PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion,
-                                    desc.modifiers, desc.capacity);
+                                    desc.room.modifiers, desc.capacity);
     playback.versions_.resize(desc.capacity, 1);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
-    // Runs of slots with others between; of states of which only the beginning is used, each by itself.
-    playback.regions_.reserve(desc.modifiers ? size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
+    // Runs of slots with others between; of states of which only parts are used, each part by itself.
+    const bool inParts = desc.room.modifiers || desc.room.transitions;
+    playback.regions_.reserve(inParts ? 2 * size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
+    if (desc.room.transitions) {
+        playback.transitionDue_.resize(desc.capacity, false);
+        for (skinning::SampledPose* const pose :
+             {&playback.ends_.before, &playback.ends_.shown, &playback.ends_.played, &playback.ends_.after}) {
+            pose->assign(playback.twin_.locals(), playback.twin_.weights());
+        }
+    }
     Status status = playback.createBuffers(desc);
     if (status) {
         status = playback.createSets(desc);
@@ -165,8 +187,7 @@ Status Playback::createSets(const Desc& desc) {
 }
 
 skinning::PlaybackState Playback::state(uint32_t slot) {
-    const size_t words = size_t{push_.stateStride} * 4;
-    return skinning::PlaybackState(std::span(states_).subspan(slot * words, words));
+    return skinning::PlaybackState(stateWords(slot));
 }
 
 void Playback::markChanged(uint32_t slot) {
@@ -185,8 +206,7 @@ void Playback::forget(uint32_t slot) {
 
 void Playback::evaluate(uint32_t slot) {
     if (evaluated_ != slot) {
-        const size_t words = size_t{push_.stateStride} * 4;
-        twin_.pose(std::span(states_).subspan(slot * words, words), masks_, time_);
+        twin_.pose(stateWords(slot), masks_, time_);
         evaluated_ = slot;
     }
 }
@@ -225,10 +245,52 @@ void Playback::reset(uint32_t slot) {
     setTransform(slot, glm::mat4(1.0f));
 }
 
-void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
+void Playback::sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose) {
+    if (modified) {
+        twin_.pose(stateWords(slot), masks_, time);
+    } else {
+        twin_.sample(stateWords(slot), masks_, time);
+    }
+    pose.assign(twin_.locals(), twin_.weights());
+    evaluated_ = kNoSlot;
+}
+
+void Playback::keepShown(uint32_t slot, const GoingOver& over) {
+    sample(slot, time_ - kTransitionStep, over.fromModified, ends_.before);
+    sample(slot, time_, over.fromModified, ends_.shown);
+}
+
+void Playback::startTransition(uint32_t slot, const GoingOver& over) {
+    if (over.kind == skinning::TransitionKind::quintic) {
+        sample(slot, time_, false, ends_.played);
+        sample(slot, time_ + kTransitionStep, false, ends_.after);
+    }
+    skinning::writeTransition({over.kind, time_, over.seconds}, ends_,
+                              stateWords(slot).subspan(4 * size_t{push_.transition}, 4 * size_t{transitionElements_}));
+    state(slot).setInTransition(true);
+    transitionDue_[slot] = true;
+    const double end = time_ + static_cast<double>(over.seconds);
+    bounds_.setTransition(slot, end);
+    transitionsEnd_ = transits_ ? std::max(transitionsEnd_, end) : end;
+    transits_ = true;
+}
+
+void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const GoingOver& over) {
     forget(slot);
-    state(slot).set(asset_->character, *asset_->clipTable, desc);
+    skinning::PlaybackState own = state(slot);
+    const bool starts = over.seconds > 0.0f && !own.inBindPose(), keeps = over.keeps && own.isInTransition();
+    const double end = bounds_.transitionEnd(slot);
+    if (starts) {
+        keepShown(slot, over);
+    }
+    own.set(asset_->character, *asset_->clipTable, desc);
     bounds_.set(slot, desc);
+    if (starts) {
+        startTransition(slot, over);
+    } else if (keeps) {
+        own.setInTransition(true);
+        bounds_.setTransition(slot, end);
+    }
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
         adds_ = adds_ || layer.mode == skinning::LayerMode::additive;
@@ -398,6 +460,8 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         adds_ = other.adds_;
         roots_ = other.roots_;
         modifies_ = other.modifies_;
+        transits_ = other.transits_;
+        transitionsEnd_ = other.transitionsEnd_;
         modifiers_.takeOver(other.modifiers_, count);
         const size_t words = size_t{push_.stateStride} * 4 * count;
         std::copy_n(other.states_.begin(), words, states_.begin());
@@ -410,9 +474,22 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
             reset(slot);
             takeOverState(other, slot, match);
         }
+        if (takesTransitions()) {
+            transitionDue_[slot] = state(slot).isInTransition();
+        }
         transforms_[slot] = other.transforms_[slot];
         setPosition(slot, other.positions_[slot]);
     }
+}
+
+void Playback::stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes) {
+    std::memcpy(staging_.mapped(kStateStaging) + from, states_.data() + to / sizeof(uint32_t), bytes);
+    if (!regions_.empty() && regions_.back().dstOffset + regions_.back().size == to) {
+        regions_.back().size += bytes;
+    } else {
+        regions_.push_back({from, to, bytes});
+    }
+    from += bytes;
 }
 
 VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -425,14 +502,12 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
         const VkDeviceSize first = run * capacity_ * stateBytes();
         VkDeviceSize from = first;
         for (const uint32_t slot : changedSlots_) {
-            const VkDeviceSize to = slot * stateBytes(), size = usedBytes(slot);
-            std::memcpy(staging_.mapped(kStateStaging) + from, states_.data() + to / sizeof(uint32_t), size);
-            if (!regions_.empty() && regions_.back().dstOffset + regions_.back().size == to) {
-                regions_.back().size += size;
-            } else {
-                regions_.push_back({from, to, size});
+            const VkDeviceSize to = slot * stateBytes();
+            stage(from, to, usedBytes(slot));
+            if (takesTransitions() && transitionDue_[slot]) {
+                stage(from, to + push_.transition * gpu::kVec4Bytes, transitionElements_ * gpu::kVec4Bytes);
+                transitionDue_[slot] = false;
             }
-            from += size;
             changed_[slot] = false;
         }
         device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(kStateStaging), buffers_.buffer(kStates),
@@ -455,7 +530,7 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
 }
 
 VkDeviceSize Playback::usedBytes(uint32_t slot) {
-    return takesModifiers()
+    return takesModifiers() || takesTransitions()
                ? VkDeviceSize{skinning::PlaybackState::elements(push_.morphCount, state(slot).modifierCount())} * 16
                : stateBytes();
 }
@@ -464,9 +539,18 @@ void Playback::cancelUpload(uint64_t frame) {
     if (uploadFrame_ == frame) {
         for (const uint32_t slot : uploadedSlots_) {
             markChanged(slot);
+            if (takesTransitions()) {
+                transitionDue_[slot] = state(slot).isInTransition();
+            }
         }
     }
     masksChanged_ = masksChanged_ || masksFrame_ == frame;
+}
+
+skinning::PoseKernels::Locals Playback::locals() const {
+    using Locals = skinning::PoseKernels::Locals;
+    const bool inTransition = transits_ && time_ < transitionsEnd_;
+    return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
 }
 
 void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const {
@@ -478,7 +562,7 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, u
     push.instanceCount = count;
     switch (part) {
     case Part::locals:
-        kernels_->recordLocals(dispatches, sets_[window], adds_, push);
+        kernels_->recordLocals(dispatches, sets_[window], locals(), push);
         break;
     case Part::roots:
         kernels_->recordRoots(dispatches, sets_[window], push);
@@ -497,9 +581,9 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     gpu::Dispatches& dispatches = *own;
     const gpu::BoundSet& set = sets_[0];
     const PosePush none{}; // of no instances
-    for (const bool adds : {false, true}) {
+    for (size_t what = 0; what < skinning::PoseKernels::kLocals; ++what) {
         dispatches.computeBarrier();
-        kernels_->recordLocals(dispatches, set, adds, none);
+        kernels_->recordLocals(dispatches, set, static_cast<skinning::PoseKernels::Locals>(what), none);
     }
     dispatches.computeBarrier();
     kernels_->recordRoots(dispatches, set, none);

@@ -14,6 +14,7 @@
 #include "skinning/playback.h"
 #include "skinning/pose_kernels.h"
 #include "skinning/pose_twin.h"
+#include "skinning/transition.h"
 
 #include <array>
 #include <cstddef>
@@ -24,6 +25,20 @@
 #include <vector>
 
 namespace supple::runtime {
+
+/// What instances may have beside layers: their states have room for it.
+struct StateRoom {
+    bool modifiers = false;
+    bool transitions = false; ///< of instances that play on the device
+};
+
+/// What suppleSetPlayback says beside the layers.
+struct GoingOver {
+    skinning::TransitionKind kind = skinning::TransitionKind::deadBlending;
+    float seconds = 0.0f;      ///< 0: none
+    bool fromModified = false; ///< from what modifiers have left
+    bool keeps = false;        ///< the transition that the instance is in
+};
 
 /// Setting and recording allocate nothing. A frame without anything set uploads nothing and costs the same for any
 /// number of instances.
@@ -40,16 +55,18 @@ public:
         VkBuffer poses = VK_NULL_HANDLE;     ///< written
         VkBuffer instances = VK_NULL_HANDLE; ///< the lists of instances
         VkDeviceSize instanceBytes = 0;
-        bool modifiers = false; ///< instances may have some
+        StateRoom room;
     };
     Playback() = default;
     [[nodiscard]] static Result<Playback> create(const Desc& desc);
     /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
     [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout,
-                                                  bool modifiers);
+                                                  const StateRoom& room);
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
-    void set(uint32_t slot, const skinning::PlaybackDesc& desc);
+    /// An instance in the bind pose begins at once.
+    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const GoingOver& over = {});
+    [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
     /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
@@ -122,7 +139,16 @@ private:
     [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
     void boundModifiers(uint32_t slot);                  ///< bounds_ is told what they turn
-    [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state
+    [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state, but for the transition
+    [[nodiscard]] std::span<uint32_t> stateWords(uint32_t slot) {
+        const size_t words = size_t{push_.stateStride} * 4;
+        return std::span(states_).subspan(slot * words, words);
+    }
+    void sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose);
+    void keepShown(uint32_t slot, const GoingOver& over);
+    void startTransition(uint32_t slot, const GoingOver& over);
+    void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of states_, for regions_
+    [[nodiscard]] skinning::PoseKernels::Locals locals() const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void takeOverMasks(const Playback& other, const AssetMatch& match);
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
@@ -138,6 +164,9 @@ private:
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
     bool adds_ = false, roots_ = false, modifies_ = false; ///< what some instance has ever been set to play
     shared::PosePush push_{};                              ///< but for the time and the instances
+    uint32_t transitionElements_ = 0;                      ///< of a state; 0: instances have no transitions
+    double transitionsEnd_ = 0.0;                          ///< from this time on no instance is in one
+    bool transits_ = false;                                ///< some instance has ever been in one
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
@@ -158,6 +187,8 @@ private:
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
 
+    skinning::TransitionEnds ends_;       ///< memory of set
+    std::vector<bool> transitionDue_;     ///< by slot: its words are not on the device yet
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order
     std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_

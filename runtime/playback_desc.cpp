@@ -54,6 +54,29 @@ Status checkLayer(const cage::Character& character, const Playback& playback, co
     return success();
 }
 
+Status checkTransition(const Playback& playback, const SupplePlaybackDesc& desc) {
+    if (rawValue(desc.transitionKind) > SUPPLE_TRANSITION_QUINTIC) {
+        return outside("no such kind of transition");
+    }
+    if (!std::isfinite(desc.transition)) {
+        return Error{ErrorCode::notFinite, "transition is not finite"};
+    }
+    if (desc.transition < 0.0 || desc.transition > SUPPLE_MAX_TIME) {
+        return outside("transition is out of range");
+    }
+    const bool transits = desc.transition > 0.0;
+    if (transits && !playback.takesTransitions()) {
+        return Error{ErrorCode::argument, "a transition in a group without SUPPLE_GROUP_TRANSITIONS"};
+    }
+    if (transits && (desc.flags & SUPPLE_PLAYBACK_KEEP_TRANSITION) != 0) {
+        return Error{ErrorCode::argument, "a transition with SUPPLE_PLAYBACK_KEEP_TRANSITION"};
+    }
+    if (!transits && (desc.flags & SUPPLE_PLAYBACK_FROM_MODIFIED) != 0) {
+        return Error{ErrorCode::argument, "SUPPLE_PLAYBACK_FROM_MODIFIED without a transition"};
+    }
+    return success();
+}
+
 } // namespace
 
 Status checkTime(double seconds) {
@@ -84,7 +107,8 @@ Status checkMask(const Asset& asset, const SuppleMaskDesc& desc) {
 }
 
 Status checkPlayback(const Asset& asset, const Playback& playback, const SupplePlaybackDesc& desc) {
-    constexpr uint32_t kFlags = SUPPLE_PLAYBACK_ROOT_JOINT | SUPPLE_PLAYBACK_TRAVEL;
+    constexpr uint32_t kFlags = SUPPLE_PLAYBACK_ROOT_JOINT | SUPPLE_PLAYBACK_TRAVEL | SUPPLE_PLAYBACK_KEEP_TRANSITION |
+                                SUPPLE_PLAYBACK_FROM_MODIFIED;
     if (desc.layerCount > 0 && desc.layers == nullptr) {
         return Error{ErrorCode::nullPointer, "layers is null"};
     }
@@ -102,6 +126,10 @@ Status checkPlayback(const Asset& asset, const Playback& playback, const SuppleP
     }
     if ((desc.flags & SUPPLE_PLAYBACK_TRAVEL) != 0 && desc.rootMotion == 0) {
         return Error{ErrorCode::argument, "SUPPLE_PLAYBACK_TRAVEL without rootMotion to travel by"};
+    }
+    valid = checkTransition(playback, desc);
+    if (!valid) {
+        return valid;
     }
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
         valid = checkLayer(asset.character, playback, desc.layers[i]);
@@ -135,6 +163,16 @@ skinning::PlaybackDesc playbackOf(const Asset& asset, const SupplePlaybackDesc& 
     result.root = {named ? asset.character.skin.joints[desc.rootJoint] : asset.rig.root, desc.rootMotion};
     result.travels = (desc.flags & SUPPLE_PLAYBACK_TRAVEL) != 0;
     return result;
+}
+
+GoingOver goingOverOf(const SupplePlaybackDesc& desc) {
+    GoingOver over;
+    over.kind = desc.transitionKind == SUPPLE_TRANSITION_QUINTIC ? skinning::TransitionKind::quintic
+                                                                 : skinning::TransitionKind::deadBlending;
+    over.seconds = static_cast<float>(desc.transition);
+    over.fromModified = (desc.flags & SUPPLE_PLAYBACK_FROM_MODIFIED) != 0;
+    over.keeps = (desc.flags & SUPPLE_PLAYBACK_KEEP_TRANSITION) != 0;
+    return over;
 }
 
 } // namespace supple::runtime

@@ -18,6 +18,9 @@ using PlaybackLayers = std::array<skinning::PlaybackLayer, SUPPLE_MAX_PLAYBACK_L
 [[nodiscard]] skinning::PlaybackDesc playbackOf(const Asset& asset, const SupplePlaybackDesc& desc,
                                                 PlaybackLayers& layers);
 
+/// Of what checkPlayback takes.
+[[nodiscard]] GoingOver goingOverOf(const SupplePlaybackDesc& desc);
+
 /// Of a time that the group can have.
 [[nodiscard]] Status checkTime(double seconds);
 /// Of a mask's number and values.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,19 +32,25 @@ public:
         turned_[slot].elsewhere = elsewhere;
     }
 
+    /// Until then nobody knows where the slot is: what it has shown goes on as it moved. set() and setBindPose() end
+    /// it.
+    void setTransition(uint32_t slot, double end) { played_[slot].transitionEnd = end; }
+    [[nodiscard]] double transitionEnd(uint32_t slot) const { return played_[slot].transitionEnd; }
+
     /// Takes over the first `count` slots of the same character.
     void takeOver(const PlayedBounds& other, uint32_t count) {
         std::copy_n(other.played_.begin(), count, played_.begin());
         std::copy_n(other.turned_.begin(), other.turned_.empty() ? 0 : count, turned_.begin());
     }
 
-    /// What of() depends on besides what is set: the number of the loop, if the instance travels.
+    /// What of() depends on besides what is set: the number of the loop, if the instance travels; whether it is in a
+    /// transition.
     [[nodiscard]] uint32_t loopOf(uint32_t slot, double time) const;
 
     /// A box that holds the instance's cage at a time, before the instance's transform, but with what it has travelled.
-    /// Nothing if nobody knows: with additive layers, if something else than the only anchor takes the movement of the
-    /// root, or if modifiers turn a node that no clip moves or carries. `hostWeights`: morph weights of the host's;
-    /// empty: those of the clips.
+    /// Nothing if nobody knows: with additive layers, in a transition, if something else than the only anchor takes the
+    /// movement of the root, or if modifiers turn a node that no clip moves or carries. `hostWeights`: morph weights of
+    /// the host's; empty: those of the clips.
     [[nodiscard]] std::optional<skinning::Box> of(uint32_t slot, double time, const skinning::Reach& reach,
                                                   std::span<const float> hostWeights) const;
 
@@ -52,6 +59,7 @@ private:
     struct Played {
         Kind kind = Kind::bindPose;
         bool travels = false; ///< the first layer's root motion goes into its transform
+        double transitionEnd = -std::numeric_limits<double>::infinity();
         skinning::PlaybackLayer first;
         skinning::RootSelection root;
     };

@@ -9,7 +9,7 @@ class SetPoses final : public PoseSource {
 public:
     explicit SetPoses(const PoseSourceDesc& desc)
         : device_(desc.device), framesInFlight_(desc.framesInFlight), capacity_(desc.capacity),
-          poses_(*desc.asset, desc.capacity, desc.layout, desc.modifiers) {}
+          poses_(*desc.asset, desc.capacity, desc.layout, desc.room.modifiers) {}
 
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] Status create(const Buffers& buffers) override {
         Result<Playback> playback = Playback::create(
             {desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity, buffers.windowSize,
-             desc_.framesInFlight, buffers.poses, buffers.instances, buffers.instanceBytes, desc_.modifiers});
+             desc_.framesInFlight, buffers.poses, buffers.instances, buffers.instanceBytes, desc_.room});
         if (!playback) {
             return playback.error();
         }
@@ -140,8 +140,8 @@ private:
 } // namespace
 
 VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout,
-                             bool modifiers) {
-    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout, modifiers) : 0;
+                             const StateRoom& room) {
+    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout, room) : 0;
     return std::max(played, VkDeviceSize{layout.stride} * 16);
 }
 

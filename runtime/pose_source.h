@@ -81,11 +81,11 @@ struct PoseSourceDesc {
     Asset* asset = nullptr;
     skinning::PoseLayout layout;
     uint32_t capacity = 0, framesInFlight = 2;
-    bool modifiers = false; ///< instances may have some
+    StateRoom room;
 };
 [[nodiscard]] std::unique_ptr<PoseSource> makePoseSource(SupplePoseSource source, const PoseSourceDesc& desc);
 /// Bytes per instance of what the source binds by windows.
 [[nodiscard]] VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset,
-                                           const skinning::PoseLayout& layout, bool modifiers);
+                                           const skinning::PoseLayout& layout, const StateRoom& room);
 
 } // namespace supple::runtime

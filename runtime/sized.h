@@ -35,6 +35,8 @@ inline constexpr size_t kFirstSize<SuppleJointInfo> = offsetof(SuppleJointInfo, 
 template <>
 inline constexpr size_t kFirstSize<SuppleGroupInfo> = offsetof(SuppleGroupInfo, userData);
 template <>
+inline constexpr size_t kFirstSize<SupplePlaybackDesc> = offsetof(SupplePlaybackDesc, transition);
+template <>
 inline constexpr size_t kFirstSize<SuppleRecordDesc> = offsetof(SuppleRecordDesc, time);
 template <>
 inline constexpr size_t kFirstSize<SuppleRequirements> = offsetof(SuppleRequirements, instanceVersion);

@@ -133,6 +133,14 @@ uint32_t PlaybackState::modifierCount() const {
     return (words_[1] & kModifierCountBits) >> kStateModifierShift;
 }
 
+void PlaybackState::setInTransition(bool isInIt) {
+    words_[1] = (words_[1] & ~kStateTransition) | (isInIt ? kStateTransition : 0u);
+}
+
+bool PlaybackState::isInTransition() const {
+    return (words_[1] & kStateTransition) != 0;
+}
+
 std::span<uint32_t> PlaybackState::modifier(uint32_t morphCount, uint32_t index) const {
     return words_.subspan(4 * size_t{elements(morphCount, index)}, 4 * size_t{kModifierElements});
 }

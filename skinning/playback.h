@@ -52,6 +52,11 @@ public:
     [[nodiscard]] uint32_t modifierCount() const;
     [[nodiscard]] std::span<uint32_t> modifier(uint32_t morphCount, uint32_t index) const;
 
+    /// Whether it is in a transition, whose words (skinning/transition.h) the state has. set() and setBindPose() end
+    /// it.
+    void setInTransition(bool isInIt);
+    [[nodiscard]] bool isInTransition() const;
+
     /// Null if none are set: what setMorphWeights() got.
     [[nodiscard]] const float* morphWeights() const;
 

@@ -3,6 +3,7 @@
 #include "gpu/device.h"
 #include "shaders/pose_locals_comp.h"
 #include "shaders/pose_locals_comp_ADDS.h"
+#include "shaders/pose_locals_comp_ADDS_TRANSITIONS.h"
 #include "shaders/pose_modify_comp.h"
 #include "shaders/pose_palette_comp.h"
 #include "shaders/pose_roots_comp.h"
@@ -53,6 +54,8 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     Kernels found;
     found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
     found.locals[1] = batch.get(layout_, pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive");
+    found.locals[2] =
+        batch.get(layout_, pose_locals_comp_ADDS_TRANSITIONS, {}, "supple pose, local matrices, transitions");
     found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
     found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
     found.palette = batch.get(layout_, pose_palette_comp, constants,
@@ -83,11 +86,11 @@ void PoseKernels::record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, 
     dispatches.dispatch(kernel, set, push, groups);
 }
 
-void PoseKernels::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, bool adds,
+void PoseKernels::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, Locals what,
                                const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, locals_[adds ? 1 : 0], (items * push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, locals_[static_cast<size_t>(what)], (items * push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {

@@ -19,9 +19,13 @@ public:
     [[nodiscard]] Status prepare(SkinningMode mode);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
-    /// Each records one dispatch over a window of instances; a barrier stands between each two. `adds`: some instance
-    /// has an additive layer; code that no one runs costs time on CPU devices. Roots only where one has root motion.
-    void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, bool adds,
+    /// What locals can do: the second if some instance has an additive layer, the third if one is in a transition. Code
+    /// that no one runs costs time on CPU devices.
+    enum class Locals { blend, add, transition };
+    static constexpr size_t kLocals = 3;
+    /// Each records one dispatch over a window of instances; a barrier stands between each two. Roots only where one
+    /// has root motion.
+    void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, Locals what,
                       const shared::PosePush& push) const;
     void recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     /// Only where one has modifiers.
@@ -31,7 +35,7 @@ public:
 
 private:
     struct Kernels {
-        gpu::Kernel locals[2]; ///< by whether layers may be additive
+        gpu::Kernel locals[kLocals];
         gpu::Kernel roots, modifiers, palette;
     };
     [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
@@ -41,7 +45,7 @@ private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::Kernel locals_[2]; ///< by whether layers may be additive
+    gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
     gpu::Kernel palette_[2]; ///< by SkinningMode

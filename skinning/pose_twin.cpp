@@ -45,8 +45,9 @@ private:
 
 template <bool roots>
 struct PoseCode : PoseLoads {
-    static constexpr bool kAdds = true, kRoots = roots;
+    static constexpr bool kAdds = true, kRoots = roots, kTransitions = true;
 #include "shaders/pose/layers.h"
+#include "shaders/pose/transition.h"
 };
 
 /// Modifiers, on locals that lie in memory.
@@ -75,7 +76,8 @@ namespace supple::skinning {
 
 using namespace shared;
 
-PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout) : table_(&table), layout_(layout) {
+PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t transition)
+    : table_(&table), layout_(layout) {
     push_.nodeCount = static_cast<uint32_t>(table.nodes.size());
     push_.jointCount = table.jointCount;
     push_.morphCount = layout.morphCount;
@@ -85,19 +87,27 @@ PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout) : table_(&t
     push_.restWeights = table.restWeights;
     push_.clips = table.clips;
     push_.maskStride = maskElements(table);
+    push_.transition = transition;
     locals_.resize(table.nodes.size());
     globals_.resize(table.nodes.size());
     weights_.resize((layout.morphCount + 3) / 4);
 }
 
 void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time) {
+    sample(state, masks, time);
+    if (!bindPose_) {
+        finish(state);
+    }
+}
+
+void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> masks, double time) {
     const SplitTime split = splitTime(time);
     push_.timeHigh = split.high;
     push_.timeLow = split.low;
     const twin::PoseLoads loads{table_->words.data(), state.data(), masks.data(), push_};
     twin::PoseCode<false> code{loads};
     for (uint32_t quad = 0; quad < weights_.size(); ++quad) {
-        weights_[quad] = code.morphWeights(0, quad);
+        weights_[quad] = code.shownWeights(0, quad, code.morphWeights(0, quad));
     }
     place_ = code.transformOf(0);
     const glm::uvec4 header = loads.state(0);
@@ -107,17 +117,17 @@ void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> mask
     }
     auto none = code.standing();
     for (uint32_t node = 0; node < push_.nodeCount; ++node) {
-        locals_[node] = code.posedTransform(0, node, none);
+        locals_[node] = code.shownTransform(0, node, code.posedTransform(0, node, none));
     }
     if (header.w != 0) {
         twin::PoseCode<true> roots{loads};
         auto sinceBegin = roots.standing();
-        locals_[header.z] = roots.posedTransform(0, header.z, sinceBegin);
+        const shared::Transform root = roots.posedTransform(0, header.z, sinceBegin);
+        locals_[header.z] = roots.shownTransform(0, header.z, root);
         if ((header.y & kStateTravels) != 0) {
             place_ = roots.travelled(0, sinceBegin);
         }
     }
-    finish(state);
 }
 
 void PoseTwin::poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals) {

@@ -18,13 +18,20 @@ namespace supple::skinning {
 class PoseTwin {
 public:
     PoseTwin() = default;
-    /// The table, with its words, must outlive this.
-    PoseTwin(const ClipTable& table, const PoseLayout& layout);
+    /// The table, with its words, must outlive this. `transition`: PosePush::transition.
+    PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t transition);
 
     /// `state`: the instance's words (skinning/playback.h). `masks`: those of the group.
     void pose(std::span<const uint32_t> state, std::span<const float> masks, double time);
 
-    /// The same of local transforms, one a node of the table, instead of what is played; modifiers change them in
+    /// The same, up to modifiers and without the hierarchy. What follows is then of no pose: what an instance shows
+    /// before modifiers is in locals() and weights(). pose() leaves there what it shows behind them.
+    void sample(std::span<const uint32_t> state, std::span<const float> masks, double time);
+    /// One a node of the table; not of the bind pose.
+    [[nodiscard]] std::span<const shared::Transform> locals() const { return locals_; }
+    [[nodiscard]] std::span<const glm::vec4> weights() const { return weights_; }
+
+    /// pose() of local transforms, one a node of the table, instead of what is played; modifiers change them in
     /// place.
     void poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals);
 

@@ -87,7 +87,8 @@ SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, co
                              return refuse(context, found, valid.error().code, kHere, valid.error().message);
                          }
                          runtime::PlaybackLayers layers;
-                         found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers));
+                         found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers),
+                                                       runtime::goingOverOf(desc));
                          return SUPPLE_OK;
                      });
 }

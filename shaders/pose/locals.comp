@@ -6,15 +6,21 @@
 #include "shaders/pose/affine.h"
 #include "shaders/pose/time.h"
 
-// Additive layers, which some instance of the group plays or none: lavapipe steps through what no lane takes, so that it
-// must not be there.
+// Additive layers and transitions, which some instance of the group has or none: lavapipe steps through what no lane takes,
+// so that it must not be there.
 #ifdef ADDS
 const bool kAdds = true;
 #else
 const bool kAdds = false;
 #endif
+#ifdef TRANSITIONS
+const bool kTransitions = true;
+#else
+const bool kTransitions = false;
+#endif
 const bool kRoots = false;
 #include "shaders/pose/layers.h"
+#include "shaders/pose/transition.h"
 #include "shaders/pose/local.glsl"
 
 void main() {
@@ -28,12 +34,12 @@ void main() {
     uint first = instance * push.stateStride, locals = instance * push.scratchStride;
     if (item < push.nodeCount) {
         Motion none = standing();
-        storeLocal(locals + kAffineElements * item, posedTransform(first, item, none));
+        storeLocal(locals + kAffineElements * item, shownTransform(first, item, posedTransform(first, item, none)));
     } else if (item == push.nodeCount) {
         storePlace(locals + kAffineElements * item, transformOf(first));
     } else {
         uint quad = item - push.nodeCount - 1u;
-        precise vec4 weights = morphWeights(first, quad);
+        precise vec4 weights = shownWeights(first, quad, morphWeights(first, quad));
         posed.at[instance * push.poseStride + push.morphWeights + quad] = weights;
     }
 }

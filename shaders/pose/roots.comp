@@ -7,8 +7,9 @@
 #include "shaders/pose/affine.h"
 #include "shaders/pose/time.h"
 
-const bool kAdds = true, kRoots = true;
+const bool kAdds = true, kRoots = true, kTransitions = true;
 #include "shaders/pose/layers.h"
+#include "shaders/pose/transition.h"
 #include "shaders/pose/local.glsl"
 
 void main() {
@@ -18,7 +19,7 @@ void main() {
     if (header.w != 0u) {
         precise Motion sinceBegin = standing();
         Transform root = posedTransform(first, header.z, sinceBegin);
-        storeLocal(locals + kAffineElements * header.z, root);
+        storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
             storePlace(locals + kAffineElements * push.nodeCount, travelled(first, sinceBegin));
         }

@@ -33,6 +33,12 @@
 //              top down to the joint; (weight, fade weight, fade duration, share of joints above the last one); (fade start,
 //              high and low; cosine and sine of half the limit); (target; weight of the pole); (pole; soft) or, to aim, (the
 //              eye in the joint's frame; 0); rotation; (axis in the joint's frame; 0)
+//   transition in groups that have them, from `transition` on, read only if the flags say so: (begin, high and low float;
+//              seconds; kind); kTransitionElements a node, in the order of the table; then two elements for every four morph
+//              weights. Of dead blending: (rotation); (its speed, as the tangent of a quarter of the angle a second; scale x);
+//              (translation; scale y); (its speed; scale z); weights, their speeds. Of a quintic the same of differences to
+//              what is played, the rotation as the tangent of a quarter of its angle, with the seconds that its speed takes
+//              in w
 //
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
@@ -73,6 +79,7 @@ SUPPLE_SHARED_CONST kMaxMasks = 16u;
 SUPPLE_SHARED_CONST kStateBindPose = 1u;
 SUPPLE_SHARED_CONST kStateHostWeights = 2u;
 SUPPLE_SHARED_CONST kStateTravels = 4u;
+SUPPLE_SHARED_CONST kStateTransition = 8u;
 SUPPLE_SHARED_CONST kLayerLoops = 1u;
 SUPPLE_SHARED_CONST kLayerAdds = 2u;
 
@@ -91,6 +98,15 @@ SUPPLE_SHARED_CONST kModifierWorld = 1u;
 SUPPLE_SHARED_CONST kModifierPole = 2u;
 SUPPLE_SHARED_CONST kModifierEndRotation = 4u;
 SUPPLE_SHARED_CONST kModifierModel = 8u;
+
+// Transitions: values of SuppleTransitionKind, and 0.
+SUPPLE_SHARED_CONST kNoTransition = 0u;
+SUPPLE_SHARED_CONST kDeadBlending = 1u;
+SUPPLE_SHARED_CONST kQuintic = 2u;
+SUPPLE_SHARED_CONST kTransitionElements = 4u;
+SUPPLE_SHARED_FLOAT kTransitionReach = 0.072f; // seconds that what was shown goes on for at its first speed, at most
+SUPPLE_SHARED_FLOAT kTransitionDecay = 13.888889f;  // 1 / kTransitionReach
+SUPPLE_SHARED_FLOAT kTransitionStep = 0.0083333338f; // seconds over which speeds are found
 
 // Axes of root motion; values of SuppleRootMotionFlags.
 SUPPLE_SHARED_CONST kGroundAxes = 1u;
@@ -131,6 +147,7 @@ struct PosePush {
     uint scratchStride;
     uint poseStride;
     uint morphWeights; // first element of the weights in an instance's pose
+    uint transition;   // first element of the transition in an instance's state
 };
 
 SUPPLE_SHARED_END

@@ -238,7 +238,9 @@ private:
              .scheme = SUPPLE_SCHEME_PM},
             {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
             {.scheme = SUPPLE_SCHEME_POLYGONS},
-            {.flags = SUPPLE_GROUP_MODIFIERS, .scheme = SUPPLE_SCHEME_PREP, .poseSource = SUPPLE_POSES_PLAYBACK},
+            {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+             .scheme = SUPPLE_SCHEME_PREP,
+             .poseSource = SUPPLE_POSES_PLAYBACK},
             {.scheme = SUPPLE_SCHEME_FRAGMENTS},
             {.scheme = SUPPLE_SCHEME_BLEND},
             {.scheme = SUPPLE_SCHEME_AUTO, .view = view_}};
@@ -272,6 +274,8 @@ private:
                     desc.structSize = sizeof(desc);
                     desc.layers = &layer;
                     desc.layerCount = 1;
+                    call("suppleSetPlayback", [&] { return suppleSetPlayback(handle(), instance, &desc); });
+                    desc.transition = 0.3;
                     call("suppleSetPlayback", [&] { return suppleSetPlayback(handle(), instance, &desc); });
                     modify(instance);
                 } else {

@@ -189,6 +189,9 @@ private:
         desc.rate = choose_.below(5);
         desc.flags = choose_.below(64);
         desc.poseSource = static_cast<SupplePoseSource>(choose_.below(4));
+        if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
+            desc.flags |= choose_.below(4) * SUPPLE_GROUP_MODIFIERS; // and transitions
+        }
         desc.skinning = static_cast<SuppleSkinning>(choose_.below(2));
         uint32_t family = families_;
         if (!groups_.empty() && choose_.below(8) == 1) {
@@ -318,12 +321,15 @@ private:
     void actOnInstance(Choices& choose, SuppleInstance instance) {
         float pose[16];
         const float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        switch (choose.below(10)) {
+        switch (choose.below(11)) {
         case 0:
             check(suppleSetClipPose(context_, instance, choose.below(2) == 1 ? SUPPLE_BIND_POSE : 0, 0.5));
             break;
         case 8:
             play(choose, instance);
+            break;
+        case 10:
+            modify(choose, instance);
             break;
         case 9: {
             const float weights[] = {0.5f, 1.0f};
@@ -356,6 +362,28 @@ private:
         }
     }
 
+    void modify(Choices& choose, SuppleInstance instance) {
+        SuppleModifier modifiers[2]{};
+        for (SuppleModifier& modifier : modifiers) {
+            modifier.kind = static_cast<SuppleModifierKind>(choose.below(5));
+            modifier.flags = 1u << choose.below(4);
+            modifier.joint = choose.below(kTubeJoints);
+            modifier.weight = 0.5f;
+            modifier.target[choose.below(3)] = choose.below(4);
+            modifier.rotation[3] = 1.0f;
+        }
+        SuppleModifiersDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.modifiers = modifiers;
+        desc.modifierCount = choose.below(3);
+        check(suppleSetModifiers(context_, instance, &desc));
+        SuppleModifierTarget target{};
+        target.structSize = sizeof(target);
+        target.target[1] = choose.below(4);
+        target.rotation[3] = 1.0f;
+        check(suppleSetModifierTarget(context_, instance, 0, &target));
+    }
+
     void play(Choices& choose, SuppleInstance instance) {
         SupplePlaybackLayer layers[2]{};
         for (SupplePlaybackLayer& layer : layers) {
@@ -366,6 +394,9 @@ private:
         desc.structSize = sizeof(desc);
         desc.layers = layers;
         desc.layerCount = 1 + choose.below(2);
+        desc.transition = 0.1 * choose.below(3);
+        desc.transitionKind = static_cast<SuppleTransitionKind>(choose.below(2));
+        desc.flags = choose.below(4) * SUPPLE_PLAYBACK_KEEP_TRANSITION; // and from what is modified
         check(suppleSetPlayback(context_, instance, &desc));
     }
 

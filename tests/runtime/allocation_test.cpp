@@ -274,7 +274,11 @@ TEST(Allocation, FramesTakeNoMemory) {
                  .capacity = kCapacity,
                  .rate = 1}),
             createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}),
-            createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .poseSource = SUPPLE_POSES_PLAYBACK})};
+            createGroup(handle, asset,
+                        {.flags = SUPPLE_GROUP_TRANSITIONS,
+                         .capacity = kCapacity,
+                         .rate = 1,
+                         .poseSource = SUPPLE_POSES_PLAYBACK})};
         const SuppleGroup all[] = {groups[0].group, groups[1].group, groups[2].group};
         for (const SmallGroup& group : groups) {
             ASSERT_EQ(group.result, SUPPLE_OK);
@@ -312,6 +316,8 @@ TEST(Allocation, FramesTakeNoMemory) {
                     desc.layerCount = 1;
                     desc.rootMotion = SUPPLE_ROOT_MOTION_GROUND;
                     desc.flags = SUPPLE_PLAYBACK_TRAVEL;
+                    desc.transition = 0.1 * static_cast<double>(n % 3);
+                    desc.transitionKind = static_cast<SuppleTransitionKind>(n % 2);
                     return suppleSetPlayback(handle, instance, &desc);
                 };
                 SuppleMaskDesc mask{};

@@ -55,9 +55,10 @@ public:
         buffered =
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
-        modified = createGroup(
-            handle(), mine.asset,
-            {.flags = SUPPLE_GROUP_MODIFIERS, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
+        modified = createGroup(handle(), mine.asset,
+                               {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+                                .scheme = SUPPLE_SCHEME_CAGE,
+                                .poseSource = SUPPLE_POSES_PLAYBACK});
         bounded = createGroup(handle(), mine.asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CAGE});
         const SuppleViewDesc viewAsked = viewDesc();
         for (SuppleView* made : {&view, &blindView, &staleView}) {
@@ -1916,13 +1917,29 @@ void playback(Rows& r) {
     };
     spoiled("layers null", kNull, [](Desc& d) { d.layers = nullptr; });
     spoiled("too many layers", kRange, [](Desc& d) { d.layerCount = SUPPLE_MAX_PLAYBACK_LAYERS + 1; });
-    spoiled("flags", kRange, [](Desc& d) { d.flags = 4; });
+    spoiled("flags", kRange, [](Desc& d) { d.flags = 16; });
     spoiled("rootMotion", kRange, [](Desc& d) { d.rootMotion = 8; });
     spoiled("rootJoint", kRange, [](Desc& d) {
         d.flags = SUPPLE_PLAYBACK_ROOT_JOINT;
         d.rootJoint = kJoints;
     });
     spoiled("travel by nothing", kConflict, [](Desc& d) { d.flags = SUPPLE_PLAYBACK_TRAVEL; });
+    spoiled("a transition without room for it", kConflict, [](Desc& d) { d.transition = 0.3; });
+    spoiled("transition NaN", kFinite, [](Desc& d) { d.transition = double{kNan}; });
+    spoiled("transition negative", kRange, [](Desc& d) { d.transition = -0.1; });
+    spoiled("transition too long", kRange, [](Desc& d) { d.transition = 1.001 * SUPPLE_MAX_TIME; });
+    spoiled("kind of transition 2", kRange, [](Desc& d) { d.transitionKind = static_cast<SuppleTransitionKind>(2); });
+    spoiled("from modified without a transition", kConflict, [](Desc& d) { d.flags = SUPPLE_PLAYBACK_FROM_MODIFIED; });
+    const auto transits = [&](uint32_t flags) {
+        return [flags](World& w) {
+            Desc desc = w.playbackDesc();
+            desc.flags = flags;
+            desc.transition = 0.3;
+            return suppleSetPlayback(w.handle(), w.modified.instances[0], &desc);
+        };
+    };
+    r.accept(kSet, "a transition", transits(SUPPLE_PLAYBACK_FROM_MODIFIED));
+    r.refuse(kSet, "a transition that keeps another", kConflict, transits(SUPPLE_PLAYBACK_KEEP_TRANSITION));
     const auto layer = [&](const char* what, int message, const std::function<void(Layer&)>& spoil) {
         spoiled(what, message, {}, spoil);
     };

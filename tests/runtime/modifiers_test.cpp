@@ -1,10 +1,8 @@
 // Modifiers of instances that play on the device: joints come where they shall, with the bits that the CPU has,
 // whatever is played, wherever the instance stands, and however the group is made anew.
-#include "runtime/api/entry.h"
-#include "skinning/deform_twin.h"
 #include "tests/support/boxes.h"
 #include "tests/support/crowd.h"
-#include "tests/support/gpu_comparison.h"
+#include "tests/support/played_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 
@@ -38,115 +36,9 @@ SuppleModifier turning(SuppleModifierKind kind, uint32_t joint, const glm::quat&
     return modifier;
 }
 
-SuppleGroupDesc playingGroup(SuppleAsset asset, uint32_t capacity, SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
-    SuppleGroupDesc desc{};
-    desc.flags = SUPPLE_GROUP_MODIFIERS;
-    desc.asset = asset;
-    desc.capacity = capacity;
-    desc.scheme = SUPPLE_SCHEME_CAGE;
-    desc.skinning = skinning;
-    desc.poseSource = SUPPLE_POSES_PLAYBACK;
-    return desc;
+SuppleGroupDesc modifiedGroup(SuppleAsset asset, uint32_t capacity, SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
+    return playedGroup(asset, capacity, SUPPLE_GROUP_MODIFIERS, skinning);
 }
-
-/// A group whose instances play and have modifiers.
-class ModifiedGroup {
-public:
-    ModifiedGroup(CrowdContext& context, const SuppleGroupDesc& desc) : crowd(context, desc), asset_(desc.asset) {
-        for (uint32_t i = 0; crowd.valid() && i < desc.capacity; ++i) {
-            instances.push_back(crowd.spawn());
-        }
-    }
-
-    [[nodiscard]] SuppleContext handle() const { return crowd.context().handle(); }
-    [[nodiscard]] runtime::Group& group() const { return *handle()->context->groups.find(crowd.group().id); }
-    [[nodiscard]] const cage::Character& character() const { return group().asset().character; }
-    [[nodiscard]] uint32_t joint(const std::string& name) const {
-        for (uint32_t j = 0; j < character().skin.joints.size(); ++j) {
-            if (character().skeleton.nodes[character().skin.joints[j]].name == name) {
-                return j;
-            }
-        }
-        ADD_FAILURE() << "no joint " << name;
-        return 0;
-    }
-    [[nodiscard]] glm::dmat4 jointOf(uint32_t i, uint32_t joint) const {
-        float m[16];
-        EXPECT_EQ(suppleGetJointTransform(handle(), instances[i], joint, m), SUPPLE_OK);
-        return glm::dmat4(glm::make_mat4(m));
-    }
-    [[nodiscard]] glm::dvec3 placeOf(uint32_t i, uint32_t joint) const { return glm::dvec3(jointOf(i, joint)[3]); }
-    [[nodiscard]] double extent() const {
-        const cage::Cage& cage = character().cage;
-        glm::vec3 low(cage.positions[0]), high(low);
-        for (const glm::vec3& p : cage.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        return static_cast<double>(glm::length(high - low));
-    }
-
-    void play(uint32_t i, uint32_t clip, double offset, uint32_t rootMotion = 0, uint32_t flags = 0) const {
-        SupplePlaybackLayer layer{};
-        layer.clip = clip;
-        layer.flags = SUPPLE_LAYER_LOOP;
-        layer.weight = layer.speed = 1.0f;
-        layer.offset = offset;
-        SupplePlaybackDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.layers = &layer;
-        desc.layerCount = 1;
-        desc.rootMotion = rootMotion;
-        desc.flags = flags;
-        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
-    }
-    void modify(uint32_t i, std::span<const SuppleModifier> modifiers) const {
-        SuppleModifiersDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.modifiers = modifiers.data();
-        desc.modifierCount = static_cast<uint32_t>(modifiers.size());
-        EXPECT_EQ(suppleSetModifiers(handle(), instances[i], &desc), SUPPLE_OK);
-    }
-    void modify(uint32_t i, const SuppleModifier& modifier) const { modify(i, {&modifier, 1}); }
-    void place(uint32_t i, const glm::mat4& transform) const {
-        EXPECT_EQ(suppleSetTransform(handle(), instances[i], glm::value_ptr(transform)), SUPPLE_OK);
-    }
-    /// A frame at a time; how many words of poses and cages are others than the CPU's.
-    uint64_t run(double time) {
-        EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
-        crowd.context().run(crowd.group());
-        runtime::Group& own = group();
-        const skinning::PoseLayout& layout = own.instances().poseLayout();
-        const skinning::DeformTable table =
-            skinning::buildDeformTable(character().cage, character().weights, character().morphs);
-        const host::GroupOutput output = crowd.output();
-        poses = as<float>(crowd.read(output.info.poses));
-        const std::vector<float> cages = as<float>(crowd.read(output.info.deformedCage));
-        std::vector<glm::vec4> pose(layout.stride), cage(character().cage.vertexCount());
-        uint64_t off = 0;
-        const auto compare = [&](std::span<const glm::vec4> here, const float* there) {
-            for (size_t k = 0; k < 4 * here.size(); ++k) {
-                EXPECT_TRUE(std::isfinite(there[k]));
-                off += std::memcmp(&here[k / 4][static_cast<int>(k % 4)], there + k, sizeof(float)) != 0 ? 1 : 0;
-            }
-        };
-        for (const SuppleInstance& instance : instances) {
-            own.poses().playback()->writePose(instance.slot, pose);
-            compare(std::span(pose).first(layout.morphWeights + (layout.morphCount + 3) / 4),
-                    poses.data() + 4 * size_t{instance.slot} * layout.stride);
-            skinning::deformLikeTheDevice(table, layout, pose, cage);
-            compare(cage, cages.data() + 4 * size_t{instance.slot} * own.instances().cageStride());
-        }
-        return off;
-    }
-
-    Crowd crowd;
-    std::vector<SuppleInstance> instances;
-    std::vector<float> poses; ///< of the last frame
-
-private:
-    SuppleAsset asset_;
-};
 
 glm::dquat rotationOf(const glm::dmat4& m) {
     return glm::normalize(glm::quat_cast(glm::dmat3(glm::normalize(glm::dvec3(m[0])), glm::normalize(glm::dvec3(m[1])),
@@ -158,7 +50,7 @@ double turnBetween(const glm::dquat& a, const glm::dquat& b) {
 }
 
 /// The end of some limb of a character: a joint with two above it.
-uint32_t someEnd(const ModifiedGroup& stage) {
+uint32_t someEnd(const PlayedGroup& stage) {
     const std::vector<uint32_t>& parents = stage.group().asset().rig.jointParents;
     uint32_t best = 0;
     size_t deepest = 0;
@@ -176,7 +68,7 @@ uint32_t someEnd(const ModifiedGroup& stage) {
 }
 
 /// Where the end of a limb is, but for a part of the way to its root: well within reach.
-glm::dvec3 towardsTheRoot(const ModifiedGroup& group, uint32_t i, uint32_t end, double part) {
+glm::dvec3 towardsTheRoot(const PlayedGroup& group, uint32_t i, uint32_t end, double part) {
     const std::vector<uint32_t>& parents = group.group().asset().rig.jointParents;
     return glm::mix(group.placeOf(i, end), group.placeOf(i, parents[parents[end]]), part);
 }
@@ -188,7 +80,7 @@ TEST_F(Modifiers, BringJointsWhereTheyShallBe) {
             for (const std::string& file : {kPip, kWren}) {
                 CrowdContext& own = context(mapping);
                 ASSERT_TRUE(own.valid());
-                ModifiedGroup stage(own, playingGroup(own.asset(file), 5, skinning));
+                PlayedGroup stage(own, modifiedGroup(own.asset(file), 5, skinning));
                 ASSERT_TRUE(stage.crowd.valid());
                 const uint32_t end = someEnd(stage);
                 const double extent = stage.extent();
@@ -242,7 +134,7 @@ TEST_F(Modifiers, DoNothingWithWeightZeroAndFadeByTheGroupsTime) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    ModifiedGroup stage(own, playingGroup(own.asset(kPip), 2));
+    PlayedGroup stage(own, modifiedGroup(own.asset(kPip), 2));
     ASSERT_TRUE(stage.crowd.valid());
     const uint32_t end = someEnd(stage);
     stage.play(0, 0, 0.2);
@@ -294,7 +186,7 @@ TEST_F(Modifiers, ReachPointsOfTheWorldWhereverTheInstanceStands) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
-        ModifiedGroup stage(own, playingGroup(own.asset(kWren), 2));
+        PlayedGroup stage(own, modifiedGroup(own.asset(kWren), 2));
         ASSERT_TRUE(stage.crowd.valid());
         const uint32_t end = someEnd(stage);
         const double extent = stage.extent();
@@ -335,8 +227,8 @@ TEST_F(Modifiers, ChangePosesThatAreSetAsThoseThatArePlayed) {
     ASSERT_TRUE(own.valid());
     for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
         const SuppleAsset asset = own.asset(kWren);
-        ModifiedGroup played(own, playingGroup(asset, 1, skinning));
-        SuppleGroupDesc desc = playingGroup(asset, 2, skinning);
+        PlayedGroup played(own, modifiedGroup(asset, 1, skinning));
+        SuppleGroupDesc desc = modifiedGroup(asset, 2, skinning);
         desc.poseSource = SUPPLE_POSES_SET;
         Crowd told(own, desc);
         ASSERT_TRUE(played.crowd.valid() && told.valid());
@@ -416,7 +308,7 @@ TEST_F(Modifiers, SomeJointsHaveMatrices) {
     cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3, .morphTargets = 2});
     tube.clips.push_back(clipOf({channel(1, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})}));
     tube.clips.back().name = "bend";
-    SuppleGroupDesc desc = playingGroup(own.createAsset(tube), 1);
+    SuppleGroupDesc desc = modifiedGroup(own.createAsset(tube), 1);
     desc.poseSource = SUPPLE_POSES_SET;
     desc.flags = 0;
     Crowd crowd(own, desc);
@@ -468,7 +360,7 @@ TEST_F(Modifiers, HandJointsOver) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
-        ModifiedGroup stage(own, playingGroup(own.asset(kPip), 1));
+        PlayedGroup stage(own, modifiedGroup(own.asset(kPip), 1));
         ASSERT_TRUE(stage.crowd.valid());
         const uint32_t end = someEnd(stage), middle = stage.group().asset().rig.jointParents[end];
         stage.play(0, 0, 0.0);
@@ -495,7 +387,7 @@ TEST_F(Modifiers, StayWhenTheGroupIsMadeAnew) {
     tube.clips.push_back(clipOf({channel(1, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})}));
     tube.clips.back().name = "bend";
     const SuppleAsset asset = own.createAsset(tube);
-    ModifiedGroup stage(own, playingGroup(asset, 2));
+    PlayedGroup stage(own, modifiedGroup(asset, 2));
     ASSERT_TRUE(stage.crowd.valid());
     for (uint32_t i = 0; i < 2; ++i) {
         stage.play(i, 0, 0.3);
@@ -531,7 +423,7 @@ TEST_F(Modifiers, KeepWithinTheBoxesThatCullingKnows) {
     cage::Character tube = riggedTube({.segments = 8, .sides = 6, .joints = 4});
     tube.clips.push_back(clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})}));
     tube.clips.back().name = "bend";
-    ModifiedGroup stage(own, playingGroup(own.createAsset(tube), 1));
+    PlayedGroup stage(own, modifiedGroup(own.createAsset(tube), 1));
     ASSERT_TRUE(stage.crowd.valid());
     stage.play(0, 0, 0.3);
     runtime::Group& group = stage.group();

@@ -144,7 +144,7 @@ TEST_P(PoseTwinOf, ATubeHasTheBitsItHasEverywhere) {
     PlaybackState state(words);
     state.setTransform(glm::translate(glm::mat4(1.0f), {1.0f, 2.0f, 3.0f}));
     state.set(tube, table, desc);
-    PoseTwin twin(table, layout);
+    PoseTwin twin(table, layout, 0);
     twin.pose(words, {}, 5.3);
 
     PoseMemory memory(tube);

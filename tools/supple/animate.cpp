@@ -16,6 +16,7 @@ namespace {
 constexpr float kAnimateMargin = 0.07f;
 constexpr uint32_t kFramedPoses = 9; ///< of the clip, for the camera to hold
 constexpr double kStillSeconds = 4.0;
+constexpr double kSecondsBehind = 1.0; ///< a transition
 
 /// The frames one by one into what the output's name asks for.
 class FrameOutput {
@@ -53,11 +54,47 @@ Result<uint32_t> clipOf(const host::Figure& figure, const std::string& name) {
     return host::findClip(figure, name);
 }
 
+/// What is shown, and for how long.
+struct Course {
+    uint32_t clip = SUPPLE_REST_POSE;
+    std::optional<host::PlannedTransition> transition;
+    double seconds = kStillSeconds;
+    double loop = 0.0; ///< 0: none
+
+    [[nodiscard]] ClipTime at(double time) const {
+        return {clip, loop > 0.0 ? std::fmod(time, loop) : time, transition};
+    }
+    /// Poses that the camera has to hold.
+    [[nodiscard]] std::vector<ClipTime> framed(const host::Figure& figure) const {
+        std::vector<ClipTime> poses;
+        for (uint32_t i = 0; transition && i < kFramedPoses; ++i)
+            poses.push_back(at(seconds * i / (kFramedPoses - 1)));
+        return transition ? poses : spreadTimes(figure, clip, kFramedPoses);
+    }
+};
+
+Result<Course> courseOf(const Stage& stage, const AnimateOptions& options) {
+    Course course;
+    const Result<std::optional<host::PlannedTransition>> transition = stage.transition();
+    const Result<uint32_t> clip = clipOf(stage.figure(), options.clip);
+    if (!transition || !clip)
+        return !transition ? transition.error() : clip.error();
+    course.clip = *clip;
+    course.transition = *transition;
+    if (course.transition) {
+        course.seconds = course.transition->at + course.transition->seconds + kSecondsBehind;
+    } else {
+        course.loop = stage.figure().clipDuration(*clip);
+        course.seconds = course.loop > 0.0 ? course.loop : kStillSeconds;
+    }
+    course.seconds = options.seconds > 0.0 ? options.seconds : course.seconds;
+    return course;
+}
+
 /// One camera for all frames, which holds all poses.
-Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, uint32_t clip, VkExtent2D size,
+Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, const Course& course, VkExtent2D size,
                             uint32_t view) {
-    Result<Extent> extent =
-        stage.measure(spreadTimes(stage.figure(), clip, kFramedPoses), options.draw.scheme == "cage");
+    Result<Extent> extent = stage.measure(course.framed(stage.figure()), options.draw.scheme == "cage");
     if (!extent)
         return extent.error();
     const float aspect =
@@ -114,22 +151,19 @@ Status animate(Session& session, const AnimateOptions& options) {
     if (!opened)
         return opened.error();
     Stage& stage = **opened;
-    const Result<uint32_t> clip = clipOf(stage.figure(), options.clip);
-    if (!clip)
-        return clip.error();
-    Result<host::Scene> scene = sceneOf(stage, options, *clip, *size, *view);
+    const Result<Course> course = courseOf(stage, options);
+    if (!course)
+        return course.error();
+    Result<host::Scene> scene = sceneOf(stage, options, *course, *size, *view);
     if (!scene)
         return scene.error();
     Result<FrameOutput> output = FrameOutput::open(options, *size);
     if (!output)
         return output.error();
-    const double duration = stage.figure().clipDuration(*clip);
-    const double seconds = options.seconds > 0.0 ? options.seconds : duration > 0.0 ? duration : kStillSeconds;
-    const auto frames = static_cast<uint32_t>(std::max(1l, std::lround(seconds * options.fps)));
+    const auto frames = static_cast<uint32_t>(std::max(1l, std::lround(course->seconds * options.fps)));
     const float yaw = scene->camera.yaw;
     for (uint32_t frame = 0; frame < frames; ++frame) {
-        const double time = frame / options.fps;
-        if (const Status status = stage.pose({*clip, duration > 0.0 ? std::fmod(time, duration) : 0.0}); !status)
+        if (const Status status = stage.pose(course->at(frame / options.fps)); !status)
             return status.error();
         scene->camera.yaw = yaw + radians(options.turn) * static_cast<float>(frame) / static_cast<float>(frames);
         scene->lightYaw = scene->camera.yaw;

@@ -40,6 +40,7 @@ struct BakeOptions {
     bool restPose = false; ///< as the nodes of the file stand
     std::vector<host::MorphSetting> morphs;
     ModifierFlags modifiers;
+    host::TransitionSetting transition;
     DeviceFlags device;
 };
 
@@ -166,6 +167,19 @@ Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cag
                : writeObj(options.output, baked, character.parts.size(), options.surface.rate);
 }
 
+/// Nothing without --transition.
+Result<std::optional<host::PlannedTransition>> transitionOf(const cage::Character& character,
+                                                            const host::TransitionSetting& setting) {
+    if (!setting.isThere()) {
+        return std::optional<host::PlannedTransition>();
+    }
+    const Result<uint32_t> from = host::findClip(character, setting.from), to = host::findClip(character, setting.to);
+    if (!from || !to) {
+        return !from ? from.error() : to.error();
+    }
+    return std::optional(host::plannedTransition(setting, *from, *to));
+}
+
 int runBake(const BakeOptions& options) {
     const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
@@ -194,8 +208,12 @@ int runBake(const BakeOptions& options) {
     if (!modifiers) {
         return fail(kExitBadInput, modifiers.error().message);
     }
+    const Result<std::optional<host::PlannedTransition>> transition = transitionOf(file->character, options.transition);
+    if (!transition) {
+        return fail(kExitBadInput, transition.error().message);
+    }
     const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights),
-                    std::move(*modifiers)};
+                    std::move(*modifiers), *transition};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
@@ -254,6 +272,7 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->excludes(command->get_option("--clip"));
     bindMorphs(*command, options->morphs);
     bindModifiers(*command, options->modifiers);
+    bindTransition(*command, options->transition);
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
         if (options->output.empty() && !options->hash) {

@@ -105,8 +105,8 @@ void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
 
 namespace {
 
-/// The pose and what changes it, by the device: what stands plays with speed 0.
-Status playModified(host::Context& context, SuppleInstance instance, const Pose& pose) {
+/// What stands plays with speed 0.
+Status playStanding(host::Context& context, SuppleInstance instance, const Pose& pose) {
     SupplePlaybackLayer layer{};
     layer.clip = pose.clip;
     layer.weight = 1.0f;
@@ -115,13 +115,21 @@ Status playModified(host::Context& context, SuppleInstance instance, const Pose&
     playback.structSize = sizeof playback;
     playback.layers = &layer;
     playback.layerCount = pose.clip == SUPPLE_BIND_POSE || pose.clip == SUPPLE_REST_POSE ? 0 : 1;
-    const Status status = context.check(suppleSetPlayback(context.handle(), instance, &playback), "suppleSetPlayback");
+    return context.check(suppleSetPlayback(context.handle(), instance, &playback), "suppleSetPlayback");
+}
+
+/// The pose and what changes it, by the device.
+Status play(host::Context& context, SuppleGroup group, SuppleInstance instance, const Pose& pose) {
+    Status status = pose.transition ? host::playTransition(context, group, instance, *pose.transition, pose.time)
+                                    : playStanding(context, instance, pose);
+    if (!status || pose.modifiers.empty()) {
+        return status;
+    }
     SuppleModifiersDesc modifiers{};
     modifiers.structSize = sizeof modifiers;
     modifiers.modifiers = pose.modifiers.data();
     modifiers.modifierCount = static_cast<uint32_t>(pose.modifiers.size());
-    return status ? context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers")
-                  : status;
+    return context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers");
 }
 
 } // namespace
@@ -137,10 +145,10 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
-    const bool modified = !pose.modifiers.empty();
-    if (modified) {
+    const bool plays = !pose.modifiers.empty() || pose.transition;
+    if (plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
-        desc.flags |= SUPPLE_GROUP_MODIFIERS;
+        desc.flags |= SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS;
     }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);
@@ -153,9 +161,9 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
         status = context.check(suppleCreateInstance(context.handle(), group, &instance), "suppleCreateInstance");
     }
     if (status) {
-        status = modified ? playModified(context, instance, pose)
-                          : context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time),
-                                          "suppleSetClipPose");
+        status = plays ? play(context, group, instance, pose)
+                       : context.check(suppleSetClipPose(context.handle(), instance, pose.clip, pose.time),
+                                       "suppleSetClipPose");
     }
     if (status && !pose.morphWeights.empty()) {
         status = context.check(suppleSetMorphWeights(context.handle(), instance, pose.morphWeights.data(),

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "host/group_output.h"
+#include "tools/common/transition_setting.h"
 #include "tools/supple/session.h"
 
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 namespace supple::tools {
@@ -50,8 +52,9 @@ template <class Vec>
 struct Pose {
     uint32_t clip = SUPPLE_BIND_POSE;
     double time = 0.0;
-    std::vector<float> morphWeights;       ///< of all targets, instead of the clip's; empty: the clip's
-    std::vector<SuppleModifier> modifiers; ///< of any pose but the bind pose, which then is the rest pose
+    std::vector<float> morphWeights;                   ///< of all targets, instead of the clip's; empty: the clip's
+    std::vector<SuppleModifier> modifiers;             ///< of any pose but the bind pose, which then is the rest pose
+    std::optional<host::PlannedTransition> transition; ///< instead of the clip
 };
 
 /// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.

@@ -238,6 +238,31 @@ void bindModifiers(CLI::App& command, ModifierFlags& flags) {
         ->capture_default_str();
 }
 
+void bindTransition(CLI::App& command, host::TransitionSetting& setting) {
+    CLI::Option* const transition =
+        command
+            .add_option_function<std::string>(
+                "--transition",
+                [&setting](const std::string& text) {
+                    if (const Status parsed = host::parseTransition(text, setting); !parsed) {
+                        throw CLI::ValidationError("--transition", parsed.error().message);
+                    }
+                },
+                "Instead of --clip: a clip, and from a time on another one, with what the device makes of the change. "
+                "Both "
+                "loop")
+            ->type_name("CLIP@SECONDS->CLIP")
+            ->excludes(command.get_option("--clip"));
+    command.add_option("--transition-seconds", setting.seconds, "How long the change takes")
+        ->check(CLI::Range(0.001, 60.0))
+        ->capture_default_str()
+        ->needs(transition);
+    command.add_option("--transition-kind", setting.how, "How it is made; crossfade: both clips play meanwhile")
+        ->check(CLI::IsMember(host::transitionHows()))
+        ->capture_default_str()
+        ->needs(transition);
+}
+
 bool hasCoefficients(SuppleScheme wanted) {
     return std::any_of(std::begin(kSchemes), std::end(kSchemes),
                        [&](const Scheme& scheme) { return scheme.scheme == wanted && scheme.coefficients; });

@@ -7,6 +7,7 @@
 #include "tools/common/morph_weights.h"
 #include "tools/common/part_settings.h"
 #include "tools/common/schemes.h"
+#include "tools/common/transition_setting.h"
 
 #include <cstdint>
 #include <span>
@@ -94,6 +95,9 @@ struct ModifierFlags {
     float weight = 1.0f;
 };
 void bindModifiers(CLI::App& command, ModifierFlags& flags);
+
+/// --transition, --transition-seconds and --transition-kind. The command has --clip.
+void bindTransition(CLI::App& command, host::TransitionSetting& setting);
 
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {

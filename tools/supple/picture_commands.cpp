@@ -115,7 +115,8 @@ void bindAlpha(CLI::App& command, DrawOptions& draw) {
 
 void bindAnimate(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<AnimateOptions>();
-    CLI::App* command = app.add_subcommand("animate", "A clip as an animated picture, or one picture a frame");
+    CLI::App* command = app.add_subcommand(
+        "animate", "A clip, or how one goes over to another, as an animated picture, or one picture a frame");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command
         ->add_option("-o,--output", options->output,
@@ -136,6 +137,7 @@ void bindAnimate(CLI::App& app, int& exitCode) {
     bindAlpha(*command, options->draw);
     bindDraw(*command, options->draw);
     bindLooks(*command, options->draw);
+    bindTransition(*command, options->draw.transition);
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
         exitCode = runAnimate(*options);

@@ -5,6 +5,7 @@
 #include "tools/common/character_file.h"
 #include "tools/common/morph_weights.h"
 #include "tools/common/part_settings.h"
+#include "tools/common/transition_setting.h"
 
 #include <cstdint>
 #include <string>
@@ -38,9 +39,10 @@ struct DrawOptions {
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;
     std::vector<host::MorphSetting> morphs;
-    std::string device;           ///< name part or index; empty takes the best
-    std::string mapping = "auto"; ///< auto | narrow | wide
-    bool validate = false;        ///< run under the validation layer; its messages make the command fail
+    host::TransitionSetting transition; ///< animate
+    std::string device;                 ///< name part or index; empty takes the best
+    std::string mapping = "auto";       ///< auto | narrow | wide
+    bool validate = false;              ///< run under the validation layer; its messages make the command fail
 };
 
 } // namespace supple::tools

@@ -60,11 +60,31 @@ std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uin
     return times;
 }
 
+namespace {
+
+Status show(host::FigureGroup& group, const ClipTime& pose) {
+    return pose.transition ? host::playTransition(group.figure().context(), group.handle(), group.instance(0),
+                                                  *pose.transition, pose.time)
+                           : group.pose(0, pose.clip, pose.time);
+}
+
+} // namespace
+
+Result<std::optional<host::PlannedTransition>> Stage::transition() const {
+    const host::TransitionSetting& setting = options_.transition;
+    if (!setting.isThere())
+        return std::optional<host::PlannedTransition>();
+    const Result<uint32_t> from = host::findClip(*figure_, setting.from), to = host::findClip(*figure_, setting.to);
+    if (!from || !to)
+        return !from ? from.error() : to.error();
+    return std::optional(host::plannedTransition(setting, *from, *to));
+}
+
 Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage, bool beside) {
     Extent extent;
     const SuppleGroup groups[] = {group.handle()};
     for (const ClipTime& clipTime : poses) {
-        if (const Status status = group.pose(0, clipTime.clip, clipTime.time); !status)
+        if (const Status status = show(group, clipTime); !status)
             return status.error();
         if (const Status status = group.figure().context().evaluate(groups); !status)
             return status.error();
@@ -104,7 +124,8 @@ Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const
                                              .uvInterpolation = uvInterpolationOf(options_.uvMode),
                                              .sharedSamples = options_.sharedSamples,
                                              .partSchemes = std::move(*partSchemes),
-                                             .levels = levels});
+                                             .levels = levels,
+                                             .plays = options_.transition.isThere()});
     if (!group)
         return group.error();
     Status status = (*group)->setMorphWeights(0, *weights);
@@ -166,7 +187,7 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile
 
 Status Stage::pose(const ClipTime& pose) {
     pose_ = pose;
-    if (const Status status = group_->pose(0, pose.clip, pose.time); !status)
+    if (const Status status = show(*group_, pose); !status)
         return status.error();
     const SuppleGroup groups[] = {group_->handle()};
     return session_.context->evaluate(groups);
@@ -204,7 +225,7 @@ Status Stage::chooseLevels(const host::Scene& scene) {
     }
     Status status = levels_->setLevelCamera(scene.camera, target_.extent().height, options_.chordError);
     if (status)
-        status = levels_->pose(0, pose_.clip, pose_.time);
+        status = show(*levels_, pose_);
     const SuppleGroup groups[] = {levels_->handle()};
     return status ? session_.context->evaluate(groups) : status;
 }

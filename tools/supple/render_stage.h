@@ -35,6 +35,7 @@ struct PictureKind {
 struct ClipTime {
     uint32_t clip = SUPPLE_REST_POSE;
     double time = 0.0;
+    std::optional<host::PlannedTransition> transition; ///< at `time`, instead of the clip; of groups that play
 };
 /// `count` times spread evenly over the clip, both ends among them; the bind pose once.
 [[nodiscard]] std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uint32_t count);
@@ -63,6 +64,8 @@ public:
                                                              VkExtent2D size, const DrawOptions& options);
 
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
+    /// That the options name.
+    [[nodiscard]] Result<std::optional<host::PlannedTransition>> transition() const;
 
     /// Poses the figure in every pose in turn.
     [[nodiscard]] Result<Extent> measure(std::span<const ClipTime> poses, bool cage) {

@@ -927,7 +927,11 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_POSE_UNSEEN = 512,
     /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
      * KiB of memory per instance, on the device if it plays. */
-    SUPPLE_GROUP_MODIFIERS = 1024
+    SUPPLE_GROUP_MODIFIERS = 1024,
+    /** With SUPPLE_POSES_PLAYBACK: instances may go over from what they play to something else
+     * (SupplePlaybackDesc.transition). These cost 64 bytes per node that moves a joint, and 8 per morph target, of
+     * device memory per instance. */
+    SUPPLE_GROUP_TRANSITIONS = 2048
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */

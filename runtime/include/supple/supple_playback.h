@@ -179,8 +179,27 @@ typedef enum SupplePlaybackFlags {
     /** What rootMotion takes out of the first layer's clip moves the instance. It is placed by X * M: X is its
      * transform (suppleSetTransform), M is the movement since the layer's startTime, which continues over the ends of a
      * looping clip. The layer's mode, weight and mask make no difference. */
-    SUPPLE_PLAYBACK_TRAVEL = 2
+    SUPPLE_PLAYBACK_TRAVEL = 2,
+    /** The transition that the instance is in goes on. Set it to change a speed or a weight of what plays. */
+    SUPPLE_PLAYBACK_KEEP_TRANSITION = 4,
+    /** The transition starts from what the instance's modifiers have left, not from what its layers have posed: for a
+     * body that gets up. Take the modifiers away behind this call. Speeds are found with the modifiers' present
+     * targets. */
+    SUPPLE_PLAYBACK_FROM_MODIFIED = 8
 } SupplePlaybackFlags;
+
+/** How an instance goes over from what it has shown to what it plays now. Only the new clips are sampled meanwhile. */
+typedef enum SuppleTransitionKind {
+    /** What was shown moves on, ever more slowly: by what it would move in 0.072 s at its speed, and by 30 degrees, at
+     * most. What is played is blended in. So joints stay between the two poses, or near (Holden, Dead Blending, 2023).
+     */
+    SUPPLE_TRANSITION_DEAD_BLENDING = 0,
+    /** The difference between the two poses, and between their speeds, goes smoothly to zero. The pose follows the new
+     * clip's rhythm sooner, but joints may bend where neither clip goes, by 10 degrees at most from the difference of
+     * speeds (Bollo, Inertialization, 2018). */
+    SUPPLE_TRANSITION_QUINTIC = 1,
+    SUPPLE_TRANSITION_MAX_ENUM = 0x7FFFFFFF
+} SuppleTransitionKind;
 
 /** What an instance plays. Layers are applied in order to the rest pose, as in SupplePoseDesc. */
 typedef struct SupplePlaybackDesc {
@@ -190,6 +209,9 @@ typedef struct SupplePlaybackDesc {
     uint32_t layerCount; /**< at most SUPPLE_MAX_PLAYBACK_LAYERS */
     uint32_t rootMotion; /**< SuppleRootMotionFlags: what is taken out of every layer's clip */
     uint32_t rootJoint;
+    double transition; /**< seconds from T at the call on, in which the instance goes over from what it has shown; 0:
+                        * none. Groups with SUPPLE_GROUP_TRANSITIONS. 0.3 suits most changes */
+    SuppleTransitionKind transitionKind;
 } SupplePlaybackDesc;
 
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
@@ -198,8 +220,13 @@ typedef struct SupplePlaybackDesc {
  * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL).
  * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
  * for rounding (docs/playback.md).
+ * A transition is a function of T, and starts at the T that the group has at the call, so set the time first. It starts
+ * from what is shown then, if another one is not over from what that one shows, and is over with it. It changes local
+ * transforms behind layers and root motion and before modifiers, and morph weights unless the host has set some. It
+ * ends if the playback is set again without KEEP_TRANSITION. An instance in the bind pose begins at once.
  * Errors: the group has another pose source; too many layers; a clip, joint, mode or flag that does not exist; a mask
- * that was not set; a weight, speed, fade or time out of range or not finite; TRAVEL without rootMotion. */
+ * that was not set; a weight, speed, fade, transition or time out of range or not finite; TRAVEL without rootMotion; a
+ * transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION; FROM_MODIFIED without a transition. */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may

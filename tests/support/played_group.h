@@ -1,0 +1,160 @@
+// A group whose instances play on the device, beside what the CPU says of them.
+#pragma once
+
+#include "runtime/api/entry.h"
+#include "skinning/deform_twin.h"
+#include "tests/support/crowd.h"
+#include "tests/support/gpu_comparison.h"
+
+#include <cmath>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <gtest/gtest.h>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+
+/// Of cages alone, whose instances play.
+inline SuppleGroupDesc playedGroup(SuppleAsset asset, uint32_t capacity, uint32_t flags,
+                                   SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
+    SuppleGroupDesc desc{};
+    desc.flags = flags;
+    desc.asset = asset;
+    desc.capacity = capacity;
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    desc.skinning = skinning;
+    desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    return desc;
+}
+
+/// A group whose instances play. Its poses and cages are compared with the CPU's.
+class PlayedGroup {
+public:
+    PlayedGroup(CrowdContext& context, const SuppleGroupDesc& desc) : crowd(context, desc), asset_(desc.asset) {
+        for (uint32_t i = 0; crowd.valid() && i < desc.capacity; ++i) {
+            instances.push_back(crowd.spawn());
+        }
+    }
+
+    [[nodiscard]] SuppleContext handle() const { return crowd.context().handle(); }
+    [[nodiscard]] runtime::Group& group() const { return *handle()->context->groups.find(crowd.group().id); }
+    [[nodiscard]] const cage::Character& character() const { return group().asset().character; }
+    [[nodiscard]] uint32_t joint(const std::string& name) const {
+        for (uint32_t j = 0; j < character().skin.joints.size(); ++j) {
+            if (character().skeleton.nodes[character().skin.joints[j]].name == name) {
+                return j;
+            }
+        }
+        ADD_FAILURE() << "no joint " << name;
+        return 0;
+    }
+    [[nodiscard]] glm::dmat4 jointOf(uint32_t i, uint32_t joint) const {
+        float m[16];
+        EXPECT_EQ(suppleGetJointTransform(handle(), instances[i], joint, m), SUPPLE_OK);
+        return glm::dmat4(glm::make_mat4(m));
+    }
+    [[nodiscard]] glm::dvec3 placeOf(uint32_t i, uint32_t joint) const { return glm::dvec3(jointOf(i, joint)[3]); }
+    [[nodiscard]] double extent() const {
+        const cage::Cage& cage = character().cage;
+        glm::vec3 low(cage.positions[0]), high(low);
+        for (const glm::vec3& p : cage.positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        return static_cast<double>(glm::length(high - low));
+    }
+
+    void play(uint32_t i, uint32_t clip, double offset, uint32_t rootMotion = 0, uint32_t flags = 0) const {
+        SupplePlaybackDesc desc{};
+        desc.rootMotion = rootMotion;
+        desc.flags = flags;
+        play(i, clip, offset, desc);
+    }
+    /// The rest as `desc` has it.
+    void play(uint32_t i, uint32_t clip, double offset, SupplePlaybackDesc desc) const {
+        SupplePlaybackLayer layer{};
+        layer.clip = clip;
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = layer.speed = 1.0f;
+        layer.offset = offset;
+        desc.structSize = sizeof desc;
+        desc.layers = &layer;
+        desc.layerCount = 1;
+        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
+    }
+    struct Playing {
+        uint32_t clip = 0;
+        double offset = 0.0;
+    };
+    /// Two layers, the second of which comes in.
+    void crossfade(uint32_t i, const Playing& from, const Playing& to, double start, double seconds) const {
+        SupplePlaybackLayer layers[2]{};
+        for (SupplePlaybackLayer& layer : layers) {
+            const Playing& own = &layer == layers ? from : to;
+            layer.clip = own.clip;
+            layer.flags = SUPPLE_LAYER_LOOP;
+            layer.weight = layer.speed = 1.0f;
+            layer.offset = own.offset;
+        }
+        layers[1].weight = 0.0f;
+        layers[1].fadeWeight = 1.0f;
+        layers[1].fadeStart = start;
+        layers[1].fadeDuration = static_cast<float>(seconds);
+        SupplePlaybackDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.layers = layers;
+        desc.layerCount = 2;
+        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
+    }
+    void modify(uint32_t i, std::span<const SuppleModifier> modifiers) const {
+        SuppleModifiersDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.modifiers = modifiers.data();
+        desc.modifierCount = static_cast<uint32_t>(modifiers.size());
+        EXPECT_EQ(suppleSetModifiers(handle(), instances[i], &desc), SUPPLE_OK);
+    }
+    void modify(uint32_t i, const SuppleModifier& modifier) const { modify(i, {&modifier, 1}); }
+    void place(uint32_t i, const glm::mat4& transform) const {
+        EXPECT_EQ(suppleSetTransform(handle(), instances[i], glm::value_ptr(transform)), SUPPLE_OK);
+    }
+    /// A frame at a time; how many words of poses and cages are others than the CPU's.
+    uint64_t run(double time) {
+        EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
+        crowd.context().run(crowd.group());
+        runtime::Group& own = group();
+        const skinning::PoseLayout& layout = own.instances().poseLayout();
+        const skinning::DeformTable table =
+            skinning::buildDeformTable(character().cage, character().weights, character().morphs);
+        const host::GroupOutput output = crowd.output();
+        poses = as<float>(crowd.read(output.info.poses));
+        const std::vector<float> cages = as<float>(crowd.read(output.info.deformedCage));
+        std::vector<glm::vec4> pose(layout.stride), cage(character().cage.vertexCount());
+        uint64_t off = 0;
+        const auto compare = [&](std::span<const glm::vec4> here, const float* there) {
+            for (size_t k = 0; k < 4 * here.size(); ++k) {
+                EXPECT_TRUE(std::isfinite(there[k]));
+                off += std::memcmp(&here[k / 4][static_cast<int>(k % 4)], there + k, sizeof(float)) != 0 ? 1 : 0;
+            }
+        };
+        for (const SuppleInstance& instance : instances) {
+            own.poses().playback()->writePose(instance.slot, pose);
+            compare(std::span(pose).first(layout.morphWeights + (layout.morphCount + 3) / 4),
+                    poses.data() + 4 * size_t{instance.slot} * layout.stride);
+            skinning::deformLikeTheDevice(table, layout, pose, cage);
+            compare(cage, cages.data() + 4 * size_t{instance.slot} * own.instances().cageStride());
+        }
+        return off;
+    }
+
+    Crowd crowd;
+    std::vector<SuppleInstance> instances;
+    std::vector<float> poses; ///< of the last frame
+
+private:
+    SuppleAsset asset_;
+};
+
+} // namespace supple::test
