@@ -129,7 +129,7 @@ struct GroupOptions {
     bool sharedSamples = false;            ///< SUPPLE_GROUP_INDEXED_MESH
     std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`
     bool levels = false;                   ///< of detail, as the camera of setLevelCamera() chooses them
-    bool plays = false;                    ///< on the device, with transitions; pose() lets a clip stand
+    bool plays = false;                    ///< on the device, with transitions, instead of pose()
 };
 
 /// A draw command of a surface.
@@ -226,7 +226,6 @@ private:
     std::unique_ptr<LevelView> levels_;
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
-    bool plays_ = false;
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
     std::vector<FigureSurface> surfaces_;

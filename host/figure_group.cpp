@@ -116,7 +116,6 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_TRANSITIONS;
     }
-    group->plays_ = options.plays;
     desc.asset = figure.asset();
     desc.capacity = options.instances;
     desc.scheme = options.scheme;
@@ -269,17 +268,6 @@ Status FigureGroup::uploadCoarseGrids(FigureSurface& surface) const {
 
 Status FigureGroup::pose(uint32_t instance, uint32_t clip, double time) {
     Context& context = figure_.context();
-    if (plays_) {
-        SupplePlaybackLayer layer{};
-        layer.clip = clip;
-        layer.weight = 1.0f;
-        layer.offset = time;
-        SupplePlaybackDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.layers = &layer;
-        desc.layerCount = clip < figure_.clips().size() ? 1 : 0;
-        return context.check(suppleSetPlayback(context.handle(), instances_[instance], &desc), "suppleSetPlayback");
-    }
     return context.check(suppleSetClipPose(context.handle(), instances_[instance], clip, time), "suppleSetClipPose");
 }
 

@@ -97,9 +97,10 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.regions_.reserve(inParts ? 2 * size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
     if (desc.room.transitions) {
         playback.transitionDue_.resize(desc.capacity, false);
-        for (skinning::SampledPose* const pose :
-             {&playback.ends_.before, &playback.ends_.shown, &playback.ends_.played, &playback.ends_.after}) {
-            pose->assign(playback.twin_.locals(), playback.twin_.weights());
+        for (auto* const poses : {&playback.ends_.shown, &playback.ends_.played}) {
+            for (skinning::SampledPose& pose : *poses) {
+                pose.assign(playback.twin_.locals(), playback.twin_.weights());
+            }
         }
     }
     Status status = playback.createBuffers(desc);
@@ -255,33 +256,47 @@ void Playback::sample(uint32_t slot, double time, bool modified, skinning::Sampl
     evaluated_ = kNoSlot;
 }
 
-void Playback::keepShown(uint32_t slot, const GoingOver& over) {
-    sample(slot, time_ - kTransitionStep, over.fromModified, ends_.before);
-    sample(slot, time_, over.fromModified, ends_.shown);
+std::span<uint32_t> Playback::transitionWords(uint32_t slot) {
+    return stateWords(slot).subspan(4 * size_t{push_.transition}, 4 * size_t{transitionElements_});
 }
 
-void Playback::startTransition(uint32_t slot, const GoingOver& over) {
-    if (over.kind == skinning::TransitionKind::quintic) {
-        sample(slot, time_, false, ends_.played);
-        sample(slot, time_ + kTransitionStep, false, ends_.after);
+void Playback::sampleShown(uint32_t slot, const TransitionRequest& over) {
+    constexpr auto kStep = static_cast<double>(kTransitionStep);
+    // Before a transition began, something else was shown.
+    const bool justBegun =
+        state(slot).isInTransition() && skinning::transitionStart(transitionWords(slot)) > time_ - kStep;
+    ends_.now = justBegun ? 0 : 1;
+    double time = time_ - ends_.now * kStep;
+    for (skinning::SampledPose& pose : ends_.shown) {
+        sample(slot, time, over.fromModified, pose);
+        time += kStep;
     }
-    skinning::writeTransition({over.kind, time_, over.seconds}, ends_,
-                              stateWords(slot).subspan(4 * size_t{push_.transition}, 4 * size_t{transitionElements_}));
+}
+
+void Playback::startTransition(uint32_t slot, const TransitionRequest& over) {
+    if (over.kind == skinning::TransitionKind::quintic) {
+        double time = time_;
+        for (skinning::SampledPose& pose : ends_.played) {
+            sample(slot, time, false, pose);
+            time += static_cast<double>(kTransitionStep);
+        }
+    }
+    skinning::writeTransition({over.kind, time_, over.seconds}, ends_, transitionWords(slot));
     state(slot).setInTransition(true);
     transitionDue_[slot] = true;
     const double end = time_ + static_cast<double>(over.seconds);
-    bounds_.setTransition(slot, end);
-    transitionsEnd_ = transits_ ? std::max(transitionsEnd_, end) : end;
-    transits_ = true;
+    bounds_.setTransition(slot, {time_, end});
+    transitions_.start = std::min(transitions_.start, time_);
+    transitions_.end = std::max(transitions_.end, end);
 }
 
-void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const GoingOver& over) {
+void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& over) {
     forget(slot);
     skinning::PlaybackState own = state(slot);
     const bool starts = over.seconds > 0.0f && !own.inBindPose(), keeps = over.keeps && own.isInTransition();
-    const double end = bounds_.transitionEnd(slot);
+    const PlayedBounds::Interval before = bounds_.transition(slot);
     if (starts) {
-        keepShown(slot, over);
+        sampleShown(slot, over);
     }
     own.set(asset_->character, *asset_->clipTable, desc);
     bounds_.set(slot, desc);
@@ -289,7 +304,7 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Goin
         startTransition(slot, over);
     } else if (keeps) {
         own.setInTransition(true);
-        bounds_.setTransition(slot, end);
+        bounds_.setTransition(slot, before);
     }
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
@@ -460,8 +475,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         adds_ = other.adds_;
         roots_ = other.roots_;
         modifies_ = other.modifies_;
-        transits_ = other.transits_;
-        transitionsEnd_ = other.transitionsEnd_;
+        transitions_ = other.transitions_;
         modifiers_.takeOver(other.modifiers_, count);
         const size_t words = size_t{push_.stateStride} * 4 * count;
         std::copy_n(other.states_.begin(), words, states_.begin());
@@ -504,7 +518,7 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
         for (const uint32_t slot : changedSlots_) {
             const VkDeviceSize to = slot * stateBytes();
             stage(from, to, usedBytes(slot));
-            if (takesTransitions() && transitionDue_[slot]) {
+            if (takesTransitions() && transitionDue_[slot] && state(slot).isInTransition()) {
                 stage(from, to + push_.transition * gpu::kVec4Bytes, transitionElements_ * gpu::kVec4Bytes);
                 transitionDue_[slot] = false;
             }
@@ -549,7 +563,7 @@ void Playback::cancelUpload(uint64_t frame) {
 
 skinning::PoseKernels::Locals Playback::locals() const {
     using Locals = skinning::PoseKernels::Locals;
-    const bool inTransition = transits_ && time_ < transitionsEnd_;
+    const bool inTransition = transitions_.holds(time_) && bounds_.anyInTransition(time_);
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
 }
 

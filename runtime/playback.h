@@ -33,7 +33,7 @@ struct StateRoom {
 };
 
 /// What suppleSetPlayback says beside the layers.
-struct GoingOver {
+struct TransitionRequest {
     skinning::TransitionKind kind = skinning::TransitionKind::deadBlending;
     float seconds = 0.0f;      ///< 0: none
     bool fromModified = false; ///< from what modifiers have left
@@ -65,7 +65,7 @@ public:
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     /// An instance in the bind pose begins at once.
-    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const GoingOver& over = {});
+    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& over = {});
     [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
@@ -145,8 +145,9 @@ private:
         return std::span(states_).subspan(slot * words, words);
     }
     void sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose);
-    void keepShown(uint32_t slot, const GoingOver& over);
-    void startTransition(uint32_t slot, const GoingOver& over);
+    [[nodiscard]] std::span<uint32_t> transitionWords(uint32_t slot);
+    void sampleShown(uint32_t slot, const TransitionRequest& over);
+    void startTransition(uint32_t slot, const TransitionRequest& over);
     void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of states_, for regions_
     [[nodiscard]] skinning::PoseKernels::Locals locals() const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
@@ -165,8 +166,7 @@ private:
     bool adds_ = false, roots_ = false, modifies_ = false; ///< what some instance has ever been set to play
     shared::PosePush push_{};                              ///< but for the time and the instances
     uint32_t transitionElements_ = 0;                      ///< of a state; 0: instances have no transitions
-    double transitionsEnd_ = 0.0;                          ///< from this time on no instance is in one
-    bool transits_ = false;                                ///< some instance has ever been in one
+    PlayedBounds::Interval transitions_;                   ///< holds those of all instances
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here

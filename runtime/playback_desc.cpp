@@ -165,8 +165,8 @@ skinning::PlaybackDesc playbackOf(const Asset& asset, const SupplePlaybackDesc& 
     return result;
 }
 
-GoingOver goingOverOf(const SupplePlaybackDesc& desc) {
-    GoingOver over;
+TransitionRequest transitionRequestOf(const SupplePlaybackDesc& desc) {
+    TransitionRequest over;
     over.kind = desc.transitionKind == SUPPLE_TRANSITION_QUINTIC ? skinning::TransitionKind::quintic
                                                                  : skinning::TransitionKind::deadBlending;
     over.seconds = static_cast<float>(desc.transition);

@@ -19,7 +19,7 @@ using PlaybackLayers = std::array<skinning::PlaybackLayer, SUPPLE_MAX_PLAYBACK_L
                                                 PlaybackLayers& layers);
 
 /// Of what checkPlayback takes.
-[[nodiscard]] GoingOver goingOverOf(const SupplePlaybackDesc& desc);
+[[nodiscard]] TransitionRequest transitionRequestOf(const SupplePlaybackDesc& desc);
 
 /// Of a time that the group can have.
 [[nodiscard]] Status checkTime(double seconds);

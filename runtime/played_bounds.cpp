@@ -33,7 +33,7 @@ void PlayedBounds::set(uint32_t slot, const skinning::PlaybackDesc& desc) {
 
 uint32_t PlayedBounds::loopOf(uint32_t slot, double time) const {
     const Played& own = played_[slot];
-    if (time < own.transitionEnd) {
+    if (own.transition.holds(time)) {
         return kUnboundedLoop;
     }
     const double loops = own.travels ? skinning::loopsAt(*character_, own.first, time) : 0.0;
@@ -52,7 +52,7 @@ bool PlayedBounds::leavesReach(uint32_t slot, const skinning::Reach& reach) cons
 std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,
                                               std::span<const float> hostWeights) const {
     const Played& own = played_[slot];
-    if (own.kind == Kind::unbounded || time < own.transitionEnd ||
+    if (own.kind == Kind::unbounded || own.transition.holds(time) ||
         (own.root.axes != 0 && own.root.node != reach.anchor)) {
         return std::nullopt;
     }

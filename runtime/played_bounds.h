@@ -32,10 +32,20 @@ public:
         turned_[slot].elsewhere = elsewhere;
     }
 
-    /// Until then nobody knows where the slot is: what it has shown goes on as it moved. set() and setBindPose() end
+    struct Interval {
+        double start = std::numeric_limits<double>::infinity(), end = -std::numeric_limits<double>::infinity();
+
+        /// The device tells times within SUPPLE_MAX_TIME apart as finely as this.
+        [[nodiscard]] bool holds(double time) const { return time > start - 1e-5 && time < end + 1e-5; }
+    };
+    /// In this time nobody knows where the slot is: what it has shown goes on as it moved. set() and setBindPose() end
     /// it.
-    void setTransition(uint32_t slot, double end) { played_[slot].transitionEnd = end; }
-    [[nodiscard]] double transitionEnd(uint32_t slot) const { return played_[slot].transitionEnd; }
+    void setTransition(uint32_t slot, const Interval& interval) { played_[slot].transition = interval; }
+    [[nodiscard]] const Interval& transition(uint32_t slot) const { return played_[slot].transition; }
+    [[nodiscard]] bool anyInTransition(double time) const {
+        return std::any_of(played_.begin(), played_.end(),
+                           [&](const Played& own) { return own.transition.holds(time); });
+    }
 
     /// Takes over the first `count` slots of the same character.
     void takeOver(const PlayedBounds& other, uint32_t count) {
@@ -59,7 +69,7 @@ private:
     struct Played {
         Kind kind = Kind::bindPose;
         bool travels = false; ///< the first layer's root motion goes into its transform
-        double transitionEnd = -std::numeric_limits<double>::infinity();
+        Interval transition;
         skinning::PlaybackLayer first;
         skinning::RootSelection root;
     };

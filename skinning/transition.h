@@ -5,6 +5,7 @@
 #include "shaders/pose/affine.h"
 #include "shaders/shared/pose.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -32,15 +33,19 @@ struct SampledPose {
     }
 };
 
-/// What a transition starts from: what was shown and what is played, at its start and shared::kTransitionStep before
-/// and after.
+/// What a transition starts from.
 struct TransitionEnds {
-    SampledPose before, shown; ///< of what was played so far: before the start, and at it
-    SampledPose played, after; ///< of what is played from now on: at the start, and after it. Of the quintic alone
+    /// What was played so far, at three times that are shared::kTransitionStep apart.
+    std::array<SampledPose, 3> shown;
+    uint32_t now = 1; ///< which of them is at the start
+    /// What is played from now on: at the start, and one and two steps after it. The quintic needs it.
+    std::array<SampledPose, 3> played;
 };
 
 /// Elements of a state that a transition takes.
 [[nodiscard]] uint32_t transitionElements(uint32_t nodeCount, uint32_t morphCount);
+/// When the transition began that has these words.
+[[nodiscard]] double transitionStart(std::span<const uint32_t> words);
 /// `words`: those of transitionElements().
 void writeTransition(const Transition& transition, const TransitionEnds& ends, std::span<uint32_t> words);
 

@@ -88,7 +88,7 @@ SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, co
                          }
                          runtime::PlaybackLayers layers;
                          found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers),
-                                                       runtime::goingOverOf(desc));
+                                                       runtime::transitionRequestOf(desc));
                          return SUPPLE_OK;
                      });
 }

@@ -104,6 +104,15 @@ SUPPLE_SHARED_FUNCTION vec4 turnedTimes(vec4 q, float t) {
     return vec4(axis, cosine(turn));
 }
 
+// A rotation by its axis, as long as the tangent of a quarter of its angle.
+SUPPLE_SHARED_FUNCTION vec4 quarterTangentTurn(vec3 r) {
+    SUPPLE_PRECISE float squares = dot3(r, r);
+    SUPPLE_PRECISE float scale = recip(1.0f + squares);
+    SUPPLE_PRECISE vec3 axis = r * (scale + scale);
+    SUPPLE_PRECISE float w = (1.0f - squares) * scale;
+    return vec4(axis, w);
+}
+
 // The symmetric m times itself, brought down to a trace in [1, 2) before.
 SUPPLE_SHARED_FUNCTION mat4 squared(mat4 m) {
     SUPPLE_PRECISE float trace = (m[0][0] + m[1][1]) + (m[2][2] + m[3][3]);

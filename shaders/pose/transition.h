@@ -5,7 +5,7 @@
 // Needs what layers.h needs, and `const bool kTransitions`: whether an instance may be in one.
 
 struct Transition {
-    uint kind;   // kNoTransition: none, or it is over
+    uint kind;   // kNoTransition: none, or it has not begun, or it is over
     float since; // seconds
     float seconds;
     float phase; // 0..1
@@ -22,9 +22,7 @@ Transition transitionOf(uint first) {
         vec2 now = vec2(push.timeHigh, push.timeLow);
         own.seconds = course.z;
         own.since = timeSum(now, -vec2(course)).x;
-        if (own.since < own.seconds) own.kind = state(first + push.transition).w;
-        // Just before it began, speeds are as they were: whoever asks for the speed then finds it.
-        own.since = max(own.since, -kTransitionStep);
+        if (own.since >= 0.0f && own.since < own.seconds) own.kind = state(first + push.transition).w;
         own.phase = clamp(own.since * recip(max(own.seconds, 1e-30f)), 0.0f, 1.0f);
     }
     return own;
@@ -32,7 +30,7 @@ Transition transitionOf(uint first) {
 
 // How long the speed that was kept has moved what was shown: at most kTransitionReach seconds, however late it is.
 float carriedFor(Transition own) {
-    SUPPLE_PRECISE float slowed = 1.0f + max(own.since, 0.0f) * kTransitionDecay;
+    SUPPLE_PRECISE float slowed = 1.0f + own.since * kTransitionDecay;
     SUPPLE_PRECISE float seconds = own.since * recip(slowed);
     return seconds;
 }
@@ -52,17 +50,7 @@ float driftedFor(Transition own, float seconds) {
     SUPPLE_PRECISE float phase = clamp(own.since * recip(max(seconds, 1e-30f)), 0.0f, 1.0f);
     SUPPLE_PRECISE float rest = 1.0f - phase;
     SUPPLE_PRECISE float drifted = seconds * ((phase * ((rest * rest) * rest)) * (1.0f + 3.0f * phase));
-    if (own.since < 0.0f) drifted = own.since;
     return drifted;
-}
-
-// A rotation by its axis, as long as the tangent of a quarter of its angle.
-vec4 quarterTangentTurn(vec3 r) {
-    SUPPLE_PRECISE float squares = dot3(r, r);
-    SUPPLE_PRECISE float scale = recip(1.0f + squares);
-    SUPPLE_PRECISE vec3 axis = r * (scale + scale);
-    SUPPLE_PRECISE float w = (1.0f - squares) * scale;
-    return vec4(axis, w);
 }
 
 // The local transform of a node that is shown, where `played` is what the layers say.
@@ -94,11 +82,13 @@ Transform shownTransform(uint first, uint node, Transform played) {
     return shown;
 }
 
-// Between the smaller of `weight` and 0, and the larger of it and 1: what moves on must not leave what clips say.
-float keptInside(float moved, float weight) { return clamp(moved, min(weight, 0.0f), max(weight, 1.0f)); }
-vec4 allKeptInside(vec4 moved, vec4 weights) {
-    return vec4(keptInside(moved.x, weights.x), keptInside(moved.y, weights.y), keptInside(moved.z, weights.z),
-                keptInside(moved.w, weights.w));
+// What moves on must not leave what clips say: 0 to 1, or as far as one of the two weights is beyond.
+float keptInside(float moved, float a, float b) {
+    return clamp(moved, min(min(a, b), 0.0f), max(max(a, b), 1.0f));
+}
+vec4 allKeptInside(vec4 moved, vec4 a, vec4 b) {
+    return vec4(keptInside(moved.x, a.x, b.x), keptInside(moved.y, a.y, b.y), keptInside(moved.z, a.z, b.z),
+                keptInside(moved.w, a.w, b.w));
 }
 
 // Four morph weights; those that the host has set stand before transitions.
@@ -110,11 +100,12 @@ vec4 shownWeights(uint first, uint quad, vec4 played) {
         vec4 from = stateFloats(element), speed = stateFloats(element + 1u);
         if (own.kind == kDeadBlending) {
             SUPPLE_PRECISE vec4 moved = from + speed * carriedFor(own);
-            SUPPLE_PRECISE vec4 before = allKeptInside(moved, from);
+            SUPPLE_PRECISE vec4 before = allKeptInside(moved, from, from);
             shown = before + (played - before) * blendedIn(own);
         } else {
-            SUPPLE_PRECISE vec4 moved = (played + from * differenceLeft(own)) + speed * driftedFor(own, own.seconds);
-            shown = allKeptInside(moved, played);
+            SUPPLE_PRECISE vec4 unmoved = played + from * differenceLeft(own);
+            SUPPLE_PRECISE vec4 moved = unmoved + speed * driftedFor(own, own.seconds);
+            shown = allKeptInside(moved, unmoved, played);
         }
     }
     return shown;

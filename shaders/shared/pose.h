@@ -35,10 +35,10 @@
 //              eye in the joint's frame; 0); rotation; (axis in the joint's frame; 0)
 //   transition in groups that have them, from `transition` on, read only if the flags say so: (begin, high and low float;
 //              seconds; kind); kTransitionElements a node, in the order of the table; then two elements for every four morph
-//              weights. Of dead blending: (rotation); (its speed, as the tangent of a quarter of the angle a second; scale x);
-//              (translation; scale y); (its speed; scale z); weights, their speeds. Of a quintic the same of differences to
-//              what is played, the rotation as the tangent of a quarter of its angle, with the seconds that its speed takes
-//              in w
+//              weights. Dead blending has: (rotation); (its speed, as the tangent of a quarter of the angle a second; scale x);
+//              (translation; scale y); (its speed; scale z); weights, their speeds. A quintic has the differences to what is
+//              played in these places. Its rotation is the tangent of a quarter of the angle, with the seconds that its speed
+//              takes in w
 //
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
@@ -99,7 +99,7 @@ SUPPLE_SHARED_CONST kModifierPole = 2u;
 SUPPLE_SHARED_CONST kModifierEndRotation = 4u;
 SUPPLE_SHARED_CONST kModifierModel = 8u;
 
-// Transitions: values of SuppleTransitionKind, and 0.
+// Transitions: kinds, in the order of SuppleTransitionKind, behind none.
 SUPPLE_SHARED_CONST kNoTransition = 0u;
 SUPPLE_SHARED_CONST kDeadBlending = 1u;
 SUPPLE_SHARED_CONST kQuintic = 2u;

@@ -84,12 +84,14 @@ TEST(PlayedBounds, HoldWhatPlays) {
     skinning::PlaybackLayer stays{.clip = 0};
     bounds.set(0, {{&stays, 1}, {}, false});
     const uint32_t before = bounds.loopOf(0, 2.9);
-    bounds.setTransition(0, 3.0); // what was shown moves on, where no clip has been
+    bounds.setTransition(0, {2.8, 3.0}); // what was shown moves on, where no clip has been
     EXPECT_FALSE(bounds.of(0, 2.9, reach, {}).has_value());
     EXPECT_NE(bounds.loopOf(0, 2.9), before);
-    EXPECT_TRUE(bounds.of(0, 3.0, reach, {}).has_value());
-    EXPECT_EQ(bounds.loopOf(0, 3.0), before);
-    bounds.setTransition(0, 3.0);
+    for (const double outside : {2.7, 3.1}) {
+        EXPECT_TRUE(bounds.of(0, outside, reach, {}).has_value());
+        EXPECT_EQ(bounds.loopOf(0, outside), before);
+    }
+    bounds.setTransition(0, {2.8, 3.0});
     bounds.setBindPose(0);
     const float weight = 3.0f;
     const auto bind = bounds.of(0, 0.0, reach, {&weight, 1});

@@ -176,7 +176,7 @@ std::vector<std::byte> bitsOf(CrowdContext& context, SuppleAsset asset, const Pl
 
 class PreparedCharacters : public CrowdContexts {};
 
-TEST_F(PreparedCharacters, AreDrawnWithTheSameBits) {
+TEST_F(PreparedCharacters, AreDrawnWithTheSameBitsAlsoFromAFile) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
@@ -185,47 +185,29 @@ TEST_F(PreparedCharacters, AreDrawnWithTheSameBits) {
         ASSERT_NE(prepared, nullptr);
         CrowdContext other(*testDevice(), mapping);
         const SuppleAsset first = assetOf(own, prepared), second = assetOf(other, prepared);
+        const std::vector<std::byte> file = saved(prepared);
         suppleDestroyPrepared(prepared);
+        const SuppleAsset cooked = own.createAsset(file, "wren");
         for (const Plan& plan : plans()) {
             SCOPED_TRACE(plan.name);
             const std::vector<std::byte> expected = bitsOf(own, read, plan);
             EXPECT_FALSE(expected.empty());
             own.takeLines();
             EXPECT_TRUE(bitsOf(own, first, plan) == expected);
+            EXPECT_TRUE(bitsOf(own, cooked, plan) == expected);
             if (&plan == plans().data()) { // the other context makes its pipelines anew
                 EXPECT_TRUE(bitsOf(other, second, plan) == expected);
             }
             EXPECT_EQ(notPrepared(own), 0u);
             EXPECT_EQ(notPrepared(other), 0u);
         }
-    }
-}
-
-TEST_F(PreparedCharacters, AreTheSameFromAFile) {
-    const ValidationGuard guard;
-    for (const SuppleMapping mapping : kMappings) {
-        CrowdContext& own = context(mapping);
-        const SupplePrepared prepared = prepareWren(mapping, true);
-        ASSERT_NE(prepared, nullptr);
-        const SuppleAsset expected = assetOf(own, prepared);
-        const std::vector<std::byte> file = saved(prepared);
-        suppleDestroyPrepared(prepared);
-        const SuppleAsset cooked = own.createAsset(file, "wren");
-        for (const Plan& plan : plans()) {
-            SCOPED_TRACE(plan.name);
-            const std::vector<std::byte> bits = bitsOf(own, expected, plan);
-            EXPECT_FALSE(bits.empty());
-            own.takeLines();
-            EXPECT_TRUE(bitsOf(own, cooked, plan) == bits);
-            EXPECT_EQ(notPrepared(own), 0u);
-        }
         // A reload takes it, too.
         SuppleAssetDesc desc{};
         desc.structSize = sizeof(desc);
         desc.bytes = file.data();
         desc.byteCount = file.size();
-        EXPECT_EQ(suppleReloadAsset(own.handle(), expected, &desc), SUPPLE_OK);
-        EXPECT_FALSE(bitsOf(own, expected, plans()[0]).empty());
+        EXPECT_EQ(suppleReloadAsset(own.handle(), first, &desc), SUPPLE_OK);
+        EXPECT_FALSE(bitsOf(own, first, plans()[0]).empty());
         EXPECT_EQ(notPrepared(own), 0u);
     }
 }
@@ -250,7 +232,7 @@ TEST_F(PreparedCharacters, TablesOfAHigherRateServeWhereTheyMakeTheSame) {
         const SuppleAsset asset = assetOf(own, prepared);
         suppleDestroyPrepared(prepared);
         for (const Plan& plan : high) {
-            for (const uint32_t rate : {3u, 4u, 5u, 6u}) {
+            for (const uint32_t rate : {4u, 5u}) {
                 SCOPED_TRACE(std::to_string(plan.desc.scheme) + ", rate " + std::to_string(rate));
                 Plan low = plan;
                 low.desc.rate = rate;

@@ -1,6 +1,7 @@
 // Transitions: instances go over from what they have shown to what they play, without a jump of place or speed, as a
 // function of the group's time, with the bits that the CPU has.
 #include "tests/support/played_group.h"
+#include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 
 #include <algorithm>
@@ -155,7 +156,7 @@ TEST_F(Transitions, AreFunctionsOfTimeAlone) {
     };
     const std::vector<float> direct = poses({}, false);
     EXPECT_EQ(poses({1.0, 1.03, 1.06, 1.09, 1.12}, false), direct);
-    EXPECT_EQ(poses({1.29, 1.4, 0.2, 1.1}, false), direct) << "back and forth";
+    EXPECT_EQ(poses({1.29, 1.4, 0.2, 1.1}, false), direct) << "back and forth, also to before it began";
     EXPECT_EQ(poses({1.05}, true), direct) << "made anew";
 }
 
@@ -175,7 +176,7 @@ TEST_F(Transitions, GoOnWhenTheyAreInterrupted) {
             std::printf("%s interrupted: place %.2g extents, speed %.2g extents/s\n", nameOf(kKinds[i]),
                         jump.place / extent, jump.speed / extent);
             EXPECT_LT(jump.place, 2e-6 * extent);
-            EXPECT_LT(jump.speed, 0.4 * extent);
+            EXPECT_LT(jump.speed, 0.1 * extent);
             EXPECT_EQ(stage.run(1.05 + later), 0u);
         }
         // At the very moment at which one has begun: the speed is still the first one's.
@@ -184,7 +185,7 @@ TEST_F(Transitions, GoOnWhenTheyAreInterrupted) {
             stage.play(i, 4, 0.0, goingOver(kKinds[i]));
         });
         EXPECT_LT(twice.place, 2e-6 * extent);
-        EXPECT_LT(twice.speed, 0.4 * extent);
+        EXPECT_LT(twice.speed, 0.1 * extent);
     }
 }
 
@@ -200,9 +201,23 @@ TEST_F(Transitions, AreKeptWhenTheSpeedChanges) {
         stage.play(i, 2, 0.1, goingOver(kKinds[i]));
         EXPECT_EQ(stage.run(1.05), 0u);
         const std::vector<float> before = stage.poses;
-        stage.play(i, 2, 0.1, goingOver(kKinds[i], 0.0, SUPPLE_PLAYBACK_KEEP_TRANSITION));
-        EXPECT_EQ(stage.run(1.05), 0u);
-        EXPECT_EQ(stage.poses, before);
+        const Places shown = placesAt(stage, i, 1.05);
+        SupplePlaybackLayer faster{};
+        faster.clip = 2;
+        faster.flags = SUPPLE_LAYER_LOOP;
+        faster.weight = 1.0f;
+        faster.speed = 1.5f;
+        faster.startTime = 1.05;
+        faster.offset = 0.1 + 1.05;
+        SupplePlaybackDesc kept = goingOver(kKinds[i], 0.0, SUPPLE_PLAYBACK_KEEP_TRANSITION);
+        kept.structSize = sizeof kept;
+        kept.layers = &faster;
+        kept.layerCount = 1;
+        EXPECT_EQ(suppleSetPlayback(stage.handle(), stage.instances[i], &kept), SUPPLE_OK);
+        EXPECT_LT(apart(placesAt(stage, i, 1.05), shown), 1e-5 * stage.extent());
+        own.cancel(stage.crowd.group());
+        EXPECT_EQ(stage.run(1.1), 0u);
+        EXPECT_GT(apart(placesAt(stage, i, 1.1), shown), 1e-3 * stage.extent());
         stage.play(i, 2, 0.1);
         EXPECT_EQ(stage.run(1.05), 0u);
         EXPECT_NE(stage.poses, before) << "without the flag it is over";
@@ -281,7 +296,7 @@ TEST_F(Transitions, ChangeMorphWeightsSmoothly) {
                 const std::vector<float> now = weights(i);
                 for (uint32_t t = 0; t < layout.morphCount; ++t) {
                     EXPECT_TRUE(now[t] >= 0.0f && now[t] <= 1.0f) << now[t];
-                    EXPECT_NEAR(now[t], last[t], 0.25f) << "no jump";
+                    EXPECT_NEAR(now[t], last[t], 0.2f) << "no jump";
                     moved = std::max(moved, std::abs(now[t] - shown[t]));
                 }
                 last = now;
@@ -306,17 +321,108 @@ TEST_F(Transitions, LeaveTheRootWhereItTravels) {
     PlayedGroup stage(own, transitingGroup(own.asset(kWren), 2));
     ASSERT_TRUE(stage.crowd.valid());
     const double extent = stage.extent();
+    const glm::mat4 place = glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 0.0f, 1.0f}), 0.7f, {0.0f, 1.0f, 0.0f});
     for (uint32_t i = 0; i < 2; ++i) {
         SupplePlaybackDesc walks{};
         walks.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
         walks.flags = SUPPLE_PLAYBACK_TRAVEL;
+        stage.place(i, place);
         stage.play(i, 1, 0.0, walks);
-        EXPECT_EQ(stage.run(0.0), 0u);
+        EXPECT_EQ(stage.run(0.7), 0u);
+        const Places start = placesAt(stage, i, 0.0), shown = placesAt(stage, i, 0.7);
+        EXPECT_GT(apart(start, shown), 0.1 * extent) << "it has travelled";
+        // How far: hosts fold it into the transform.
+        SuppleClipLayer layer{};
+        layer.clip = 1;
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = 1.0f;
+        layer.time = 0.7;
+        SupplePoseDesc pose{};
+        pose.structSize = sizeof pose;
+        pose.layers = &layer;
+        pose.layerCount = 1;
+        pose.rootMotion = walks.rootMotion;
+        SuppleRootMotion moved{};
+        moved.structSize = sizeof moved;
+        ASSERT_EQ(suppleGetRootMotion(stage.handle(), own.asset(kWren), &pose, &moved), SUPPLE_OK);
         SupplePlaybackDesc stands = goingOver(kKinds[i]);
         stands.rootMotion = walks.rootMotion;
-        const Jump jump = jumpAt(stage, i, 0.0, [&] { stage.play(i, 0, 0.0, stands); });
-        EXPECT_LT(jump.place, 2e-6 * extent);
-        EXPECT_EQ(stage.run(0.1), 0u);
+        stage.play(i, 0, 0.0, stands);
+        stage.place(i, place * glm::make_mat4(moved.transform));
+        EXPECT_LT(apart(placesAt(stage, i, 0.7), shown), 1e-5 * extent);
+        EXPECT_EQ(stage.run(0.8), 0u);
+        stage.play(i, 0, 0.0);
+    }
+}
+
+TEST_F(Transitions, TakeNoSpeedFromWhereClipsJump) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3, .morphTargets = 0});
+    // A joint that goes two units up in a second and begins anew, and turns by a third of a turn; another that stands.
+    tube.clips.push_back(
+        clipOf({channel(1, cage::ChannelPath::translation, {0, 1}, {0, 0, 0, 0, 2, 0}),
+                channel(1, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0.8660254f, 0, 0, 0.5f})}));
+    tube.clips.push_back(clipOf({channel(1, cage::ChannelPath::translation, {0, 1}, {0, 1, 0, 0, 1, 0})}));
+    const auto jumps = static_cast<uint32_t>(tube.clips.size()) - 2;
+    PlayedGroup stage(own, transitingGroup(own.createAsset(tube), 2));
+    ASSERT_TRUE(stage.crowd.valid());
+    for (uint32_t i = 0; i < 2; ++i) {
+        for (const double start : {0.996, 1.004, 2.0}) { // the loop ends within a step of each
+            stage.play(i, jumps, 0.0);
+            const Places shown = placesAt(stage, i, start);
+            stage.play(i, jumps + 1, 0.0, goingOver(kKinds[i]));
+            double farthest = 0.0;
+            for (const double later : {0.01, 0.03, 0.06, 0.1, 0.15, 0.2}) {
+                const Places now = placesAt(stage, i, start + later);
+                const double height = now[1].y, low = std::min(shown[1].y, placesAt(stage, i, 9.0)[1].y),
+                             high = std::max(shown[1].y, placesAt(stage, i, 9.0)[1].y);
+                farthest = std::max({farthest, height - high, low - height});
+            }
+            EXPECT_LT(farthest, 0.15) << "0.072 s of 2 units a second, at " << start;
+            EXPECT_EQ(stage.run(start + 0.1), 0u);
+        }
+    }
+}
+
+TEST_F(Transitions, HoldWithLayersOfAllKinds) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        PlayedGroup stage(own, transitingGroup(own.asset(kPip), 2));
+        ASSERT_TRUE(stage.crowd.valid());
+        std::vector<float> ones(stage.character().skin.joints.size(), 0.5f);
+        SuppleMaskDesc mask{};
+        mask.structSize = sizeof mask;
+        mask.mask = 1;
+        mask.jointMask = ones.data();
+        mask.jointMaskCount = static_cast<uint32_t>(ones.size());
+        EXPECT_EQ(suppleSetMask(stage.handle(), stage.crowd.group(), &mask), SUPPLE_OK);
+        for (uint32_t i = 0; i < 2; ++i) {
+            SupplePlaybackLayer layers[2]{};
+            for (SupplePlaybackLayer& layer : layers) {
+                layer.flags = SUPPLE_LAYER_LOOP;
+                layer.weight = layer.speed = 1.0f;
+            }
+            layers[1].clip = 2;
+            layers[1].mode = SUPPLE_LAYER_ADDITIVE;
+            layers[1].mask = 1;
+            layers[1].offset = 0.3;
+            SupplePlaybackDesc desc = goingOver(kKinds[i]);
+            desc.structSize = sizeof desc;
+            desc.layers = layers;
+            desc.layerCount = 2;
+            stage.play(i, 1, 0.2);
+            EXPECT_EQ(stage.run(1.0), 0u);
+            const Jump jump = jumpAt(stage, i, 1.0, [&] {
+                EXPECT_EQ(suppleSetPlayback(stage.handle(), stage.instances[i], &desc), SUPPLE_OK);
+            });
+            EXPECT_LT(jump.place, 2e-6 * stage.extent());
+            EXPECT_LT(jump.speed, 0.1 * stage.extent());
+            EXPECT_EQ(stage.run(1.1), 0u);
+        }
     }
 }
 

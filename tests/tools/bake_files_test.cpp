@@ -608,5 +608,35 @@ TEST_F(BakeFiles, HashesTellWhatDiffers) {
     EXPECT_EQ(runOnDevice("bake " + kSamplePip).exitCode, 2) << "neither a file nor hashes";
 }
 
+TEST_F(BakeFiles, TransitionsGoFromOneClipToTheOther) {
+    const std::string bake = "bake " + kSamplePip + " --scheme cage ";
+    const auto palette = [&](const std::string& arguments) {
+        const Outcome outcome = runOnDevice(bake + "--hash --transition 'walk@0.4->idle' " + arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return hashesIn(outcome.out)["palette"];
+    };
+    const std::string kinds[] = {"", " --transition-kind quintic", " --transition-kind crossfade"};
+    std::set<std::string> before, within, behind;
+    for (const std::string& kind : kinds) {
+        before.insert(palette("--time 0.2" + kind));
+        within.insert(palette("--time 0.5" + kind));
+        behind.insert(palette("--time 0.8" + kind));
+    }
+    EXPECT_EQ(before.size(), 1u);
+    EXPECT_EQ(within.size(), 3u);
+    EXPECT_EQ(behind.size(), 1u);
+    EXPECT_EQ(palette("--time 0.5 --mapping wide"), palette("--time 0.5"));
+    EXPECT_NE(palette("--time 0.5 --transition-seconds 0.2"), palette("--time 0.5"));
+    for (const char* wrong : {"walk", "walk->idle", "walk@->idle", "walk@0.4->", "@0.4->idle", "walk@-1->idle",
+                              "walk@0.4x->idle", "walk@nan->idle"}) {
+        const Outcome outcome = runOnDevice(bake + "--hash --time 0.5 --transition '" + wrong + "'");
+        EXPECT_EQ(outcome.exitCode, 2) << wrong;
+        EXPECT_NE(outcome.err.find("is not CLIP@SECONDS->CLIP"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(runOnDevice(bake + "--hash --time 0.5 --transition 'walk@0.4->fly'").exitCode, 1) << "no such clip";
+    EXPECT_EQ(runOnDevice(bake + "--hash --transition 'walk@0.4->idle'").exitCode, 2) << "at no time";
+    EXPECT_EQ(runOnDevice(bake + "--hash --time 0.5 --rest-pose --transition 'walk@0.4->idle'").exitCode, 2);
+}
+
 } // namespace
 } // namespace supple::test

@@ -133,6 +133,12 @@ struct GoldenSheet {
     uint32_t rate;
     const char* joint; ///< of the view "weights"
     std::vector<NamedView> views;
+    std::vector<std::string> drawn; ///< those of the views that are compared; none: all
+
+    [[nodiscard]] bool draws(const NamedView& view) const {
+        return drawn.empty() || std::getenv("SUPPLE_WRITE_PICTURES") != nullptr ||
+               std::find(drawn.begin(), drawn.end(), view.name) != drawn.end();
+    }
 };
 
 std::vector<NamedView> allViews() {
@@ -145,6 +151,8 @@ Sheet drawViews(const GoldenSheet& golden) {
     const Status status =
         inSession({.validate = std::getenv("SUPPLE_VALIDATION") != nullptr}, [&](Session& session) -> Status {
             for (size_t i = 0; i < golden.views.size(); ++i) {
+                if (!golden.draws(golden.views[i]))
+                    continue;
                 const Result<host::Picture> picture = figure.draw(session, golden.views[i]);
                 if (!picture)
                     return picture.error();
@@ -171,6 +179,8 @@ void compareViews(const GoldenSheet& golden) {
     ASSERT_EQ(read->height, drawn.picture().height);
     const Sheet expected(*read);
     for (size_t i = 0; i < golden.views.size(); ++i) {
+        if (!golden.draws(golden.views[i]))
+            continue;
         const test::PictureDifference difference = test::differenceOf(drawn.tile(i), expected.tile(i));
         const std::string view = golden.views[i].name;
         EXPECT_LT(difference.changed, kMostChanged) << view;
@@ -221,12 +231,19 @@ TEST(ViewGolden, PipAtRate2) {
 TEST(ViewGolden, PipAtRate8) {
     compareViews({"pip_8", "pip.glb", 8, "chest", allViews()});
 }
+// At the largest rate, the views that a dense grid could spoil; the others have been seen at rate 8.
 TEST(ViewGolden, PipAtRate32) {
-    compareViews({"pip_32", "pip.glb", 32, "chest", allViews()});
+    compareViews({"pip_32", "pip.glb", 32, "chest", allViews(), {"shaded", "wire", "patches", "normals", "zebra"}});
 }
 // Textures, normal maps, and more than one part. At rate 32 it does not fit into a storage buffer of lavapipe.
 TEST(ViewGolden, WrenAtRate8) {
-    compareViews({"wren_8", "wren.glb", 8, "chest", allViews()});
+    compareViews({"wren_8",
+                  "wren.glb",
+                  8,
+                  "chest",
+                  allViews(),
+                  {"shaded", "patches", "tangents", "uv", "uv1", "vertex-color", "base-color", "metallic", "roughness",
+                   "normal-map", "occlusion", "emissive", "weights", "levels"}});
 }
 // Holes of a trim, at the edges of which pixels end, and long even stripes.
 TEST(ViewGolden, HelmetAtRate32) {

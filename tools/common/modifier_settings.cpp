@@ -1,5 +1,7 @@
 #include "tools/common/modifier_settings.h"
 
+#include "base/from_chars.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -18,7 +20,7 @@ Result<ModifierSetting> parseModifier(const std::string& text, SuppleModifierKin
     const char* at = text.data() + equals + 1;
     const char* const last = text.data() + text.size();
     for (size_t i = 0; i < count; ++i) {
-        const auto [end, error] = std::from_chars(at, last, setting.numbers[i]);
+        const auto [end, error] = from_chars(at, last, setting.numbers[i]);
         const bool whole = i + 1 == count ? end == last : end != last && *end == ',';
         if (error != std::errc() || !whole || !std::isfinite(setting.numbers[i])) {
             return Error{ErrorCode::argument, text + " is not " + form};

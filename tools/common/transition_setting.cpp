@@ -1,6 +1,7 @@
 #include "tools/common/transition_setting.h"
 
-#include <charconv>
+#include "base/from_chars.h"
+
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -9,13 +10,13 @@ namespace supple::host {
 
 namespace {
 
-struct How {
+struct Method {
     const char* name;
-    TransitionHow how;
+    TransitionMethod method;
 };
-constexpr How kHows[] = {{"dead-blending", TransitionHow::deadBlending},
-                         {"quintic", TransitionHow::quintic},
-                         {"crossfade", TransitionHow::crossfade}};
+constexpr Method kMethods[] = {{"dead-blending", TransitionMethod::deadBlending},
+                               {"quintic", TransitionMethod::quintic},
+                               {"crossfade", TransitionMethod::crossfade}};
 
 SupplePlaybackLayer looping(uint32_t clip, double start) {
     SupplePlaybackLayer layer{};
@@ -36,20 +37,28 @@ SuppleResult play(Context& context, SuppleInstance instance, std::span<const Sup
 
 } // namespace
 
-std::vector<std::string> transitionHows() {
+std::vector<std::string> transitionMethods() {
     std::vector<std::string> names;
-    for (const How& how : kHows) {
-        names.emplace_back(how.name);
+    for (const Method& method : kMethods) {
+        names.emplace_back(method.name);
     }
     return names;
 }
 
-PlannedTransition plannedTransition(const TransitionSetting& setting, uint32_t from, uint32_t to) {
-    PlannedTransition planned{from, to, setting.at, setting.seconds};
-    for (const How& how : kHows) {
-        planned.how = setting.how == how.name ? how.how : planned.how;
+Result<std::optional<PlannedTransition>>
+planTransition(const TransitionSetting& setting, const std::function<Result<uint32_t>(const std::string&)>& findClip) {
+    if (!setting.isThere()) {
+        return std::optional<PlannedTransition>();
     }
-    return planned;
+    const Result<uint32_t> from = findClip(setting.from), to = findClip(setting.to);
+    if (!from || !to) {
+        return !from ? from.error() : to.error();
+    }
+    PlannedTransition planned{*from, *to, setting.at, setting.seconds};
+    for (const Method& method : kMethods) {
+        planned.method = setting.method == method.name ? method.method : planned.method;
+    }
+    return std::optional(planned);
 }
 
 Status parseTransition(const std::string& text, TransitionSetting& setting) {
@@ -59,7 +68,7 @@ Status parseTransition(const std::string& text, TransitionSetting& setting) {
         return fault;
     }
     const char* const last = text.data() + arrow;
-    const auto [end, error] = std::from_chars(text.data() + sign + 1, last, setting.at);
+    const auto [end, error] = from_chars(text.data() + sign + 1, last, setting.at);
     if (error != std::errc() || end != last || !std::isfinite(setting.at) || setting.at < 0.0) {
         return fault;
     }
@@ -73,7 +82,7 @@ Status playTransition(Context& context, SuppleGroup group, SuppleInstance instan
     const SupplePlaybackLayer from = looping(transition.from, 0.0);
     SuppleResult result = play(context, instance, {&from, 1});
     if (result == SUPPLE_OK && time >= transition.at) {
-        const bool crossfade = transition.how == TransitionHow::crossfade;
+        const bool crossfade = transition.method == TransitionMethod::crossfade;
         SupplePlaybackLayer layers[] = {from, looping(transition.to, transition.at)};
         SupplePlaybackDesc desc{};
         if (crossfade) {
@@ -83,8 +92,8 @@ Status playTransition(Context& context, SuppleGroup group, SuppleInstance instan
             layers[1].fadeDuration = static_cast<float>(transition.seconds);
         } else {
             desc.transition = transition.seconds;
-            desc.transitionKind =
-                transition.how == TransitionHow::quintic ? SUPPLE_TRANSITION_QUINTIC : SUPPLE_TRANSITION_DEAD_BLENDING;
+            desc.transitionKind = transition.method == TransitionMethod::quintic ? SUPPLE_TRANSITION_QUINTIC
+                                                                                 : SUPPLE_TRANSITION_DEAD_BLENDING;
         }
         result = suppleSetTime(context.handle(), group, transition.at);
         if (result == SUPPLE_OK) {

@@ -4,35 +4,38 @@
 #include "base/result.h"
 #include "host/context.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <supple/supple.h>
 #include <vector>
 
 namespace supple::host {
 
-/// How an instance goes over. A crossfade plays both clips meanwhile, by two layers.
-enum class TransitionHow { deadBlending, quintic, crossfade };
+/// A crossfade plays both clips meanwhile, by two layers.
+enum class TransitionMethod { deadBlending, quintic, crossfade };
 
 struct TransitionSetting {
     std::string from, to; ///< names or numbers of clips; empty: no transition
     double at = 0.0;      ///< seconds, of the time that poses are asked for at
     double seconds = 0.3; ///< that it takes
-    std::string how = "dead-blending";
+    std::string method = "dead-blending";
 
     [[nodiscard]] bool isThere() const { return !to.empty(); }
 };
-/// The values of TransitionSetting::how.
-[[nodiscard]] std::vector<std::string> transitionHows();
+/// The values of TransitionSetting::method.
+[[nodiscard]] std::vector<std::string> transitionMethods();
 /// "walk@0.4->run" into from, at and to. The error says what is wrong in a few words.
 [[nodiscard]] Status parseTransition(const std::string& text, TransitionSetting& setting);
 
 struct PlannedTransition {
     uint32_t from = 0, to = 0; ///< clips
     double at = 0.0, seconds = 0.3;
-    TransitionHow how = TransitionHow::deadBlending;
+    TransitionMethod method = TransitionMethod::deadBlending;
 };
-/// Between clips that the setting names.
-[[nodiscard]] PlannedTransition plannedTransition(const TransitionSetting& setting, uint32_t from, uint32_t to);
+/// Nothing if the setting is not there. `findClip`: the number of a clip by its name or number.
+[[nodiscard]] Result<std::optional<PlannedTransition>>
+planTransition(const TransitionSetting& setting, const std::function<Result<uint32_t>(const std::string&)>& findClip);
 
 /// Both clips loop, and begin with the group and with the transition. Sets the group's time, and what the instance
 /// plays then. The group plays, with SUPPLE_GROUP_TRANSITIONS.

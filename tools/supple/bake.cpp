@@ -167,19 +167,6 @@ Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cag
                : writeObj(options.output, baked, character.parts.size(), options.surface.rate);
 }
 
-/// Nothing without --transition.
-Result<std::optional<host::PlannedTransition>> transitionOf(const cage::Character& character,
-                                                            const host::TransitionSetting& setting) {
-    if (!setting.isThere()) {
-        return std::optional<host::PlannedTransition>();
-    }
-    const Result<uint32_t> from = host::findClip(character, setting.from), to = host::findClip(character, setting.to);
-    if (!from || !to) {
-        return !from ? from.error() : to.error();
-    }
-    return std::optional(host::plannedTransition(setting, *from, *to));
-}
-
 int runBake(const BakeOptions& options) {
     const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
@@ -208,7 +195,8 @@ int runBake(const BakeOptions& options) {
     if (!modifiers) {
         return fail(kExitBadInput, modifiers.error().message);
     }
-    const Result<std::optional<host::PlannedTransition>> transition = transitionOf(file->character, options.transition);
+    const Result<std::optional<host::PlannedTransition>> transition = host::planTransition(
+        options.transition, [&](const std::string& clip) { return host::findClip(file->character, clip); });
     if (!transition) {
         return fail(kExitBadInput, transition.error().message);
     }
@@ -273,6 +261,9 @@ void bindBake(CLI::App& app, int& exitCode) {
     bindMorphs(*command, options->morphs);
     bindModifiers(*command, options->modifiers);
     bindTransition(*command, options->transition);
+    command->get_option("--transition")
+        ->excludes(command->get_option("--rest-pose"))
+        ->needs(command->get_option("--time"));
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] {
         if (options->output.empty() && !options->hash) {

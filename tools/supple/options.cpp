@@ -248,17 +248,16 @@ void bindTransition(CLI::App& command, host::TransitionSetting& setting) {
                         throw CLI::ValidationError("--transition", parsed.error().message);
                     }
                 },
-                "Instead of --clip: a clip, and from a time on another one, with what the device makes of the change. "
-                "Both "
-                "loop")
+                "Instead of --clip: a clip from the beginning, and from a time on another one, with what the device "
+                "makes of the change. Both loop")
             ->type_name("CLIP@SECONDS->CLIP")
             ->excludes(command.get_option("--clip"));
     command.add_option("--transition-seconds", setting.seconds, "How long the change takes")
         ->check(CLI::Range(0.001, 60.0))
         ->capture_default_str()
         ->needs(transition);
-    command.add_option("--transition-kind", setting.how, "How it is made; crossfade: both clips play meanwhile")
-        ->check(CLI::IsMember(host::transitionHows()))
+    command.add_option("--transition-kind", setting.method, "How it is made; crossfade: both clips play meanwhile")
+        ->check(CLI::IsMember(host::transitionMethods()))
         ->capture_default_str()
         ->needs(transition);
 }

@@ -71,13 +71,8 @@ Status show(host::FigureGroup& group, const ClipTime& pose) {
 } // namespace
 
 Result<std::optional<host::PlannedTransition>> Stage::transition() const {
-    const host::TransitionSetting& setting = options_.transition;
-    if (!setting.isThere())
-        return std::optional<host::PlannedTransition>();
-    const Result<uint32_t> from = host::findClip(*figure_, setting.from), to = host::findClip(*figure_, setting.to);
-    if (!from || !to)
-        return !from ? from.error() : to.error();
-    return std::optional(host::plannedTransition(setting, *from, *to));
+    return host::planTransition(options_.transition,
+                                [&](const std::string& clip) { return host::findClip(*figure_, clip); });
 }
 
 Result<Extent> measureGroup(host::FigureGroup& group, std::span<const ClipTime> poses, bool cage, bool beside) {

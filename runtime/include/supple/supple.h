@@ -929,8 +929,8 @@ typedef enum SuppleGroupFlags {
      * KiB of memory per instance, on the device if it plays. */
     SUPPLE_GROUP_MODIFIERS = 1024,
     /** With SUPPLE_POSES_PLAYBACK: instances may go over from what they play to something else
-     * (SupplePlaybackDesc.transition). These cost 64 bytes per node that moves a joint, and 8 per morph target, of
-     * device memory per instance. */
+     * (SupplePlaybackDesc.transition). Room for it costs 64 bytes per node that moves a joint, and 8 per morph target,
+     * for each instance: of device memory, and of staging memory for each frame in flight. */
     SUPPLE_GROUP_TRANSITIONS = 2048
 } SuppleGroupFlags;
 

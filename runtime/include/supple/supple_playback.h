@@ -183,7 +183,7 @@ typedef enum SupplePlaybackFlags {
     /** The transition that the instance is in goes on. Set it to change a speed or a weight of what plays. */
     SUPPLE_PLAYBACK_KEEP_TRANSITION = 4,
     /** The transition starts from what the instance's modifiers have left, not from what its layers have posed: for a
-     * body that gets up. Take the modifiers away behind this call. Speeds are found with the modifiers' present
+     * body that gets up. Take the modifiers away after this call. Speeds are found with the modifiers' present
      * targets. */
     SUPPLE_PLAYBACK_FROM_MODIFIED = 8
 } SupplePlaybackFlags;
@@ -211,7 +211,7 @@ typedef struct SupplePlaybackDesc {
     uint32_t rootJoint;
     double transition; /**< seconds from T at the call on, in which the instance goes over from what it has shown; 0:
                         * none. Groups with SUPPLE_GROUP_TRANSITIONS. 0.3 suits most changes */
-    SuppleTransitionKind transitionKind;
+    SuppleTransitionKind transitionKind; /**< how */
 } SupplePlaybackDesc;
 
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
@@ -220,13 +220,14 @@ typedef struct SupplePlaybackDesc {
  * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL).
  * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
  * for rounding (docs/playback.md).
- * A transition is a function of T, and starts at the T that the group has at the call, so set the time first. It starts
- * from what is shown then, if another one is not over from what that one shows, and is over with it. It changes local
- * transforms behind layers and root motion and before modifiers, and morph weights unless the host has set some. It
- * ends if the playback is set again without KEEP_TRANSITION. An instance in the bind pose begins at once.
- * Errors: the group has another pose source; too many layers; a clip, joint, mode or flag that does not exist; a mask
- * that was not set; a weight, speed, fade, transition or time out of range or not finite; TRAVEL without rootMotion; a
- * transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION; FROM_MODIFIED without a transition. */
+ * A transition is a function of T. It starts at the T that the group has at the call, so set the time first. If another
+ * transition is running, it starts from what that one shows, and replaces it. At a T before its start there is none. It
+ * changes local transforms, after layers and root motion and before modifiers, and morph weights unless the host has
+ * set some. It ends if the playback is set again without KEEP_TRANSITION. An instance in the bind pose begins at once.
+ * Errors: the group has another pose source; too many layers; a clip, joint, mode, flag or kind of transition that does
+ * not exist; a mask that was not set; a weight, speed, fade, transition or time out of range or not finite; TRAVEL
+ * without rootMotion; a transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION; FROM_MODIFIED without a
+ * transition. */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
