@@ -12,6 +12,7 @@ namespace {
 constexpr VkDeviceSize kBlockAlignment = 65536; ///< as much as buffers ask for anywhere
 constexpr VkDeviceSize kFirstBlock = VkDeviceSize{8} << 20;
 constexpr VkDeviceSize kFirstVisibleBlock = VkDeviceSize{1} << 20;
+constexpr VkDeviceSize kGrowth = 2;    ///< beside all before it together
 constexpr VkDeviceSize kHeapShare = 8; ///< a block takes at most such a part of the largest heap
 
 VkDeviceSize largestBlock(const Device& device) {
@@ -34,7 +35,8 @@ VkDeviceSize MemoryBlocks::nextSize(const Device& device, const VkMemoryRequirem
     for (const Block& block : blocks_) {
         size += block.serves(requirements, kind) ? block.ranges.size() : 0;
     }
-    size = std::max({size, requirements.size, kind == MemoryKind::deviceLocal ? kFirstBlock : kFirstVisibleBlock});
+    size = std::max(
+        {kGrowth * size, requirements.size, kind == MemoryKind::deviceLocal ? kFirstBlock : kFirstVisibleBlock});
     size = std::min(size, largestBlock(device)) / kBlockAlignment * kBlockAlignment;
     const MemoryLedger& ledger = *device.ledger;
     const bool allowed = ledger.budget == 0 || ledger.use.total() + size <= ledger.budget;

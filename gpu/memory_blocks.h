@@ -10,8 +10,8 @@ namespace supple::gpu {
 
 struct Device;
 
-/// Blocks grow: each is as large as all before it together, up to a limit. So there are few, and at most about half is
-/// spare. A block goes back when nothing is in it. One thread at a time.
+/// Blocks grow: each is twice as large as all before it together, up to a limit. So there are few, and at most about
+/// two thirds is spare. A block goes back when nothing is in it. One thread at a time.
 class MemoryBlocks {
     struct Block {
         HostMemory memory;

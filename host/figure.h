@@ -179,6 +179,8 @@ public:
     /// One or more.
     [[nodiscard]] const std::vector<FigureSurface>& surfaces() const { return surfaces_; }
     [[nodiscard]] bool hasLevels() const { return levels_ != nullptr; }
+    /// GroupOptions::plays.
+    [[nodiscard]] bool plays() const { return plays_; }
     /// Groups with levels, before they are recorded: levels are chosen for a picture of this height from this camera,
     /// so that edges lie within `chordError` pixels of their curves.
     [[nodiscard]] Status setLevelCamera(const Camera& camera, uint32_t height, float chordError);
@@ -226,6 +228,7 @@ private:
     std::unique_ptr<LevelView> levels_;
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
+    bool plays_ = false;
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
     std::vector<FigureSurface> surfaces_;

@@ -115,6 +115,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     if (options.plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_TRANSITIONS;
+        group->plays_ = true;
     }
     desc.asset = figure.asset();
     desc.capacity = options.instances;

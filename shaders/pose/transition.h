@@ -23,7 +23,7 @@ Transition transitionOf(uint first) {
         own.seconds = course.z;
         own.since = timeSum(now, -vec2(course)).x;
         if (own.since >= 0.0f && own.since < own.seconds) own.kind = state(first + push.transition).w;
-        own.phase = clamp(own.since * recip(max(own.seconds, 1e-30f)), 0.0f, 1.0f);
+        own.phase = min(max(own.since * recip(max(own.seconds, 1e-30f)), 0.0f), 1.0f);
     }
     return own;
 }
@@ -47,7 +47,7 @@ float differenceLeft(Transition own) {
 }
 // How long the difference of speeds has moved it, if it takes so many seconds until it has stopped.
 float driftedFor(Transition own, float seconds) {
-    SUPPLE_PRECISE float phase = clamp(own.since * recip(max(seconds, 1e-30f)), 0.0f, 1.0f);
+    SUPPLE_PRECISE float phase = min(max(own.since * recip(max(seconds, 1e-30f)), 0.0f), 1.0f);
     SUPPLE_PRECISE float rest = 1.0f - phase;
     SUPPLE_PRECISE float drifted = seconds * ((phase * ((rest * rest) * rest)) * (1.0f + 3.0f * phase));
     return drifted;
@@ -84,7 +84,7 @@ Transform shownTransform(uint first, uint node, Transform played) {
 
 // What moves on must not leave what clips say: 0 to 1, or as far as one of the two weights is beyond.
 float keptInside(float moved, float a, float b) {
-    return clamp(moved, min(min(a, b), 0.0f), max(max(a, b), 1.0f));
+    return min(max(moved, min(min(a, b), 0.0f)), max(max(a, b), 1.0f));
 }
 vec4 allKeptInside(vec4 moved, vec4 a, vec4 b) {
     return vec4(keptInside(moved.x, a.x, b.x), keptInside(moved.y, a.y, b.y), keptInside(moved.z, a.z, b.z),

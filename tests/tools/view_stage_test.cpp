@@ -196,9 +196,9 @@ TEST_F(RemadeStage, LevelsFollowTheCameraUntilItIsFrozen) {
     ViewStage& stage = **opened;
     ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", {}, kAspect).ok());
     stage.settings.playing = false;
-    ASSERT_TRUE(stage.needsOtherLevels());
-    ASSERT_TRUE(stage.changeLevels(lastFrame()).ok());
-    EXPECT_FALSE(stage.needsOtherLevels());
+    ASSERT_TRUE(stage.needsOtherGroup());
+    ASSERT_TRUE(stage.changeGroup(lastFrame()).ok());
+    EXPECT_FALSE(stage.needsOtherGroup());
     const auto vertices = [&] {
         draw(stage);
         draw(stage); // the statistics are those of the frame before
@@ -214,11 +214,72 @@ TEST_F(RemadeStage, LevelsFollowTheCameraUntilItIsFrozen) {
 
     stage.settings.levels = true;
     stage.settings.view = host::shared::kViewShaded;
-    EXPECT_FALSE(stage.needsOtherLevels()) << "other views may have them too";
+    EXPECT_FALSE(stage.needsOtherGroup()) << "other views may have them too";
     stage.settings.view = host::shared::kViewWeights;
-    ASSERT_TRUE(stage.needsOtherLevels()) << "but not those of measured values";
-    ASSERT_TRUE(stage.changeLevels(lastFrame()).ok());
+    ASSERT_TRUE(stage.needsOtherGroup()) << "but not those of measured values";
+    ASSERT_TRUE(stage.changeGroup(lastFrame()).ok());
     EXPECT_EQ(stage.settings.rate, 4);
+    waitIdle();
+}
+
+/// The farthest that a vertex has moved.
+float farthest(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    float most = 0.0f;
+    for (size_t v = 0; v < a.size(); ++v)
+        most = std::max(most, glm::length(a[v] - b[v]));
+    return most;
+}
+
+TEST_F(RemadeStage, ClipsGoOverIntoEachOther) {
+    Result<std::unique_ptr<ViewStage>> opened = create({.rate = 1});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ViewStage& stage = **opened;
+    ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb", "walk", kAspect).ok());
+    const auto surface = [&] {
+        draw(stage);
+        waitIdle();
+        Result<std::vector<glm::vec3>> read = stage.group().readSurface();
+        EXPECT_TRUE(read.ok());
+        return read.ok() ? *read : std::vector<glm::vec3>();
+    };
+    const uint32_t walk = stage.settings.clip, joy = 2;
+    stage.advance(0.5);
+    const std::vector<glm::vec3> walks = surface();
+    const auto changeTo = [&](uint32_t clip) {
+        stage.settings.clip = clip;
+        stage.settings.time = 0.0;
+        return surface();
+    };
+    const std::vector<glm::vec3> atOnce = changeTo(joy);
+    const float jump = farthest(walks, atOnce);
+    ASSERT_GT(jump, 0.0f);
+    for (const host::TransitionMethod method :
+         {host::TransitionMethod::crossfade, host::TransitionMethod::deadBlending, host::TransitionMethod::quintic}) {
+        stage.settings.change = method;
+        stage.settings.clip = walk;
+        stage.settings.time = 0.5;
+        ASSERT_TRUE(stage.needsOtherGroup());
+        ASSERT_TRUE(stage.changeGroup(lastFrame()).ok());
+        EXPECT_TRUE(stage.group().plays());
+        stage.settings.playing = false; // at once
+        EXPECT_LT(farthest(surface(), walks), 1e-4f * jump);
+        stage.settings.playing = true;
+        EXPECT_LT(farthest(changeTo(joy), walks), 1e-3f * jump);
+        stage.advance(0.1);
+        EXPECT_GT(farthest(surface(), walks), 0.02f * jump) << "on its way";
+        stage.advance(0.4);
+        const std::vector<glm::vec3> later = surface();
+        stage.settings.playing = false;
+        stage.settings.change.reset();
+        ASSERT_TRUE(stage.needsOtherGroup());
+        ASSERT_TRUE(stage.changeGroup(lastFrame()).ok());
+        EXPECT_LT(farthest(surface(), later), 1e-4f * jump) << "it is over";
+        stage.settings.playing = true;
+    }
+    stage.settings.change = host::TransitionMethod::quintic;
+    stage.settings.view = host::shared::kViewWeights;
+    EXPECT_FALSE(stage.needsOtherGroup()) << "weights are measured in poses that are set";
+    stage.settings.view = host::shared::kViewShaded;
     waitIdle();
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/from_chars.h"
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -17,23 +18,6 @@ struct Method {
 constexpr Method kMethods[] = {{"dead-blending", TransitionMethod::deadBlending},
                                {"quintic", TransitionMethod::quintic},
                                {"crossfade", TransitionMethod::crossfade}};
-
-SupplePlaybackLayer looping(uint32_t clip, double start) {
-    SupplePlaybackLayer layer{};
-    layer.clip = clip;
-    layer.flags = SUPPLE_LAYER_LOOP;
-    layer.weight = layer.speed = 1.0f;
-    layer.startTime = start;
-    return layer;
-}
-
-SuppleResult play(Context& context, SuppleInstance instance, std::span<const SupplePlaybackLayer> layers,
-                  SupplePlaybackDesc desc = {}) {
-    desc.structSize = sizeof desc;
-    desc.layers = layers.data();
-    desc.layerCount = static_cast<uint32_t>(layers.size());
-    return suppleSetPlayback(context.handle(), instance, &desc);
-}
 
 } // namespace
 
@@ -77,33 +61,57 @@ Status parseTransition(const std::string& text, TransitionSetting& setting) {
     return success();
 }
 
+SupplePlaybackLayer loopingLayer(uint32_t clip, double start, double offset) {
+    SupplePlaybackLayer layer{};
+    layer.clip = clip;
+    layer.flags = SUPPLE_LAYER_LOOP;
+    layer.weight = layer.speed = 1.0f;
+    layer.startTime = start;
+    layer.offset = offset;
+    return layer;
+}
+
+Status changeClip(Context& context, SuppleInstance instance, const std::optional<SupplePlaybackLayer>& from,
+                  const std::optional<SupplePlaybackLayer>& to, const ClipChange& change) {
+    const bool crossfades = change.method == TransitionMethod::crossfade;
+    std::array<SupplePlaybackLayer, 2> layers{};
+    SupplePlaybackDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.layers = layers.data();
+    if (crossfades && from) {
+        layers[desc.layerCount++] = *from;
+    }
+    if (to) {
+        SupplePlaybackLayer& layer = layers[desc.layerCount++] = *to;
+        if (crossfades) {
+            layer.weight = 0.0f;
+            layer.fadeWeight = 1.0f;
+            layer.fadeStart = change.time;
+            layer.fadeDuration = static_cast<float>(change.seconds);
+        }
+    }
+    if (change.method && !crossfades) {
+        desc.transition = change.seconds;
+        desc.transitionKind =
+            change.method == TransitionMethod::quintic ? SUPPLE_TRANSITION_QUINTIC : SUPPLE_TRANSITION_DEAD_BLENDING;
+    }
+    return context.check(suppleSetPlayback(context.handle(), instance, &desc), "suppleSetPlayback");
+}
+
 Status playTransition(Context& context, SuppleGroup group, SuppleInstance instance, const PlannedTransition& transition,
                       double time) {
-    const SupplePlaybackLayer from = looping(transition.from, 0.0);
-    SuppleResult result = play(context, instance, {&from, 1});
-    if (result == SUPPLE_OK && time >= transition.at) {
-        const bool crossfade = transition.method == TransitionMethod::crossfade;
-        SupplePlaybackLayer layers[] = {from, looping(transition.to, transition.at)};
-        SupplePlaybackDesc desc{};
-        if (crossfade) {
-            layers[1].weight = 0.0f;
-            layers[1].fadeWeight = 1.0f;
-            layers[1].fadeStart = transition.at;
-            layers[1].fadeDuration = static_cast<float>(transition.seconds);
-        } else {
-            desc.transition = transition.seconds;
-            desc.transitionKind = transition.method == TransitionMethod::quintic ? SUPPLE_TRANSITION_QUINTIC
-                                                                                 : SUPPLE_TRANSITION_DEAD_BLENDING;
-        }
-        result = suppleSetTime(context.handle(), group, transition.at);
-        if (result == SUPPLE_OK) {
-            result = play(context, instance, std::span(layers).subspan(crossfade ? 0 : 1), desc);
-        }
+    const auto setTime = [&](double seconds) {
+        return context.check(suppleSetTime(context.handle(), group, seconds), "suppleSetTime");
+    };
+    const SupplePlaybackLayer from = loopingLayer(transition.from, 0.0);
+    Status status = changeClip(context, instance, {}, from, {});
+    if (status && time >= transition.at) {
+        status = setTime(transition.at);
+        status = status ? changeClip(context, instance, from, loopingLayer(transition.to, transition.at),
+                                     {transition.method, transition.seconds, transition.at})
+                        : status;
     }
-    if (result == SUPPLE_OK) {
-        result = suppleSetTime(context.handle(), group, time);
-    }
-    return context.check(result, "suppleSetPlayback");
+    return status ? setTime(time) : status;
 }
 
 } // namespace supple::host

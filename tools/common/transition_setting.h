@@ -37,8 +37,23 @@ struct PlannedTransition {
 [[nodiscard]] Result<std::optional<PlannedTransition>>
 planTransition(const TransitionSetting& setting, const std::function<Result<uint32_t>(const std::string&)>& findClip);
 
+/// A clip that loops, and is at `offset` at a time of the group.
+[[nodiscard]] SupplePlaybackLayer loopingLayer(uint32_t clip, double start, double offset = 0.0);
+
+/// How an instance takes what it plays next, and when.
+struct ClipChange {
+    std::optional<TransitionMethod> method; ///< none: at once
+    double seconds = 0.3;
+    double time = 0.0; ///< the group's
+};
+/// Sets what an instance plays from now on; no layer: the rest pose. `from` is what it has played, for a crossfade. The
+/// group plays, with SUPPLE_GROUP_TRANSITIONS.
+[[nodiscard]] Status changeClip(Context& context, SuppleInstance instance,
+                                const std::optional<SupplePlaybackLayer>& from,
+                                const std::optional<SupplePlaybackLayer>& to, const ClipChange& change);
+
 /// Both clips loop, and begin with the group and with the transition. Sets the group's time, and what the instance
-/// plays then. The group plays, with SUPPLE_GROUP_TRANSITIONS.
+/// plays then.
 [[nodiscard]] Status playTransition(Context& context, SuppleGroup group, SuppleInstance instance,
                                     const PlannedTransition& transition, double time);
 

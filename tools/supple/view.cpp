@@ -338,8 +338,8 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         return remade.error();
     if (wishes.scheme || wishes.skinning)
         panel_->message.clear();
-    if (stage_->needsOtherLevels()) {
-        if (const Status status = stage_->changeLevels(context_->lastFrame()); !status) {
+    if (stage_->needsOtherGroup()) {
+        if (const Status status = stage_->changeGroup(context_->lastFrame()); !status) {
             stage_->settings.levels = false;
             stage_->settings.view = host::shared::kViewShaded;
             return status.error();

@@ -12,6 +12,8 @@
 #include <bit>
 #include <filesystem>
 #include <imgui.h>
+#include <iterator>
+#include <optional>
 #include <span>
 
 namespace supple::tools {
@@ -154,6 +156,29 @@ void buildCrossfade(ViewStage& stage) {
         ImGui::SliderFloat("weight", &settings.fade, 0.0f, 1.0f, "%.2f");
 }
 
+/// How another clip is taken.
+void buildChange(ViewSettings& settings) {
+    struct Row {
+        const char* name;
+        std::optional<host::TransitionMethod> method;
+    };
+    static constexpr Row kRows[] = {{"at once", std::nullopt},
+                                    {"crossfade", host::TransitionMethod::crossfade},
+                                    {"dead blending", host::TransitionMethod::deadBlending},
+                                    {"quintic", host::TransitionMethod::quintic}};
+    const auto* const shown =
+        std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& row) { return row.method == settings.change; });
+    if (ImGui::BeginCombo("next clip", shown->name)) {
+        for (const Row& row : kRows) {
+            if (ImGui::Selectable(row.name, &row == shown))
+                settings.change = row.method;
+        }
+        ImGui::EndCombo();
+    }
+    if (settings.change)
+        ImGui::SliderFloat("seconds", &settings.changeSeconds, 0.05f, 1.0f, "%.2f s");
+}
+
 void buildPlayback(ViewStage& stage) {
     ViewSettings& settings = stage.settings;
     const std::vector<host::Figure::Clip>& clips = stage.figure().clips();
@@ -184,6 +209,8 @@ void buildPlayback(ViewStage& stage) {
     if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &settings.time, &start, &duration, "%.2f s"))
         settings.playing = false;
     buildCrossfade(stage);
+    if (clips.size() > 1)
+        buildChange(settings);
     ImGui::SliderFloat("speed", &settings.speed, 0.05f, 3.0f, "%.2f x", ImGuiSliderFlags_Logarithmic);
 }
 

@@ -77,7 +77,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
         return shownParts.error();
     // It is measured, so it has no levels yet.
     Result<std::unique_ptr<host::FigureGroup>> group =
-        createGroup(**figure, static_cast<uint32_t>(settings.rate), false);
+        createGroup(**figure, static_cast<uint32_t>(settings.rate), false, false);
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
@@ -99,6 +99,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     ++version_;
     binding_ = std::move(*binding);
     group_ = std::move(*group);
+    playback_.forget();
     figure_ = std::move(*figure);
     cage_ = std::move(cage);
     warnings_ = std::move(warnings);
@@ -121,8 +122,8 @@ uint32_t ViewStage::offeredRate(uint32_t rate) const {
     return ratesArePowersOfTwo() ? std::bit_ceil(std::max(rate, 2u)) : rate;
 }
 
-Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate,
-                                                                  bool levels) const {
+Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& figure, uint32_t rate, bool levels,
+                                                                  bool plays) const {
     Result<std::vector<SuppleScheme>> partSchemes = host::partSchemes(figure.path(), figure.partNames(), partSchemes_);
     if (!partSchemes)
         return partSchemes.error();
@@ -135,7 +136,8 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .uvInterpolation = uvInterpolation_,
                                               .sharedSamples = sharedSamples_,
                                               .partSchemes = std::move(*partSchemes),
-                                              .levels = levels});
+                                              .levels = levels,
+                                              .plays = plays});
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
@@ -159,7 +161,7 @@ Status ViewStage::setSkinning(SuppleSkinning skinning, uint64_t lastFrame) {
 }
 
 Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
-    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate, wantsLevels());
+    Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate, wantsLevels(), wantsPlayback());
     if (!group)
         return group.error();
     Result<host::FigureBinding> binding = renderer_.bind(**group);
@@ -170,6 +172,7 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
     group_ = std::move(*group);
     binding_ = std::move(*binding);
+    playback_.forget();
     // At levels a rate counts for some schemes only, and then it is the largest.
     settings.rate = static_cast<int>(group_->hasLevels() ? rate : group_->edgeRate());
     return readPartShares();
@@ -198,6 +201,7 @@ void ViewStage::advance(double seconds) {
     if (!settings.playing || duration <= 0.0)
         return;
     settings.time += seconds * static_cast<double>(settings.speed);
+    playback_.advance(seconds * static_cast<double>(settings.speed));
     if (settings.fadeClip == SUPPLE_REST_POSE) // two clips wrap each by its own duration
         settings.time = std::fmod(settings.time, duration);
 }
@@ -292,9 +296,13 @@ Status ViewStage::chooseLevels(uint32_t height) {
     return group_->hasLevels() ? group_->setLevelCamera(levelCamera_, height, settings.chordError) : success();
 }
 
-Status ViewStage::pose() const {
+Status ViewStage::pose() {
     if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
         return status.error();
+    if (group_->plays())
+        return playback_.show(
+            *group_, settings.clip, settings.time,
+            {settings.playing ? settings.change : std::nullopt, static_cast<double>(settings.changeSeconds)});
     if (settings.fadeClip == SUPPLE_REST_POSE || settings.fade <= 0.0f || settings.clip >= figure_->clips().size())
         return group_->pose(0, settings.clip, settings.time);
     SuppleClipLayer layers[2]{};
@@ -318,11 +326,16 @@ bool ViewStage::wantsLevels() const {
     return settings.view == host::shared::kViewLevels || (settings.levels && !measured);
 }
 
-bool ViewStage::needsOtherLevels() const {
-    return hasFigure() && group_->hasLevels() != wantsLevels();
+bool ViewStage::wantsPlayback() const {
+    // Weights are measured in poses that are set, and two clips one over the other are set as well.
+    return settings.change && settings.view != host::shared::kViewWeights && settings.fadeClip == SUPPLE_REST_POSE;
 }
 
-Status ViewStage::changeLevels(uint64_t lastFrame) {
+bool ViewStage::needsOtherGroup() const {
+    return hasFigure() && (group_->hasLevels() != wantsLevels() || group_->plays() != wantsPlayback());
+}
+
+Status ViewStage::changeGroup(uint64_t lastFrame) {
     return remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
 }
 

@@ -6,10 +6,12 @@
 #include "tools/supple/render_stage.h"
 #include "tools/supple/time_history.h"
 #include "tools/supple/view_look.h"
+#include "tools/supple/view_playback.h"
 
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,11 @@ struct ViewSettings {
     bool playing = true;
     float speed = 1.0f;
     int rate = 8;
-    uint32_t view = 0;                    ///< host::shared::kView...
-    uint32_t joint = 0;                   ///< whose weights kViewWeights shows
-    bool joints = false;                  ///< drawn over the picture
+    uint32_t view = 0;                            ///< host::shared::kView...
+    uint32_t joint = 0;                           ///< whose weights kViewWeights shows
+    bool joints = false;                          ///< drawn over the picture
+    std::optional<host::TransitionMethod> change; ///< of clips, while one plays; none: at once
+    float changeSeconds = 0.3f;
     uint32_t fadeClip = SUPPLE_REST_POSE; ///< blended over `clip`; none: SUPPLE_REST_POSE
     float fade = 0.5f;                    ///< its weight
     bool cageFaces = false;               ///< the cage instead of the surface
@@ -110,9 +114,9 @@ public:
     };
     [[nodiscard]] Shown shown() const;
 
-    /// Whether the group should be one with levels, or without, and is not.
-    [[nodiscard]] bool needsOtherLevels() const;
-    [[nodiscard]] Status changeLevels(uint64_t lastFrame);
+    /// Whether the group should be one with levels, or without, or one that plays on the device, and is not.
+    [[nodiscard]] bool needsOtherGroup() const;
+    [[nodiscard]] Status changeGroup(uint64_t lastFrame);
     /// Whether the view shows values that are still to be measured: weights of another joint; distances and curvature
     /// in the pose in which the figure stands. While it plays, these stay those of the pose that was measured last.
     [[nodiscard]] bool needsValues() const;
@@ -146,15 +150,16 @@ private:
 
     ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate,
-                                                                         bool levels) const;
+                                                                         bool levels, bool plays) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
     void readTimings();
     [[nodiscard]] Status readPartShares();
     /// Clip, time and crossfade, morph targets.
-    [[nodiscard]] Status pose() const;
+    [[nodiscard]] Status pose();
     [[nodiscard]] Status showParts() const;
     [[nodiscard]] Status chooseLevels(uint32_t height);
     [[nodiscard]] bool wantsLevels() const;
+    [[nodiscard]] bool wantsPlayback() const;
     /// What the settings ask to be measured.
     struct Values {
         uint32_t version = 0; ///< of the group; 0: nothing is measured
@@ -200,6 +205,7 @@ private:
     std::future<Result<std::vector<float>>> measured_; ///< being computed
     uint32_t shownValues_ = 0;                         ///< counts measurements
     std::vector<Retired> retired_;                     ///< before figure_ in time, so gone before it
+    ViewPlayback playback_;
     Extent extent_;
     host::Camera camera_;
     host::Camera levelCamera_; ///< that levels are chosen by
