@@ -24,7 +24,7 @@ bool ViewPlayback::isShown(const host::Figure& figure, uint32_t clip, double tim
 Status ViewPlayback::show(const host::FigureGroup& group, uint32_t clip, double time, host::ClipChange change) {
     const host::Figure& figure = group.figure();
     host::Context& context = figure.context();
-    const Status timed = context.check(suppleSetTime(context.handle(), group.handle(), time_), "suppleSetTime");
+    Status timed = context.check(suppleSetTime(context.handle(), group.handle(), time_), "suppleSetTime");
     if (!timed || isShown(figure, clip, time))
         return timed;
     const auto layer = [&](uint32_t of, double start, double offset) {
