@@ -638,5 +638,31 @@ TEST_F(BakeFiles, TransitionsGoFromOneClipToTheOther) {
     EXPECT_EQ(runOnDevice(bake + "--hash --time 0.5 --rest-pose --transition 'walk@0.4->idle'").exitCode, 2);
 }
 
+TEST_F(BakeFiles, ModifiersChangeThePose) {
+    const std::string bake = "bake " + kSamplePip + " --scheme cage --hash --clip walk --time 0.4 ";
+    const auto palette = [&](const std::string& arguments) {
+        const Outcome outcome = runOnDevice(bake + arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return hashesIn(outcome.out)["palette"];
+    };
+    const std::string set = "--set chest=0,0.6,0,0.8";
+    const std::set<std::string> all = {palette(set),
+                                       palette("--aim head=0.5,1,2"),
+                                       palette("--two-bone hand.L=0.3,0.8,0.4"),
+                                       palette(set + " --weight 0.5"),
+                                       palette(set + " --weight 0"),
+                                       palette(set + " --aim head=0.5,1,2")};
+    EXPECT_EQ(all.size(), 6u) << "each does something of its own";
+    EXPECT_EQ(palette(set + " --weight 0"), palette("--aim head=0.5,1,2 --weight 0")) << "nothing is done";
+    EXPECT_EQ(palette("--aim head=0.5,1,2 " + set), palette(set + " --aim head=0.5,1,2")) << "in the order of kinds";
+    for (const char* wrong : {"--set chest=0,0,0,0", "--set chest=1,2,3", "--aim head=1,2", "--two-bone =1,2,3",
+                              "--aim head=1,2,nan", "--aim head"}) {
+        EXPECT_EQ(runOnDevice(bake + wrong).exitCode, 2) << wrong;
+    }
+    const Outcome none = runOnDevice(bake + "--aim nose=1,2,3");
+    EXPECT_EQ(none.exitCode, 1);
+    EXPECT_NE(none.err.find("no joint \"nose\""), std::string::npos) << none.err;
+}
+
 } // namespace
 } // namespace supple::test
