@@ -260,7 +260,7 @@ std::span<uint32_t> Playback::transitionWords(uint32_t slot) {
     return stateWords(slot).subspan(4 * size_t{push_.transition}, 4 * size_t{transitionElements_});
 }
 
-void Playback::sampleShown(uint32_t slot, const TransitionRequest& over) {
+void Playback::sampleShown(uint32_t slot, const TransitionRequest& request) {
     constexpr auto kStep = static_cast<double>(kTransitionStep);
     // Before a transition began, something else was shown.
     const bool justBegun =
@@ -268,40 +268,40 @@ void Playback::sampleShown(uint32_t slot, const TransitionRequest& over) {
     ends_.now = justBegun ? 0 : 1;
     double time = time_ - ends_.now * kStep;
     for (skinning::SampledPose& pose : ends_.shown) {
-        sample(slot, time, over.fromModified, pose);
+        sample(slot, time, request.fromModified, pose);
         time += kStep;
     }
 }
 
-void Playback::startTransition(uint32_t slot, const TransitionRequest& over) {
-    if (over.kind == skinning::TransitionKind::quintic) {
+void Playback::startTransition(uint32_t slot, const TransitionRequest& request) {
+    if (request.kind == skinning::TransitionKind::quintic) {
         double time = time_;
         for (skinning::SampledPose& pose : ends_.played) {
             sample(slot, time, false, pose);
             time += static_cast<double>(kTransitionStep);
         }
     }
-    skinning::writeTransition({over.kind, time_, over.seconds}, ends_, transitionWords(slot));
+    skinning::writeTransition({request.kind, time_, request.seconds}, ends_, transitionWords(slot));
     state(slot).setInTransition(true);
     transitionDue_[slot] = true;
-    const double end = time_ + static_cast<double>(over.seconds);
+    const double end = time_ + static_cast<double>(request.seconds);
     bounds_.setTransition(slot, {time_, end});
     transitions_.start = std::min(transitions_.start, time_);
     transitions_.end = std::max(transitions_.end, end);
 }
 
-void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& over) {
+void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request) {
     forget(slot);
     skinning::PlaybackState own = state(slot);
-    const bool starts = over.seconds > 0.0f && !own.inBindPose(), keeps = over.keeps && own.isInTransition();
+    const bool starts = request.seconds > 0.0f && !own.inBindPose(), keeps = request.keeps && own.isInTransition();
     const PlayedBounds::Interval before = bounds_.transition(slot);
     if (starts) {
-        sampleShown(slot, over);
+        sampleShown(slot, request);
     }
     own.set(asset_->character, *asset_->clipTable, desc);
     bounds_.set(slot, desc);
     if (starts) {
-        startTransition(slot, over);
+        startTransition(slot, request);
     } else if (keeps) {
         own.setInTransition(true);
         bounds_.setTransition(slot, before);

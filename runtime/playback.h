@@ -65,7 +65,7 @@ public:
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     /// An instance in the bind pose begins at once.
-    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& over = {});
+    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request = {});
     [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
@@ -146,8 +146,8 @@ private:
     }
     void sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose);
     [[nodiscard]] std::span<uint32_t> transitionWords(uint32_t slot);
-    void sampleShown(uint32_t slot, const TransitionRequest& over);
-    void startTransition(uint32_t slot, const TransitionRequest& over);
+    void sampleShown(uint32_t slot, const TransitionRequest& request);
+    void startTransition(uint32_t slot, const TransitionRequest& request);
     void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of states_, for regions_
     [[nodiscard]] skinning::PoseKernels::Locals locals() const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);

@@ -166,13 +166,13 @@ skinning::PlaybackDesc playbackOf(const Asset& asset, const SupplePlaybackDesc& 
 }
 
 TransitionRequest transitionRequestOf(const SupplePlaybackDesc& desc) {
-    TransitionRequest over;
-    over.kind = desc.transitionKind == SUPPLE_TRANSITION_QUINTIC ? skinning::TransitionKind::quintic
-                                                                 : skinning::TransitionKind::deadBlending;
-    over.seconds = static_cast<float>(desc.transition);
-    over.fromModified = (desc.flags & SUPPLE_PLAYBACK_FROM_MODIFIED) != 0;
-    over.keeps = (desc.flags & SUPPLE_PLAYBACK_KEEP_TRANSITION) != 0;
-    return over;
+    TransitionRequest request;
+    request.kind = desc.transitionKind == SUPPLE_TRANSITION_QUINTIC ? skinning::TransitionKind::quintic
+                                                                    : skinning::TransitionKind::deadBlending;
+    request.seconds = static_cast<float>(desc.transition);
+    request.fromModified = (desc.flags & SUPPLE_PLAYBACK_FROM_MODIFIED) != 0;
+    request.keeps = (desc.flags & SUPPLE_PLAYBACK_KEEP_TRANSITION) != 0;
+    return request;
 }
 
 } // namespace supple::runtime

@@ -18,7 +18,7 @@ using PlaybackLayers = std::array<skinning::PlaybackLayer, SUPPLE_MAX_PLAYBACK_L
 [[nodiscard]] skinning::PlaybackDesc playbackOf(const Asset& asset, const SupplePlaybackDesc& desc,
                                                 PlaybackLayers& layers);
 
-/// Of what checkPlayback takes.
+/// `desc` is what checkPlayback takes.
 [[nodiscard]] TransitionRequest transitionRequestOf(const SupplePlaybackDesc& desc);
 
 /// Of a time that the group can have.

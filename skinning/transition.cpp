@@ -69,7 +69,7 @@ glm::vec4 ratesOfWeights(const std::array<SampledPose, 3>& poses, size_t quad) {
     return speed;
 }
 
-/// Of a node or of four weights, the elements that a transition keeps.
+/// What a transition keeps of a node, and of four weights.
 using NodeElements = std::array<glm::vec4, kTransitionElements>;
 using WeightElements = std::array<glm::vec4, 2>;
 

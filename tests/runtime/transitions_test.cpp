@@ -91,9 +91,12 @@ TEST_F(Transitions, BeginAsWhatWasShownMovesAndEndAsWhatIsPlayed) {
                 stage.play(3, 2, 0.1);
                 stage.play(4, 1, 0.2);
                 EXPECT_EQ(stage.run(start), 0u);
-                const Jump faded = jumpAt(stage, 4, start, [&] {
-                    stage.crossfade(4, {1, 0.2}, {2, 0.1}, start, kSeconds);
-                });
+                SupplePlaybackLayer both[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(2, 0.1)};
+                both[1].weight = 0.0f;
+                both[1].fadeWeight = 1.0f;
+                both[1].fadeStart = start;
+                both[1].fadeDuration = static_cast<float>(kSeconds);
+                const Jump faded = jumpAt(stage, 4, start, [&] { stage.play(4, both); });
                 std::printf("%-10s crossfade      place %.2g extents, speed %.2g extents/s\n", file.c_str(),
                             faded.place / extent, faded.speed / extent);
                 Jump jumps[3];
@@ -202,18 +205,10 @@ TEST_F(Transitions, AreKeptWhenTheSpeedChanges) {
         EXPECT_EQ(stage.run(1.05), 0u);
         const std::vector<float> before = stage.poses;
         const Places shown = placesAt(stage, i, 1.05);
-        SupplePlaybackLayer faster{};
-        faster.clip = 2;
-        faster.flags = SUPPLE_LAYER_LOOP;
-        faster.weight = 1.0f;
+        SupplePlaybackLayer faster = PlayedGroup::loops(2, 0.1 + 1.05);
         faster.speed = 1.5f;
         faster.startTime = 1.05;
-        faster.offset = 0.1 + 1.05;
-        SupplePlaybackDesc kept = goingOver(kKinds[i], 0.0, SUPPLE_PLAYBACK_KEEP_TRANSITION);
-        kept.structSize = sizeof kept;
-        kept.layers = &faster;
-        kept.layerCount = 1;
-        EXPECT_EQ(suppleSetPlayback(stage.handle(), stage.instances[i], &kept), SUPPLE_OK);
+        stage.play(i, {&faster, 1}, goingOver(kKinds[i], 0.0, SUPPLE_PLAYBACK_KEEP_TRANSITION));
         EXPECT_LT(apart(placesAt(stage, i, 1.05), shown), 1e-5 * stage.extent());
         own.cancel(stage.crowd.group());
         EXPECT_EQ(stage.run(1.1), 0u);
@@ -371,14 +366,13 @@ TEST_F(Transitions, TakeNoSpeedFromWhereClipsJump) {
     for (uint32_t i = 0; i < 2; ++i) {
         for (const double start : {0.996, 1.004, 2.0}) { // the loop ends within a step of each
             stage.play(i, jumps, 0.0);
-            const Places shown = placesAt(stage, i, start);
+            const double shown = placesAt(stage, i, start)[1].y;
             stage.play(i, jumps + 1, 0.0, goingOver(kKinds[i]));
-            double farthest = 0.0;
+            const double stands = placesAt(stage, i, 9.0)[1].y;
+            double farthest = 0.0; // outside of the two
             for (const double later : {0.01, 0.03, 0.06, 0.1, 0.15, 0.2}) {
-                const Places now = placesAt(stage, i, start + later);
-                const double height = now[1].y, low = std::min(shown[1].y, placesAt(stage, i, 9.0)[1].y),
-                             high = std::max(shown[1].y, placesAt(stage, i, 9.0)[1].y);
-                farthest = std::max({farthest, height - high, low - height});
+                const double height = placesAt(stage, i, start + later)[1].y;
+                farthest = std::max({farthest, height - std::max(shown, stands), std::min(shown, stands) - height});
             }
             EXPECT_LT(farthest, 0.15) << "0.072 s of 2 units a second, at " << start;
             EXPECT_EQ(stage.run(start + 0.1), 0u);
@@ -393,32 +387,20 @@ TEST_F(Transitions, HoldWithLayersOfAllKinds) {
         ASSERT_TRUE(own.valid());
         PlayedGroup stage(own, transitingGroup(own.asset(kPip), 2));
         ASSERT_TRUE(stage.crowd.valid());
-        std::vector<float> ones(stage.character().skin.joints.size(), 0.5f);
+        const std::vector<float> halves(stage.character().skin.joints.size(), 0.5f);
         SuppleMaskDesc mask{};
         mask.structSize = sizeof mask;
         mask.mask = 1;
-        mask.jointMask = ones.data();
-        mask.jointMaskCount = static_cast<uint32_t>(ones.size());
+        mask.jointMask = halves.data();
+        mask.jointMaskCount = static_cast<uint32_t>(halves.size());
         EXPECT_EQ(suppleSetMask(stage.handle(), stage.crowd.group(), &mask), SUPPLE_OK);
         for (uint32_t i = 0; i < 2; ++i) {
-            SupplePlaybackLayer layers[2]{};
-            for (SupplePlaybackLayer& layer : layers) {
-                layer.flags = SUPPLE_LAYER_LOOP;
-                layer.weight = layer.speed = 1.0f;
-            }
-            layers[1].clip = 2;
+            SupplePlaybackLayer layers[] = {PlayedGroup::loops(0, 0.0), PlayedGroup::loops(2, 0.3)};
             layers[1].mode = SUPPLE_LAYER_ADDITIVE;
             layers[1].mask = 1;
-            layers[1].offset = 0.3;
-            SupplePlaybackDesc desc = goingOver(kKinds[i]);
-            desc.structSize = sizeof desc;
-            desc.layers = layers;
-            desc.layerCount = 2;
             stage.play(i, 1, 0.2);
             EXPECT_EQ(stage.run(1.0), 0u);
-            const Jump jump = jumpAt(stage, i, 1.0, [&] {
-                EXPECT_EQ(suppleSetPlayback(stage.handle(), stage.instances[i], &desc), SUPPLE_OK);
-            });
+            const Jump jump = jumpAt(stage, i, 1.0, [&] { stage.play(i, layers, goingOver(kKinds[i])); });
             EXPECT_LT(jump.place, 2e-6 * stage.extent());
             EXPECT_LT(jump.speed, 0.1 * stage.extent());
             EXPECT_EQ(stage.run(1.1), 0u);

@@ -17,7 +17,7 @@
 
 namespace supple::test {
 
-/// Of cages alone, whose instances play.
+/// A group of cages alone, whose instances play.
 inline SuppleGroupDesc playedGroup(SuppleAsset asset, uint32_t capacity, uint32_t flags,
                                    SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
     SuppleGroupDesc desc{};
@@ -33,7 +33,7 @@ inline SuppleGroupDesc playedGroup(SuppleAsset asset, uint32_t capacity, uint32_
 /// A group whose instances play. Its poses and cages are compared with the CPU's.
 class PlayedGroup {
 public:
-    PlayedGroup(CrowdContext& context, const SuppleGroupDesc& desc) : crowd(context, desc), asset_(desc.asset) {
+    PlayedGroup(CrowdContext& context, const SuppleGroupDesc& desc) : crowd(context, desc) {
         for (uint32_t i = 0; crowd.valid() && i < desc.capacity; ++i) {
             instances.push_back(crowd.spawn());
         }
@@ -74,40 +74,24 @@ public:
         play(i, clip, offset, desc);
     }
     /// The rest as `desc` has it.
-    void play(uint32_t i, uint32_t clip, double offset, SupplePlaybackDesc desc) const {
+    void play(uint32_t i, uint32_t clip, double offset, const SupplePlaybackDesc& desc) const {
+        const SupplePlaybackLayer layer = loops(clip, offset);
+        play(i, {&layer, 1}, desc);
+    }
+    void play(uint32_t i, std::span<const SupplePlaybackLayer> layers, SupplePlaybackDesc desc = {}) const {
+        desc.structSize = sizeof desc;
+        desc.layers = layers.data();
+        desc.layerCount = static_cast<uint32_t>(layers.size());
+        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
+    }
+    /// A layer that is at `offset` when the group's time is 0.
+    [[nodiscard]] static SupplePlaybackLayer loops(uint32_t clip, double offset) {
         SupplePlaybackLayer layer{};
         layer.clip = clip;
         layer.flags = SUPPLE_LAYER_LOOP;
         layer.weight = layer.speed = 1.0f;
         layer.offset = offset;
-        desc.structSize = sizeof desc;
-        desc.layers = &layer;
-        desc.layerCount = 1;
-        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
-    }
-    struct Playing {
-        uint32_t clip = 0;
-        double offset = 0.0;
-    };
-    /// Two layers, the second of which comes in.
-    void crossfade(uint32_t i, const Playing& from, const Playing& to, double start, double seconds) const {
-        SupplePlaybackLayer layers[2]{};
-        for (SupplePlaybackLayer& layer : layers) {
-            const Playing& own = &layer == layers ? from : to;
-            layer.clip = own.clip;
-            layer.flags = SUPPLE_LAYER_LOOP;
-            layer.weight = layer.speed = 1.0f;
-            layer.offset = own.offset;
-        }
-        layers[1].weight = 0.0f;
-        layers[1].fadeWeight = 1.0f;
-        layers[1].fadeStart = start;
-        layers[1].fadeDuration = static_cast<float>(seconds);
-        SupplePlaybackDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.layers = layers;
-        desc.layerCount = 2;
-        EXPECT_EQ(suppleSetPlayback(handle(), instances[i], &desc), SUPPLE_OK);
+        return layer;
     }
     void modify(uint32_t i, std::span<const SuppleModifier> modifiers) const {
         SuppleModifiersDesc desc{};
@@ -152,9 +136,6 @@ public:
     Crowd crowd;
     std::vector<SuppleInstance> instances;
     std::vector<float> poses; ///< of the last frame
-
-private:
-    SuppleAsset asset_;
 };
 
 } // namespace supple::test

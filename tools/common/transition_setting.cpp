@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <span>
 
 namespace supple::host {
 

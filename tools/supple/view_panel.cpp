@@ -554,6 +554,8 @@ void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& w
             wishExport(state, ExportKind::commandLine, wishes);
         if (settings.fadeClip != SUPPLE_REST_POSE)
             ImGui::TextWrapped("The crossfade is left out: the command line has none.");
+        if (settings.change)
+            ImGui::TextWrapped("Transitions are left out: a picture shows the clip alone.");
         if (settings.levelsFrozen)
             ImGui::TextWrapped("The frozen camera is left out: levels are chosen from where the picture is seen.");
     }

@@ -21,7 +21,8 @@ bool ViewPlayback::isShown(const host::Figure& figure, uint32_t clip, double tim
     return std::min(apart, std::abs(duration - apart)) < kSameTime;
 }
 
-Status ViewPlayback::show(const host::FigureGroup& group, uint32_t clip, double time, host::ClipChange change) {
+Status ViewPlayback::show(const host::FigureGroup& group, uint32_t clip, double time,
+                          std::optional<host::TransitionMethod> method, double seconds) {
     const host::Figure& figure = group.figure();
     host::Context& context = figure.context();
     Status timed = context.check(suppleSetTime(context.handle(), group.handle(), time_), "suppleSetTime");
@@ -32,13 +33,12 @@ Status ViewPlayback::show(const host::FigureGroup& group, uint32_t clip, double 
     };
     const uint32_t before = clip_.value_or(clip);
     const std::optional<SupplePlaybackLayer> from = layer(before, start_, offset_);
-    if (before == clip)
-        change.method.reset();
-    change.time = time_;
+    if (before == clip || figure.clipDuration(clip) <= 0.0) // time does not go on while something stands
+        method.reset();
     clip_ = clip;
     start_ = time_;
     offset_ = time;
-    return host::changeClip(context, group.instance(0), from, layer(clip, start_, offset_), change);
+    return host::changeClip(context, group.instance(0), from, layer(clip, start_, offset_), {method, seconds, time_});
 }
 
 } // namespace supple::tools

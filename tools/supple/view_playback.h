@@ -9,16 +9,17 @@
 
 namespace supple::tools {
 
-/// Of a group that plays (host::GroupOptions::plays).
+/// Its group plays (host::GroupOptions::plays).
 class ViewPlayback {
 public:
     /// There is another group, or it has played something else.
     void forget() { clip_.reset(); }
     /// While the figure plays, by the seconds that its clip goes on.
     void advance(double seconds) { time_ += seconds; }
-    /// The clip at a time of it, or the rest pose. If it is not the one that was shown last, it is gone over to by
-    /// `change`, whose time is not read.
-    [[nodiscard]] Status show(const host::FigureGroup& group, uint32_t clip, double time, host::ClipChange change);
+    /// The clip at a time of it, or the rest pose. A clip that is not the one that was shown last is gone over to,
+    /// during `seconds`; without a method, and to what stands, at once.
+    [[nodiscard]] Status show(const host::FigureGroup& group, uint32_t clip, double time,
+                              std::optional<host::TransitionMethod> method, double seconds);
 
 private:
     [[nodiscard]] bool isShown(const host::Figure& figure, uint32_t clip, double time) const;

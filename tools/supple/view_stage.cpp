@@ -300,9 +300,8 @@ Status ViewStage::pose() {
     if (const Status status = group_->setMorphWeights(0, settings.morphWeights); !status)
         return status.error();
     if (group_->plays())
-        return playback_.show(
-            *group_, settings.clip, settings.time,
-            {settings.playing ? settings.change : std::nullopt, static_cast<double>(settings.changeSeconds)});
+        return playback_.show(*group_, settings.clip, settings.time, settings.playing ? settings.change : std::nullopt,
+                              static_cast<double>(settings.changeSeconds));
     if (settings.fadeClip == SUPPLE_REST_POSE || settings.fade <= 0.0f || settings.clip >= figure_->clips().size())
         return group_->pose(0, settings.clip, settings.time);
     SuppleClipLayer layers[2]{};
