@@ -52,16 +52,26 @@ Result<std::unique_ptr<Context>> Context::create(Device& device, const ContextOp
     SuppleContextDesc desc = contextDesc(device);
     desc.framesInFlight = options.framesInFlight;
     desc.mapping = options.mapping;
+    desc.flags |= options.flags;
     desc.log = log;
     desc.logUser = context.get();
     desc.runJobs = runJobs;
     if (const Status status = context->check(suppleCreateContext(&desc, &context->context_), "suppleCreateContext");
         !status)
         return status.error();
+    if (!options.record.empty()) {
+        Result<std::unique_ptr<Recording>> recording = Recording::start(context->context_, options.record);
+        if (!recording)
+            return recording.error();
+        context->recording_ = std::move(*recording);
+    }
     return context;
 }
 
 Context::~Context() {
+    // Another frame brings the hashes of the last one.
+    if (recording_ != nullptr && frame_ > 0)
+        (void)suppleBeginFrame(context_, frame_ + 1, frame_);
     suppleDestroyContext(context_);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "host/device.h"
+#include "host/recording.h"
 
 #include <supple/supple.h>
 
@@ -17,8 +18,10 @@ namespace supple::host {
 struct ContextOptions {
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     uint32_t framesInFlight = 2;
+    uint32_t flags = 0; ///< SuppleContextFlags, beside those of contextDesc()
     /// Print Supple's warnings and its notes about rates that were rounded up on stderr, each once.
     bool printWarnings = true;
+    std::string record; ///< a file for a recording of all that is done to the context; empty: none
 };
 
 /// What Supple borrows of the device, and debug utils where it has them; all else is left at its default.
@@ -54,6 +57,7 @@ private:
 
     Device& device_;
     SuppleContext context_ = nullptr;
+    std::unique_ptr<Recording> recording_;
     uint64_t frame_ = 0;
     bool printWarnings_ = true;
     std::string lastError_;

@@ -3,6 +3,7 @@
 #include "host/context.h"
 #include "host/frames.h"
 #include "host/jobs.h"
+#include "host/recording.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +35,7 @@ std::unique_ptr<Device> mustCreateDevice(bool window) {
     return must(Device::create({.validation = validation, .window = window}));
 }
 
-supple::Context mustCreateContext(const Device& device) {
+supple::Context mustCreateContext(Device& device, const std::string& record) {
     SuppleContextDesc desc = contextDesc(device);
     desc.framesInFlight = kFramesInFlight;
     desc.log = [](SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
@@ -44,6 +45,10 @@ supple::Context mustCreateContext(const Device& device) {
     desc.runJobs = runJobs;
     supple::Context context;
     must(supple::Context::create(desc, context), "suppleCreateContext");
+    if (!record.empty()) {
+        std::shared_ptr<Recording> recording = must(Recording::start(context.handle(), record));
+        device.atEnd([recording] {});
+    }
     return context;
 }
 

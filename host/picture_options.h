@@ -17,11 +17,13 @@ struct PictureOptions {
     VkExtent2D size{1280, 720};
     uint32_t rate = 0;
     uint64_t frames = 0;
+    std::string record; ///< a file for a recording; empty: none
 };
 
 inline void addPictureOptions(CLI::App& app, PictureOptions& options) {
     app.add_option("--frames", options.frames, "a sixtieth of a second each")->capture_default_str();
     app.add_option("--screenshot", options.screenshot, "save the last frame as PNG")->type_name("FILE");
+    app.add_option("--record", options.record, "write a recording, for supple replay")->type_name("FILE");
     app.add_option("--rate", options.rate, "segments along an edge")->check(CLI::Range(1u, 64u))->capture_default_str();
     const auto readSize = [&options](const std::string& text) {
         char end = '\0';

@@ -79,6 +79,11 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->log_ = desc.log;
     context->logUser_ = desc.logUser;
     context->framesInFlight_ = desc.framesInFlight == 0 ? 2 : desc.framesInFlight;
+    context->flags_ = desc.flags;
+    if ((desc.flags & SUPPLE_CONTEXT_RECORDABLE) != 0) {
+        context->keeper_ = std::make_unique<CallKeeper>();
+        context->keeps_ = true;
+    }
 
     context->asyncCompute_ = (desc.flags & SUPPLE_CONTEXT_ASYNC_COMPUTE) != 0;
     const gpu::DeviceDesc deviceDesc = deviceDescOf(desc);
@@ -225,6 +230,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     completedFrame_ = completedFrame;
     frameOpen_ = true;
     origin_ = nextOrigin_;
+    noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
     return success();
@@ -252,6 +258,9 @@ Status Context::cancelFrame() {
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
     uploads_.cancelFrame();
     timings.cancelFrame();
+    if (hashes_ != nullptr) {
+        hashes_->cancelFrame(frame_);
+    }
     return success();
 }
 
@@ -369,6 +378,7 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
     shared.handsOver = asyncCompute_;
+    shared.hashes = hashes_;
     return shared;
 }
 

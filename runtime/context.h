@@ -9,6 +9,8 @@
 #include "runtime/asset.h"
 #include "runtime/group.h"
 #include "runtime/planned_pipelines.h"
+#include "runtime/recording/call_keeper.h"
+#include "runtime/recording/recorder.h"
 #include "runtime/shared_kernels.h"
 #include "runtime/slot_map.h"
 #include "runtime/timings.h"
@@ -33,6 +35,8 @@ class Context {
 
 public:
     Context() = default;
+    /// Ends the recording.
+    ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
     /// `shaders`, `stages`: tests put mutated code and stages of their own in. `stages` must outlive the context.
@@ -109,12 +113,39 @@ public:
     [[nodiscard]] Result<uint64_t> createView(const SuppleViewDesc& desc);
     bool destroyView(uint64_t id);
 
+    [[nodiscard]] Status startRecording(const SuppleRecordingDesc& desc);
+    [[nodiscard]] Status stopRecording();
+    // A call that has succeeded (runtime/recording/calls.h), for a recording. It stays so: if there is no memory for
+    // notes, the recording ends.
+    template <class C>
+    void note(const C& call) noexcept;
+    /// C{asset, its hash}.
+    template <class C>
+    void noteLoad(SuppleAsset asset) noexcept;
+    /// Hands over what is recorded.
+    void flushRecording() noexcept;
+    [[nodiscard]] bool recordsHashes() const { return recording_ && recorder_->hasHashes(); }
+
     Timings timings;
     SlotMap<Asset> assets;
     SlotMap<Group> groups;
     SlotMap<View> views;
 
 private:
+    /// Makes ready for the hashes of a recording.
+    [[nodiscard]] Status makeHashes();
+    /// What a recording that begins now has to know, as calls that bring it about.
+    void noteState() noexcept;
+    /// Hands the hashes of complete frames to the recording.
+    void noteHashes(uint64_t completedFrame) noexcept;
+    /// Calls note(Recorder&) if the context is being recorded.
+    template <class F>
+    void whileRecording(F&& note) noexcept;
+    /// Calls keep(CallKeeper&) if recordings may begin late.
+    template <class F>
+    void whileKeeping(F&& keep) noexcept;
+    /// There is no point in going on with the recording.
+    void endRecording(const char* reason) noexcept;
     /// Why the frame cannot begin, if it cannot.
     [[nodiscard]] Status checkFrame(uint64_t frame, uint64_t completedFrame) const;
     [[nodiscard]] Status takeFrame(uint64_t frame, uint64_t completedFrame);
@@ -171,6 +202,13 @@ private:
     glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
     std::atomic<bool> lost_ = false;
+    uint32_t flags_ = 0;                      ///< SuppleContextFlags
+    std::unique_ptr<CallKeeper> keeper_;      ///< null: recordings begin before anything is created
+    std::atomic<bool> keeps_ = false;         ///< nothing was lost for want of memory
+    std::unique_ptr<Recorder> recorder_;      ///< null: the context is not being recorded
+    std::shared_ptr<StageHashes> hashes_;     ///< while a recording has them
+    std::weak_ptr<StageHashes> groupsHashes_; ///< that groups bind, perhaps since an earlier recording
+    std::atomic<bool> recording_ = false;
     CageStageTable stages_;
     std::unique_ptr<SharedKernels> kernels_;
     surface::Programs surface_;
@@ -201,6 +239,43 @@ private:
     std::vector<Retired<Group>> retired_;
     std::vector<Retired<View>> retiredViews_;
 };
+
+template <class F>
+void Context::whileRecording(F&& note) noexcept {
+    if (!recording_.load(std::memory_order_relaxed)) {
+        return;
+    }
+    try {
+        note(*recorder_);
+    } catch (const std::exception&) {
+        endRecording("there is no memory for it");
+    }
+}
+
+template <class F>
+void Context::whileKeeping(F&& keep) noexcept {
+    if (!keeps_.load(std::memory_order_relaxed)) {
+        return;
+    }
+    try {
+        keep(*keeper_);
+    } catch (const std::exception&) {
+        keeps_ = false;
+    }
+}
+
+template <class C>
+void Context::note(const C& call) noexcept {
+    whileKeeping([&](CallKeeper& keeper) { keeper.keep(call); });
+    whileRecording([&](Recorder& recorder) { recorder.note(call); });
+}
+
+template <class C>
+void Context::noteLoad(SuppleAsset asset) noexcept {
+    const std::shared_ptr<const Prepared>& version = assets.find(asset.id)->prepared;
+    whileKeeping([&](CallKeeper& keeper) { keeper.keepLoad(asset, version); });
+    whileRecording([&](Recorder& recorder) { recorder.note(C{asset, recorder.noteAsset(*version)}); });
+}
 
 template <class F>
 void Context::forViews(F&& visit) {

@@ -510,6 +510,15 @@ void recordEmptyViews(const Frame& frame, const Group* waiting) {
     }
 }
 
+/// Behind all passes: what they have written.
+void recordHashes(const Frame& frame, StageHashes& hashes) {
+    uint32_t count = 0;
+    frame.forEach([&](const Group& group) { count += group.hashCount(); });
+    StageHashes::Recording recording(hashes, frame.commands, frame.number, count);
+    frame.forEach([&](const Group& group) { group.recordHashes(recording); });
+    recording.end();
+}
+
 /// The stages that some group has, each a pass of its own.
 void recordCageStages(const Frame& frame, std::span<const CageStageRow> rows, Timings::Recording& timing) {
     for (size_t stage = 0; stage < rows.size(); ++stage) {
@@ -686,6 +695,9 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         }
     }
     timing.end();
+    if (recordsHashes()) {
+        recordHashes(frame, *hashes_);
+    }
     frame.groups = join(groups);
     if (asyncCompute_) {
         Releases releases(device, commandBuffer, families_, {lastScope().stages, lastScope().access});

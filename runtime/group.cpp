@@ -197,10 +197,69 @@ Status Group::createRest(const GroupShared& shared) {
                                                         listing_, *visibility_)
                         : status;
     }
+    status = status && shared.hashes != nullptr ? createHashes(shared.hashes) : status;
     if (status) {
         addMembers(shared);
     }
     return status;
+}
+
+HashedPart Group::partOf(const Hashed& hashed, uint32_t part) const {
+    constexpr uint32_t kWords = 4; // of what is read as vec4
+    HashedPart result;
+    switch (hashed.stage) {
+    case HashedStage::palettes: {
+        const skinning::PoseLayout& layout = instances_->poseLayout();
+        result.words = instances_->palettes().buffer();
+        result.slotStride = kWords * layout.stride;
+        result.elementCount = kWords * layout.morphWeights + layout.morphCount;
+        return result;
+    }
+    case HashedStage::cages:
+        result.words = instances_->cages().buffer();
+        result.elementWords = result.keptWords = kWords;
+        result.slotStride = kWords * instances_->cageStride();
+        result.elementCount = asset_->character.cage.vertexCount();
+        return result;
+    case HashedStage::vertices:
+    case HashedStage::count:
+        break;
+    }
+    return surfaces_[hashed.surface].hashedPart(part);
+}
+
+Status Group::createHashes(const std::shared_ptr<const StageHashes>& hashes) {
+    if (hashes_ != nullptr) {
+        return success();
+    }
+    if (!follows()) {
+        hashed_ = {{HashedStage::palettes}, {HashedStage::cages}};
+    }
+    for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
+        hashed_.push_back({HashedStage::vertices, surface, surfaces_[surface].hashedParts()});
+    }
+    std::vector<HashedPart> parts;
+    for (const Hashed& hashed : hashed_) {
+        for (uint32_t part = 0; part < hashed.parts; ++part) {
+            parts.push_back(partOf(hashed, part));
+        }
+    }
+    hashes_ = std::make_unique<HashedParts>(*device_, hashes, windows(), culling_);
+    return hashes_->create(parts, listing_.buffer().buffer());
+}
+
+void Group::recordHashes(StageHashes::Recording& recording) const {
+    size_t number = 0;
+    for (const Hashed& hashed : hashed_) {
+        const bool there = hashed.parts > 0 && partOf(hashed, 0).words != VK_NULL_HANDLE &&
+                           recording.next({link.handle, hashed.stage, hashed.surface, {}});
+        for (uint32_t part = 0; part < hashed.parts; ++part, ++number) {
+            const HashedPart now = partOf(hashed, part);
+            if (there && now.elementCount > 0) {
+                hashes_->record(recording, number, now);
+            }
+        }
+    }
 }
 
 void Group::addMembers(const GroupShared& shared) {

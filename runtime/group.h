@@ -12,6 +12,7 @@
 #include "runtime/culling/out_of_sight.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
+#include "runtime/recording/stage_hashes.h"
 #include "runtime/stages/cage_stages.h"
 #include "runtime/surfaces.h"
 #include "runtime/transfers.h"
@@ -38,9 +39,10 @@ struct GroupShared {
     std::shared_ptr<View> view;                  ///< of the description
     std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
-    uint32_t firstGeneration = 1;  ///< of the instances
-    bool handsOver = false;        ///< to another queue family: every output is written anew in every frame
-    const Group* before = nullptr; ///< whose indices it may take over; null: none
+    uint32_t firstGeneration = 1;              ///< of the instances
+    bool handsOver = false;                    ///< to another queue family: every output is written anew in every frame
+    const Group* before = nullptr;             ///< whose indices it may take over; null: none
+    std::shared_ptr<const StageHashes> hashes; ///< of a recording; null: there are none
 };
 
 class Group final : public gpu::FrameMembers {
@@ -115,6 +117,11 @@ public:
     PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
     void recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame);
+    /// Makes ready for recordHashes(), if that has not been done.
+    [[nodiscard]] Status createHashes(const std::shared_ptr<const StageHashes>& hashes);
+    /// Hashes of what its passes have written; how many at most. None before createHashes().
+    [[nodiscard]] uint32_t hashCount() const { return static_cast<uint32_t>(hashed_.size()); }
+    void recordHashes(StageHashes::Recording& recording) const;
     /// What the group hands to the queue family that draws; withView: and what its view does.
     void addTransfers(Transfers& transfers, bool withView) const;
 
@@ -161,6 +168,13 @@ private:
     [[nodiscard]] Status createVisibility();
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// What is hashed of the group, a hash each.
+    struct Hashed {
+        HashedStage stage = HashedStage::palettes;
+        uint32_t surface = 0;
+        uint32_t parts = 1;
+    };
+    [[nodiscard]] HashedPart partOf(const Hashed& hashed, uint32_t part) const;
     /// What frames concern: once all of it is there.
     void addMembers(const GroupShared& shared);
 
@@ -181,6 +195,8 @@ private:
     Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view
     std::unique_ptr<ListedBounds> listedBounds_; ///< if it belongs to none and has bounds
     std::unique_ptr<BoundsReadback> boundsReadback_;
+    std::vector<Hashed> hashed_;
+    std::unique_ptr<HashedParts> hashes_; ///< of hashed_
     CageStages stages_;
     Surfaces surfaces_;
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;

@@ -33,6 +33,7 @@ public:
     }
     /// Values there are room for without another slot.
     [[nodiscard]] size_t slotCount() const { return slots_.size(); }
+    [[nodiscard]] bool empty() const { return free_.size() == slots_.size(); }
     /// Null for a stale or foreign id.
     [[nodiscard]] std::shared_ptr<T> find(uint64_t id) const noexcept {
         const uint64_t index = (id & 0xFFFFFFFFu) - 1u;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers with libFuzzer under the address and undefined-behaviour sanitizers; needs clang.
-# Usage: tools/fuzz.sh HOURS [TARGET...]   (targets: gltf convert obj clips arrays cooked pictures api; each gets its share of the time)
+# Usage: tools/fuzz.sh HOURS [TARGET...]   (targets: gltf convert obj clips arrays cooked recordings pictures api; each gets its share of the time)
 # Inputs that were new to it stay in build/fuzz/corpus, findings in build/fuzz/findings. The exit status is 1 if there are any.
 # What it does without, for more inputs a second: notes of each comparison (trace-cmp in the preset, half of the time), weights of
 # rare features (-entropic), and long inputs (-max_len): a few kilobytes hold every kind of element.
@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 hours=${1:?usage: tools/fuzz.sh HOURS [TARGET...]}
 shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips arrays cooked pictures api)
+[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips arrays cooked recordings pictures api)
 if ! command -v clang++ >/dev/null; then
     echo "clang++ is not installed: apt-get install clang libclang-rt-dev" >&2
     exit 3
@@ -25,6 +25,7 @@ status=0
 for target in "${targets[@]}"; do
     seeds=$target
     [[ $target != convert && $target != cooked ]] || seeds=gltf
+    [ "$target" != recordings ] || seeds=../../data/recordings
     corpus=build/fuzz/corpus/$target
     limits=(-timeout=10 -rss_limit_mb=2048)
     leaks=1

@@ -96,6 +96,14 @@ Result<std::shared_ptr<const runtime::Prepared>> readCookedFor(const Context& co
     return std::shared_ptr<const runtime::Prepared>(*cooked);
 }
 
+/// Notes that the asset has been loaded.
+template <class C>
+SuppleResult notedAsset(Context& context, SuppleAsset asset) {
+    context.noteLoad<C>(asset);
+    context.flushRecording();
+    return SUPPLE_OK;
+}
+
 void tell(const cage::Material& from, SuppleMaterialInfo& info) {
     info.name = from.name.c_str();
     info.alphaMode = static_cast<SuppleAlphaMode>(from.alphaMode);
@@ -162,7 +170,7 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
         }
         const auto made = [&](const Result<uint64_t>& id) {
             out->id = id ? *id : 0;
-            return id ? SUPPLE_OK : report(context, id.error());
+            return id ? notedAsset<calls::CreateAsset>(context, *out) : report(context, id.error());
         };
         if (desc.prepared != nullptr) {
             return made(context.createAsset(desc.prepared->prepared));
@@ -186,17 +194,18 @@ SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const Su
         if (const std::optional<Error> fault = takeAsset("desc", given, desc)) {
             return refuse(context, fault->code, kHere, fault->message);
         }
+        const auto loaded = [&](const Status& status) {
+            return status ? notedAsset<calls::ReloadAsset>(context, asset) : report(context, status.error());
+        };
         if (desc.prepared != nullptr) {
-            return reportStatus(context, context.reloadAsset(asset.id, desc.prepared->prepared));
+            return loaded(context.reloadAsset(asset.id, desc.prepared->prepared));
         }
         if (isCooked(desc)) {
             const auto cooked = readCookedFor(context, desc);
-            return cooked ? reportStatus(context, context.reloadAsset(asset.id, *cooked))
-                          : report(context, cooked.error());
+            return loaded(cooked ? context.reloadAsset(asset.id, *cooked) : Status(cooked.error()));
         }
         Result<cage::Character> character = readAsset(kHere, desc);
-        return character ? reportStatus(context, context.reloadAsset(asset.id, std::move(*character)))
-                         : report(context, character.error());
+        return loaded(character ? context.reloadAsset(asset.id, std::move(*character)) : Status(character.error()));
     });
 }
 
@@ -205,7 +214,7 @@ SuppleResult suppleDestroyAsset(SuppleContext handle, SuppleAsset asset) {
         if (context.assets.remove(asset.id) == nullptr) {
             return refuse(context, ErrorCode::staleHandle, "suppleDestroyAsset", "stale or foreign asset handle");
         }
-        return SUPPLE_OK;
+        return noted(context, calls::DestroyAsset{asset});
     });
 }
 

@@ -25,6 +25,7 @@ using runtime::Context;
 using runtime::Group;
 using runtime::Tessellation;
 using runtime::View;
+namespace calls = runtime::calls;
 
 /// Logs the error; a lost device is remembered.
 SuppleResult report(Context& context, const Error& error);
@@ -33,6 +34,17 @@ SuppleResult refuse(Context& context, ErrorCode code, const char* function, cons
 SuppleResult refuse(Context& context, const Group& group, ErrorCode code, const char* function,
                     const std::string& reason);
 SuppleResult reportStatus(Context& context, const Status& status);
+/// Notes a call that has succeeded, for a recording (runtime/recording/calls.h).
+template <class C>
+SuppleResult noted(Context& context, const C& call) {
+    context.note(call);
+    return SUPPLE_OK;
+}
+/// The same, or reports the error.
+template <class C>
+SuppleResult notedIf(Context& context, const Status& status, const C& call) {
+    return status ? noted(context, call) : report(context, status.error());
+}
 /// What an error becomes.
 struct Verdict {
     SuppleResult result;

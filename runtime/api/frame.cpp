@@ -5,13 +5,17 @@ using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
 SuppleResult suppleBeginFrame(SuppleContext handle, uint64_t frame, uint64_t completedFrame) {
-    return onDevice(handle, "suppleBeginFrame",
-                    [&](Context& context) { return reportStatus(context, context.beginFrame(frame, completedFrame)); });
+    return onDevice(handle, "suppleBeginFrame", [&](Context& context) {
+        const Status begun = context.beginFrame(frame, completedFrame);
+        const SuppleResult result = notedIf(context, begun, calls::BeginFrame{frame, completedFrame});
+        context.flushRecording();
+        return result;
+    });
 }
 
 SuppleResult suppleCancelFrame(SuppleContext handle) {
     return guarded(handle, "suppleCancelFrame",
-                   [&](Context& context) { return reportStatus(context, context.cancelFrame()); });
+                   [&](Context& context) { return notedIf(context, context.cancelFrame(), calls::CancelFrame{}); });
 }
 
 SuppleResult suppleSetOrigin(SuppleContext handle, const double* origin) {
@@ -24,7 +28,7 @@ SuppleResult suppleSetOrigin(SuppleContext handle, const double* origin) {
             return refuse(context, ErrorCode::notFinite, kHere, "origin is not finite");
         }
         context.setOrigin({origin[0], origin[1], origin[2]});
-        return SUPPLE_OK;
+        return noted(context, calls::SetOrigin{{origin[0], origin[1], origin[2]}});
     });
 }
 
@@ -33,7 +37,7 @@ SuppleResult suppleRecordUploads(SuppleContext handle, VkCommandBuffer commandBu
         if (commandBuffer == VK_NULL_HANDLE) {
             return refuse(context, ErrorCode::nullPointer, "suppleRecordUploads", "commandBuffer is null");
         }
-        return reportStatus(context, context.recordUploads(commandBuffer));
+        return notedIf(context, context.recordUploads(commandBuffer), calls::RecordUploads{});
     });
 }
 
@@ -44,7 +48,8 @@ SuppleResult suppleRecordWarmUp(SuppleContext handle, VkCommandBuffer commandBuf
         if (commandBuffer == VK_NULL_HANDLE || (groups == nullptr && groupCount > 0)) {
             return refuse(context, ErrorCode::nullPointer, kHere, "commandBuffer or groups is null");
         }
-        return reportStatus(context, context.recordWarmUp(commandBuffer, {groups, groupCount}));
+        return notedIf(context, context.recordWarmUp(commandBuffer, {groups, groupCount}),
+                       calls::RecordWarmUp{groups, groupCount});
     });
 }
 
@@ -70,7 +75,8 @@ SuppleResult suppleRecord(SuppleContext handle, VkCommandBuffer commandBuffer, c
         if (std::abs(desc.time) > SUPPLE_MAX_TIME) {
             return refuse(context, ErrorCode::range, kHere, "time is beyond SUPPLE_MAX_TIME");
         }
-        return reportStatus(context, context.record(commandBuffer, desc));
+        return notedIf(context, context.record(commandBuffer, desc),
+                       calls::Record{desc.groups, desc.groupCount, desc.time});
     });
 }
 

@@ -21,14 +21,14 @@ SuppleResult suppleCreateGroup(SuppleContext handle, const SuppleGroupDesc* give
             return report(context, id.error());
         }
         out->id = *id;
-        return SUPPLE_OK;
+        return noted(context, calls::CreateGroup{*out, group.desc});
     });
 }
 
 SuppleResult suppleDestroyGroup(SuppleContext handle, SuppleGroup group) {
     return guarded(handle, "suppleDestroyGroup", [&](Context& context) {
         return context.destroyGroup(group.id)
-                   ? SUPPLE_OK
+                   ? noted(context, calls::DestroyGroup{group})
                    : refuse(context, ErrorCode::staleHandle, "suppleDestroyGroup", "stale or foreign group handle");
     });
 }
@@ -42,13 +42,14 @@ SuppleResult suppleSetCapacity(SuppleContext handle, SuppleGroup group, uint32_t
         if (capacity == 0) {
             return refuse(context, ErrorCode::range, kName, "capacity is 0");
         }
-        return reportStatus(context, context.setCapacity(group.id, capacity));
+        return notedIf(context, context.setCapacity(group.id, capacity), calls::SetCapacity{group, capacity});
     });
 }
 
 SuppleResult suppleSetRate(SuppleContext handle, SuppleGroup group, uint32_t rate) {
     return withGroup(handle, group, "suppleSetRate", [&](Context& context, Group& found) {
         const Status set = found.setRate(rate);
-        return set ? SUPPLE_OK : refuse(context, set.error().code, "suppleSetRate", set.error().message);
+        return set ? noted(context, calls::SetRate{group, rate})
+                   : refuse(context, set.error().code, "suppleSetRate", set.error().message);
     });
 }

@@ -23,14 +23,14 @@ SuppleResult suppleCreateInstance(SuppleContext handle, SuppleGroup group, Suppl
         }
         found.instances().reset(*slot);
         *out = {group, *slot, found.slots().generation(*slot)};
-        return SUPPLE_OK;
+        return noted(context, calls::CreateInstance{*out});
     });
 }
 
 SuppleResult suppleDestroyInstance(SuppleContext handle, SuppleInstance instance) {
-    return withInstance(handle, instance, "suppleDestroyInstance", [&](Context&, Group& found) {
+    return withInstance(handle, instance, "suppleDestroyInstance", [&](Context& context, Group& found) {
         found.slots().destroy(instance.slot);
-        return SUPPLE_OK;
+        return noted(context, calls::DestroyInstance{instance});
     });
 }
 
@@ -40,7 +40,7 @@ SuppleResult suppleSetVisible(SuppleContext handle, SuppleInstance instance, uin
             return refuse(context, found, ErrorCode::range, "suppleSetVisible", "visible must be 0 or 1");
         }
         found.slots().setVisible(instance.slot, visible == 1);
-        return SUPPLE_OK;
+        return noted(context, calls::SetVisible{instance, visible});
     });
 }
 
@@ -60,14 +60,14 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
                           "the device was created without the feature drawIndirectFirstInstance");
         }
         found.slots().setPartVisible(instance.slot, part, visible == 1);
-        return SUPPLE_OK;
+        return noted(context, calls::SetPartVisible{instance, part, visible});
     });
 }
 
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
-    return withInstance(handle, instance, "suppleTeleport", [&](Context&, Group& found) {
+    return withInstance(handle, instance, "suppleTeleport", [&](Context& context, Group& found) {
         found.slots().forget(instance.slot);
-        return SUPPLE_OK;
+        return noted(context, calls::Teleport{instance});
     });
 }
 
@@ -94,7 +94,7 @@ SuppleResult suppleSetSharpness(SuppleContext handle, SuppleInstance instance, u
         }
         const double alpha = surface::pm::alphaOfSharpness(sharpness);
         found.instances().setCreaseAlpha(instance.slot, set, own ? -1.0f : static_cast<float>(alpha));
-        return SUPPLE_OK;
+        return noted(context, calls::SetSharpness{instance, set, sharpness});
     });
 }
 
@@ -105,6 +105,6 @@ SuppleResult suppleSetUserData(SuppleContext handle, SuppleInstance instance, co
             return refuse(context, ErrorCode::nullPointer, kHere, "data is null");
         }
         found.instances().userData().set(instance.slot, {data[0], data[1], data[2], data[3]});
-        return SUPPLE_OK;
+        return noted(context, calls::SetUserData{instance, {data[0], data[1], data[2], data[3]}});
     });
 }

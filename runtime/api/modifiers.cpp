@@ -41,7 +41,7 @@ SuppleResult suppleSetModifiers(SuppleContext handle, SuppleInstance instance, c
                               "SUPPLE_POSES_PLAYBACK");
         }
         found.poses().setModifiers(instance.slot, modifiers);
-        return SUPPLE_OK;
+        return noted(context, calls::SetModifiers{instance, desc});
     });
 }
 
@@ -64,6 +64,6 @@ SuppleResult suppleSetModifierTarget(SuppleContext handle, SuppleInstance instan
             return refuse(context, found, goal.error().code, kHere, goal.error().message);
         }
         found.poses().setModifierGoal(instance.slot, index, *goal);
-        return SUPPLE_OK;
+        return noted(context, calls::SetModifierTarget{instance, index, target});
     });
 }

@@ -42,7 +42,7 @@ SuppleResult suppleSetPose(SuppleContext handle, SuppleInstance instance, const 
             return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().host()->setLayers(instance.slot, pose);
-        return SUPPLE_OK;
+        return noted(context, calls::SetPose{instance, pose});
     });
 }
 
@@ -89,7 +89,7 @@ SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, co
                          runtime::PlaybackLayers layers;
                          found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers),
                                                        runtime::transitionRequestOf(desc));
-                         return SUPPLE_OK;
+                         return noted(context, calls::SetPlayback{instance, desc});
                      });
 }
 
@@ -101,7 +101,7 @@ SuppleResult suppleSetTime(SuppleContext handle, SuppleGroup group, double secon
             return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().playback()->setTime(seconds);
-        return SUPPLE_OK;
+        return noted(context, calls::SetTime{group, seconds});
     });
 }
 
@@ -118,6 +118,6 @@ SuppleResult suppleSetMask(SuppleContext handle, SuppleGroup group, const Supple
         }
         found.poses().playback()->setMask(desc.mask, {desc.jointMask, desc.jointMaskCount},
                                           {desc.morphMask, desc.morphMaskCount});
-        return SUPPLE_OK;
+        return noted(context, calls::SetMask{group, desc});
     });
 }

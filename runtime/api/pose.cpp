@@ -13,11 +13,11 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, ui
     return withPose(handle, instance, kHere, [&](Context& context, Group& found) {
         if (clip == SUPPLE_BIND_POSE) {
             found.poses().host()->setBindPose(instance.slot);
-            return SUPPLE_OK;
+            return noted(context, calls::SetClipPose{instance, clip, 0.0});
         }
         if (clip == SUPPLE_REST_POSE) {
             found.poses().host()->setRestPose(instance.slot);
-            return SUPPLE_OK;
+            return noted(context, calls::SetClipPose{instance, clip, 0.0});
         }
         const size_t clips = found.asset().character.clips.size();
         if (clip >= clips) {
@@ -28,7 +28,7 @@ SuppleResult suppleSetClipPose(SuppleContext handle, SuppleInstance instance, ui
             return refuse(context, found, ErrorCode::notFinite, kHere, "time is not finite");
         }
         found.poses().host()->setClipPose(instance.slot, clip, time);
-        return SUPPLE_OK;
+        return noted(context, calls::SetClipPose{instance, clip, time});
     });
 }
 
@@ -48,7 +48,7 @@ SuppleResult suppleSetMorphWeights(SuppleContext handle, SuppleInstance instance
             }
         }
         found.poses().setMorphWeights(instance.slot, weights);
-        return SUPPLE_OK;
+        return noted(context, calls::SetMorphWeights{instance, weights, morphTargetCount});
     });
 }
 
@@ -68,7 +68,7 @@ SuppleResult suppleSetMatrixPose(SuppleContext handle, SuppleInstance instance, 
             return refuse(context, found, ErrorCode::notFinite, kHere, "a joint matrix is not finite");
         }
         found.poses().host()->setMatrixPose(instance.slot, jointMatrices);
-        return SUPPLE_OK;
+        return noted(context, calls::SetMatrixPose{instance, jointMatrices, 16 * jointCount});
     });
 }
 
@@ -85,7 +85,7 @@ SuppleResult suppleSetJointMatrices(SuppleContext handle, SuppleInstance instanc
             return refuse(context, found, valid.error().code, kHere, valid.error().message);
         }
         found.poses().host()->setJointMatrices(instance.slot, desc);
-        return SUPPLE_OK;
+        return noted(context, calls::SetJointMatrices{instance, desc});
     });
 }
 
@@ -117,7 +117,7 @@ SuppleResult suppleSetPosition(SuppleContext handle, SuppleInstance instance, co
             return refuse(context, ErrorCode::notFinite, kHere, "position is not finite");
         }
         found.poses().setPosition(instance.slot, {position[0], position[1], position[2]});
-        return SUPPLE_OK;
+        return noted(context, calls::SetPosition{instance, {position[0], position[1], position[2]}});
     });
 }
 
@@ -134,6 +134,8 @@ SuppleResult suppleSetTransform(SuppleContext handle, SuppleInstance instance, c
             return refuse(context, found, ErrorCode::range, kHere, "the last row is not 0, 0, 0, 1");
         }
         found.poses().setTransform(instance.slot, glm::make_mat4(transform));
-        return SUPPLE_OK;
+        calls::SetTransform call{instance};
+        std::copy_n(transform, 16, call.transform);
+        return noted(context, call);
     });
 }

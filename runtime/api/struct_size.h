@@ -49,6 +49,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleRootMotion)                                                                                                \
     X(SuppleUploadState)                                                                                               \
     X(SupplePlaybackDesc)                                                                                              \
+    X(SuppleRecordingDesc)                                                                                             \
     X(SuppleMaskDesc)                                                                                                  \
     X(SuppleJointMatricesDesc)                                                                                         \
     X(SuppleModifiersDesc)                                                                                             \

@@ -5,8 +5,9 @@ using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
 SuppleResult suppleSetUploadBudget(SuppleContext handle, VkDeviceSize bytesPerFrame) {
-    return onDevice(handle, "suppleSetUploadBudget",
-                    [&](Context& context) { return reportStatus(context, context.setUploadBudget(bytesPerFrame)); });
+    return onDevice(handle, "suppleSetUploadBudget", [&](Context& context) {
+        return notedIf(context, context.setUploadBudget(bytesPerFrame), calls::SetUploadBudget{bytesPerFrame});
+    });
 }
 
 SuppleResult suppleGetUploadState(SuppleContext handle, SuppleUploadState* out) {

@@ -48,14 +48,14 @@ SuppleResult suppleCreateView(SuppleContext handle, const SuppleViewDesc* given,
             return report(context, id.error());
         }
         out->id = *id;
-        return SUPPLE_OK;
+        return noted(context, calls::CreateView{*out, desc});
     });
 }
 
 SuppleResult suppleDestroyView(SuppleContext handle, SuppleView view) {
     return guarded(handle, "suppleDestroyView", [&](Context& context) {
         return context.destroyView(view.id)
-                   ? SUPPLE_OK
+                   ? noted(context, calls::DestroyView{view})
                    : refuse(context, ErrorCode::staleHandle, "suppleDestroyView", "stale or foreign view handle");
     });
 }
@@ -71,7 +71,7 @@ SuppleResult suppleSetPriority(SuppleContext handle, SuppleInstance instance, ui
                           "priority " + std::to_string(priority) + " of " + std::to_string(SUPPLE_PRIORITY_COUNT));
         }
         found.slots().setPriority(instance.slot, priority);
-        return SUPPLE_OK;
+        return noted(context, calls::SetPriority{instance, priority});
     });
 }
 
@@ -104,7 +104,7 @@ SuppleResult suppleSetCamera(SuppleContext handle, SuppleView view, const Supple
                           "the view has BACK_FACES and the camera is orthographic: direction is zero");
         }
         found.setCamera(camera);
-        return SUPPLE_OK;
+        return noted(context, calls::SetCamera{view, camera});
     });
 }
 
@@ -116,7 +116,7 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
         }
         if (given == nullptr) {
             found.setDepthPyramid(std::nullopt);
-            return SUPPLE_OK;
+            return noted(context, calls::SetDepthPyramid{view, 0});
         }
         SuppleDepthPyramidDesc pyramid{};
         if (const auto fault = takeIn(context, kHere, "pyramid", given, pyramid)) {
@@ -148,7 +148,7 @@ SuppleResult suppleSetDepthPyramid(SuppleContext handle, SuppleView view, const 
             return refuse(context, ErrorCode::notFinite, kHere, "viewProjection is not finite");
         }
         found.setDepthPyramid(pyramid);
-        return SUPPLE_OK;
+        return noted(context, calls::SetDepthPyramid{view, 1});
     });
 }
 

@@ -177,6 +177,14 @@ std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& 
     return bytes;
 }
 
+std::vector<std::byte> writeCookedCharacter(const Prepared& prepared) {
+    Prepared alone;
+    alone.character = prepared.character;
+    alone.character.name.clear();
+    alone.choices = prepared.choices;
+    return writeCooked(alone, "");
+}
+
 Result<cage::Character> readCookedCharacter(std::span<const std::byte> bytes, const std::string& name) {
     Reader reader(bytes);
     Prepared prepared;

@@ -30,6 +30,8 @@ namespace supple::runtime {
 /// `madeBy`: the command that makes the file anew, for messages; or empty. `out` has cookedBytes().
 void writeCooked(const Prepared& prepared, const std::string& madeBy, std::span<std::byte> out);
 [[nodiscard]] std::vector<std::byte> writeCooked(const Prepared& prepared, const std::string& madeBy);
+/// The file of the character alone, without its name and all that was prepared for groups.
+[[nodiscard]] std::vector<std::byte> writeCookedCharacter(const Prepared& prepared);
 
 /// Reads a file and checks all that somebody relies on later; it may be anybody's. `name` begins every error, and
 /// becomes Character::name. Refuses files of another version or byte order, and says how to make them anew. No

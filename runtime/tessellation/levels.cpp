@@ -36,6 +36,7 @@ public:
     PassCost recordEvaluate(surface::Round& round) const override;
     [[nodiscard]] bool usesScratch() const override { return false; } // it holds levels
     PassCost recordMotion(surface::Round& round) const override;
+    [[nodiscard]] HashedPart hashedPart(uint32_t part) const override;
     [[nodiscard]] bool isBudgeted() const override { return true; }
     [[nodiscard]] uint32_t leastVertices() const override { return leastVertices_; }
     [[nodiscard]] uint32_t patchesAtLevels() const override { return static_cast<uint32_t>(tables().patches.size()); }
@@ -249,6 +250,17 @@ PassCost Levels::recordMotion(surface::Round& round) const {
     }
     windows().forEach([&](uint32_t w) { surface::record(round, program_.motion, ofPast(placed(w, pastSets(w)))); });
     return {0, 0, windows().visible > 0};
+}
+
+HashedPart Levels::hashedPart(uint32_t) const {
+    HashedPart part = hashedPositions(view()->streams());
+    part.by = HashedBy::records;
+    part.elementCount = view()->desc().maxVertices;
+    part.view = view();
+    part.firstRun = firstRun_;
+    part.runCount = takenRuns_;
+    part.patchCount = patchesAtLevels();
+    return part;
 }
 
 } // namespace

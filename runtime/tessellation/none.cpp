@@ -13,6 +13,7 @@ public:
     }
 
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_NONE; }
+    [[nodiscard]] HashedPart hashedPart(uint32_t) const override { return {}; }
     [[nodiscard]] Status prepareRate(uint32_t rate) override { return checkRate(rate, built_.askedRate); }
     PassCost recordEvaluate(surface::Round&) const override { return {}; }
     PassCost recordMotion(surface::Round&) const override { return {}; }

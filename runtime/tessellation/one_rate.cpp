@@ -42,6 +42,13 @@ void HostDraws::recordNone(const gpu::Device& device, VkCommandBuffer commandBuf
     }
 }
 
+HashedPart OneRate::hashedPart(uint32_t) const {
+    HashedPart part = hashedPositions(streams_);
+    part.slotStride = evaluation_.verticesPerInstance * part.elementWords;
+    part.elementCount = vertexCount_;
+    return part;
+}
+
 void OneRate::setDraws(std::vector<SuppleDrawRange> draws) {
     draws_ = std::move(draws);
     rates_.resize(1);

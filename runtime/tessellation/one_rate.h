@@ -37,6 +37,7 @@ public:
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEvaluate(surface::Round& round) const override;
     PassCost recordMotion(surface::Round& round) const override;
+    [[nodiscard]] HashedPart hashedPart(uint32_t part) const override;
 
 protected:
     using OwnVertices::OwnVertices;

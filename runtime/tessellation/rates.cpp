@@ -38,6 +38,8 @@ public:
     void recordWarmUp(VkCommandBuffer commandBuffer) const override;
     PassCost recordEvaluate(surface::Round& round) const override;
     PassCost recordMotion(surface::Round& round) const override;
+    [[nodiscard]] uint32_t hashedParts() const override { return static_cast<uint32_t>(places_.size()); }
+    [[nodiscard]] HashedPart hashedPart(uint32_t part) const override;
     [[nodiscard]] bool isBudgeted() const override { return view()->countsRates(); }
     [[nodiscard]] uint32_t leastVertices() const override { return own_.front().vertices; }
 
@@ -278,6 +280,18 @@ PassCost Rates::recordMotion(surface::Round& round) const {
     }
     recordRates(round, true);
     return {0, 0, windows().visible > 0};
+}
+
+HashedPart Rates::hashedPart(uint32_t part) const {
+    const Rate& rate = own_[places_[part]];
+    HashedPart result = hashedPositions(streams_);
+    result.by = HashedBy::rateList;
+    result.slotStride = evaluation_.verticesPerInstance * result.elementWords;
+    result.firstWord = rate.firstVertex * result.elementWords;
+    result.elementCount = rate.vertices;
+    result.surface = desc_.surface;
+    result.rate = part;
+    return result;
 }
 
 } // namespace

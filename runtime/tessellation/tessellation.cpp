@@ -203,4 +203,12 @@ PassCost Tessellation::recordPatch(gpu::Dispatches& dispatches) const {
     return visibility_->cost(points, points * kPatchStride * gpu::kVec4Bytes);
 }
 
+HashedPart Tessellation::hashedPositions(const VertexStreams& streams) {
+    HashedPart part;
+    part.words = streams.buffer(Stream::vertices);
+    part.elementWords = streams.bytes(Stream::vertices) / sizeof(uint32_t);
+    part.keptWords = 3;
+    return part;
+}
+
 } // namespace supple::runtime

@@ -12,6 +12,7 @@
 #include "runtime/culling/culling.h"
 #include "runtime/instance_set.h"
 #include "runtime/recorded_once.h"
+#include "runtime/recording/stage_hashes.h"
 #include "runtime/tessellation/built_surface.h"
 #include "runtime/tessellation/surface_memory.h"
 #include "runtime/vertex_streams.h"
@@ -144,6 +145,9 @@ public:
     [[nodiscard]] virtual bool usesScratch() const { return memory_.scratch().buffer() != VK_NULL_HANDLE; }
     virtual PassCost recordMotion(surface::Round& round) const = 0;
 
+    // What a recording hashes of the surface: positions.
+    [[nodiscard]] virtual uint32_t hashedParts() const { return 1; }
+    [[nodiscard]] virtual HashedPart hashedPart(uint32_t part) const = 0;
     /// Whether the vertices count in the view's budget.
     [[nodiscard]] virtual bool isBudgeted() const { return false; }
     /// How many vertices an instance has at its coarsest.
@@ -189,6 +193,8 @@ protected:
     [[nodiscard]] gpu::TaskNeeds taskNeedsOf(const surface::Program& program) const;
     [[nodiscard]] Status makeSets(SurfaceSets& target, const SchemeTables& scheme,
                                   const surface::Program& program) const;
+    /// Positions of these vertices, of whichever instances.
+    [[nodiscard]] static HashedPart hashedPositions(const VertexStreams& streams);
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
     virtual void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const = 0;
     /// The pools of the view if its groups share them; else null.

@@ -71,13 +71,13 @@ supple::Asset createGrid(const supple::Context& context) {
 
 } // namespace
 
-Cloth::Cloth(Device& device, uint32_t rate) {
-    createSupple(device, rate);
+Cloth::Cloth(Device& device, uint32_t rate, const std::string& record) {
+    createSupple(device, rate, record);
     createSimulation(device);
 }
 
-void Cloth::createSupple(const Device& device, uint32_t rate) {
-    context_ = mustCreateContext(device);
+void Cloth::createSupple(Device& device, uint32_t rate, const std::string& record) {
+    context_ = mustCreateContext(device, record);
     asset_ = createGrid(context_);
 
     auto groupDesc = supple::sized<SuppleGroupDesc>();

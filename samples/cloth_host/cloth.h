@@ -30,7 +30,8 @@ struct Sheet {
 
 class Cloth {
 public:
-    Cloth(Device& device, uint32_t rate);
+    /// `record`: a file for a recording, or empty.
+    Cloth(Device& device, uint32_t rate, const std::string& record);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     /// Moves the cloth by a frame, then lets Supple make the surface, for draws as vertex shader reads. All barriers
@@ -43,7 +44,7 @@ public:
     const SuppleGridOutput& grid() const { return grid_; }
 
 private:
-    void createSupple(const Device& device, uint32_t rate);
+    void createSupple(Device& device, uint32_t rate, const std::string& record);
     void createSimulation(Device& device);
     void simulate(VkCommandBuffer commands, double seconds);
 

@@ -26,7 +26,7 @@ PictureOptions readOptions(int argc, char** argv) {
 std::shared_ptr<const ValidationLog> run(const PictureOptions& options) {
     const std::unique_ptr<Device> owner = mustCreateDevice(false);
     Device& device = *owner;
-    cloth::Cloth cloth(device, options.rate);
+    cloth::Cloth cloth(device, options.rate, options.record);
     const cloth::Scene scene(device, cloth, options.size);
     Frames frames(device);
     while (frames.frame() < options.frames) {

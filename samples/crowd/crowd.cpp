@@ -70,8 +70,8 @@ void findArcs(Kind& kind) {
 
 } // namespace
 
-Crowd::Crowd(const Device& device, const CrowdOptions& options)
-    : context_(mustCreateContext(device)), budget_(options.budget), backFaces_(options.backFaces) {
+Crowd::Crowd(Device& device, const CrowdOptions& options)
+    : context_(mustCreateContext(device, options.record)), budget_(options.budget), backFaces_(options.backFaces) {
     const uint32_t count = options.count;
     auto viewDesc = supple::sized<SuppleViewDesc>();
     viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;

@@ -43,6 +43,7 @@ struct CrowdOptions {
     bool wall = false;           ///< nobody walks where it stands
     bool occlusion = false;
     bool backFaces = false; ///< leave out what faces away
+    std::string record;     ///< a file for a recording; empty: none
 };
 
 /// Across the middle of the square, 0 at z, turned about +Y.
@@ -50,7 +51,7 @@ inline constexpr float kWallAngle = 0.35f, kWallHeight = 4.0f;
 
 class Crowd {
 public:
-    Crowd(const Device& device, const CrowdOptions& options);
+    Crowd(Device& device, const CrowdOptions& options);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     /// All there is to say a frame: where everybody is at a time of the walk, the device finds.

@@ -50,6 +50,7 @@ Options readOptions(int argc, char** argv) {
             throw CLI::RequiredError("--frames");
     });
     parse(app, argc, argv);
+    options.crowd.record = options.record;
     return options;
 }
 

@@ -75,7 +75,7 @@ class Show {
 public:
     Show(Device& device, const Options& options)
         : graph_(device), buffers_(graph_.addBuffers()), mostVertices_(std::max(options.budget, kMostVertices)),
-          market_(device, options.figures, mostVertices_), drawing_(device, graph_, market_) {
+          market_(device, options.figures, mostVertices_, options.record), drawing_(device, graph_, market_) {
         settings.budget = options.budget;
         settings.paint = options.paint;
     }

@@ -56,8 +56,8 @@ void dress(const Figure& figure, const supple::Asset& asset, const supple::Insta
 
 } // namespace
 
-Market::Market(const Device& device, uint32_t figures, uint32_t mostVertices)
-    : context_(mustCreateContext(device)), cast_(makeCast(figures)) {
+Market::Market(Device& device, uint32_t figures, uint32_t mostVertices, const std::string& record)
+    : context_(mustCreateContext(device, record)), cast_(makeCast(figures)) {
     auto viewDesc = supple::sized<SuppleViewDesc>();
     viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
     viewDesc.maxVertices = mostVertices;

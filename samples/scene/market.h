@@ -36,7 +36,8 @@ struct Source {
 class Market {
 public:
     /// `budget`: the most surface vertices a frame that setBudget() may be given.
-    Market(const Device& device, uint32_t figures, uint32_t mostVertices);
+    /// `record`: a file for a recording, or empty.
+    Market(Device& device, uint32_t figures, uint32_t mostVertices, const std::string& record);
 
     void beginFrame(uint64_t frame, uint64_t completed) const;
     void update(double time, const Camera& camera, uint32_t budget) const;

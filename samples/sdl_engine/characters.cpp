@@ -61,8 +61,8 @@ void play(const supple::Instance& instance, std::span<const SuppleClipLayer> lay
 
 } // namespace
 
-Characters::Characters(const Device& device, const std::string& path, uint32_t rate) {
-    context_ = mustCreateContext(device);
+Characters::Characters(Device& device, const std::string& path, uint32_t rate, const std::string& record) {
+    context_ = mustCreateContext(device, record);
 
     std::ifstream stream(path, std::ios::binary);
     if (!stream)

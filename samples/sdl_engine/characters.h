@@ -40,7 +40,8 @@ struct Footprint {
 
 class Characters {
 public:
-    Characters(const Device& device, const std::string& path, uint32_t rate);
+    /// `record`: a file for a recording, or empty.
+    Characters(Device& device, const std::string& path, uint32_t rate, const std::string& record);
 
     /// Poses everybody for a time of the show. May create and destroy instances, so it comes after beginFrame.
     void update(double time);

@@ -81,7 +81,7 @@ std::shared_ptr<const ValidationLog> run(const Options& options) {
     Device& device = *owner;
     Graph graph(device);
     const Resource characterBuffers = graph.addBuffers();
-    Characters characters(device, options.character, options.rate);
+    Characters characters(device, options.character, options.rate, options.record);
     Passes passes(device, graph, characters);
     Taa taa(device, graph);
     std::unique_ptr<Swapchain> swapchain;

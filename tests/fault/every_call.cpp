@@ -78,6 +78,7 @@ public:
     /// Every function, cold and then with frames in flight. Returns what the frames came out as.
     std::vector<std::byte> run() {
         const uint64_t before = deviceMemoryOf(handle());
+        record();
         createAssets();
         createGroups();
         prepare();
@@ -103,6 +104,13 @@ public:
     }
 
 private:
+    void record() {
+        SuppleRecordingDesc recording{};
+        recording.structSize = sizeof(recording);
+        recording.flags = SUPPLE_RECORDING_HASHES;
+        recording.write = [](const void*, size_t, void*) { return 1; };
+        call("suppleStartRecording", [&] { return suppleStartRecording(handle(), &recording); });
+    }
     /// A character on its way through a worker, and a group of it.
     void prepare() {
         SuppleGroupDesc group{};
@@ -535,6 +543,9 @@ private:
     }
 
     void destroy() {
+        // It has ended before, if it once found no memory.
+        const SuppleResult stopped = suppleStopRecording(handle());
+        EXPECT_TRUE(stopped == SUPPLE_OK || stopped == SUPPLE_ERROR_ARGUMENT) << stopped;
         call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
         ++frame_;
         for (size_t i = 0; i < kGroups; ++i) {

@@ -616,7 +616,7 @@ void contexts(Rows& r) {
     range("framesInFlight 5", [](Desc& d) { d.framesInFlight = SUPPLE_MAX_FRAMES_IN_FLIGHT + 1; });
     range("mapping 3", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(3); });
     range("mapping -1", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(-1); });
-    range("flags", [](Desc& d) { d.flags |= 8; });
+    range("flags", [](Desc& d) { d.flags |= 16; });
     range("queueFamily", [](Desc& d) { d.queueFamily = 1000; });
     range("drawQueueFamily", [](Desc& d) {
         d.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;
@@ -2310,6 +2310,44 @@ void uploads(Rows& r) {
     });
 }
 
+void recordings(Rows& r) {
+    constexpr const char *kStart = "suppleStartRecording", *kStop = "suppleStopRecording";
+    const auto made = [](World&) {
+        SuppleRecordingDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.write = [](const void*, size_t, void*) { return 1; };
+        return desc;
+    };
+    // The context has assets: whatever is right otherwise comes too late.
+    r.nullContext(kStart, [=](World& w, SuppleContext c) {
+        const SuppleRecordingDesc desc = made(w);
+        return suppleStartRecording(c, &desc);
+    });
+    r.refuse(kStart, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleStartRecording(w.handle(), nullptr); });
+    r.refuse(kStart, "structSize 0", SUPPLE_MESSAGE_STRUCT_SIZE, [=](World& w) {
+        SuppleRecordingDesc desc = made(w);
+        desc.structSize = 0;
+        return suppleStartRecording(w.handle(), &desc);
+    });
+    r.refuse(kStart, "unknown flags", SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+        SuppleRecordingDesc desc = made(w);
+        desc.flags = 4;
+        return suppleStartRecording(w.handle(), &desc);
+    });
+    r.refuse(kStart, "write null", SUPPLE_MESSAGE_NULL_POINTER, [=](World& w) {
+        SuppleRecordingDesc desc = made(w);
+        desc.write = nullptr;
+        return suppleStartRecording(w.handle(), &desc);
+    });
+    r.refuse(kStart, "too late", SUPPLE_MESSAGE_OUT_OF_ORDER, [=](World& w) {
+        const SuppleRecordingDesc desc = made(w);
+        return suppleStartRecording(w.handle(), &desc);
+    });
+    r.nullContext(kStop, [](World&, SuppleContext c) { return suppleStopRecording(c); });
+    r.refuse(kStop, "not begun", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) { return suppleStopRecording(w.handle()); });
+}
+
 void pipelines(Rows& r) {
     constexpr const char* kMake = "suppleMakePipelines";
     const auto make = [](SuppleContext c, bool prepared, const SupplePlannedGroup* groups, uint32_t count) {
@@ -2348,6 +2386,7 @@ std::vector<Row> allRows() {
     withoutContext(r);
     preparing(r);
     uploads(r);
+    recordings(r);
     pipelines(r);
     contexts(r);
     createAsset(r);
@@ -2477,8 +2516,8 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    for (const char* name :
-         {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h"}) {
+    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h",
+                             "supple_recording.h"}) {
         std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/" + name);
         ASSERT_TRUE(file.good()) << name;
         header.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

@@ -339,6 +339,11 @@ void addOutputs(std::vector<Mistake>& rows) {
 
 /// What concerns several groups, or a group that is made anew.
 void addShared(std::vector<Mistake>& rows) {
+    rows.push_back({"a recording begins late, without `SUPPLE_CONTEXT_RECORDABLE`", [](Scene& s) {
+                        auto desc = Scene::asking<SuppleRecordingDesc>();
+                        desc.write = [](const void*, size_t, void*) { return 1; };
+                        return suppleStartRecording(s.context(), &desc);
+                    }});
     static const auto follower = [](Scene& s, uint32_t capacity, SuppleGroup& group) {
         auto desc = Scene::asking<SuppleGroupDesc>();
         desc.asset = s.asset;

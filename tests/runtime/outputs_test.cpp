@@ -358,6 +358,15 @@ TEST(OutputNames, OfMemoryAreThoseThatTheHeaderLists) {
         SuppleAsset asset{};
         ASSERT_EQ(createTube(own.handle(), asset), SUPPLE_OK);
     }
+    NamedMemory hashed(*device);
+    {
+        LoggedContext own(*device, [&](SuppleContextDesc& desc) { desc.memory = &hashed.callbacks; });
+        SuppleRecordingDesc recording{};
+        recording.structSize = sizeof recording;
+        recording.flags = SUPPLE_RECORDING_HASHES;
+        recording.write = [](const void*, size_t, void*) { return 1; };
+        ASSERT_EQ(suppleStartRecording(own.handle(), &recording), SUPPLE_OK);
+    }
     NamedMemory shared(*device);
     {
         LoggedContext own(*device, [&](SuppleContextDesc& desc) {
@@ -372,6 +381,8 @@ TEST(OutputNames, OfMemoryAreThoseThatTheHeaderLists) {
     std::set<std::string> all = memory.names;
     all.insert(memory.visibleNames.begin(), memory.visibleNames.end());
     all.insert(blocks.names.begin(), blocks.names.end());
+    all.insert(hashed.names.begin(), hashed.names.end());
+    all.insert(hashed.visibleNames.begin(), hashed.visibleNames.end());
     all.insert(shared.names.begin(), shared.names.end());
     all.insert(shared.visibleNames.begin(), shared.visibleNames.end());
     EXPECT_EQ(all, documentedNames());

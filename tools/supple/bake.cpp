@@ -265,6 +265,7 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->excludes(command->get_option("--rest-pose"))
         ->needs(command->get_option("--time"));
     bindDevice(*command, options->device);
+    bindRecord(*command, options->device.record);
     command->callback([options, &exitCode] {
         if (options->output.empty() && !options->hash) {
             throw CLI::RequiredError("--output");

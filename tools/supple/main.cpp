@@ -27,8 +27,8 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", std::to_string(SUPPLE_VERSION_MAJOR) + "." +
                                           std::to_string(SUPPLE_VERSION_MINOR) + "." +
                                           std::to_string(SUPPLE_VERSION_PATCH));
-    app.footer("Exit codes: 0 ok, 1 bad input, 2 bad usage, 3 no suitable device; profile: 4 above a limit of "
-               "--fail-above or --budget-ms.");
+    app.footer("Exit codes: 0 ok, 1 bad input, 2 bad usage, 3 no suitable device; 4 above a limit of "
+               "profile --fail-above or --budget-ms, or replayed hashes differ.");
 
     int exitCode = kExitOk;
     bindInspect(app, exitCode);
@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     bindView(app, exitCode);
     bindConvert(app, exitCode);
     bindCook(app, exitCode);
+    bindReplay(app, exitCode);
 
     try {
         app.parse(argc, argv);

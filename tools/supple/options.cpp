@@ -27,6 +27,11 @@ void bindDevice(CLI::App& command, DeviceFlags& flags) {
     bindDevice(command, flags.device, flags.mapping, flags.validate);
 }
 
+void bindRecord(CLI::App& command, std::string& record) {
+    command.add_option("--record", record, "Write a recording of all calls, for supple replay")
+        ->type_name("OUT.supprec");
+}
+
 SuppleMapping mappingOf(const DeviceFlags& flags) {
     return flags.mapping == "narrow" ? SUPPLE_MAPPING_NARROW
            : flags.mapping == "wide" ? SUPPLE_MAPPING_WIDE

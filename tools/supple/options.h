@@ -26,9 +26,12 @@ struct DeviceFlags {
     std::string device; ///< name or index; empty: the best
     std::string mapping = "auto";
     bool validate = false;
+    std::string record; ///< file for a recording; empty: none
 };
 void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bool& validate);
 void bindDevice(CLI::App& command, DeviceFlags& flags);
+/// --record: what makes one context.
+void bindRecord(CLI::App& command, std::string& record);
 [[nodiscard]] SuppleMapping mappingOf(const DeviceFlags& flags);
 
 /// --clips, --pair-quads, --keep-triangles, --creases-from-normals, --scene, --parts-apart, --vertices-apart,

@@ -73,6 +73,7 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
         ->check(CLI::Range(-89.0, 89.0))
         ->capture_default_str();
     bindDevice(command, draw.device, draw.mapping, draw.validate);
+    bindRecord(command, draw.record);
 }
 
 /// What pictures have that stand alone.

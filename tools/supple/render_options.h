@@ -43,6 +43,7 @@ struct DrawOptions {
     std::string device;                 ///< name part or index; empty takes the best
     std::string mapping = "auto";       ///< auto | narrow | wide
     bool validate = false;              ///< run under the validation layer; its messages make the command fail
+    std::string record;                 ///< a file for a recording; empty: none
 };
 
 } // namespace supple::tools

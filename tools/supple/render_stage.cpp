@@ -40,7 +40,8 @@ Result<PictureKind> parsePicture(const char* option, const std::string& size, co
 }
 
 DeviceFlags deviceFlags(const DrawOptions& options) {
-    return {.device = options.device, .mapping = options.mapping, .validate = options.validate};
+    return {
+        .device = options.device, .mapping = options.mapping, .validate = options.validate, .record = options.record};
 }
 
 float radians(double degrees) {

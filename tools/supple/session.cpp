@@ -14,7 +14,8 @@ Status inSession(const DeviceFlags& flags, const std::function<Status(Session&)>
             return device.error();
         }
         validation = (*device)->validation();
-        Result<std::unique_ptr<host::Context>> context = host::Context::create(**device, {.mapping = mappingOf(flags)});
+        Result<std::unique_ptr<host::Context>> context =
+            host::Context::create(**device, {.mapping = mappingOf(flags), .record = flags.record});
         if (!context) {
             return context.error();
         }

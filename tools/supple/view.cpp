@@ -127,9 +127,10 @@ Status Viewer::open(VkExtent2D size) {
         !status)
         return status.error();
     validation_ = device_->validation();
-    if (const Status status = keep(
-            host::Context::create(*device_, {.mapping = mappingOf(flags), .framesInFlight = host::kFramesInFlight}),
-            context_);
+    if (const Status status = keep(host::Context::create(*device_, {.mapping = mappingOf(flags),
+                                                                    .framesInFlight = host::kFramesInFlight,
+                                                                    .record = flags.record}),
+                                   context_);
         !status)
         return status.error();
     if (const Status status = keep(host::Window::create(*device_, "supple", size), window_); !status)

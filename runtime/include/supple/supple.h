@@ -11,8 +11,9 @@
  * Supple does not create a Vulkan instance or device, submit, wait, draw, decode images, open windows or link a loader.
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
- * any thread), supple_view.h (level of detail, culling) and supple_playback.h (layers of clips, root motion, clips that
- * the device plays) are for hosts that need them. This header includes all four at its end.
+ * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
+ * the device plays) and supple_recording.h (what a host does, to be replayed) are for hosts that need them. This header
+ * includes all five at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -181,7 +182,8 @@ typedef enum SuppleMessage {
      * for (suppleGetVertexStreams, suppleGetGridOutput or suppleGetLevelOutput), it has visible instances, other groups
      * were recorded in 8 frames since then, and it was recorded in none. Hide the instances of a group that you hold
      * ready (suppleSetVisible), or ignore the line. */
-    SUPPLE_MESSAGE_NEVER_RECORDED = 501
+    SUPPLE_MESSAGE_NEVER_RECORDED = 501,
+    SUPPLE_MESSAGE_RECORDING_ENDED = 502 /**< before suppleStopRecording (suppleStartRecording) */
 } SuppleMessage;
 
 /** Called on the thread that called Supple, before that call returns. It must not call Supple itself. text is
@@ -233,7 +235,10 @@ typedef enum SuppleContextFlags {
      * feature bufferDeviceAddress must be enabled, and SuppleMemoryCallbacks.allocate must allocate with
      * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. Surfaces have the same bits. With SUPPLE_RECORD_TIMINGS each group has
      * dispatches of its own, to be timed. Without effect in the narrow mapping (docs/shared_dispatches.md). */
-    SUPPLE_CONTEXT_SHARED_DISPATCHES = 4
+    SUPPLE_CONTEXT_SHARED_DISPATCHES = 4,
+    /** suppleStartRecording may come at any time. The context keeps what everything was told last, poses too: a copy of
+     * what calls that set something hand over. For builds that are tested. */
+    SUPPLE_CONTEXT_RECORDABLE = 8
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
@@ -256,7 +261,8 @@ typedef struct SuppleMemoryCallbacks {
      * name is for the host's statistics, and valid during the call. It is "supple block" for a block
      * (SuppleContextDesc.memoryBlockSize). Else it is the name of the first buffer in the memory, and says whose it is:
      * - context: "supple parameter pairs"; on CPU devices "supple timings"; with SUPPLE_CONTEXT_SHARED_DISPATCHES
-     *   "supple tasks", "supple tasks staging";
+     *   "supple tasks", "supple tasks staging"; if a recording has had hashes, "supple hashes" and "supple hashes, read
+     *   back";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
      * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices";
      * - its boxes, for the host: "supple bounds, read back";
@@ -1637,5 +1643,6 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 #include "supple_character.h" /* IWYU pragma: export */
 #include "supple_playback.h"  /* IWYU pragma: export */
 #include "supple_prepare.h"   /* IWYU pragma: export */
+#include "supple_recording.h" /* IWYU pragma: export */
 #include "supple_view.h"      /* IWYU pragma: export */
 #endif

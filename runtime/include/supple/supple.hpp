@@ -152,6 +152,10 @@ public:
         return suppleSetOrigin(handle_, origin.data());
     }
     [[nodiscard]] SuppleResult cancelFrame() const { return suppleCancelFrame(handle_); }
+    [[nodiscard]] SuppleResult startRecording(const SuppleRecordingDesc& desc) const {
+        return suppleStartRecording(handle_, &desc);
+    }
+    [[nodiscard]] SuppleResult stopRecording() const { return suppleStopRecording(handle_); }
     [[nodiscard]] SuppleResult recordUploads(VkCommandBuffer commandBuffer) const {
         return suppleRecordUploads(handle_, commandBuffer);
     }

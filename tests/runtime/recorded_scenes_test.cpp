@@ -1,0 +1,357 @@
+// Recordings whose hashes are pinned: the scenes in tests/data/recordings come out with the same words on every driver
+// and in both mappings. To record them anew, where a change of words is meant:
+//
+//   SUPPLE_WRITE_RECORDINGS=$PWD/tests/data/recordings build/release/tests/runtime/supple_runtime_tests
+//       --gtest_filter='RecordedScenes.*'
+#include "tests/support/crowd.h"
+#include "tests/support/sample_assets.h"
+#include "tools/replay/replayer.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <supple/supple.hpp>
+
+namespace supple::test {
+namespace {
+
+using runtime::FrameHashes;
+using runtime::RecordingReader;
+using runtime::StageHash;
+
+constexpr uint32_t kSceneFrames = 6;
+constexpr double kSceneStep = 0.125; // exact in binary, as most numbers here
+
+std::vector<std::byte> fileBytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file.good()) << path;
+    const std::vector<char> text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+void succeed(SuppleResult result) {
+    EXPECT_EQ(result, SUPPLE_OK);
+}
+
+/// A host that records what it does with one character.
+class SceneHost {
+public:
+    SceneHost(host::Device& device, const std::string& character, std::ofstream& out)
+        : context(device, SUPPLE_MAPPING_NARROW), bytes_(fileBytes(character)),
+          name_(character.substr(character.rfind('/') + 1)) {
+        auto recording = sized<SuppleRecordingDesc>();
+        recording.flags = SUPPLE_RECORDING_HASHES | SUPPLE_RECORDING_WITHOUT_ASSETS;
+        recording.write = [](const void* bytes, size_t count, void* user) {
+            static_cast<std::ofstream*>(user)->write(static_cast<const char*>(bytes),
+                                                     static_cast<std::streamsize>(count));
+            return 1;
+        };
+        recording.user = &out;
+        succeed(suppleStartRecording(context.handle(), &recording));
+        const SuppleAssetDesc desc = assetDesc();
+        succeed(suppleCreateAsset(context.handle(), &desc, &asset));
+    }
+
+    [[nodiscard]] SuppleContext handle() const { return context.handle(); }
+    [[nodiscard]] SuppleAssetDesc assetDesc() const {
+        auto desc = sized<SuppleAssetDesc>();
+        desc.name = name_.c_str();
+        desc.bytes = bytes_.data();
+        desc.byteCount = bytes_.size();
+        return desc;
+    }
+    SuppleGroup create(SuppleGroupDesc desc, uint32_t instances) {
+        desc.structSize = sizeof desc;
+        desc.asset = asset;
+        desc.capacity = desc.instancesOf.id == 0 ? instances + 1 : 0;
+        SuppleGroup group{};
+        succeed(suppleCreateGroup(handle(), &desc, &group));
+        groups.push_back(group);
+        for (uint32_t i = 0; i < instances; ++i) {
+            spawn(group);
+        }
+        return group;
+    }
+    void spawn(SuppleGroup group) {
+        succeed(suppleCreateInstance(handle(), group, &all.emplace_back()));
+        place(all.size() - 1, 0.5f * static_cast<float>(all.size()), 0.0f);
+    }
+    void place(size_t i, float x, float z) const {
+        const float transform[] = {0.5f, 0, 0.75f, 0, 0, 1, 0, 0, -0.75f, 0, 0.5f, 0, x, 0, z, 1};
+        succeed(suppleSetTransform(handle(), all[i], transform));
+    }
+    void play(size_t i, std::span<const SupplePlaybackLayer> layers, SupplePlaybackDesc desc = {}) const {
+        desc.structSize = sizeof desc;
+        desc.layers = layers.data();
+        desc.layerCount = static_cast<uint32_t>(layers.size());
+        succeed(suppleSetPlayback(handle(), all[i], &desc));
+    }
+    void loop(size_t i, uint32_t clip, double offset, const SupplePlaybackDesc& desc = {}) const {
+        const SupplePlaybackLayer layer = layerOf(clip, offset);
+        play(i, {&layer, 1}, desc);
+    }
+    [[nodiscard]] static SupplePlaybackLayer layerOf(uint32_t clip, double offset) {
+        SupplePlaybackLayer layer{};
+        layer.clip = clip;
+        layer.flags = SUPPLE_LAYER_LOOP;
+        layer.weight = layer.speed = 1.0f;
+        layer.offset = offset;
+        return layer;
+    }
+    /// A frame of all groups, each that plays at its time.
+    void run() {
+        time += kSceneStep;
+        for (const SuppleGroup& group : played) {
+            succeed(suppleSetTime(handle(), group, time));
+        }
+        context.run(groups);
+    }
+
+    CrowdContext context;
+    SuppleAsset asset{};
+    std::vector<SuppleGroup> groups, played;
+    std::vector<SuppleInstance> all;
+    double time = 0.0;
+
+private:
+    std::vector<std::byte> bytes_;
+    std::string name_;
+};
+
+/// Layers that fade, a mask, teleports.
+void fades(SceneHost& host) {
+    const SuppleGroup group =
+        host.create({.scheme = SUPPLE_SCHEME_CATMULL_CLARK, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}, 3);
+    host.played = {group};
+    std::vector<float> weights(63, 0.0f);
+    for (size_t joint = 20; joint < weights.size(); ++joint) {
+        weights[joint] = 0.5f;
+    }
+    auto mask = sized<SuppleMaskDesc>();
+    mask.mask = 1;
+    mask.jointMask = weights.data();
+    mask.jointMaskCount = static_cast<uint32_t>(weights.size());
+    succeed(suppleSetMask(host.handle(), group, &mask));
+    for (uint32_t i = 0; i < 3; ++i) {
+        SupplePlaybackLayer layers[] = {SceneHost::layerOf(i, 0.25 * i), SceneHost::layerOf((i + 1) % 3, 0.5)};
+        layers[1].weight = 0.0f;
+        layers[1].fadeWeight = 1.0f;
+        layers[1].fadeStart = 0.125;
+        layers[1].fadeDuration = 0.5f;
+        layers[1].mask = i == 2 ? 1 : 0;
+        host.play(i, layers);
+    }
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        if (frame == 3) {
+            host.place(1, -2.0f, 1.0f);
+            succeed(suppleTeleport(host.handle(), host.all[1]));
+        }
+        host.run();
+    }
+}
+
+/// Transitions of both kinds, dual quaternions, modifiers, hidden parts, morph weights of the host's.
+void goesOver(SceneHost& host) {
+    host.played = {host.create({.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+                                .scheme = SUPPLE_SCHEME_PM,
+                                .rate = 1,
+                                .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,
+                                .poseSource = SUPPLE_POSES_PLAYBACK},
+                               2)};
+    host.loop(0, 2, 0.0);
+    host.loop(1, 1, 0.5);
+    succeed(suppleSetPartVisible(host.handle(), host.all[1], 9, 0));
+    const float weights[] = {1.0f, 0.0f, 0.5f, 0.0f, 0.25f, 0.0f, 0.75f};
+    succeed(suppleSetMorphWeights(host.handle(), host.all[0], weights, 7));
+    SuppleModifier aim{};
+    aim.kind = SUPPLE_MODIFIER_AIM;
+    aim.joint = 10;
+    aim.weight = 0.75f;
+    aim.target[0] = 4.0;
+    aim.target[1] = 2.0;
+    auto modifiers = sized<SuppleModifiersDesc>();
+    modifiers.modifiers = &aim;
+    modifiers.modifierCount = 1;
+    succeed(suppleSetModifiers(host.handle(), host.all[1], &modifiers));
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        if (frame == 2) {
+            SupplePlaybackDesc over{};
+            over.transition = 0.375;
+            host.loop(0, 0, 0.0, over);
+            over.transitionKind = SUPPLE_TRANSITION_QUINTIC;
+            host.loop(1, 4, 0.25, over);
+        }
+        host.run();
+    }
+}
+
+/// Several schemes at once, one of them over the instances of another; instances that come and go.
+void schemes(SceneHost& host) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_FRAGMENTS}) {
+        host.played.push_back(host.create({.scheme = scheme, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}, 1));
+    }
+    host.create({.scheme = SUPPLE_SCHEME_LOOP, .rate = 2, .instancesOf = host.played[0]}, 0);
+    for (uint32_t i = 0; i < 3; ++i) {
+        host.loop(i, i, 0.25 * i);
+    }
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        if (frame == 2) {
+            host.spawn(host.played[0]);
+            host.loop(3, 1, 0.5);
+        }
+        if (frame == 4) {
+            succeed(suppleDestroyInstance(host.handle(), host.all[0]));
+            succeed(suppleSetVisible(host.handle(), host.all[1], 0));
+        }
+        host.run();
+    }
+}
+
+/// Matrices of the host's, of all joints and of some; places in a large world.
+void matrices(SceneHost& host) {
+    host.create({.scheme = SUPPLE_SCHEME_PM, .rate = 2}, 2);
+    constexpr uint32_t kJoints = 63;
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        const float turn = 0.0625f * static_cast<float>(frame);
+        std::vector<float> joints;
+        for (uint32_t joint = 0; joint < kJoints; ++joint) {
+            const float shift = 0.015625f * static_cast<float>(joint);
+            joints.insert(joints.end(), {1, turn, 0, 0, -turn, 1, 0, 0, 0, 0, 1, 0, shift, turn, -shift, 1});
+        }
+        succeed(suppleSetMatrixPose(host.handle(), host.all[0], joints.data(), kJoints));
+        const uint32_t some[] = {3, 17};
+        auto desc = sized<SuppleJointMatricesDesc>();
+        desc.jointCount = 2;
+        desc.jointMatrices = joints.data() + 16 * size_t{frame};
+        desc.joints = some;
+        succeed(suppleSetJointMatrices(host.handle(), host.all[1], &desc));
+        const double position[] = {1048576.0 + 0.25 * frame, 0.0, -0.5};
+        succeed(suppleSetPosition(host.handle(), host.all[1], position));
+        if (frame == 3) {
+            const double origin[] = {1048576.0, 0.0, 0.0};
+            succeed(suppleSetOrigin(host.handle(), origin));
+        }
+        host.run();
+    }
+}
+
+/// Root motion that moves instances; another capacity, and the character loaded anew.
+void travels(SceneHost& host) {
+    const SuppleGroup group = host.create(
+        {.scheme = SUPPLE_SCHEME_POLYGONS, .skinning = SUPPLE_SKINNING_LINEAR, .poseSource = SUPPLE_POSES_PLAYBACK}, 2);
+    host.played = {group};
+    SupplePlaybackDesc desc{};
+    desc.flags = SUPPLE_PLAYBACK_TRAVEL;
+    desc.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
+    host.loop(0, 1, 0.0, desc);
+    host.loop(1, 5, 0.75, desc);
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        if (frame == 2) {
+            succeed(suppleSetCapacity(host.handle(), group, 6));
+        }
+        if (frame == 4) {
+            const SuppleAssetDesc again = host.assetDesc();
+            succeed(suppleReloadAsset(host.handle(), host.asset, &again));
+        }
+        host.run();
+    }
+}
+
+struct RecordedScene {
+    const char* name;
+    const std::string& character;
+    void (*play)(SceneHost&);
+};
+const RecordedScene kScenes[] = {{"fades", kPip, fades},
+                                 {"goes_over", kWren, goesOver},
+                                 {"schemes", kPipQuads, schemes},
+                                 {"matrices", kPip, matrices},
+                                 {"travels", kWren, travels}};
+
+class RecordedScenes : public testing::TestWithParam<RecordedScene> {
+protected:
+    void SetUp() override { ASSERT_NE(testDevice(), nullptr); }
+};
+
+/// By frame, group, stage and surface.
+using SceneKey = std::tuple<uint64_t, uint64_t, uint32_t, uint32_t>;
+SceneKey hashKeyOf(uint64_t frame, const StageHash& hash) {
+    return {frame, hash.group.id, static_cast<uint32_t>(hash.stage), hash.surface};
+}
+
+/// Plays the recording, and compares every hash of it.
+void expectSameWords(const std::vector<std::byte>& recording, const RecordedScene& scene, SuppleMapping mapping) {
+    Result<RecordingReader> reader = RecordingReader::open(recording, scene.name);
+    ASSERT_TRUE(reader.ok()) << reader.error().message;
+    tools::Replayer::Options options;
+    options.mapping = mapping;
+    options.characters.emplace_back(scene.character, fileBytes(scene.character));
+    const auto replayer = tools::Replayer::create(*testDevice(), reader->context(), std::move(options));
+    ASSERT_TRUE(replayer.ok()) << replayer.error().message;
+    std::map<SceneKey, std::array<uint32_t, 2>> recorded;
+    for (bool more = true; more;) {
+        const auto event = reader->next();
+        ASSERT_TRUE(event.ok()) << event.error().message;
+        more = event->has_value();
+        if (!more) {
+            break;
+        }
+        if (const auto* const hashes = std::get_if<FrameHashes>(&**event)) {
+            for (const StageHash& hash : std::span(hashes->hashes, hashes->count)) {
+                recorded[hashKeyOf(hashes->frame, hash)] = {hash.sums[0], hash.sums[1]};
+            }
+        }
+        const Status played = (*replayer)->play(**event);
+        ASSERT_TRUE(played.ok()) << played.error().message;
+    }
+    ASSERT_TRUE((*replayer)->finish().ok());
+    size_t compared = 0;
+    for (const tools::ReplayedFrame& frame : (*replayer)->takeHashes()) {
+        for (const StageHash& hash : frame.hashes) {
+            const auto found = recorded.find(hashKeyOf(frame.number, hash));
+            if (found != recorded.end()) {
+                ++compared;
+                EXPECT_TRUE(found->second[0] == hash.sums[0] && found->second[1] == hash.sums[1])
+                    << "frame " << frame.number << ", " << (*replayer)->nameOf(hash.group) << ", stage "
+                    << static_cast<uint32_t>(hash.stage);
+            }
+        }
+    }
+    EXPECT_EQ(compared, recorded.size());
+    EXPECT_GE(compared, size_t{kSceneFrames} * 3);
+}
+
+TEST_P(RecordedScenes, ComeOutWithTheWordsThatArePinned) {
+    const RecordedScene& scene = GetParam();
+    const char* const folder = std::getenv("SUPPLE_WRITE_RECORDINGS");
+    const std::string path = (folder != nullptr ? std::string(folder) : std::string(SUPPLE_TEST_DATA) + "/recordings") +
+                             "/" + scene.name + ".supprec";
+    if (folder != nullptr) {
+        std::ofstream out(path, std::ios::binary);
+        SceneHost host(*testDevice(), scene.character, out);
+        scene.play(host);
+        host.context.beginFrame(); // the last frame is complete
+        succeed(suppleStopRecording(host.handle()));
+    }
+    const std::vector<std::byte> recording = fileBytes(path);
+    for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
+        SCOPED_TRACE(mapping);
+        // The tables of these characters have to fit in its texel buffers.
+        const uint32_t elements = testDevice()->properties().limits.maxTexelBufferElements;
+        if (mapping == SUPPLE_MAPPING_NARROW && elements < 1u << 20u) {
+            std::printf("narrow mapping left out: the device has %u texel-buffer elements\n", elements);
+            continue;
+        }
+        expectSameWords(recording, scene, mapping);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RecordedScenes, testing::ValuesIn(kScenes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+} // namespace
+} // namespace supple::test
