@@ -135,7 +135,7 @@ private:
     /// Makes ready for the hashes of a recording.
     [[nodiscard]] Status makeHashes();
     /// What a recording that begins now has to know, as calls that bring it about.
-    void noteState() noexcept;
+    void noteState(Recorder& recorder) const;
     /// Hands the hashes of complete frames to the recording.
     void noteHashes(uint64_t completedFrame) noexcept;
     /// Calls note(Recorder&) if the context is being recorded.

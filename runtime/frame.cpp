@@ -511,11 +511,11 @@ void recordEmptyViews(const Frame& frame, const Group* waiting) {
 }
 
 /// Behind all passes: what they have written.
-void recordHashes(const Frame& frame, StageHashes& hashes) {
+void recordHashes(const Frame& frame, StageHashes& hashes, bool withSurfaces) {
     uint32_t count = 0;
     frame.forEach([&](const Group& group) { count += group.hashCount(); });
     StageHashes::Recording recording(hashes, frame.commands, frame.number, count);
-    frame.forEach([&](const Group& group) { group.recordHashes(recording); });
+    frame.forEach([&](const Group& group) { group.recordHashes(recording, withSurfaces); });
     recording.end();
 }
 
@@ -696,7 +696,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     timing.end();
     if (recordsHashes()) {
-        recordHashes(frame, *hashes_);
+        recordHashes(frame, *hashes_, recorder_->hashesSurfacesIn(frame_));
     }
     frame.groups = join(groups);
     if (asyncCompute_) {

@@ -232,26 +232,33 @@ Status Group::createHashes(const std::shared_ptr<const StageHashes>& hashes) {
     if (hashes_ != nullptr) {
         return success();
     }
+    std::vector<Hashed> all;
     if (!follows()) {
-        hashed_ = {{HashedStage::palettes}, {HashedStage::cages}};
+        all = {{HashedStage::palettes}, {HashedStage::cages}};
     }
     for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
-        hashed_.push_back({HashedStage::vertices, surface, surfaces_[surface].hashedParts()});
+        all.push_back({HashedStage::vertices, surface, surfaces_[surface].hashedParts()});
     }
     std::vector<HashedPart> parts;
-    for (const Hashed& hashed : hashed_) {
+    for (const Hashed& hashed : all) {
         for (uint32_t part = 0; part < hashed.parts; ++part) {
             parts.push_back(partOf(hashed, part));
         }
     }
-    hashes_ = std::make_unique<HashedParts>(*device_, hashes, windows(), culling_);
-    return hashes_->create(parts, listing_.buffer().buffer());
+    auto made = std::make_unique<HashedParts>(*device_, hashes, windows(), culling_);
+    const Status status = made->create(parts, listing_.buffer().buffer());
+    if (status) {
+        hashed_ = std::move(all);
+        hashes_ = std::move(made);
+    }
+    return status;
 }
 
-void Group::recordHashes(StageHashes::Recording& recording) const {
+void Group::recordHashes(StageHashes::Recording& recording, bool withSurfaces) const {
     size_t number = 0;
     for (const Hashed& hashed : hashed_) {
-        const bool there = hashed.parts > 0 && partOf(hashed, 0).words != VK_NULL_HANDLE &&
+        const bool wanted = hashed.stage != HashedStage::vertices || withSurfaces;
+        const bool there = wanted && hashed.parts > 0 && partOf(hashed, 0).words != VK_NULL_HANDLE &&
                            recording.next({link.handle, hashed.stage, hashed.surface, {}});
         for (uint32_t part = 0; part < hashed.parts; ++part, ++number) {
             const HashedPart now = partOf(hashed, part);

@@ -121,7 +121,7 @@ public:
     [[nodiscard]] Status createHashes(const std::shared_ptr<const StageHashes>& hashes);
     /// Hashes of what its passes have written; how many at most. None before createHashes().
     [[nodiscard]] uint32_t hashCount() const { return static_cast<uint32_t>(hashed_.size()); }
-    void recordHashes(StageHashes::Recording& recording) const;
+    void recordHashes(StageHashes::Recording& recording, bool withSurfaces) const;
     /// What the group hands to the queue family that draws; withView: and what its view does.
     void addTransfers(Transfers& transfers, bool withView) const;
 

@@ -3,6 +3,7 @@
 
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/culling/occlusion_kernels.h"
+#include "runtime/recording/stage_hashes.h"
 #include "skinning/pose_kernels.h"
 
 #include <memory>
@@ -23,6 +24,8 @@ public:
     [[nodiscard]] Result<BoundsKernels*> bounds() { return made(bounds_); }
     /// For views with occlusion.
     [[nodiscard]] Result<OcclusionKernels*> occlusion() { return made(occlusion_); }
+    /// For recordings with hashes.
+    [[nodiscard]] Result<HashKernels*> hashes() { return made(hashes_); }
 
     // The same; null: nothing has needed it.
     [[nodiscard]] skinning::PoseKernels* knownPose() const { return known(pose_); }
@@ -54,6 +57,7 @@ private:
     std::unique_ptr<skinning::PoseKernels> pose_;
     std::unique_ptr<BoundsKernels> bounds_;
     std::unique_ptr<OcclusionKernels> occlusion_;
+    std::unique_ptr<HashKernels> hashes_;
 };
 
 } // namespace supple::runtime

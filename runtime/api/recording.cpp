@@ -14,6 +14,9 @@ SuppleResult suppleStartRecording(SuppleContext handle, const SuppleRecordingDes
         if ((desc.flags & ~uint32_t{SUPPLE_RECORDING_WITHOUT_ASSETS | SUPPLE_RECORDING_HASHES}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
+        if (desc.reserved != 0) {
+            return refuse(context, ErrorCode::range, kHere, "reserved is not 0");
+        }
         if (desc.write == nullptr) {
             return refuse(context, ErrorCode::nullPointer, kHere, "write is null");
         }

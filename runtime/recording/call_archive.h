@@ -36,7 +36,7 @@ public:
     void operator()(const T&... values) {
         (put(values), ...);
     }
-    /// Of a struct whose first member is structSize: readers fill that in.
+    /// For a struct whose first member is structSize: readers fill that in.
     template <class T>
     void sized(const T&) {}
     /// What readers check of the arguments.
@@ -88,7 +88,7 @@ private:
 };
 
 /// Takes the arguments of a call out of bytes that may be anybody's. Once something does not fit, it reads nothing
-/// more, and says so. Lists and texts live in `memory`: no more than 64 bytes for each byte that is read.
+/// more, and says so. Lists and texts live in `memory`: little more than the bytes that are read.
 class CallReader {
 public:
     CallReader(std::span<const std::byte> bytes, std::pmr::memory_resource& memory) : left_(bytes), memory_(&memory) {}
@@ -110,8 +110,8 @@ public:
             count = 0;
             return;
         }
-        constexpr size_t kLeast = RawNumber<T> ? sizeof(T) : std::max<size_t>(4, (sizeof(T) + 63) / 64);
-        if (count > left_.size() / kLeast) {
+        const size_t least = leastBytes<T>();
+        if (count > left_.size() / least) {
             fail(count);
             return;
         }
@@ -143,6 +143,18 @@ public:
     [[nodiscard]] bool complete() const { return ok_ && left_.empty(); }
 
 private:
+    /// What an element takes in a file, at least: its lists may be empty.
+    template <class T>
+    static size_t leastBytes() {
+        if constexpr (RawNumber<T>) {
+            return sizeof(T);
+        } else {
+            std::vector<std::byte> bytes;
+            CallWriter writer(bytes);
+            writer(T{});
+            return bytes.size();
+        }
+    }
     void fail(uint32_t& count) {
         ok_ = false;
         count = 0;

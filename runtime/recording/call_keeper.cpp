@@ -1,10 +1,12 @@
 #include "runtime/recording/call_keeper.h"
 
 #include "runtime/recording/recorder.h"
+#include "shaders/shared/pose.h"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace supple::runtime {
 
@@ -48,10 +50,8 @@ void CallKeeper::take(const calls::SetTime& call) {
 }
 
 void CallKeeper::take(const calls::SetMask& call) {
-    // It comes where the mask was set first, before the layers that name it. Another version of the asset has other
-    // joints.
-    const uint64_t versions = assets_[groups_[call.group.id].asset].size();
-    const Key key{{call.group.id}, kCallNumber<calls::SetMask>, versions << 32u | call.mask.mask};
+    // It comes where the mask was set first, before the layers that name it.
+    const Key key{{call.group.id}, kCallNumber<calls::SetMask>, numberOf(call.group, call.mask.mask)};
     const auto known = calls_.find(key);
     const uint64_t sequence = known != calls_.end() ? known->second.sequence : sequence_;
     put(key, call).sequence = sequence;
@@ -67,33 +67,55 @@ void CallKeeper::take(const calls::SetJointMatrices& call) {
         putPose(call.instance, call);
         return;
     }
-    std::vector<uint32_t> joints(call.desc.joints, call.desc.joints + call.desc.jointCount);
     const Owner owner = ownerOf(call.instance);
-    const auto end = calls_.upper_bound({owner, kPose, std::numeric_limits<uint64_t>::max()});
-    for (auto kept = calls_.lower_bound({owner, kPose}); kept != end;) {
-        kept = kept->second.joints == joints ? calls_.erase(kept) : std::next(kept);
+    Kept& kept = put({owner, kPose, sequence_}, call);
+    kept.joints.assign(call.desc.joints, call.desc.joints + call.desc.jointCount);
+    std::sort(kept.joints.begin(), kept.joints.end());
+    kept.hasWeights = call.desc.morphWeights != nullptr;
+    forgetCovered(owner);
+}
+
+void CallKeeper::forgetCovered(const Owner& owner) {
+    std::set<uint32_t> covered;
+    bool weights = false;
+    const auto first = calls_.lower_bound({owner, kPose});
+    for (auto kept = calls_.upper_bound({owner, kPose, std::numeric_limits<uint64_t>::max()}); kept != first;) {
+        --kept;
+        const Kept& one = kept->second;
+        if (one.joints.empty()) { // a pose of all joints
+            break;
+        }
+        const bool needed = (one.hasWeights && !weights) ||
+                            !std::includes(covered.begin(), covered.end(), one.joints.begin(), one.joints.end());
+        covered.insert(one.joints.begin(), one.joints.end());
+        weights = weights || one.hasWeights;
+        kept = needed ? kept : calls_.erase(kept);
     }
-    put({owner, kPose, sequence_}, call).joints = std::move(joints);
 }
 
 void CallKeeper::take(const calls::SetPlayback& call) {
     constexpr uint32_t kPlayback = kCallNumber<calls::SetPlayback>;
     const Owner owner = ownerOf(call.instance);
-    const double time = groups_[call.instance.group.id].time;
+    const double time = groups_[call.instance.group.id].time.value_or(0.0);
     const bool starts = call.playback.transition > 0.0;
     const bool goesOn = (call.playback.flags & SUPPLE_PLAYBACK_KEEP_TRANSITION) != 0;
     const auto end = calls_.upper_bound({owner, kPlayback, std::numeric_limits<uint64_t>::max()});
     const auto first = calls_.lower_bound({owner, kPlayback});
-    double transitionEnd = starts ? time + call.playback.transition : 0.0;
+    std::optional<double> transitionEnd = starts ? std::optional(time + call.playback.transition) : std::nullopt;
     if (first != end) {
-        // What a transition starts from is what the calls before have shown. Those before a transition that is over
-        // have left nothing of that but the last.
+        // What a transition starts from is what the calls before have shown, a step before it too. Those before a
+        // transition that is over have left nothing of that but the last.
         const auto last = std::prev(end);
-        const bool over = !(time < last->second.transitionEnd && time >= last->second.time);
-        transitionEnd = !starts && goesOn && !over ? last->second.transitionEnd : transitionEnd;
+        const double before = time - static_cast<double>(shared::kTransitionStep);
+        const Kept& shown = last->second;
+        const bool over = !shown.transitionEnd || before >= *shown.transitionEnd || time < shown.time;
+        if (!starts && goesOn && !over) {
+            transitionEnd = shown.transitionEnd;
+        }
+        const bool tooMany = static_cast<size_t>(std::distance(first, end)) >= kMostPlaybacks;
         if (!starts && (!goesOn || over)) {
             calls_.erase(first, end);
-        } else if (over) {
+        } else if (over || tooMany) {
             calls_.erase(first, last);
         }
     }
@@ -141,6 +163,7 @@ std::vector<CallKeeper::Told> CallKeeper::collect() const {
                                const calls::AssetHash hash = recorder.noteAsset(*version.prepared);
                                first ? recorder.note(calls::CreateAsset{{id}, hash})
                                      : recorder.note(calls::ReloadAsset{{id}, hash});
+                               (void)recorder.flush(); // what the host does not take now, it is asked for in the end
                            }});
         }
     }
@@ -157,15 +180,17 @@ std::vector<CallKeeper::Told> CallKeeper::collect() const {
         all.push_back({sequence, [id = id](Recorder& recorder) { recorder.note(calls::DestroyView{{id}}); }});
     }
     for (const auto& [id, group] : groups_) {
-        // Once the group whose instances it draws is gone, it can only be destroyed.
-        if (group.leader == 0 || groups_.contains(group.leader)) {
+        if (isTold(id)) {
             all.push_back({group.sequence, [this, id = id](Recorder& recorder) { tellGroup(recorder, id); }});
         }
     }
     for (const auto& [key, kept] : calls_) {
+        if (groups_.contains(key.owner.id) && !isTold(key.owner.id)) {
+            continue;
+        }
         const bool withGroup =
             key.call == kCallNumber<calls::CreateInstance> || key.call == kCallNumber<calls::SetCapacity>;
-        if (kept.transitionEnd != 0.0) {
+        if (kept.transitionEnd) {
             all.push_back({kept.sequence, [id = key.owner.id, time = kept.time](Recorder& recorder) {
                                recorder.note(calls::SetTime{{id}, time});
                            }});
@@ -175,6 +200,12 @@ std::vector<CallKeeper::Told> CallKeeper::collect() const {
         }
     }
     return all;
+}
+
+bool CallKeeper::isTold(uint64_t group) const {
+    // Once the group whose instances it draws is gone, it can only be destroyed.
+    const uint64_t leader = groups_.at(group).leader;
+    return leader == 0 || groups_.contains(leader);
 }
 
 void CallKeeper::tellGroup(Recorder& recorder, uint64_t id) const {
@@ -210,8 +241,8 @@ void CallKeeper::tell(Recorder& recorder) {
         told.note(recorder);
     }
     for (const auto& [id, group] : groups_) {
-        if (group.time != 0.0) {
-            recorder.note(calls::SetTime{{id}, group.time});
+        if (group.time && isTold(id)) {
+            recorder.note(calls::SetTime{{id}, *group.time});
         }
     }
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace supple::runtime {
@@ -47,16 +48,17 @@ private:
     };
     struct Kept {
         uint64_t sequence = 0;
-        std::vector<std::byte> bytes; ///< number and arguments
-        double time = 0.0;            ///< of the group, if transitionEnd is not 0
-        double transitionEnd = 0.0;   ///< of SetPlayback: the group's time at which its transition is over
-        std::vector<uint32_t> joints; ///< of SetJointMatrices, if it sets some alone
+        std::vector<std::byte> bytes;        ///< number and arguments
+        double time = 0.0;                   ///< of SetPlayback: the group's
+        std::optional<double> transitionEnd; ///< of SetPlayback: the group's time at which its transition is over
+        std::vector<uint32_t> joints;        ///< of SetJointMatrices, if it sets some alone: rising
+        bool hasWeights = false;             ///< of SetJointMatrices
     };
     struct Group {
         uint64_t sequence = 0;
         std::vector<std::byte> bytes;
         uint64_t asset = 0, view = 0, leader = 0;
-        double time = 0.0;
+        std::optional<double> time; ///< if it was set
     };
     struct View {
         uint64_t sequence = 0;
@@ -87,11 +89,11 @@ private:
     void take(const calls::CreateInstance& call) { putOf(call.instance, call); }
     void take(const calls::DestroyInstance& call) { forget(ownerOf(call.instance)); }
     void take(const calls::SetVisible& call) { putOf(call.instance, call); }
-    void take(const calls::SetPartVisible& call) { putOf(call.instance, call, call.part); }
+    void take(const calls::SetPartVisible& call) { putOf(call.instance, call, numberOf(call.instance, call.part)); }
     void take(const calls::SetTransform& call);
     void take(const calls::SetPosition& call) { putOf(call.instance, call); }
     void take(const calls::SetUserData& call) { putOf(call.instance, call); }
-    void take(const calls::SetSharpness& call) { putOf(call.instance, call, call.set); }
+    void take(const calls::SetSharpness& call) { putOf(call.instance, call, numberOf(call.instance, call.set)); }
     void take(const calls::SetPriority& call) { putOf(call.instance, call); }
     void take(const calls::SetMorphWeights& call) { putOf(call.instance, call); }
     void take(const calls::SetClipPose& call) { putPose(call.instance, call); }
@@ -100,7 +102,7 @@ private:
     void take(const calls::SetJointMatrices& call);
     void take(const calls::SetPlayback& call);
     void take(const calls::SetModifiers& call);
-    void take(const calls::SetModifierTarget& call) { putOf(call.instance, call, call.index); }
+    void take(const calls::SetModifierTarget& call) { putOf(call.instance, call, numberOf(call.instance, call.index)); }
 
     [[nodiscard]] static Owner ownerOf(const SuppleInstance& instance) {
         return {instance.group.id, instance.slot, instance.generation};
@@ -122,6 +124,17 @@ private:
     Kept& putOf(const SuppleInstance& instance, const C& call, uint64_t index = 0) {
         return put({ownerOf(instance), kCallNumber<C>, index}, call);
     }
+    /// A number that means something in the present version of the group's asset.
+    [[nodiscard]] uint64_t numberOf(SuppleGroup group, uint32_t number) {
+        return assets_[groups_[group.id].asset].size() << 32u | number;
+    }
+    [[nodiscard]] uint64_t numberOf(const SuppleInstance& instance, uint32_t number) {
+        return numberOf(instance.group, number);
+    }
+    /// Forgets the earlier of those that set some joints, if later ones set all that they set.
+    void forgetCovered(const Owner& owner);
+    /// Whether the group is told: not if it follows one that is gone.
+    [[nodiscard]] bool isTold(uint64_t group) const;
     /// A pose that makes up for all poses before.
     template <class C>
     void putPose(const SuppleInstance& instance, const C& call) {
@@ -136,6 +149,8 @@ private:
     [[nodiscard]] std::vector<Told> collect() const;
     void tellGroup(Recorder& recorder, uint64_t id) const;
 
+    /// Calls of SetPlayback that are kept of an instance whose transitions begin one in the other.
+    static constexpr size_t kMostPlaybacks = 16;
     static constexpr uint32_t kPose = kCallNumber<calls::SetPose>; ///< the key of all calls that set poses
 
     std::mutex mutex_;

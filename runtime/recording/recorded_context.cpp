@@ -23,8 +23,11 @@ RecordedContext describe(const gpu::Device& device, uint32_t flags, uint32_t fra
 } // namespace
 
 Context::~Context() {
-    if (recording_) {
-        (void)recorder_->finish();
+    try {
+        if (recording_) {
+            (void)recorder_->finish();
+        }
+    } catch (const std::exception&) { // the recording lacks its end
     }
 }
 
@@ -41,50 +44,60 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
                                                "without SUPPLE_CONTEXT_RECORDABLE"
                                              : "there was no memory to keep what it was told");
     }
-    if ((desc.flags & SUPPLE_RECORDING_HASHES) != 0) {
+    if (hasRecorded()) {
+        return refused(ErrorCode::order, "the open frame has recorded groups: begin another one first");
+    }
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    auto recorder = std::make_unique<Recorder>(desc, describe(*device_, flags_, framesInFlight_, properties));
+    noteState(*recorder);
+    if (recorder->hasHashes()) {
         if (const Status made = makeHashes(); !made) {
-            hashes_ = nullptr;
             return made;
         }
     }
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    recorder_ = std::make_unique<Recorder>(desc, describe(*device_, flags_, framesInFlight_, properties));
+    if (const Status written = recorder->flush(); !written) {
+        hashes_ = nullptr;
+        return refused(written.error().code, written.error().message.c_str());
+    }
+    recorder_ = std::move(recorder);
     recording_ = true;
-    noteState();
-    flushRecording();
     return success();
 }
 
 Status Context::makeHashes() {
-    hashes_ = groupsHashes_.lock();
-    if (hashes_ == nullptr) {
-        Result<std::shared_ptr<StageHashes>> hashes = StageHashes::create(*device_, *pipelines_, framesInFlight_);
-        if (!hashes) {
-            return hashes.error();
+    std::shared_ptr<StageHashes> hashes = groupsHashes_.lock();
+    if (hashes == nullptr) {
+        const Result<HashKernels*> kernels = kernels_->hashes();
+        const Status prepared = kernels ? (*kernels)->prepare() : kernels.error();
+        if (!prepared) {
+            return prepared;
         }
-        groupsHashes_ = hashes_ = std::move(*hashes);
+        Result<std::shared_ptr<StageHashes>> made = StageHashes::create(*device_, **kernels, framesInFlight_);
+        if (!made) {
+            return made.error();
+        }
+        groupsHashes_ = hashes = std::move(*made);
     }
-    hashes_->forget();
+    hashes->forget();
     Status made = success();
-    groups.forEach([&](Group& group) { made = made ? group.createHashes(hashes_) : made; });
+    groups.forEach([&](Group& group) { made = made ? group.createHashes(hashes) : made; });
+    hashes_ = made ? hashes : nullptr;
     return made;
 }
 
-void Context::noteState() noexcept {
-    whileRecording([&](Recorder& recorder) {
-        if (uploads_.bounded()) {
-            recorder.note(calls::SetUploadBudget{uploads_.budget()});
-        }
-        if (nextOrigin_ != glm::dvec3(0.0)) {
-            recorder.note(calls::SetOrigin{{nextOrigin_.x, nextOrigin_.y, nextOrigin_.z}});
-        }
-        if (keeps_) {
-            keeper_->tell(recorder);
-        }
-        if (frameOpen_) {
-            recorder.note(calls::BeginFrame{frame_, completedFrame_});
-        }
-    });
+void Context::noteState(Recorder& recorder) const {
+    if (uploads_.bounded()) {
+        recorder.note(calls::SetUploadBudget{uploads_.budget()});
+    }
+    if (nextOrigin_ != glm::dvec3(0.0)) {
+        recorder.note(calls::SetOrigin{{nextOrigin_.x, nextOrigin_.y, nextOrigin_.z}});
+    }
+    if (keeps_) {
+        keeper_->tell(recorder);
+    }
+    if (frameOpen_) {
+        recorder.note(calls::BeginFrame{frame_, completedFrame_});
+    }
 }
 
 Status Context::stopRecording() {

@@ -12,7 +12,7 @@ namespace supple::runtime {
 
 namespace {
 
-/// Calls of a frame find room for this much without an allocation.
+/// Bytes that there is room for at first.
 constexpr size_t kRoom = size_t{256} << 10;
 
 } // namespace
@@ -79,12 +79,22 @@ void Recorder::note(const FrameHashes& hashes) {
     close(first);
 }
 
+void Recorder::keepRoom() {
+    if (bytes_.capacity() - bytes_.size() < kRoom / 2) {
+        bytes_.reserve(2 * bytes_.size() + kRoom);
+    }
+}
+
 Status Recorder::handOver() {
     if (bytes_.empty()) {
         return success();
     }
     const bool taken = desc_.write(bytes_.data(), bytes_.size(), desc_.user) != 0;
     bytes_.clear();
+    if (bytes_.capacity() > 16 * kRoom) { // characters were in it
+        bytes_.shrink_to_fit();
+    }
+    keepRoom();
     return taken ? success() : Error{ErrorCode::argument, "the host has not taken what was recorded"};
 }
 

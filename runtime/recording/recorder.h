@@ -30,6 +30,9 @@ public:
         CallWriter writer(bytes_);
         writer(kCallNumber<C>, call);
         close(first);
+        if constexpr (!std::is_same_v<C, calls::Record>) {
+            keepRoom(); // suppleRecord finds it, so that it allocates nothing
+        }
     }
     /// A call whose number and arguments are written already.
     void noteBytes(std::span<const std::byte> call);
@@ -42,12 +45,16 @@ public:
     [[nodiscard]] Status finish();
 
     [[nodiscard]] bool hasHashes() const { return (desc_.flags & SUPPLE_RECORDING_HASHES) != 0; }
+    [[nodiscard]] bool hashesSurfacesIn(uint64_t frame) const {
+        return desc_.surfaceInterval == 0 || frame % desc_.surfaceInterval == 0;
+    }
 
 private:
     /// Where the chunk begins, for close().
     [[nodiscard]] size_t open(ChunkKind kind);
     void close(size_t first);
     [[nodiscard]] Status handOver();
+    void keepRoom();
 
     SuppleRecordingDesc desc_;
     std::mutex mutex_;

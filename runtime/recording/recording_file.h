@@ -52,8 +52,6 @@ public:
     [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
     /// The next event; null behind the last one. Its pointers are good until the next call.
     [[nodiscard]] Result<std::optional<RecordingEvent>> next();
-    /// Behind the last event: whether a chunk is cut off.
-    [[nodiscard]] bool isCut() const { return !left_.empty(); }
 
 private:
     RecordingReader(std::span<const std::byte> bytes, std::string name)

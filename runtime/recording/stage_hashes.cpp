@@ -21,8 +21,7 @@ constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
 
 } // namespace
 
-Result<std::shared_ptr<StageHashes>> StageHashes::create(const gpu::Device& device, gpu::Pipelines& pipelines,
-                                                         uint32_t framesInFlight) {
+Result<HashKernels> HashKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {gpu::storage(kHashedWordBinding), gpu::storage(kHashListBinding),
                                      gpu::storage(kHashSumBinding)};
     Result<gpu::ComputeLayout> layout = gpu::ComputeLayout::create(
@@ -30,15 +29,29 @@ Result<std::shared_ptr<StageHashes>> StageHashes::create(const gpu::Device& devi
     if (!layout) {
         return layout.error();
     }
+    HashKernels made;
+    made.pipelines_ = &pipelines;
+    made.layout_ = std::move(*layout);
+    return made;
+}
+
+Status HashKernels::prepare() {
+    gpu::Pipelines::Batch batch(*pipelines_);
+    const gpu::Kernel slots = batch.get(layout_, recording_words_comp, {}, "supple hashes");
+    const gpu::Kernel records = batch.get(layout_, recording_records_comp, {}, "supple hashes of a view");
+    const Status status = batch.make();
+    if (status) {
+        slots_ = slots;
+        records_ = records;
+    }
+    return status;
+}
+
+Result<std::shared_ptr<StageHashes>> StageHashes::create(const gpu::Device& device, const HashKernels& kernels,
+                                                         uint32_t framesInFlight) {
     auto made = std::make_shared<StageHashes>();
     made->device_ = &device;
-    made->layout_ = std::move(*layout);
-    gpu::Pipelines::Batch batch(pipelines);
-    made->slots_ = batch.get(made->layout_, recording_words_comp, {}, "supple hashes");
-    made->records_ = batch.get(made->layout_, recording_records_comp, {}, "supple hashes of a view");
-    if (const Status status = batch.make(); !status) {
-        return status.error();
-    }
+    made->kernels_ = &kernels;
     const VkDeviceSize bytes = made->offsetOf(framesInFlight, 0);
     const gpu::BufferRequest local{"supple hashes", bytes,
                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -125,16 +138,16 @@ bool StageHashes::Recording::next(const StageHash& which) {
 
 void StageHashes::Recording::add(VkDescriptorSet set, SlotHashPush push) {
     const gpu::Device& device = *hashes_->device_;
-    push.shares = (push.elementCount * push.keptWords + kHashedWords - 1) / kHashedWords;
+    push.shares = (push.elementCount + kHashedElements - 1) / kHashedElements;
     push.target = target();
-    gpu::bind(device, commandBuffer_, hashes_->slots_, set, push);
+    gpu::bind(device, commandBuffer_, hashes_->kernels_->slots(), set, push);
     gpu::dispatchLinear(device, commandBuffer_, uint64_t{push.mostEntries} * push.shares);
 }
 
 void StageHashes::Recording::add(VkDescriptorSet set, RecordHashPush push) {
     const gpu::Device& device = *hashes_->device_;
     push.target = target();
-    gpu::bind(device, commandBuffer_, hashes_->records_, set, push);
+    gpu::bind(device, commandBuffer_, hashes_->kernels_->records(), set, push);
     gpu::dispatchLinear(device, commandBuffer_, uint64_t{push.runCount} * kCapacityCount * kRecordHashShares);
 }
 

@@ -41,15 +41,31 @@ struct HashedPart {
     uint32_t patchCount = 0; ///< of an instance
 };
 
+class HashKernels {
+public:
+    /// `pipelines` must outlive the pass.
+    [[nodiscard]] static Result<HashKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
+    /// Makes the pipelines if they are not there.
+    [[nodiscard]] Status prepare();
+    [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+    [[nodiscard]] const gpu::Kernel& slots() const { return slots_; }
+    [[nodiscard]] const gpu::Kernel& records() const { return records_; }
+
+private:
+    gpu::Pipelines* pipelines_ = nullptr;
+    gpu::ComputeLayout layout_;
+    gpu::Kernel slots_, records_;
+};
+
 /// The hashes of a context. Recording allocates nothing.
 class StageHashes {
 public:
-    /// Of a frame. What a frame has beyond these is not hashed.
+    /// In a frame. What it has beyond these is not hashed.
     static constexpr uint32_t kMost = 8192;
 
     [[nodiscard]] static Result<std::shared_ptr<StageHashes>>
-    create(const gpu::Device& device, gpu::Pipelines& pipelines, uint32_t framesInFlight);
-    [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+    create(const gpu::Device& device, const HashKernels& kernels, uint32_t framesInFlight);
+    [[nodiscard]] const gpu::ComputeLayout& layout() const { return kernels_->layout(); }
     [[nodiscard]] VkBuffer sums() const { return local_.buffer(0); }
 
     /// Tells of every frame that is complete, in their order.
@@ -90,8 +106,7 @@ private:
     }
 
     const gpu::Device* device_ = nullptr;
-    gpu::ComputeLayout layout_;
-    gpu::Kernel slots_, records_;
+    const HashKernels* kernels_ = nullptr;
     gpu::BufferSet local_, readback_;
     std::mutex mutex_; ///< of frames_: several threads may record
     std::vector<Frame> frames_;

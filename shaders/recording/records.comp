@@ -27,10 +27,11 @@ void main() {
         uint head = SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * record;
         uint vertex = min(list.at[head + 2u], push.vertexCount - samples);
         uint patchPlace = (list.at[head + 1u] & kInstanceSlotMask) * push.patchCount + list.at[head];
-        for (uint i = gl_LocalInvocationID.x; i < samples * push.keptWords; i += gl_WorkGroupSize.x) {
-            uint element = i / push.keptWords;
-            sum += hashOf(words.at[(vertex + element) * push.elementWords + (i - element * push.keptWords)],
-                          patchPlace * kMostPatchSamples * push.keptWords + i);
+        uint place = patchPlace * kMostPatchSamples * push.keptWords;
+        for (uint i = gl_LocalInvocationID.x; i < samples; i += gl_WorkGroupSize.x) {
+            for (uint k = 0u; k < push.keptWords; ++k) {
+                sum += hashOf(words.at[(vertex + i) * push.elementWords + k], place + i * push.keptWords + k);
+            }
         }
     }
     addTo(push.target, sum);

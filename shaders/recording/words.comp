@@ -11,12 +11,14 @@ void main() {
     uint entries = counted ? list.at[push.entryCount & ~kCountOnDevice] : push.entryCount;
     if (entry >= min(entries, push.mostEntries)) return; // the whole workgroup
     uint local = (list.at[push.firstEntry + entry] & kInstanceSlotMask) - push.firstListed;
-    uint base = local * push.slotStride + push.firstWord, count = push.elementCount * push.keptWords;
-    uint place = (push.firstSlot + local) * count, end = min(share * kHashedWords + kHashedWords, count);
+    uint base = local * push.slotStride + push.firstWord;
+    uint place = (push.firstSlot + local) * push.elementCount * push.keptWords;
+    uint first = share * kHashedElements, end = min(first + kHashedElements, push.elementCount);
     uvec2 sum = uvec2(0u);
-    for (uint i = share * kHashedWords + gl_LocalInvocationID.x; i < end; i += gl_WorkGroupSize.x) {
-        uint element = i / push.keptWords;
-        sum += hashOf(words.at[base + element * push.elementWords + (i - element * push.keptWords)], place + i);
+    for (uint i = first + gl_LocalInvocationID.x; i < end; i += gl_WorkGroupSize.x) {
+        for (uint k = 0u; k < push.keptWords; ++k) {
+            sum += hashOf(words.at[base + i * push.elementWords + k], place + i * push.keptWords + k);
+        }
     }
     addTo(push.target, sum);
 }

@@ -12,8 +12,8 @@ SUPPLE_SHARED_CONST kHashedWordBinding = 0u;
 SUPPLE_SHARED_CONST kHashListBinding = 1u; // of instances (shared/instances.h), or the words of a view (shared/lod.h)
 SUPPLE_SHARED_CONST kHashSumBinding = 2u;  // two words a hash
 
-// Words that a workgroup hashes, at most.
-SUPPLE_SHARED_CONST kHashedWords = 8192u;
+// Elements that a workgroup hashes, at most.
+SUPPLE_SHARED_CONST kHashedElements = 2048u;
 
 // Words that instances have.
 struct SlotHashPush {

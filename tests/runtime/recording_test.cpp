@@ -465,15 +465,17 @@ private:
 
 /// What the host has recorded that did something by `seed`, beginning with frame `first` (0: before anything is
 /// created).
-Recorded recordedHost(host::Device& device, SuppleMapping mapping, uint32_t seed, uint32_t first, uint32_t frames) {
+Recorded recordedHost(host::Device& device, SuppleMapping mapping, uint32_t seed, uint32_t first, uint32_t frames,
+                      uint32_t flags = 0) {
     Recorded recorded;
-    CrowdContext context(device, mapping, 2, first > 0 ? SUPPLE_CONTEXT_RECORDABLE : 0);
+    CrowdContext context(device, mapping, 2, first > 0 ? flags | SUPPLE_CONTEXT_RECORDABLE : flags);
     if (first == 0) {
         EXPECT_EQ(recorded.start(context.handle()), SUPPLE_OK);
     }
     AnyHost host(context, seed);
     for (uint32_t frame = 1; frame <= frames; ++frame) {
         if (frame == first) {
+            context.beginFrame(); // one that has recorded nothing
             EXPECT_EQ(recorded.start(context.handle()), SUPPLE_OK);
         }
         host.run(frame);
@@ -506,6 +508,33 @@ TEST_F(Recordings, HaveTheSameHashesInTheOtherMapping) {
     tools::Replayer::Options options;
     options.mapping = SUPPLE_MAPPING_WIDE;
     EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded, options)), own.hashes.size());
+}
+
+TEST_F(Recordings, HaveTheSameHashesWhereGroupsShareDispatches) {
+    const Recorded recorded =
+        recordedHost(*testDevice(), SUPPLE_MAPPING_WIDE, 8, 0, 8, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    const Read own = read(recorded);
+    tools::Replayer::Options options;
+    options.mapping = SUPPLE_MAPPING_NARROW;
+    EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded, options)), own.hashes.size());
+}
+
+TEST_F(Recordings, MayBeginAgain) {
+    CrowdContext context(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+    AnyHost host(context, 9);
+    for (uint32_t frame = 1; frame <= 12; frame += 3) {
+        Recorded recorded;
+        context.beginFrame();
+        ASSERT_EQ(recorded.start(context.handle()), SUPPLE_OK);
+        host.run(frame);
+        host.run(frame + 1);
+        context.beginFrame();
+        ASSERT_EQ(suppleStopRecording(context.handle()), SUPPLE_OK);
+        host.run(frame + 2);
+        const Read own = read(recorded);
+        EXPECT_GT(own.hashes.size(), 5u);
+        EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded)), own.hashes.size());
+    }
 }
 
 TEST_F(Recordings, ThatBeginLateBeginWithWhatThereIs) {

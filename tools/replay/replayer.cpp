@@ -77,7 +77,7 @@ public:
         return check(suppleDestroyAsset(context_, r_.own(call.asset)));
     }
     Status operator()(const calls::CreateView& call) {
-        return check(suppleCreateView(context_, &call.desc, &r_.views_[call.view.id]));
+        return check(suppleCreateView(context_, &call.desc, &r_.views_[call.view.id].own));
     }
     Status operator()(const calls::DestroyView& call) { return check(suppleDestroyView(context_, r_.own(call.view))); }
     Status operator()(const calls::CreateGroup& call) {
@@ -90,10 +90,15 @@ public:
         group.number = r_.groupCount_++;
         const auto asset = r_.assets_.find(call.desc.asset.id);
         group.name = asset != r_.assets_.end() ? asset->second.second : "";
-        group.source = desc.poseSource;
+        group.view = call.desc.view.id;
+        const auto leader = r_.groups_.find(call.desc.instancesOf.id);
+        group.isFilledByHost = desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER ||
+                               desc.poseSource == SUPPLE_POSES_CAGE_BUFFER ||
+                               (leader != r_.groups_.end() && leader->second.isFilledByHost);
         r_.recordedGroups_[group.own.id] = call.group;
-        if (desc.poseSource == SUPPLE_POSES_PALETTE_BUFFER || desc.poseSource == SUPPLE_POSES_CAGE_BUFFER) {
+        if (group.isFilledByHost) {
             r_.lacks_.push_back(r_.nameOf(call.group) + ": its poses are in a buffer that the host has filled");
+            r_.views_[group.view].lacksSomething = true; // its vertices take of the budget
         }
         return status;
     }
@@ -105,7 +110,7 @@ public:
         return check(suppleSetCapacity(context_, r_.own(call.group), call.capacity));
     }
     Status operator()(const calls::SetRate& call) {
-        return check(suppleSetRate(context_, r_.own(call.group), call.rate));
+        return r_.own(call.group).id != 0 ? check(suppleSetRate(context_, r_.own(call.group), call.rate)) : success();
     }
     Status operator()(const calls::CreateInstance& call) {
         SuppleInstance made{};
@@ -135,7 +140,9 @@ public:
         return check(suppleSetUserData(context_, r_.own(call.instance), call.data));
     }
     Status operator()(const calls::SetSharpness& call) {
-        return check(suppleSetSharpness(context_, r_.own(call.instance), call.set, call.sharpness));
+        // A recording that began late may lack the group that has drawn it with P_m.
+        (void)suppleSetSharpness(context_, r_.own(call.instance), call.set, call.sharpness);
+        return success();
     }
     Status operator()(const calls::SetPriority& call) {
         return check(suppleSetPriority(context_, r_.own(call.instance), call.priority));
@@ -177,6 +184,8 @@ public:
         if (call.isThere == 1 && !pyramidIsTold()) {
             r_.lacks_.emplace_back(kPyramid);
         }
+        View& view = r_.views_[call.view.id];
+        view.lacksSomething = view.lacksSomething || call.isThere == 1;
         return success();
     }
     Status operator()(const calls::SetOrigin& call) { return check(suppleSetOrigin(context_, call.origin)); }
@@ -215,7 +224,7 @@ public:
     }
 
 private:
-    static constexpr const char* kPyramid = "depth pyramids: instances that they hid are drawn here";
+    static constexpr const char* kPyramid = "depth pyramids: surfaces of views that had one are not compared";
 
     [[nodiscard]] Status check(SuppleResult result) { return r_.context_->check(result, "the call"); }
     template <class Record>
@@ -246,7 +255,10 @@ Result<std::unique_ptr<Replayer>> Replayer::create(host::Device& device, const r
         return own.error();
     }
     made->context_ = std::move(*own);
-    Status status = made->startHashes();
+    Status status =
+        made->context_->check(suppleSetMemoryBudget(made->context_->handle(), made->options_.memory, nullptr, nullptr),
+                              "suppleSetMemoryBudget");
+    status = status ? made->startHashes() : status;
     status = status ? made->prepareCharacters() : status;
     return status ? Result<std::unique_ptr<Replayer>>(std::move(made)) : status.error();
 }
@@ -345,10 +357,13 @@ std::string Replayer::nameOf(SuppleGroup recorded) const {
                                   : "group " + std::to_string(found->second.number) + " (" + found->second.name + ")";
 }
 
-bool Replayer::isFilledByHost(SuppleGroup recorded) const {
-    const auto found = groups_.find(recorded.id);
-    return found != groups_.end() &&
-           (found->second.source == SUPPLE_POSES_PALETTE_BUFFER || found->second.source == SUPPLE_POSES_CAGE_BUFFER);
+bool Replayer::isComparable(const runtime::StageHash& hash) const {
+    const auto group = groups_.find(hash.group.id);
+    if (group == groups_.end() || group->second.isFilledByHost) {
+        return false;
+    }
+    const auto view = group->second.view != 0 ? views_.find(group->second.view) : views_.end();
+    return hash.stage != runtime::HashedStage::vertices || view == views_.end() || !view->second.lacksSomething;
 }
 
 Result<VkCommandBuffer> Replayer::commands() {
@@ -428,7 +443,7 @@ SuppleGroup Replayer::own(SuppleGroup recorded) const {
 
 SuppleView Replayer::own(SuppleView recorded) const {
     const auto found = views_.find(recorded.id);
-    return found != views_.end() ? found->second : SuppleView{};
+    return found != views_.end() ? found->second.own : SuppleView{};
 }
 
 SuppleInstance Replayer::own(const SuppleInstance& recorded) const {
@@ -439,7 +454,10 @@ SuppleInstance Replayer::own(const SuppleInstance& recorded) const {
 std::vector<SuppleGroup> Replayer::own(std::span<const SuppleGroup> recorded) const {
     std::vector<SuppleGroup> groups;
     for (const SuppleGroup& group : recorded) {
-        groups.push_back(own(group));
+        // A recording that began late lacks groups that followed one which was gone.
+        if (const SuppleGroup mine = own(group); mine.id != 0) {
+            groups.push_back(mine);
+        }
     }
     return groups;
 }

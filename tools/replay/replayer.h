@@ -28,6 +28,8 @@ public:
         SuppleMapping mapping = SUPPLE_MAPPING_AUTO; ///< AUTO: that of the recording
         /// Characters of recordings without: cooked files, or whatever suppleCreateAsset reads. They must outlive it.
         std::vector<std::pair<std::string, std::vector<std::byte>>> characters;
+        /// Most bytes of device memory: small files can ask for much.
+        VkDeviceSize memory = VkDeviceSize{4} << 30;
     };
     /// The device must outlive it.
     [[nodiscard]] static Result<std::unique_ptr<Replayer>>
@@ -41,14 +43,14 @@ public:
     /// Runs what is left.
     [[nodiscard]] Status finish();
 
-    /// Of frames that were completed since the last call.
+    /// For frames that were completed since the last call.
     [[nodiscard]] std::vector<ReplayedFrame> takeHashes();
     /// The frame that has begun last.
     [[nodiscard]] uint64_t frame() const { return frame_; }
     /// "group 2 (pip)", of a handle in the recording.
     [[nodiscard]] std::string nameOf(SuppleGroup recorded) const;
-    /// Whether the host has filled what the group shows, which a recording does not have.
-    [[nodiscard]] bool isFilledByHost(SuppleGroup recorded) const;
+    /// Whether the recording has all that the words depend on: not what the host fills, and not a depth pyramid.
+    [[nodiscard]] bool isComparable(const runtime::StageHash& hash) const;
     /// What the recording lacks, in one line each.
     [[nodiscard]] const std::vector<std::string>& lacks() const { return lacks_; }
 
@@ -61,7 +63,12 @@ private:
         SuppleGroup own{};
         size_t number = 0;
         std::string name;
-        SupplePoseSource source = SUPPLE_POSES_SET;
+        uint64_t view = 0; ///< of the recording
+        bool isFilledByHost = false;
+    };
+    struct View {
+        SuppleView own{};
+        bool lacksSomething = false; ///< that decides what it draws
     };
     using InstanceKey = std::tuple<uint64_t, uint32_t, uint32_t>;
     [[nodiscard]] static InstanceKey keyOf(const SuppleInstance& instance) {
@@ -101,7 +108,7 @@ private:
     std::map<HashKey, Character> characters_;
     std::map<uint64_t, std::pair<SuppleAsset, std::string>> assets_; ///< by the recording's handles, as all here
     std::map<uint64_t, Group> groups_;
-    std::map<uint64_t, SuppleView> views_;
+    std::map<uint64_t, View> views_;
     std::map<InstanceKey, SuppleInstance> instances_;
     std::map<uint64_t, SuppleGroup> recordedGroups_; ///< by own handles
     size_t groupCount_ = 0;

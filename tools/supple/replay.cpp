@@ -23,6 +23,7 @@ struct ReplayOptions {
     std::vector<std::string> characters;
     uint64_t until = 0; ///< 0: all frames
     bool printHashes = false;
+    uint32_t memory = 4096; ///< MiB
     DeviceFlags device;
 };
 
@@ -51,28 +52,24 @@ bool areOfOne(const StageHash& a, const StageHash& b) {
     return a.group.id == b.group.id && a.stage == b.stage && a.surface == b.surface;
 }
 
-/// Compares the hashes of the recording with those of the replay, as both come in.
+/// Compares the hashes of the recording with those of the replay, which come after them.
 class Comparison {
 public:
     explicit Comparison(const Replayer& replayer) : replayer_(replayer) {}
 
     void addRecorded(const runtime::FrameHashes& hashes) {
         recorded_[hashes.frame].assign(hashes.hashes, hashes.hashes + hashes.count);
+        recordedCount_ += hashes.count;
     }
     void addReplayed(const ReplayedFrame& frame) {
         const auto found = recorded_.find(frame.number);
-        if (found == recorded_.end()) {
-            waiting_.push_back(frame);
-            return;
+        if (found != recorded_.end()) {
+            compare(frame, found->second);
+            recorded_.erase(found);
         }
-        compare(frame, found->second);
-        recorded_.erase(found);
     }
-    /// What came before its counterpart.
-    void settle() {
-        const std::vector<ReplayedFrame> waiting = std::exchange(waiting_, {});
-        std::for_each(waiting.begin(), waiting.end(), [&](const ReplayedFrame& frame) { addReplayed(frame); });
-    }
+    /// Hashes of the recording that have no counterpart.
+    [[nodiscard]] size_t left() const { return recordedCount_ - compared_; }
     [[nodiscard]] size_t compared() const { return compared_; }
     [[nodiscard]] size_t differing() const { return differing_; }
     /// The first that differs: of the earliest frame, and in it of the first stage. Empty: none.
@@ -83,7 +80,7 @@ private:
         const StageHash* worst = nullptr;
         std::string text;
         for (const StageHash& own : frame.hashes) {
-            if (replayer_.isFilledByHost(own.group)) {
+            if (!replayer_.isComparable(own)) {
                 continue;
             }
             const auto other = std::find_if(recorded.begin(), recorded.end(),
@@ -107,8 +104,7 @@ private:
 
     const Replayer& replayer_;
     std::map<uint64_t, std::vector<StageHash>> recorded_;
-    std::vector<ReplayedFrame> waiting_;
-    size_t compared_ = 0, differing_ = 0;
+    size_t recordedCount_ = 0, compared_ = 0, differing_ = 0;
     std::string first_;
 };
 
@@ -123,9 +119,9 @@ void print(const ReplayedFrame& frame, const Replayer& replayer) {
     }
 }
 
-/// Plays the events up to the frame that is asked for.
-Status playAll(runtime::RecordingReader& reader, Replayer& replayer, const ReplayOptions& options,
-               Comparison& comparison) {
+/// Plays the events up to the frame that is asked for. True: the recording has an end.
+Result<bool> playAll(runtime::RecordingReader& reader, Replayer& replayer, const ReplayOptions& options,
+                     Comparison& comparison) {
     const auto takeHashes = [&] {
         for (const ReplayedFrame& frame : replayer.takeHashes()) {
             comparison.addReplayed(frame);
@@ -134,7 +130,7 @@ Status playAll(runtime::RecordingReader& reader, Replayer& replayer, const Repla
             }
         }
     };
-    bool ended = false;
+    bool ended = false, plays = true;
     while (!ended) {
         const Result<std::optional<runtime::RecordingEvent>> event = reader.next();
         if (!event) {
@@ -143,38 +139,62 @@ Status playAll(runtime::RecordingReader& reader, Replayer& replayer, const Repla
         if (!*event) {
             break;
         }
-        if (const auto* const hashes = std::get_if<runtime::FrameHashes>(&**event)) {
+        ended = std::holds_alternative<runtime::RecordingEnd>(**event);
+        // Hashes of the last frames that are asked for come behind the beginning of others.
+        const auto* const hashes = std::get_if<runtime::FrameHashes>(&**event);
+        if (hashes != nullptr && (options.until == 0 || hashes->frame <= options.until)) {
             comparison.addRecorded(*hashes);
-            comparison.settle();
         }
         const auto* const call = std::get_if<runtime::Call>(&**event);
         const auto* const begin = call != nullptr ? std::get_if<runtime::calls::BeginFrame>(call) : nullptr;
-        if (begin != nullptr && options.until != 0 && begin->frame > options.until) {
-            break;
+        plays = plays && (begin == nullptr || options.until == 0 || begin->frame <= options.until);
+        if (plays) {
+            const Status played = replayer.play(**event);
+            if (!played) {
+                return played.error();
+            }
+            takeHashes();
         }
-        const Status played = replayer.play(**event);
-        if (!played) {
-            return played;
-        }
-        takeHashes();
-        ended = std::holds_alternative<runtime::RecordingEnd>(**event);
     }
     const Status finished = replayer.finish();
     takeHashes();
-    return finished;
+    return finished ? Result<bool>(ended) : finished.error();
+}
+
+/// What went wrong, with the file's name.
+Error ofFile(const std::string& path, const Error& error) {
+    return {error.code, path + ": " + error.message};
 }
 
 Result<Replayer::Options> replayerOptions(const ReplayOptions& options) {
     Replayer::Options made;
     made.mapping = mappingOf(options.device);
+    made.memory = VkDeviceSize{options.memory} << 20;
     for (const std::string& path : options.characters) {
         Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(path);
         if (!bytes) {
-            return bytes.error();
+            return ofFile(path, bytes.error());
         }
         made.characters.emplace_back(path, std::move(*bytes));
     }
     return made;
+}
+
+/// Where it was recorded, if that is elsewhere.
+void tellPlaces(const runtime::RecordingReader& reader, const host::Device& device) {
+    const VkPhysicalDeviceProperties& own = device.properties();
+    const runtime::RecordedContext& recorded = reader.context();
+    if (reader.deviceName() != device.name()) {
+        note("recorded on " + printable(reader.deviceName()) + ", replayed on " + printable(device.name()));
+    } else if (recorded.vendorId != own.vendorID || recorded.deviceId != own.deviceID ||
+               recorded.driverVersion != own.driverVersion) {
+        note("recorded with version " + std::to_string(recorded.driverVersion) + " of the driver, replayed with " +
+             std::to_string(own.driverVersion));
+    }
+    if (recorded.libraryVersion != suppleGetVersion()) {
+        note("recorded by version " + std::to_string(recorded.libraryVersion) + " of Supple, replayed by " +
+             std::to_string(suppleGetVersion()));
+    }
 }
 
 int report(const runtime::RecordingReader& reader, const Replayer& replayer, const Comparison& comparison,
@@ -182,28 +202,26 @@ int report(const runtime::RecordingReader& reader, const Replayer& replayer, con
     for (const std::string& lack : replayer.lacks()) {
         warn("not in the recording: " + printable(lack));
     }
-    if (reader.isCut()) {
-        warn("the recording is cut off, as after a crash: this was all that is whole");
-    }
     if (comparison.compared() == 0) {
-        note(std::to_string(replayer.frame()) + " frames; the recording has no hashes to compare");
+        note(std::to_string(replayer.frame()) + " frames; the recording has no hashes that could be compared");
         return kExitOk;
     }
     note("up to frame " + std::to_string(replayer.frame()) + ", " + std::to_string(comparison.compared()) +
          " hashes were compared, " + std::to_string(comparison.differing()) + " differ");
+    if (comparison.left() > 0) {
+        note(std::to_string(comparison.left()) + " hashes of the recording were not compared");
+    }
     if (comparison.differing() == 0) {
         return kExitOk;
     }
-    if (reader.deviceName() != device.name()) {
-        note("recorded on " + printable(reader.deviceName()) + ", replayed on " + printable(device.name()));
-    }
+    tellPlaces(reader, device);
     return fail(kExitGate, printable(comparison.first()));
 }
 
 int run(const ReplayOptions& options) {
     const Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(options.file);
     if (!bytes) {
-        return fail(bytes.error());
+        return fail(ofFile(options.file, bytes.error()));
     }
     Result<runtime::RecordingReader> reader = runtime::RecordingReader::open(*bytes, options.file);
     if (!reader) {
@@ -223,9 +241,12 @@ int run(const ReplayOptions& options) {
         return fail(replayer.error());
     }
     Comparison comparison(**replayer);
-    const Status played = playAll(*reader, **replayer, options, comparison);
-    if (!played) {
-        return fail({played.error().code, options.file + ": " + played.error().message});
+    const Result<bool> ended = playAll(*reader, **replayer, options, comparison);
+    if (!ended) {
+        return fail(ofFile(options.file, ended.error()));
+    }
+    if (!*ended) {
+        warn(options.file + ": the recording has no end, as after a crash: this was all that is whole");
     }
     if (const uint64_t messages = (*device)->validation()->messageCount(); messages != 0) {
         return fail(kExitBadInput, std::to_string(messages) + " validation messages");
@@ -243,6 +264,8 @@ void bindReplay(CLI::App& app, int& exitCode) {
     command->add_option("--until", options->until, "the last frame to replay")->check(CLI::PositiveNumber);
     command->add_option("--characters", options->characters, "files that the recording was made without")
         ->delimiter(',');
+    command->add_option("--memory", options->memory, "Most device memory, in MiB: small files can ask for much")
+        ->capture_default_str();
     bindDevice(*command, options->device);
     command->callback([options, &exitCode] { exitCode = run(*options); });
 }

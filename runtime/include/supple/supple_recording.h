@@ -17,7 +17,7 @@ typedef enum SuppleRecordingFlags {
     /** Characters are named by hashes alone: replaying asks for their files. */
     SUPPLE_RECORDING_WITHOUT_ASSETS = 1,
     /** Every frame's joint palettes, deformed cages and surface vertices are hashed on the device. Replaying compares
-     * the hashes. Costs a pass over these buffers per frame. docs/recording.md says which surfaces are left out. */
+     * the hashes. Costs a pass over these buffers (docs/recording.md): see surfaceInterval. */
     SUPPLE_RECORDING_HASHES = 2
 } SuppleRecordingFlags;
 
@@ -31,6 +31,10 @@ typedef struct SuppleRecordingDesc {
      * what a host has written holds all frames but the newest, if the program crashes. It must not call Supple. */
     int (*write)(const void* bytes, size_t byteCount, void* user);
     void* user;
+    /** HASHES: surface vertices are hashed in frames whose number is a multiple of this; 0: in all. Palettes and cages
+     * are hashed in every frame. */
+    uint32_t surfaceInterval;
+    uint32_t reserved; /**< 0 */
 } SuppleRecordingDesc;
 
 /** Records every call that changes the context, from now on: characters with all that they are made of, descriptions,
@@ -39,9 +43,13 @@ typedef struct SuppleRecordingDesc {
  *
  * Call it before the context has assets, groups or views, or at any time if the context was created with
  * SUPPLE_CONTEXT_RECORDABLE: then the recording begins with calls that bring about what there is. Not beside other
- * calls of the context. A recording of what `suppleSetMatrixPose` sets takes 64 bytes per joint and call; one of what
- * plays takes next to nothing. Errors: null, unknown flags; the context has assets, groups or views and is not
- * RECORDABLE; it is being recorded already; memory. */
+ * calls of the context, and not in a frame that has recorded groups.
+ *
+ * A recording of what suppleSetMatrixPose sets takes 64 bytes per joint and call; one of what plays takes next to
+ * nothing.
+ *
+ * Errors: null, unknown flags; the context has assets, groups or views and is not RECORDABLE; it is being recorded
+ * already; the open frame has recorded groups; `write` has returned 0; memory. Then nothing is recorded. */
 SUPPLE_API SuppleResult suppleStartRecording(SuppleContext context, const SuppleRecordingDesc* desc);
 /** Writes what is left, and ends the recording. Hashes of frames that are not completed (suppleBeginFrame) are not in
  * it. suppleDestroyContext does the same. Errors: the context is not being recorded. */
