@@ -305,16 +305,17 @@ static int cubeStandsAt(const float* vertex, float x, float y) {
 typedef struct Options {
     uint64_t frames;
     const char* cachePath;
+    const char* recordPath; /* null: there is no recording */
     const char* characterPath;
 } Options;
 
 static void usage(FILE* out) {
-    fprintf(out, "usage: supple_c_host [--frames N] [--pipeline-cache FILE] [CHARACTER.glb]\n"
+    fprintf(out, "usage: supple_c_host [--frames N] [--pipeline-cache FILE] [--record FILE] [CHARACTER.glb]\n"
                  "Without a character: a cube, and its vertices are checked.\n");
 }
 
 static Options readOptions(int argc, char** argv) {
-    Options options = {12, NULL, NULL};
+    Options options = {12, NULL, NULL, NULL};
     int i;
     for (i = 1; i < argc; ++i) {
         if (strcmp(argv[i], "--help") == 0) {
@@ -324,6 +325,8 @@ static Options readOptions(int argc, char** argv) {
             options.frames = strtoul(argv[++i], NULL, 10);
         } else if (strcmp(argv[i], "--pipeline-cache") == 0 && i + 1 < argc) {
             options.cachePath = argv[++i];
+        } else if (strcmp(argv[i], "--record") == 0 && i + 1 < argc) {
+            options.recordPath = argv[++i];
         } else if (argv[i][0] != '-' && options.characterPath == NULL) {
             options.characterPath = argv[i];
         } else {
@@ -360,6 +363,30 @@ static SuppleContext createContext(const HostDevice* host, HostAllocator memory)
     desc.runJobs = runHostJobs;
     CHECK_SUPPLE(suppleCreateContext(&desc, &context));
     return context;
+}
+
+static int appendToFile(const void* bytes, size_t count, void* file) {
+    return fwrite(bytes, 1, count, file) == count && fflush(file) == 0;
+}
+
+/* All that is done to the context from now on, for supple replay. Null if there is no path. */
+static FILE* startRecording(SuppleContext context, const char* path) {
+    SuppleRecordingDesc desc = {0};
+    FILE* file;
+    if (path == NULL) {
+        return NULL;
+    }
+    file = fopen(path, "wb");
+    if (file == NULL) {
+        fprintf(stderr, "failed: %s cannot be written\n", path);
+        exit(1);
+    }
+    desc.structSize = sizeof desc;
+    desc.flags = SUPPLE_RECORDING_HASHES;
+    desc.write = appendToFile;
+    desc.user = file;
+    CHECK_SUPPLE(suppleStartRecording(context, &desc));
+    return file;
 }
 
 /* One frame: guests change, uploads are recorded here, the two groups on two threads, and all is submitted in order. */
@@ -402,6 +429,7 @@ int main(int argc, char** argv) {
     HostAllocator memory;
     HostDevice host;
     SuppleContext context;
+    FILE* recording;
     SuppleAsset asset;
     Crowd crowds[THREADS];
     Job jobs[THREADS];
@@ -421,6 +449,7 @@ int main(int argc, char** argv) {
     memoryInfo.pAllocationCallbacks = host.callbacks;
     CHECK_VK(hostCreateAllocator(&memoryInfo, &memory));
     context = createContext(&host, memory);
+    recording = startRecording(context, options.recordPath);
     asset = options.characterPath != NULL ? loadCharacter(context, options.characterPath) : createCube(context);
     info.structSize = sizeof info;
     CHECK_SUPPLE(suppleGetAssetInfo(context, asset, &info));
@@ -482,7 +511,10 @@ int main(int argc, char** argv) {
         }
     }
 
-    suppleDestroyContext(context); /* and with it assets and groups */
+    suppleDestroyContext(context); /* and with it assets, groups and the recording */
+    if (recording != NULL) {
+        fclose(recording);
+    }
     for (j = 0; j < FRAMES_IN_FLIGHT; ++j) {
         vkDestroyFence(host.device, fences[j], host.callbacks);
         vkDestroyCommandPool(host.device, uploadPools[j], host.callbacks);

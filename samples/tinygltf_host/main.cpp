@@ -51,8 +51,8 @@ SuppleAsset createAsset(Context& context, const std::string& path) {
     return asset; // everything is copied: model and character may go
 }
 
-void run(Device& device, const std::string& path) {
-    const std::unique_ptr<Context> context = must(Context::create(device));
+void run(Device& device, const std::string& path, const std::string& record) {
+    const std::unique_ptr<Context> context = must(Context::create(device, {.record = record}));
     const SuppleAsset asset = createAsset(*context, path);
     auto info = supple::sized<SuppleAssetInfo>();
     must(context->check(suppleGetAssetInfo(context->handle(), asset, &info), "suppleGetAssetInfo"));
@@ -90,13 +90,14 @@ void run(Device& device, const std::string& path) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2 || argv[1][0] == '-') {
-        std::puts("usage: supple_tinygltf_host CHARACTER.glb");
+    const bool records = argc == 4 && std::strcmp(argv[1], "--record") == 0;
+    if (!records && (argc != 2 || argv[1][0] == '-')) {
+        std::puts("usage: supple_tinygltf_host [--record FILE] CHARACTER.glb");
         return argc == 2 && std::strcmp(argv[1], "--help") == 0 ? 0 : 2;
     }
     std::unique_ptr<Device> device = mustCreateDevice(false);
     const std::shared_ptr<const ValidationLog> validation = device->validation();
-    run(*device, argv[1]);
+    run(*device, argv[argc - 1], records ? argv[2] : "");
     device.reset();
     mustBeSilent(*validation);
     return 0;

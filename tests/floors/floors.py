@@ -16,7 +16,7 @@ import sys
 # longest room that fits. It may include its own room and the floors below. Rooms of one floor never include each other.
 FLOORS = [line.split() for line in """
     base/ shaders/shared/ shaders/supple_surface.glsl shaders/trim.glsl shaders/supple_depth_pyramid.comp
-    shaders/surface/ shaders/pose/ shaders/deform/
+    shaders/surface/ shaders/pose/ shaders/deform/ shaders/recording/
     shaders/lod/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
@@ -34,7 +34,7 @@ FLOORS = [line.split() for line in """
     runtime/include/
     runtime/
     host/
-    tools/common/ tools/gltf/ tools/reference/
+    tools/common/ tools/gltf/ tools/reference/ tools/replay/
     samples/ tools/bench/ tools/creature/
     tools/supple/
     tests/

@@ -152,9 +152,11 @@ public:
         return suppleSetOrigin(handle_, origin.data());
     }
     [[nodiscard]] SuppleResult cancelFrame() const { return suppleCancelFrame(handle_); }
+    /// Records every call that changes the context, from now on: for supple replay.
     [[nodiscard]] SuppleResult startRecording(const SuppleRecordingDesc& desc) const {
         return suppleStartRecording(handle_, &desc);
     }
+    /// Writes what is left.
     [[nodiscard]] SuppleResult stopRecording() const { return suppleStopRecording(handle_); }
     [[nodiscard]] SuppleResult recordUploads(VkCommandBuffer commandBuffer) const {
         return suppleRecordUploads(handle_, commandBuffer);

@@ -30,7 +30,7 @@ typedef struct SuppleRecordingDesc {
      * suppleBeginFrame and suppleStopRecording, and when an asset is created or reloaded, on the thread that called. So
      * what a host has written holds all frames but the newest, if the program crashes. It must not call Supple. */
     int (*write)(const void* bytes, size_t byteCount, void* user);
-    void* user;
+    void* user; /**< handed to write */
     /** HASHES: surface vertices are hashed in frames whose number is a multiple of this; 0: in all. Palettes and cages
      * are hashed in every frame. */
     uint32_t surfaceInterval;
