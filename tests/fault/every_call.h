@@ -44,7 +44,10 @@ using Adjust = std::function<void(SuppleContextDesc&)>;
 void quiet(SuppleContextDesc& desc);
 
 /// Makes every call in a context of its own. Returns what the frames came out as; nothing if the device is lost.
-std::vector<std::byte> makeEveryCall(host::Device& device, const MakeCall& make, const Adjust& adjust = quiet);
+/// `recorded`: all of it is recorded. A call that finds no memory for its note succeeds all the same, and ends the
+/// recording: where host memory runs out, the recording ends before the other calls.
+std::vector<std::byte> makeEveryCall(host::Device& device, const MakeCall& make, const Adjust& adjust = quiet,
+                                     bool recorded = true);
 
 [[nodiscard]] uint64_t deviceMemoryOf(SuppleContext context);
 

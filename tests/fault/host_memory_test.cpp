@@ -20,12 +20,12 @@ Fault faultOf(Failure kind) {
 TEST(HostMemory, EveryAllocationOfEveryFunctionMayFail) {
     const std::unique_ptr<host::Device> device = deviceThrough(&faultyGetInstanceProcAddr, false);
     ASSERT_NE(device, nullptr);
-    const std::vector<std::byte> sound = makeEveryCall(*device, makeOnce);
+    const std::vector<std::byte> sound = makeEveryCall(*device, makeOnce, quiet, false);
     ASSERT_FALSE(sound.empty());
     for (const Failure kind : {Failure::all, Failure::one}) {
         resetHostMemory();
         Calls calls(faultOf(kind));
-        EXPECT_TRUE(makeEveryCall(*device, std::bind_front(&Calls::make, &calls)) == sound);
+        EXPECT_TRUE(makeEveryCall(*device, std::bind_front(&Calls::make, &calls), quiet, false) == sound);
         EXPECT_GT(calls.positions(), 1000u);
         // The driver keeps some of its own; a byte for each failure would be seen.
         const int64_t left = hostMemory().live;
