@@ -109,10 +109,12 @@ private:
         recording.structSize = sizeof(recording);
         recording.flags = SUPPLE_RECORDING_HASHES;
         recording.write = [](const void*, size_t, void*) { return 1; };
-        call("suppleStartRecording", [&] { return suppleStartRecording(handle(), &recording); });
+        SuppleResult started = SUPPLE_OK;
+        call("suppleStartRecording", [&] { return started = suppleStartRecording(handle(), &recording); });
         if (!isRecorded_) {
             EXPECT_EQ(suppleStopRecording(handle()), SUPPLE_OK);
         }
+        isRecorded_ = isRecorded_ && started == SUPPLE_OK; // else the device is lost
     }
     /// A character on its way through a worker, and a group of it.
     void prepare() {
