@@ -1,8 +1,13 @@
 #include "host/recording.h"
 
+#include "host/whole_file.h"
+
 namespace supple::host {
 
 Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const std::string& path) {
+    if (isRefusedLink(path)) {
+        return Error{ErrorCode::io, path + ": is a symbolic link"};
+    }
     std::unique_ptr<Recording> made(new Recording(path));
     if (!made->file_) {
         return Error{ErrorCode::io, path + ": cannot be written"};

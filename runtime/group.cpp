@@ -222,7 +222,6 @@ HashedPart Group::partOf(const Hashed& hashed, uint32_t part) const {
         result.elementCount = asset_->character.cage.vertexCount();
         return result;
     case HashedStage::vertices:
-    case HashedStage::count:
         break;
     }
     return surfaces_[hashed.surface].hashedPart(part);

@@ -4,18 +4,17 @@
 //   header   magic, version, and what the context was created with
 //   asset    hash of a character, and the bytes of its cooked file, or none
 //   call     number of the call, its arguments (runtime/recording/calls.h)
-//   hashes   of a frame: what it has posed, deformed and evaluated (shaders/shared/hash.h)
+//   hashes   of a frame: what it has posed, deformed and evaluated (shaders/shared/word_hash.h)
 //   end      the recording was stopped
 #pragma once
 
 #include "runtime/recording/calls.h"
 
-#include <array>
 #include <cstdint>
 
 namespace supple::runtime {
 
-inline constexpr std::array<char, 8> kRecordingMagic = {'S', 'U', 'P', 'P', 'R', 'E', 'C', '\n'};
+inline constexpr char kRecordingMagic[] = {'S', 'U', 'P', 'P', 'R', 'E', 'C', '\n'};
 inline constexpr uint32_t kRecordingVersion = 1;
 
 enum class ChunkKind : uint32_t { header = 1, asset, call, hashes, end };
@@ -44,7 +43,7 @@ struct RecordedContext {
 };
 
 /// A stage of a frame whose words are hashed.
-enum class HashedStage : uint32_t { palettes, cages, vertices, count };
+enum class HashedStage : uint32_t { palettes, cages, vertices };
 
 /// Two sums over all words that a stage has written, of one surface if there are several.
 struct StageHash {

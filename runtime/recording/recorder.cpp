@@ -24,13 +24,7 @@ calls::AssetHash hashOfCharacter(std::span<const std::byte> cooked) {
 
 Recorder::Recorder(const SuppleRecordingDesc& desc, const RecordedContext& context) : desc_(desc) {
     bytes_.reserve(kRoom);
-    const size_t first = open(ChunkKind::header);
-    CallWriter writer(bytes_);
-    for (const char letter : kRecordingMagic) {
-        writer(letter);
-    }
-    writer(kRecordingVersion, context);
-    close(first);
+    write(ChunkKind::header, kRecordingMagic, kRecordingVersion, context);
 }
 
 size_t Recorder::open(ChunkKind kind) {
@@ -73,10 +67,7 @@ void Recorder::noteBytes(std::span<const std::byte> call) {
 
 void Recorder::note(const FrameHashes& hashes) {
     const std::scoped_lock lock(mutex_);
-    const size_t first = open(ChunkKind::hashes);
-    CallWriter writer(bytes_);
-    writer(hashes);
-    close(first);
+    write(ChunkKind::hashes, hashes);
 }
 
 void Recorder::keepRoom() {
@@ -105,7 +96,7 @@ Status Recorder::flush() {
 
 Status Recorder::finish() {
     const std::scoped_lock lock(mutex_);
-    close(open(ChunkKind::end));
+    write(ChunkKind::end);
     return handOver();
 }
 

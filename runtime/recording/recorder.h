@@ -26,10 +26,7 @@ public:
     template <class C>
     void note(const C& call) {
         const std::scoped_lock lock(mutex_);
-        const size_t first = open(ChunkKind::call);
-        CallWriter writer(bytes_);
-        writer(kCallNumber<C>, call);
-        close(first);
+        write(ChunkKind::call, kCallNumber<C>, call);
         if constexpr (!std::is_same_v<C, calls::Record>) {
             keepRoom(); // suppleRecord finds it, so that it allocates nothing
         }
@@ -50,6 +47,13 @@ public:
     }
 
 private:
+    template <class... T>
+    void write(ChunkKind kind, const T&... values) {
+        const size_t first = open(kind);
+        CallWriter writer(bytes_);
+        writer(values...);
+        close(first);
+    }
     /// Where the chunk begins, for close().
     [[nodiscard]] size_t open(ChunkKind kind);
     void close(size_t first);

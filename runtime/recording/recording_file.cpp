@@ -51,14 +51,14 @@ void forEachHashes(std::span<const std::byte> chunks, const std::function<void(c
 Result<RecordingReader> RecordingReader::open(std::span<const std::byte> bytes, const std::string& name) {
     RecordingReader made(bytes, name);
     const std::optional<Chunk> chunk = takeChunk(made.left_);
-    char magic[kRecordingMagic.size()] = {};
+    char magic[std::size(kRecordingMagic)] = {};
     uint32_t version = 0;
     if (!chunk || chunk->kind != ChunkKind::header || chunk->bytes.size() < sizeof(magic) + sizeof(version)) {
         return Error{ErrorCode::asset, name + ": no recording"};
     }
     CallReader beginning(chunk->bytes.first(sizeof(magic) + sizeof(version)), *made.memory_);
     beginning(magic, version);
-    if (!std::equal(std::begin(magic), std::end(magic), kRecordingMagic.begin())) {
+    if (!std::equal(std::begin(magic), std::end(magic), std::begin(kRecordingMagic))) {
         return Error{ErrorCode::asset, name + ": no recording"};
     }
     if (version != kRecordingVersion) {

@@ -7,7 +7,9 @@
 #include "shaders/shared/word_hash.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <span>
 
 namespace supple::runtime {
 
@@ -73,14 +75,13 @@ Result<std::shared_ptr<StageHashes>> StageHashes::create(const gpu::Device& devi
 }
 
 void StageHashes::takeCompleted(uint64_t completedFrame, const std::function<void(const FrameHashes&)>& tell) {
-    std::vector<Frame*> complete;
-    for (Frame& frame : frames_) {
-        if (frame.number != 0 && frame.number <= completedFrame) {
-            complete.push_back(&frame);
+    std::array<Frame*, SUPPLE_MAX_FRAMES_IN_FLIGHT> all{}; // in order, without an allocation
+    const auto end = std::transform(frames_.begin(), frames_.end(), all.begin(), [](Frame& frame) { return &frame; });
+    std::sort(all.begin(), end, [](const Frame* a, const Frame* b) { return a->number < b->number; });
+    for (Frame* const frame : std::span(all.begin(), end)) {
+        if (frame->number == 0 || frame->number > completedFrame) {
+            continue;
         }
-    }
-    std::sort(complete.begin(), complete.end(), [](const Frame* a, const Frame* b) { return a->number < b->number; });
-    for (Frame* const frame : complete) {
         const auto place = static_cast<size_t>(frame - frames_.data());
         for (uint32_t i = 0; i < frame->hashes.size(); ++i) {
             std::memcpy(frame->hashes[i].sums, readback_.mapped(0) + offsetOf(place, i), sizeof(StageHash::sums));

@@ -2,23 +2,18 @@
 // patch and instance. A workgroup takes a share of a bucket of records (shaders/shared/lod.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/lod/runs.glsl"
 #include "shaders/recording/hash.glsl"
-#include "shaders/shared/lod.h"
 
 layout(push_constant) uniform Push { RecordHashPush push; };
-
-uint samplesOf(uint form, uint capacity) {
-    uint sides = form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u;
-    return sides * (capacity + 1u) * (capacity + 1u) / 4u;
-}
 
 void main() {
     uint bucket = workgroupIndex() / kRecordHashShares, share = workgroupIndex() % kRecordHashShares;
     uint run = push.firstRun + bucket / kCapacityCount, c = bucket % kCapacityCount;
     if (run >= push.firstRun + push.runCount) return; // the whole workgroup
-    uint ofRun = kLodRuns + kLodRunWords * run, first = min(list.at[ofRun + 1u] & kNoDispatch, run);
-    uint at = SUPPLE_LOD_BUCKETS(push.runs) + 4u * (first * kLodBucketStride + (run - first) * kCapacityCount + c);
-    uint samples = samplesOf(list.at[ofRun] & 255u, SUPPLE_LOD_CAPACITY(c));
+    uint ofRun = kLodRuns + kLodRunWords * run, first = firstOfGroup(list.at[ofRun + 1u], run);
+    uint at = SUPPLE_LOD_BUCKETS(push.runs) + 4u * bucketIndex(first, run, c);
+    uint samples = formSamples(runForm(list.at[ofRun]), capacityOf(c));
     uint begin = list.at[at], count = min(list.at[at + 2u], list.at[at + 4u] - begin);
     uint most = (uint(list.at.length()) - SUPPLE_LOD_RECORDS(push.runs)) / kLodRecordWords; // records that there is room for
     uint end = min(begin + count, most);

@@ -3,9 +3,30 @@
 #ifndef SUPPLE_SHARED_WORD_HASH_H
 #define SUPPLE_SHARED_WORD_HASH_H
 
+#include "shaders/shared/elementary.h"
 #include "shaders/shared/portable.h"
 
 SUPPLE_SHARED_BEGIN
+
+// A mix of a word and its place. The two sums have different ones.
+SUPPLE_SHARED_FUNCTION uint wordMix(uint word, uint place, uint factor, uint shift) {
+    uint h = word ^ ((place + shift) * factor);
+    h ^= h >> 16u;
+    h *= 0x85EBCA6Bu;
+    h ^= h >> 13u;
+    h *= 0xC2B2AE35u;
+    h ^= h >> 16u;
+    h = ((h + place) * factor) ^ (word >> 7u);
+    h ^= h >> 15u;
+    h *= 0x2C1B3C6Du;
+    return h ^ (h >> 12u);
+}
+SUPPLE_SHARED_FUNCTION uint lowWordMix(uint word, uint place) {
+    return wordMix(word, place, 0x9E3779B1u, 0u);
+}
+SUPPLE_SHARED_FUNCTION uint highWordMix(uint word, uint place) {
+    return wordMix(word, place, 0x85EBCA77u, 0x165667B1u);
+}
 
 // Set 0.
 SUPPLE_SHARED_CONST kHashedWordBinding = 0u;

@@ -16,9 +16,9 @@ import sys
 # longest room that fits. It may include its own room and the floors below. Rooms of one floor never include each other.
 FLOORS = [line.split() for line in """
     base/ shaders/shared/ shaders/supple_surface.glsl shaders/trim.glsl shaders/supple_depth_pyramid.comp
-    shaders/surface/ shaders/pose/ shaders/deform/ shaders/recording/
+    shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/
-    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/
+    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
     shaders/chains/ shaders/fragments/
     shaders/catmull_clark/ shaders/loop/

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <supple/supple_recording.h>
 
 namespace supple::test {
 namespace {
@@ -244,7 +245,8 @@ private:
     uint64_t calls_ = 0;
 };
 
-TEST(Allocation, FramesTakeNoMemory) {
+/// A thousand frames with calls of every kind, which may be recorded with their hashes.
+void framesTakeNoMemory(bool recorded) {
     std::unique_ptr<host::Device> device = deviceThrough(&pausedInstanceProcAddr, false);
     ASSERT_NE(device, nullptr);
     HostAllocator allocator;
@@ -264,6 +266,18 @@ TEST(Allocation, FramesTakeNoMemory) {
         });
         ASSERT_EQ(context.result(), SUPPLE_OK);
         const SuppleContext handle = context.handle();
+        uint64_t written = 0;
+        if (recorded) {
+            SuppleRecordingDesc recording{};
+            recording.structSize = sizeof recording;
+            recording.flags = SUPPLE_RECORDING_HASHES;
+            recording.write = [](const void*, size_t bytes, void* user) {
+                *static_cast<uint64_t*>(user) += bytes;
+                return 1;
+            };
+            recording.user = &written;
+            ASSERT_EQ(suppleStartRecording(handle, &recording), SUPPLE_OK);
+        }
         SuppleAsset asset{};
         ASSERT_EQ(createTube(handle, asset), SUPPLE_OK);
         constexpr uint32_t kCapacity = 5;
@@ -378,10 +392,19 @@ TEST(Allocation, FramesTakeNoMemory) {
         EXPECT_EQ(log.others, 0u);
         EXPECT_GT(allocator.live(), 0u);
         EXPECT_GT(memory.live(), 0u);
+        EXPECT_EQ(written >= 256 * kFrames, recorded); // calls and hashes of every frame
         context.frame = frame;
     }
     EXPECT_EQ(allocator.live(), 0u);
     EXPECT_EQ(memory.live(), 0u);
+}
+
+TEST(Allocation, FramesTakeNoMemory) {
+    framesTakeNoMemory(false);
+}
+
+TEST(Allocation, RecordedFramesTakeNoMemory) {
+    framesTakeNoMemory(true);
 }
 
 TEST(Allocation, ObjectsAreTheHostAllocatorsAndMemoryIsOfItsBlocks) {

@@ -4,23 +4,18 @@
 //   SUPPLE_WRITE_RECORDINGS=$PWD/tests/data/recordings build/release/tests/runtime/supple_runtime_tests
 //       --gtest_filter='RecordedScenes.*'
 #include "tests/support/crowd.h"
+#include "tests/support/played_group.h"
+#include "tests/support/recordings.h"
 #include "tests/support/sample_assets.h"
-#include "tools/replay/replayer.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <map>
 #include <supple/supple.hpp>
 
 namespace supple::test {
 namespace {
-
-using runtime::FrameHashes;
-using runtime::RecordingReader;
-using runtime::StageHash;
 
 constexpr uint32_t kSceneFrames = 6;
 constexpr double kSceneStep = 0.125; // exact in binary, as most numbers here
@@ -91,16 +86,8 @@ public:
         succeed(suppleSetPlayback(handle(), all[i], &desc));
     }
     void loop(size_t i, uint32_t clip, double offset, const SupplePlaybackDesc& desc = {}) const {
-        const SupplePlaybackLayer layer = layerOf(clip, offset);
+        const SupplePlaybackLayer layer = PlayedGroup::loops(clip, offset);
         play(i, {&layer, 1}, desc);
-    }
-    [[nodiscard]] static SupplePlaybackLayer layerOf(uint32_t clip, double offset) {
-        SupplePlaybackLayer layer{};
-        layer.clip = clip;
-        layer.flags = SUPPLE_LAYER_LOOP;
-        layer.weight = layer.speed = 1.0f;
-        layer.offset = offset;
-        return layer;
     }
     /// A frame of all groups, each that plays at its time.
     void run() {
@@ -137,7 +124,7 @@ void fades(SceneHost& host) {
     mask.jointMaskCount = static_cast<uint32_t>(weights.size());
     succeed(suppleSetMask(host.handle(), group, &mask));
     for (uint32_t i = 0; i < 3; ++i) {
-        SupplePlaybackLayer layers[] = {SceneHost::layerOf(i, 0.25 * i), SceneHost::layerOf((i + 1) % 3, 0.5)};
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(i, 0.25 * i), PlayedGroup::loops((i + 1) % 3, 0.5)};
         layers[1].weight = 0.0f;
         layers[1].fadeWeight = 1.0f;
         layers[1].fadeStart = 0.125;
@@ -277,50 +264,13 @@ protected:
     void SetUp() override { ASSERT_NE(testDevice(), nullptr); }
 };
 
-/// By frame, group, stage and surface.
-using SceneKey = std::tuple<uint64_t, uint64_t, uint32_t, uint32_t>;
-SceneKey hashKeyOf(uint64_t frame, const StageHash& hash) {
-    return {frame, hash.group.id, static_cast<uint32_t>(hash.stage), hash.surface};
-}
-
 /// Plays the recording, and compares every hash of it.
 void expectSameWords(const std::vector<std::byte>& recording, const RecordedScene& scene, SuppleMapping mapping) {
-    Result<RecordingReader> reader = RecordingReader::open(recording, scene.name);
-    ASSERT_TRUE(reader.ok()) << reader.error().message;
     tools::Replayer::Options options;
     options.mapping = mapping;
     options.characters.emplace_back(scene.character, fileBytes(scene.character));
-    const auto replayer = tools::Replayer::create(*testDevice(), reader->context(), std::move(options));
-    ASSERT_TRUE(replayer.ok()) << replayer.error().message;
-    std::map<SceneKey, std::array<uint32_t, 2>> recorded;
-    for (bool more = true; more;) {
-        const auto event = reader->next();
-        ASSERT_TRUE(event.ok()) << event.error().message;
-        more = event->has_value();
-        if (!more) {
-            break;
-        }
-        if (const auto* const hashes = std::get_if<FrameHashes>(&**event)) {
-            for (const StageHash& hash : std::span(hashes->hashes, hashes->count)) {
-                recorded[hashKeyOf(hashes->frame, hash)] = {hash.sums[0], hash.sums[1]};
-            }
-        }
-        const Status played = (*replayer)->play(**event);
-        ASSERT_TRUE(played.ok()) << played.error().message;
-    }
-    ASSERT_TRUE((*replayer)->finish().ok());
-    size_t compared = 0;
-    for (const tools::ReplayedFrame& frame : (*replayer)->takeHashes()) {
-        for (const StageHash& hash : frame.hashes) {
-            const auto found = recorded.find(hashKeyOf(frame.number, hash));
-            if (found != recorded.end()) {
-                ++compared;
-                EXPECT_TRUE(found->second[0] == hash.sums[0] && found->second[1] == hash.sums[1])
-                    << "frame " << frame.number << ", " << (*replayer)->nameOf(hash.group) << ", stage "
-                    << static_cast<uint32_t>(hash.stage);
-            }
-        }
-    }
+    const Hashes recorded = read(recording).hashes;
+    const size_t compared = expectSame(recorded, replay(*testDevice(), recording, std::move(options)));
     EXPECT_EQ(compared, recorded.size());
     EXPECT_GE(compared, size_t{kSceneFrames} * 3);
 }

@@ -39,7 +39,8 @@ TEST_F(OutputFiles, SymbolicLinksAreNotFollowed) {
          {"bake cube.obj --rate 2 -o link.obj", "bake cube.obj --rate 2 -o link.ply",
           "bake cube.obj --rate 2 -o link.glb", "render cube.obj --size 64x64 -o link.png",
           "sheet cube.obj --columns 1 --cell 32x32 -o link.png", "profile cube.obj --frames 2 --json link.json",
-          "bake cube.obj --rate 2 --scheme pm -o out.obj --patches link.json"}) {
+          "bake cube.obj --rate 2 --scheme pm -o out.obj --patches link.json",
+          "bake cube.obj --rate 2 -o out.obj --record link.json"}) {
         expectFailure(runOnDevice(arguments), 1, "is a symbolic link");
         EXPECT_EQ(readText(file("precious")), "precious") << arguments;
     }

@@ -97,20 +97,19 @@ public:
                                (leader != r_.groups_.end() && leader->second.isFilledByHost);
         r_.recordedGroups_[group.own.id] = call.group;
         if (group.isFilledByHost) {
-            r_.lacks_.push_back(r_.nameOf(call.group) + ": its poses are in a buffer that the host has filled");
+            r_.lack(r_.nameOf(call.group) + ": its poses are in a buffer that the host has filled");
             r_.views_[group.view].lacksSomething = true; // its vertices take of the budget
         }
         return status;
     }
     Status operator()(const calls::DestroyGroup& call) {
-        // A recording that began late lacks groups that followed one which was gone.
-        return r_.own(call.group).id != 0 ? check(suppleDestroyGroup(context_, r_.own(call.group))) : success();
+        return r_.knows(call.group) ? check(suppleDestroyGroup(context_, r_.own(call.group))) : success();
     }
     Status operator()(const calls::SetCapacity& call) {
         return check(suppleSetCapacity(context_, r_.own(call.group), call.capacity));
     }
     Status operator()(const calls::SetRate& call) {
-        return r_.own(call.group).id != 0 ? check(suppleSetRate(context_, r_.own(call.group), call.rate)) : success();
+        return r_.knows(call.group) ? check(suppleSetRate(context_, r_.own(call.group), call.rate)) : success();
     }
     Status operator()(const calls::CreateInstance& call) {
         SuppleInstance made{};
@@ -141,7 +140,9 @@ public:
     }
     Status operator()(const calls::SetSharpness& call) {
         // A recording that began late may lack the group that has drawn it with P_m.
-        (void)suppleSetSharpness(context_, r_.own(call.instance), call.set, call.sharpness);
+        if (suppleSetSharpness(context_, r_.own(call.instance), call.set, call.sharpness) != SUPPLE_OK) {
+            r_.lack(r_.nameOf(call.instance.group) + ": the sharpness of a crease set is left out");
+        }
         return success();
     }
     Status operator()(const calls::SetPriority& call) {
@@ -181,8 +182,8 @@ public:
         return check(suppleSetCamera(context_, r_.own(call.view), &call.camera));
     }
     Status operator()(const calls::SetDepthPyramid& call) {
-        if (call.isThere == 1 && !pyramidIsTold()) {
-            r_.lacks_.emplace_back(kPyramid);
+        if (call.isThere == 1) {
+            r_.lack("depth pyramids: surfaces of views that had one are not compared");
         }
         View& view = r_.views_[call.view.id];
         view.lacksSomething = view.lacksSomething || call.isThere == 1;
@@ -224,16 +225,11 @@ public:
     }
 
 private:
-    static constexpr const char* kPyramid = "depth pyramids: surfaces of views that had one are not compared";
-
     [[nodiscard]] Status check(SuppleResult result) { return r_.context_->check(result, "the call"); }
     template <class Record>
     Status withCommands(Record&& record) {
         const Result<VkCommandBuffer> commands = r_.commands();
         return commands ? check(record(*commands)) : commands.error();
-    }
-    [[nodiscard]] bool pyramidIsTold() const {
-        return std::find(r_.lacks_.begin(), r_.lacks_.end(), kPyramid) != r_.lacks_.end();
     }
 
     Replayer& r_;
@@ -324,8 +320,22 @@ Replayer::Character Replayer::ofSameName(const std::string& name) {
     if (found == characters_.end()) {
         return {name, {}};
     }
-    lacks_.push_back(name + ": the file is not as it was, or is read in another way");
+    lack(name + ": the file is not as it was, or is read in another way");
     return {name, found->second.bytes};
+}
+
+void Replayer::lack(const std::string& what) {
+    if (std::find(lacks_.begin(), lacks_.end(), what) == lacks_.end()) {
+        lacks_.push_back(what);
+    }
+}
+
+bool Replayer::knows(SuppleGroup recorded) {
+    const bool known = own(recorded).id != 0;
+    if (!known) {
+        lack("a group that was there before the recording, and followed one that was gone: it is not compared");
+    }
+    return known;
 }
 
 Status Replayer::finish() {
@@ -451,12 +461,11 @@ SuppleInstance Replayer::own(const SuppleInstance& recorded) const {
     return found != instances_.end() ? found->second : SuppleInstance{};
 }
 
-std::vector<SuppleGroup> Replayer::own(std::span<const SuppleGroup> recorded) const {
+std::vector<SuppleGroup> Replayer::own(std::span<const SuppleGroup> recorded) {
     std::vector<SuppleGroup> groups;
     for (const SuppleGroup& group : recorded) {
-        // A recording that began late lacks groups that followed one which was gone.
-        if (const SuppleGroup mine = own(group); mine.id != 0) {
-            groups.push_back(mine);
+        if (knows(group)) {
+            groups.push_back(own(group));
         }
     }
     return groups;

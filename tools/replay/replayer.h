@@ -26,7 +26,7 @@ class Replayer {
 public:
     struct Options {
         SuppleMapping mapping = SUPPLE_MAPPING_AUTO; ///< AUTO: that of the recording
-        /// Characters of recordings without: cooked files, or whatever suppleCreateAsset reads. They must outlive it.
+        /// Characters of recordings without: cooked files, or whatever suppleCreateAsset reads.
         std::vector<std::pair<std::string, std::vector<std::byte>>> characters;
         /// Most bytes of device memory: small files can ask for much.
         VkDeviceSize memory = VkDeviceSize{4} << 30;
@@ -88,6 +88,10 @@ private:
     void dropCommands();
     /// What is to be taken for a character that the recording has not: a file of the same name.
     [[nodiscard]] Character ofSameName(const std::string& name);
+    /// Notes once what the recording lacks.
+    void lack(const std::string& what);
+    /// Whether the recording has made the group. One that began late lacks groups that followed one which was gone.
+    [[nodiscard]] bool knows(SuppleGroup recorded);
     template <class Load>
     [[nodiscard]] Status load(const runtime::calls::AssetHash& hash, Load&& load);
 
@@ -96,7 +100,7 @@ private:
     [[nodiscard]] SuppleGroup own(SuppleGroup recorded) const;
     [[nodiscard]] SuppleView own(SuppleView recorded) const;
     [[nodiscard]] SuppleInstance own(const SuppleInstance& recorded) const;
-    [[nodiscard]] std::vector<SuppleGroup> own(std::span<const SuppleGroup> recorded) const;
+    [[nodiscard]] std::vector<SuppleGroup> own(std::span<const SuppleGroup> recorded); ///< those that it knows
 
     host::Device& device_;
     Options options_;
@@ -104,7 +108,7 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     bool hasCommands_ = false;
-    uint64_t frame_ = 0, completedFrame_ = 0;
+    uint64_t frame_ = 0;
     std::map<HashKey, Character> characters_;
     std::map<uint64_t, std::pair<SuppleAsset, std::string>> assets_; ///< by the recording's handles, as all here
     std::map<uint64_t, Group> groups_;

@@ -35,8 +35,6 @@ const char* nameOf(HashedStage stage) {
         return "deformed cages";
     case HashedStage::vertices:
         return "surface vertices";
-    case HashedStage::count:
-        break;
     }
     return "unknown words";
 }
