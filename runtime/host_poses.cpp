@@ -38,6 +38,7 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
         modifiers_ = InstanceModifiers(instanceCount, 0);
         states_.resize(size_t{instanceCount} * 4 * kStateElements);
         locals_.resize(instanceCount * table.nodes.size());
+        held_.resize(size_t{instanceCount} * table.footCount);
         hasLocals_.resize(instanceCount, 0);
         twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
     }
@@ -57,6 +58,11 @@ void HostPoses::reset(uint32_t instance) {
 
 std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
     return std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
+}
+
+std::span<glm::vec4> HostPoses::held(uint32_t instance) {
+    const size_t feet = takesModifiers() ? asset_->clipTable->footCount : 0;
+    return std::span(held_).subspan(instance * feet, feet);
 }
 
 std::span<glm::mat4> HostPoses::joints(uint32_t instance) {
@@ -117,7 +123,7 @@ void HostPoses::modify(uint32_t instance) {
     own.setTransform(placement(instance));
     modifiers_.place(instance, own, origin_);
     twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
-                     std::span(locals_).subspan(instance * nodes, nodes));
+                     std::span(locals_).subspan(instance * nodes, nodes), held(instance));
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> placed = joints(instance);
     for (uint32_t j = 0; j < target.size(); ++j) {
@@ -160,20 +166,28 @@ void HostPoses::setBindPose(uint32_t instance) {
 
 void HostPoses::setRestPose(uint32_t instance) {
     skinning::restPose(asset_->character, memory_.pose);
+    std::ranges::fill(held(instance), glm::vec4(0.0f));
     setPose(instance);
 }
 
 void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
     skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, memory_.pose);
+    std::ranges::fill(held(instance), glm::vec4(0.0f));
+    skinning::Layer layer;
+    layer.clip = &asset_->character.clips[clip];
+    layer.time = time;
+    twin_.hold(asset_->character, asset_->rig, layer, {}, held(instance));
     setPose(instance);
 }
 
 void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
     const skinning::RootSelection root = rootSelection(*asset_, desc);
     skinning::restPose(asset_->character, memory_.pose);
+    std::ranges::fill(held(instance), glm::vec4(0.0f));
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
-        skinning::applyLayer(asset_->character, asset_->rig, layerOf(*asset_, desc.layers[i]), root, memory_.scratch,
-                             memory_.pose);
+        const skinning::Layer layer = layerOf(*asset_, desc.layers[i]);
+        skinning::applyLayer(asset_->character, asset_->rig, layer, root, memory_.scratch, memory_.pose);
+        twin_.hold(asset_->character, asset_->rig, layer, root, held(instance));
     }
     setPose(instance);
 }
@@ -283,6 +297,7 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
             modifiers_.takeOver(other.modifiers_, count);
             std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
             std::copy_n(other.locals_.begin(), count * asset_->clipTable->nodes.size(), locals_.begin());
+            std::copy_n(other.held_.begin(), count * size_t{asset_->clipTable->footCount}, held_.begin());
             std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
         }
     }

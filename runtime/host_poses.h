@@ -80,6 +80,7 @@ public:
 
 private:
     void setPose(uint32_t instance); ///< from pose_
+    [[nodiscard]] std::span<glm::vec4> held(uint32_t instance);
     void keepLocals(uint32_t instance);
     void forgetLocals(uint32_t instance) {
         if (takesModifiers()) {
@@ -132,6 +133,7 @@ private:
     InstanceModifiers modifiers_;
     std::vector<uint32_t> states_;          ///< with the modifiers alone, and the transform
     std::vector<shared::Transform> locals_; ///< before modifiers, one a node of the clip table
+    std::vector<glm::vec4> held_;           ///< where the pose's clips hold feet, one a foot of the clip table
     std::vector<uint8_t> hasLocals_;        ///< 0: the bind pose, or matrices
     skinning::PoseTwin twin_;
 };

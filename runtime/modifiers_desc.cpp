@@ -17,25 +17,33 @@ using namespace shared;
 static_assert(SUPPLE_MAX_MODIFIERS == kMaxModifiers && SUPPLE_MAX_AIM_JOINTS == kMaxChain);
 static_assert(uint32_t{SUPPLE_MODIFIER_SET} == kModifierSet && uint32_t{SUPPLE_MODIFIER_ADD} == kModifierAdd &&
               uint32_t{SUPPLE_MODIFIER_AIM} == kModifierAim && uint32_t{SUPPLE_MODIFIER_TWO_BONE} == kModifierTwoBone &&
-              uint32_t{SUPPLE_MODIFIER_HAND_OVER} == kModifierHandOver);
+              uint32_t{SUPPLE_MODIFIER_HAND_OVER} == kModifierHandOver &&
+              uint32_t{SUPPLE_MODIFIER_PLANT} == kModifierPlant && uint32_t{SUPPLE_MODIFIER_LOWER} == kModifierLower);
 static_assert(uint32_t{SUPPLE_MODIFIER_WORLD} == kModifierWorld && uint32_t{SUPPLE_MODIFIER_POLE} == kModifierPole &&
               uint32_t{SUPPLE_MODIFIER_END_ROTATION} == kModifierEndRotation &&
               uint32_t{SUPPLE_MODIFIER_MODEL} == kModifierModel);
 
-constexpr uint32_t kKinds = kModifierHandOver + 1;
+constexpr uint32_t kKinds = kModifierLower + 1;
 /// By kind: the flags that it takes.
-constexpr uint32_t kModifierFlags[kKinds] = {kModifierModel, kModifierModel, kModifierWorld,
-                                             kModifierWorld | kModifierPole | kModifierEndRotation, kModifierWorld};
+constexpr uint32_t kModifierFlags[kKinds] = {kModifierModel,
+                                             kModifierModel,
+                                             kModifierWorld,
+                                             kModifierWorld | kModifierPole | kModifierEndRotation,
+                                             kModifierWorld,
+                                             kModifierWorld | kModifierPole,
+                                             0};
 /// Places of nodes are kept in 16 bits.
 constexpr size_t kMostNodes = 0xFFFF;
 constexpr float kDefaultSoft = 0.97f;
+constexpr float kDefaultTilt = 0.5236f;  ///< radians: of a foot
+constexpr double kDefaultLowering = 0.3; ///< of the longest leg
 
 Error beyond(const char* reason) {
     return {ErrorCode::range, reason};
 }
 
 bool needsRotation(uint32_t kind, uint32_t flags) {
-    return kind == kModifierSet || kind == kModifierAdd || kind == kModifierHandOver ||
+    return kind == kModifierSet || kind == kModifierAdd || kind == kModifierHandOver || kind == kModifierPlant ||
            (flags & kModifierEndRotation) != 0;
 }
 
@@ -49,8 +57,12 @@ bool isPart(float x) {
     return x >= 0.0f && x <= 1.0f;
 }
 
-Result<glm::vec4> unitRotation(const float* rotation) {
+/// `kind`: of the modifier. The ground is level if nobody says.
+Result<glm::vec4> unitRotation(uint32_t kind, const float* rotation) {
     const glm::dvec4 q(glm::make_vec4(rotation));
+    if (kind == kModifierPlant && q == glm::dvec4(0.0)) {
+        return glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    }
     const double length = glm::length(q);
     if (!(length > 1e-30)) {
         return beyond("rotation has length 0");
@@ -91,7 +103,8 @@ Result<skinning::Modifier> chained(const Asset& asset, const SuppleModifier& fro
     if (from.joint >= character.skin.joints.size()) {
         return beyond("no such joint");
     }
-    const bool aims = from.kind == SUPPLE_MODIFIER_AIM, limb = from.kind == SUPPLE_MODIFIER_TWO_BONE;
+    const bool aims = from.kind == SUPPLE_MODIFIER_AIM, plants = from.kind == SUPPLE_MODIFIER_PLANT;
+    const bool limb = plants || from.kind == SUPPLE_MODIFIER_TWO_BONE;
     const uint32_t length = aims ? std::max(from.chainLength, 1u) : 1u;
     if (length > SUPPLE_MAX_AIM_JOINTS) {
         return beyond("chainLength is beyond SUPPLE_MAX_AIM_JOINTS");
@@ -102,6 +115,9 @@ Result<skinning::Modifier> chained(const Asset& asset, const SuppleModifier& fro
         return beyond("the chain has fewer joints, or one with a fixed matrix");
     }
     skinning::Modifier modifier = *found;
+    if (plants && !asset.clipTable->isFoot(character.skin.joints[from.joint])) {
+        return beyond("the joint is no foot: none that hangs below two others, near the ground in the rest pose");
+    }
     const glm::vec3 axis = glm::make_vec3(from.axis);
     if (glm::length(axis) > 0.0f) {
         modifier.axis = glm::vec3(glm::normalize(glm::dvec3(axis)));
@@ -111,6 +127,17 @@ Result<skinning::Modifier> chained(const Asset& asset, const SuppleModifier& fro
         modifier.axis = skinning::restForward(character, modifier.chain[modifier.chainLength - 1]);
     }
     return modifier;
+}
+
+float defaultLimit(const Asset& asset, uint32_t kind) {
+    switch (kind) {
+    case kModifierPlant:
+        return kDefaultTilt;
+    case kModifierLower:
+        return static_cast<float>(kDefaultLowering * asset.clipTable->longestLeg);
+    default:
+        return 0.0f;
+    }
 }
 
 Result<PlacedModifier> readModifier(const Asset& asset, const SuppleModifier& from) {
@@ -135,12 +162,12 @@ Result<PlacedModifier> readModifier(const Asset& asset, const SuppleModifier& fr
     modifier->fadeStart = from.fadeStart;
     modifier->fadeDuration = from.fadeDuration;
     modifier->share = from.share;
-    modifier->limit = from.limit;
+    modifier->limit = from.limit != 0.0f ? from.limit : defaultLimit(asset, kind);
     modifier->soft = from.soft != 0.0f ? from.soft : kDefaultSoft;
     modifier->poleWeight = (from.flags & kModifierPole) != 0 ? from.poleWeight : 0.0f;
     modifier->eye = glm::make_vec3(from.offset);
     if (needsRotation(kind, from.flags)) {
-        const Result<glm::vec4> rotation = unitRotation(from.rotation);
+        const Result<glm::vec4> rotation = unitRotation(kind, from.rotation);
         if (!rotation) {
             return rotation.error();
         }
@@ -182,8 +209,9 @@ Result<ModifierGoal> readModifierTarget(std::span<const uint32_t> words, const S
     ModifierGoal goal;
     goal.points = pointsOf(target.target, target.pole);
     goal.weight = target.weight;
-    if (needsRotation(skinning::modifierKind(words), skinning::modifierFlags(words))) {
-        const Result<glm::vec4> rotation = unitRotation(target.rotation);
+    const uint32_t kind = skinning::modifierKind(words);
+    if (needsRotation(kind, skinning::modifierFlags(words))) {
+        const Result<glm::vec4> rotation = unitRotation(kind, target.rotation);
         if (!rotation) {
             return rotation.error();
         }

@@ -35,8 +35,9 @@ uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayou
     return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
 }
 
-uint32_t scratchStride(const skinning::ClipTable& table) {
-    return padded(kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1));
+uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) {
+    return padded(kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1) +
+                  (room.modifiers ? table.footCount : 0));
 }
 
 /// A node's place in the table of another version of the asset, or kNone.
@@ -49,7 +50,7 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
-    return std::max(stateStride(table, layout, room), scratchStride(table)) * gpu::kVec4Bytes;
+    return std::max(stateStride(table, layout, room), scratchStride(table, room)) * gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
@@ -73,7 +74,8 @@ Result<Playback> Playback::create(const Desc& desc) {
     push.stateStride = stateStride(table, desc.layout, desc.room);
     push.transition = transitionBegin(desc.layout, desc.room);
     push.maskStride = skinning::maskElements(table);
-    push.scratchStride = scratchStride(table);
+    push.scratchStride = scratchStride(table, desc.room);
+    push.contacts = table.contacts;
     push.poseStride = desc.layout.stride;
     push.morphWeights = desc.layout.morphWeights;
     playback.transitionElements_ = transitionElements(table, desc.layout, desc.room);
@@ -241,7 +243,7 @@ void Playback::reset(uint32_t slot) {
     own.setBindPose();
     bounds_.setBindPose(slot);
     if (takesModifiers()) {
-        bounds_.setTurned(slot, {}, false);
+        bounds_.setTurned(slot, {}, false, 0.0);
     }
     setTransform(slot, glm::mat4(1.0f));
 }
@@ -330,7 +332,7 @@ void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modif
     forget(slot);
     modifiers_.set(slot, state(slot), *asset_->clipTable, modifiers, origin_);
     modifies_ = modifies_ || !modifiers.empty();
-    boundModifiers(slot);
+    takeModifiers(slot);
     markChanged(slot);
 }
 
@@ -340,20 +342,23 @@ void Playback::setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal
     markChanged(slot);
 }
 
-void Playback::boundModifiers(uint32_t slot) {
+void Playback::takeModifiers(uint32_t slot) {
     skinning::PlaybackState own = state(slot);
     std::vector<uint32_t>& turned = turnedNodes_;
     turned.clear();
     bool moves = false;
+    double lowered = 0.0;
     for (uint32_t i = 0; i < own.modifierCount(); ++i) {
         const std::span<const uint32_t> words = own.modifier(push_.morphCount, i);
         moves = moves || skinning::modifierKind(words) == kModifierHandOver;
+        plants_ = plants_ || skinning::modifierKind(words) == kModifierPlant;
+        lowered += static_cast<double>(skinning::loweredBy(words));
         skinning::ChainPlaces room;
         for (const uint32_t place : skinning::modifierPlaces(words, room)) {
             turned.push_back(asset_->clipTable->nodes[place]);
         }
     }
-    bounds_.setTurned(slot, turned, moves);
+    bounds_.setTurned(slot, turned, moves, lowered);
 }
 
 std::optional<skinning::Box> Playback::boundsOf(uint32_t slot, const skinning::Reach& reach) {
@@ -419,7 +424,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
             return placeInOther(other.asset_->clipTable->nodes[place], match, *asset_->clipTable);
         });
         modifies_ = modifies_ || state(slot).modifierCount() > 0;
-        boundModifiers(slot);
+        takeModifiers(slot);
     }
     if (before.inBindPose()) {
         return;
@@ -475,6 +480,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         adds_ = other.adds_;
         roots_ = other.roots_;
         modifies_ = other.modifies_;
+        plants_ = other.plants_;
         transitions_ = other.transitions_;
         modifiers_.takeOver(other.modifiers_, count);
         const size_t words = size_t{push_.stateStride} * 4 * count;
@@ -574,6 +580,7 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, u
     push.timeLow = time.low;
     push.firstInstance = first;
     push.instanceCount = count;
+    push.footCount = plants_ ? asset_->clipTable->footCount : 0;
     switch (part) {
     case Part::locals:
         kernels_->recordLocals(dispatches, sets_[window], locals(), push);

@@ -120,7 +120,7 @@ public:
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const {
-        return part == Part::roots ? roots_ : part == Part::modifiers ? modifies_ : true;
+        return part == Part::roots ? roots_ || plants_ : part == Part::modifiers ? modifies_ : true;
     }
 
     /// Context::recordWarmUp.
@@ -138,7 +138,7 @@ private:
     [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
     [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
-    void boundModifiers(uint32_t slot);                  ///< bounds_ is told what they turn
+    void takeModifiers(uint32_t slot);                   ///< bounds_ is told what they turn
     [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state, but for the transition
     [[nodiscard]] std::span<uint32_t> stateWords(uint32_t slot) {
         const size_t words = size_t{push_.stateStride} * 4;
@@ -163,10 +163,11 @@ private:
     uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
-    bool adds_ = false, roots_ = false, modifies_ = false; ///< what some instance has ever been set to play
-    shared::PosePush push_{};                              ///< but for the time and the instances
-    uint32_t transitionElements_ = 0;                      ///< of a state; 0: instances have no transitions
-    PlayedBounds::Interval transitions_;                   ///< holds those of all instances
+    /// What some instance has ever been set to do.
+    bool adds_ = false, roots_ = false, modifies_ = false, plants_ = false;
+    shared::PosePush push_{};            ///< but for the time, the instances and the feet
+    uint32_t transitionElements_ = 0;    ///< of a state; 0: instances have no transitions
+    PlayedBounds::Interval transitions_; ///< holds those of all instances
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
@@ -193,7 +194,7 @@ private:
     std::vector<uint32_t> changedSlots_;  ///< those, in any order
     std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_
     std::vector<VkBufferCopy> regions_;   ///< memory of recordUpload
-    std::vector<uint32_t> turnedNodes_;   ///< memory of boundModifiers
+    std::vector<uint32_t> turnedNodes_;   ///< memory of takeModifiers
     bool masksChanged_ = true;
     uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
 

@@ -63,6 +63,8 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
         return std::nullopt;
     }
     skinning::Box box = skinning::grownBy(reach.blended, skinning::reachedBy(hostWeights, reach.targets));
+    // What follows a modifier that lowers a joint may turn the way.
+    box = skinning::grownBy(box, turned_.empty() ? 0.0 : turned_[slot].lowered);
     if (dualQuaternions_) {
         box = skinning::dualQuaternionBounds(reach, box);
     }

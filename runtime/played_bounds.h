@@ -26,10 +26,11 @@ public:
 
     void setBindPose(uint32_t slot) { played_[slot] = {}; }
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
-    /// Modifiers turn `nodes` of the slot, whatever it plays, and perhaps move some elsewhere.
-    void setTurned(uint32_t slot, std::span<const uint32_t> nodes, bool elsewhere) {
+    /// Modifiers turn `nodes` of the slot, whatever it plays, lower some by a way, and perhaps move some elsewhere.
+    void setTurned(uint32_t slot, std::span<const uint32_t> nodes, bool elsewhere, double lowered) {
         turned_[slot].nodes.assign(nodes.begin(), nodes.end());
         turned_[slot].elsewhere = elsewhere;
+        turned_[slot].lowered = lowered;
     }
 
     struct Interval {
@@ -79,6 +80,7 @@ private:
     struct Turned {
         std::vector<uint32_t> nodes;
         bool elsewhere = false;
+        double lowered = 0.0;
     };
     [[nodiscard]] bool leavesReach(uint32_t slot, const skinning::Reach& reach) const;
 

@@ -2,6 +2,7 @@
 
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
+#include "skinning/contacts.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
 #include "skinning/split_time.h"
@@ -33,7 +34,8 @@ uint32_t interpolationOf(const Channel& channel) {
 /// Puts the table together, element by element.
 class Builder {
 public:
-    Builder(const cage::Character& character, ClipTable& table) : character_(character), table_(table) {}
+    Builder(const cage::Character& character, ClipTable& table)
+        : character_(character), table_(table), contacts_(findContacts(character)) {}
 
     void orderNodes() {
         const cage::Skeleton& skeleton = character_.skeleton;
@@ -69,7 +71,7 @@ public:
             const cage::Node& from = character_.skeleton.nodes[node];
             const uint32_t rotation = from.hasMatrix ? nodesEnd + static_cast<uint32_t>(fixed.size()) : 0u;
             put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, rotation,
-                 0u});
+                 footNumber(node)});
             if (from.hasMatrix) {
                 putRows(from.matrix);
                 fixed.push_back(nearestRotation(glm::dmat3(glm::dmat4(from.matrix))));
@@ -132,7 +134,39 @@ public:
         }
     }
 
+    void putContacts() {
+        const size_t feet = contacts_.feet.size();
+        table_.contacts = next();
+        table_.footCount = static_cast<uint32_t>(feet);
+        for (const Foot& foot : contacts_.feet) {
+            put({table_.places[foot.node], floatBits(foot.height), floatBits(foot.sole), 0u});
+            table_.longestLeg = std::max(table_.longestLeg, foot.leg);
+        }
+        uint32_t element = next() + static_cast<uint32_t>(contacts_.ofClips.size());
+        for (const std::vector<Contact>& own : contacts_.ofClips) {
+            const auto count = static_cast<uint32_t>(own.size());
+            put({element, count, 0u, 0u});
+            element += kContactElements * count;
+        }
+        for (const std::vector<Contact>& own : contacts_.ofClips) {
+            for (const Contact& contact : own) {
+                constexpr double kHold = 0.1, kHoldOf = 0.25; // seconds; of the contact
+                const double hold = std::min(kHold, kHoldOf * (contact.end - contact.begin));
+                put({floatBits(contact.place.x), floatBits(contact.place.y), floatBits(contact.drift.x),
+                     floatBits(contact.drift.y)});
+                put({floatBits(contact.begin), floatBits(contact.end), floatBits(1.0 / std::max(hold, 1e-6)), 0u});
+            }
+        }
+    }
+
 private:
+    static uint32_t floatBits(double x) { return bits(static_cast<float>(x)); }
+    [[nodiscard]] uint32_t footNumber(uint32_t node) const {
+        const std::vector<Foot>& feet = contacts_.feet;
+        const auto found = std::find_if(feet.begin(), feet.end(), [&](const Foot& foot) { return foot.node == node; });
+        return found != feet.end() ? 1u + static_cast<uint32_t>(found - feet.begin()) : 0u;
+    }
+
     static_assert(static_cast<int>(ChannelPath::translation) == 0 && static_cast<int>(ChannelPath::rotation) == 1 &&
                   static_cast<int>(ChannelPath::scale) == 2);
 
@@ -193,11 +227,17 @@ private:
 
     const cage::Character& character_;
     ClipTable& table_;
+    Contacts contacts_;
     std::vector<uint32_t> levelEnds_;
     std::map<std::vector<float>, uint32_t> times_; ///< element of key times already put
 };
 
 } // namespace
+
+bool ClipTable::isFoot(uint32_t node) const {
+    const uint32_t place = places[node];
+    return place != cage::kNone && words[4 * size_t{kNodeElements * place} + 3] != 0;
+}
 
 ClipTable buildClipTable(const cage::Character& character) {
     ClipTable table;
@@ -206,6 +246,7 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putNodes();
     builder.putSkin();
     builder.putClips();
+    builder.putContacts();
     return table;
 }
 

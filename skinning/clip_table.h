@@ -20,6 +20,12 @@ struct ClipTable {
     uint32_t levelCount = 0;
     uint32_t restWeights = 0;
     uint32_t clips = 0;
+    uint32_t contacts = 0;
+    uint32_t footCount = 0;
+    double longestLeg = 0.0; ///< of the feet
+
+    /// Whether feet can be planted there.
+    [[nodiscard]] bool isFoot(uint32_t node) const;
 };
 [[nodiscard]] ClipTable buildClipTable(const cage::Character& character);
 

@@ -18,12 +18,6 @@ void sampleLayer(const cage::Character& character, const Layer& layer, double ti
     removeRootMotion(character, *layer.clip, root, pose);
 }
 
-double nodeWeight(const Rig& rig, const Layer& layer, uint32_t node) {
-    const uint32_t joint = rig.maskJoints[node];
-    return layer.jointMask.empty() || joint == cage::kNone ? layer.weight
-                                                           : layer.weight * static_cast<double>(layer.jointMask[joint]);
-}
-
 double morphWeight(const Layer& layer, size_t target) {
     if (layer.morphMask.empty()) {
         return layer.jointMask.empty() ? layer.weight : 0.0;
@@ -59,6 +53,12 @@ void add(const Transform& sample, const Transform& reference, double weight, Tra
 }
 
 } // namespace
+
+double layerWeight(const Rig& rig, const Layer& layer, uint32_t node) {
+    const uint32_t joint = rig.maskJoints[node];
+    return layer.jointMask.empty() || joint == cage::kNone ? layer.weight
+                                                           : layer.weight * static_cast<double>(layer.jointMask[joint]);
+}
 
 Rig makeRig(const cage::Character& character) {
     const cage::Skeleton& skeleton = character.skeleton;
@@ -108,7 +108,7 @@ void applyLayer(const cage::Character& character, const Rig& rig, const Layer& l
         sampleLayer(character, layer, layer.referenceTime, root, reference);
     }
     for (uint32_t node = 0; node < pose.locals.size(); ++node) {
-        const double weight = nodeWeight(rig, layer, node);
+        const double weight = layerWeight(rig, layer, node);
         if (weight == 0.0) {
             continue;
         }
@@ -128,7 +128,7 @@ void applyLayer(const cage::Character& character, const Rig& rig, const Layer& l
 
 RootMotion layerRootMotion(const cage::Character& character, const Rig& rig, const Layer& layer,
                            const RootSelection& root, const RootMotion& before) {
-    const double weight = root.node == cage::kNone ? 0.0 : nodeWeight(rig, layer, root.node);
+    const double weight = root.node == cage::kNone ? 0.0 : layerWeight(rig, layer, root.node);
     if (weight == 0.0) {
         return before;
     }

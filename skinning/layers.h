@@ -51,6 +51,9 @@ struct PoseMemory {
     explicit PoseMemory(const cage::Character& character);
 };
 
+/// The weight with which a layer changes a node.
+[[nodiscard]] double layerWeight(const Rig& rig, const Layer& layer, uint32_t node);
+
 /// Applies one layer to `pose`, with the root motion of `root` taken out of the layer's clip. Weight 0 leaves bits as
 /// they are, and weight 1 of a blend gives the clip's. Blended: translations, scales and morph weights linearly,
 /// rotations along the shorter arc. Added: acc.translation + w (sample - reference); acc.rotation * (reference^-1 *

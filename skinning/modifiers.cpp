@@ -6,6 +6,7 @@
 #include "skinning/split_time.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cctype>
 #include <cmath>
@@ -133,13 +134,13 @@ void writeModifier(const ClipTable& table, const Modifier& modifier, std::span<u
     }
     writeModifierPlaces(std::span(places).first(modifier.chainLength), words);
     const SplitTime fade = splitTime(modifier.fadeStart);
-    const bool limited = modifier.limit > 0.0f;
+    const bool limited = modifier.limit > 0.0f, lowers = modifier.kind == kModifierLower;
     const double half = 0.5 * static_cast<double>(modifier.limit);
+    const glm::vec2 turn = limited ? glm::vec2(std::cos(half), std::sin(half)) : glm::vec2(-1.0f, 0.0f);
+    const glm::vec2 limit = lowers ? glm::vec2(modifier.limit, 0.0f) : turn;
     const bool aims = modifier.kind == kModifierAim;
     putElement(words, 2, {modifier.weight, modifier.fadeWeight, modifier.fadeDuration, modifier.share});
-    putElement(words, 3,
-               {fade.high, fade.low, limited ? static_cast<float>(std::cos(half)) : -1.0f,
-                limited ? static_cast<float>(std::sin(half)) : 0.0f});
+    putElement(words, 3, {fade.high, fade.low, limit.x, limit.y});
     putElement(words, 4, glm::vec4(modifier.target, modifier.poleWeight));
     putElement(words, 5, glm::vec4(aims ? modifier.eye : modifier.pole, aims ? 0.0f : modifier.soft));
     putElement(words, 6, modifier.rotation);
@@ -155,7 +156,7 @@ void writeModifierTurn(const glm::vec4& rotation, float weight, std::span<uint32
 void writeModifierPoints(const glm::vec3& target, const glm::vec3& pole, std::span<uint32_t> words) {
     for (size_t axis = 0; axis < 3; ++axis) {
         words[16 + axis] = bits(target[static_cast<int>(axis)]);
-        if (modifierKind(words) == kModifierTwoBone) {
+        if (modifierKind(words) == kModifierTwoBone || modifierKind(words) == kModifierPlant) {
             words[20 + axis] = bits(pole[static_cast<int>(axis)]);
         }
     }
@@ -166,6 +167,9 @@ uint32_t modifierKind(std::span<const uint32_t> words) {
 }
 uint32_t modifierFlags(std::span<const uint32_t> words) {
     return words[0] >> 8;
+}
+float loweredBy(std::span<const uint32_t> words) {
+    return modifierKind(words) == kModifierLower ? std::bit_cast<float>(words[14]) : 0.0f;
 }
 
 std::span<uint32_t> modifierPlaces(std::span<const uint32_t> words, ChainPlaces& room) {

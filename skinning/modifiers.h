@@ -24,12 +24,14 @@ struct Modifier {
     double fadeStart = 0.0;
     float fadeDuration = 0.0f; ///< 0: the weight stands
     float share = 0.0f;        ///< to aim: what joints above the last one take of what is still missing
-    float limit = 0.0f;        ///< to aim: radians that a joint turns at most; 0: any
+    /// To aim, and of a foot: radians that a joint turns at most; 0: any. To lower: how far.
+    float limit = 0.0f;
     glm::vec3 target{0.0f}, pole{0.0f};
     float poleWeight = 0.0f, soft = 0.97f;
     glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f}; ///< x, y, z, w, of unit length
-    glm::vec3 axis{0.0f, 0.0f, 1.0f}; ///< to aim: forward, in the joint's frame; two bones: the hinge, in the middle's
-    glm::vec3 eye{0.0f};              ///< to aim: in the joint's frame
+    glm::vec3 axis{0.0f, 0.0f,
+                   1.0f}; ///< to aim: forward, in the joint's frame; two bones, feet: the hinge, in the middle's
+    glm::vec3 eye{0.0f};  ///< to aim: in the joint's frame
 };
 
 /// The joint and those above it, as many as `length`, in a modifier's chain; nothing if the skeleton has fewer above
@@ -55,6 +57,8 @@ void writeModifierTurn(const glm::vec4& rotation, float weight, std::span<uint32
 void writeModifierPoints(const glm::vec3& target, const glm::vec3& pole, std::span<uint32_t> words);
 [[nodiscard]] uint32_t modifierKind(std::span<const uint32_t> words);
 [[nodiscard]] uint32_t modifierFlags(std::span<const uint32_t> words);
+/// How far it lowers a joint at most; 0 if that is not what it does.
+[[nodiscard]] float loweredBy(std::span<const uint32_t> words);
 /// The places of the chain's nodes in the clip table, from the top down. They lie in `room`.
 using ChainPlaces = std::array<uint32_t, shared::kMaxChain>;
 [[nodiscard]] std::span<uint32_t> modifierPlaces(std::span<const uint32_t> words, ChainPlaces& room);

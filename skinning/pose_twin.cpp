@@ -46,6 +46,7 @@ private:
 template <bool roots>
 struct PoseCode : PoseLoads {
     static constexpr bool kAdds = true, kRoots = roots, kTransitions = true;
+#include "shaders/pose/contacts.h"
 #include "shaders/pose/layers.h"
 #include "shaders/pose/transition.h"
 };
@@ -54,10 +55,12 @@ struct PoseCode : PoseLoads {
 struct ModifyCode : PoseLoads {
     Transform* locals = nullptr;
     Affine place;
+    const vec4* held = nullptr;
 
     [[nodiscard]] Transform nodeLocal(uint node) const { return locals[node]; }
     void keepLocal(uint node, const Transform& t) const { locals[node] = t; }
     [[nodiscard]] Affine placement() const { return place; }
+    [[nodiscard]] vec4 heldAt(uint foot) const { return held[foot]; }
 #include "shaders/pose/modify.h"
 };
 
@@ -88,9 +91,12 @@ PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t tr
     push_.clips = table.clips;
     push_.maskStride = maskElements(table);
     push_.transition = transition;
+    push_.contacts = table.contacts;
+    push_.footCount = table.footCount;
     locals_.resize(table.nodes.size());
     globals_.resize(table.nodes.size());
     weights_.resize((layout.morphCount + 3) / 4);
+    held_.resize(table.footCount);
 }
 
 void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time) {
@@ -128,19 +134,49 @@ void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> ma
             place_ = roots.travelled(0, sinceBegin);
         }
     }
+    if (header.y >> kStateModifierShift != 0) {
+        twin::PoseCode<true> feet{loads};
+        for (uint32_t foot = 0; foot < push_.footCount; ++foot) {
+            held_[foot] = feet.heldFoot(0, foot);
+        }
+    }
 }
 
-void PoseTwin::poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals) {
+void PoseTwin::poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals,
+                          std::span<const glm::vec4> held) {
     const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
     place_ = twin::PoseCode<false>{loads}.transformOf(0);
     bindPose_ = false;
     std::copy(locals.begin(), locals.end(), locals_.begin());
+    std::copy(held.begin(), held.end(), held_.begin());
     finish(state);
+}
+
+void PoseTwin::hold(const cage::Character& character, const Rig& rig, const Layer& layer, const RootSelection& root,
+                    std::span<glm::vec4> held) const {
+    if (held.empty() || layer.mode == LayerMode::additive || layer.weight == 0.0) {
+        return;
+    }
+    twin::PoseCode<true> code{{table_->words.data(), nullptr, nullptr, push_}};
+    const bool rooted = root.axes != 0 && root.node != cage::kNone;
+    const auto clip = static_cast<uint32_t>(layer.clip - character.clips.data());
+    const SplitTime time = splitTime(layer.loop ? loopTime(layer.time, layer.clip->duration).time : layer.time);
+    const RootPlace begin = rooted ? rootPlaceAt(character, *layer.clip, root.node, 0.0) : RootPlace();
+    const glm::dquat& q = begin.rotation;
+    const glm::vec4 rotation(glm::dvec4(q.x, q.y, q.z, q.w));
+    const uint32_t node = rooted ? table_->places[root.node] : kNoNode;
+    for (uint32_t foot = 0; foot < held.size(); ++foot) {
+        const glm::vec4 own = code.heldInClip(clip, {time.high, time.low}, foot, node, rooted ? root.axes : 0u,
+                                              glm::vec3(begin.position), rotation);
+        const uint32_t place = table_->words[4 * size_t{table_->contacts + foot}];
+        const auto weight = static_cast<float>(layerWeight(rig, layer, table_->nodes[place]));
+        held[foot] = weight != 0.0f ? code.heldMix(held[foot], own, weight) : held[foot];
+    }
 }
 
 void PoseTwin::finish(std::span<const uint32_t> state) {
     const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
-    twin::ModifyCode code{loads, locals_.data(), place_};
+    twin::ModifyCode code{loads, locals_.data(), place_, held_.data()};
     code.modifyInstance(0);
     for (uint32_t node = 0; node < push_.nodeCount; ++node) {
         const uint32_t parent = code.parentOf(node);

@@ -6,6 +6,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
 #include "skinning/deform_kernels.h"
+#include "skinning/layers.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -32,8 +33,12 @@ public:
     [[nodiscard]] std::span<const glm::vec4> weights() const { return weights_; }
 
     /// pose() of local transforms, one a node of the table, instead of what is played; modifiers change them in
-    /// place.
-    void poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals);
+    /// place. `held`: where clips hold feet, one for every foot of the table.
+    void poseLocals(std::span<const uint32_t> state, std::span<const shared::Transform> locals,
+                    std::span<const glm::vec4> held);
+    /// Mixes where a layer holds feet into what those before it do; `root`: what is taken out of its clip.
+    void hold(const cage::Character& character, const Rig& rig, const Layer& layer, const RootSelection& root,
+              std::span<glm::vec4> held) const;
 
     // Of the last pose, which is not the bind pose: the joint's node in model space, and where the instance stands,
     // with what it has travelled.
@@ -54,6 +59,7 @@ private:
     std::vector<shared::Transform> locals_;
     std::vector<shared::Affine> globals_;
     std::vector<glm::vec4> weights_;
+    std::vector<glm::vec4> held_; ///< by foot
     shared::Affine place_{};
     bool bindPose_ = true;
 };

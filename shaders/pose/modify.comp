@@ -30,6 +30,7 @@ Affine placement() {
     uint i = locals + kAffineElements * push.nodeCount;
     return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
 }
+vec4 heldAt(uint foot) { return scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot]; }
 #include "shaders/pose/modify.h"
 
 void main() {

@@ -1,5 +1,5 @@
 // Modifiers of an instance (shaders/shared/pose.h), in order, each after the one before. Needs state(), what nodes.h needs,
-// `push`, and what is posed: nodeLocal(), keepLocal(), placement(). Loops with one turn stand for branches: where no lane
+// `push`, and what is posed: nodeLocal(), keepLocal(), placement(), heldAt(). Loops with one turn stand for branches: where no lane
 // needs one, lavapipe does not step through it.
 #include "shaders/pose/nodes.h"
 
@@ -10,7 +10,7 @@ struct Modifier {
     uvec4 chain; // nodes, two a word
     float weight;
     float share;       // of what is still missing, that joints above the last one take
-    vec2 limit;        // cosine and sine of half the angle
+    vec2 limit;        // cosine and sine of half the angle; to lower: the way
     vec3 target;       // in model space
     float poleWeight;
     vec3 pole;         // in model space; to aim: the eye, in the joint's frame
@@ -45,7 +45,7 @@ Modifier modifierAt(uint element) {
     own.axis = vec3(stateFloats(element + 7u));
     if ((own.flags & kModifierWorld) != 0u) {
         own.target = within(placement(), own.target);
-        if (own.kind == kModifierTwoBone) own.pole = within(placement(), own.pole);
+        if (own.kind == kModifierTwoBone || own.kind == kModifierPlant) own.pole = within(placement(), own.pole);
     }
     return own;
 }
@@ -129,11 +129,73 @@ void aimChain(Modifier own) {
     }
 }
 
-void bendLimb(Modifier own) {
+// Where the ground is under a foot, in model space, as its normal: what is steeper counts as a slope of 75 degrees.
+vec3 groundNormal(Modifier own) {
+    SUPPLE_PRECISE vec3 normal = turnedVector(own.rotation, vec3(0.0f, 1.0f, 0.0f));
+    if ((own.flags & kModifierWorld) != 0u) {
+        Affine m = placement();
+        normal = direction((vec3(m.x) * normal.x + vec3(m.y) * normal.y) + vec3(m.z) * normal.z);
+    }
+    normal.y = max(normal.y, 0.2588f);
+    return direction(normal);
+}
+
+// Where a foot goes from where it is: to the place where its clips hold it, and up or down by what the ground differs from the
+// plane that it has in the rest pose: `lowered` is how far modifiers have lowered it. On a slope the joint stands higher, so that the sole keeps its distance.
+vec3 plantedPlace(Modifier own, vec3 joint, float lowered) {
+    uint foot = table(kNodeElements * chainNode(own, 2u)).w; // 1 + its number
+    SUPPLE_PRECISE vec3 place = joint;
+    SUPPLE_PRECISE vec2 sole = vec2(0.0f);
+    if (foot != 0u) {
+        vec4 held = heldAt(foot - 1u);
+        place.x = joint.x + (held.x - held.w * joint.x);
+        place.z = joint.z + (held.z - held.w * joint.z);
+        vec4 rest = tableFloats(push.contacts + foot - 1u);
+        sole = vec2(rest.y, rest.z);
+    }
+    vec3 normal = groundNormal(own);
+    SUPPLE_PRECISE float perUp = recip(normal.y);
+    SUPPLE_PRECISE float rise =
+        (normal.x * (place.x - own.target.x) + normal.z * (place.z - own.target.z)) * perUp;
+    SUPPLE_PRECISE float ground = own.target.y - rise;
+    place.y = (ground + ((joint.y + lowered) - sole.y)) + sole.x * (perUp - 1.0f);
+    return place;
+}
+
+void moveJoint(uint node, vec3 position) {
+    SUPPLE_PRECISE Transform t = nodeLocal(node);
+    t.translation = within(globalAbove(node), position);
+    keepLocal(node, t);
+}
+
+// The joint goes down until the lowest of the feet that are planted behind it, `count` modifiers from `element` on, can reach:
+// by what it returns. They have been lowered by `before`.
+float lowerJoint(Modifier own, uint element, uint count, float before) {
+    SUPPLE_PRECISE float lack = 0.0f;
+    for (uint i = 0u; i < count; ++i) {
+        Modifier other = modifierAt(element + i * kModifierElements);
+        if (other.kind == kModifierPlant && other.weight != 0.0f) {
+            vec3 joint = placedNode(chainNode(other, 2u)).position;
+            SUPPLE_PRECISE float below = (joint.y - plantedPlace(other, joint, before).y) * other.weight;
+            lack = max(lack, below);
+        }
+    }
+    SUPPLE_PRECISE vec3 position = placedNode(chainNode(own, 0u)).position;
+    SUPPLE_PRECISE float lowered = min(lack, own.limit.x) * own.weight;
+    position.y = position.y - lowered;
+    if (lack > 0.0f) moveJoint(chainNode(own, 0u), position);
+    return lowered;
+}
+
+// Two bones bring their end to a target, or to where it is planted.
+void bendLimb(Modifier own, float lowered) {
     uint a = chainNode(own, 0u), b = chainNode(own, 1u), c = chainNode(own, 2u);
     Placed root = placedNode(a), middle = placedNode(b), end = placedNode(c);
-    SUPPLE_PRECISE vec3 goal = end.position + (own.target - end.position) * own.weight;
-    if (own.weight == 1.0f) goal = own.target;
+    bool plants = own.kind == kModifierPlant;
+    SUPPLE_PRECISE vec3 target = own.target;
+    if (plants) target = plantedPlace(own, end.position, lowered);
+    SUPPLE_PRECISE vec3 goal = end.position + (target - end.position) * own.weight;
+    if (own.weight == 1.0f) goal = target;
     SUPPLE_PRECISE float poleWeight = own.poleWeight * own.weight;
     LimbTurns turns = bentLimb(root.position, middle.position, end.position, goal,
                                turnedVector(middle.rotation, own.axis), own.pole, poleWeight, own.soft);
@@ -143,6 +205,11 @@ void bendLimb(Modifier own) {
     if ((own.flags & kModifierEndRotation) != 0u) {
         kept = own.rotation;
         if (own.weight != 1.0f) kept = unit(slerp(end.rotation, own.rotation, own.weight));
+    }
+    if (plants) {
+        vec4 tilt = turnFromTo(vec3(0.0f, 1.0f, 0.0f), groundNormal(own));
+        tilt = partOfTurn(limitedTurn(tilt, own.limit.x, own.limit.y), own.weight);
+        kept = turned(tilt, end.rotation);
     }
     keepRotation(c, turned(conjugated(turned(turns.middle, end.above)), kept));
 }
@@ -156,23 +223,26 @@ void handOver(Modifier own) {
         position = placed.position + (own.target - placed.position) * own.weight;
         rotation = slerp(placed.rotation, own.rotation, own.weight);
     }
-    SUPPLE_PRECISE Transform t = nodeLocal(node);
-    t.translation = within(globalAbove(node), position);
-    t.rotation = turned(conjugated(placed.above), rotation);
-    keepLocal(node, t);
+    moveJoint(node, position);
+    keepRotation(node, turned(conjugated(placed.above), rotation));
 }
 
 void modifyInstance(uint first) {
     uint flags = state(first).y;
     uint count = (flags & kStateBindPose) != 0u ? 0u : min((flags >> kStateModifierShift) & 31u, kMaxModifiers);
     uint element = first + modifiersBegin(push.morphCount);
+    SUPPLE_PRECISE float lowered = 0.0f;
     for (uint i = 0u; i < count; ++i) {
         Modifier own = modifierAt(element + i * kModifierElements);
         bool acts = own.weight != 0.0f;
         for (bool it = acts && own.kind == kModifierSet; it; it = false) setJoint(own);
         for (bool it = acts && own.kind == kModifierAdd; it; it = false) turnJoint(own);
         for (bool it = acts && own.kind == kModifierAim; it; it = false) aimChain(own);
-        for (bool it = acts && own.kind == kModifierTwoBone; it; it = false) bendLimb(own);
+        bool bends = own.kind == kModifierTwoBone || own.kind == kModifierPlant;
+        for (bool it = acts && bends; it; it = false) bendLimb(own, lowered);
         for (bool it = acts && own.kind == kModifierHandOver; it; it = false) handOver(own);
+        for (bool it = acts && own.kind == kModifierLower; it; it = false) {
+            lowered = lowered + lowerJoint(own, element + (i + 1u) * kModifierElements, count - i - 1u, lowered);
+        }
     }
 }

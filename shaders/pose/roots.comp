@@ -1,6 +1,7 @@
-// Pose pass, second part, for groups with root motion. What the first layer's root has travelled goes into the instance's
-// transform. What any layer's root has travelled is taken out of the root's local transform. One invocation per instance. It is
-// a pass of its own: in locals.comp all nodes would step through its code.
+// Pose pass, second part, for groups with root motion or feet that are planted. What the first layer's root has travelled goes
+// into the instance's transform. What any layer's root has travelled is taken out of the root's local transform. Where the clips
+// hold feet goes behind the transform. One invocation per instance. It is a pass of its own: in locals.comp all nodes would step
+// through its code.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
@@ -10,6 +11,7 @@
 const bool kAdds = true, kRoots = true, kTransitions = true;
 #include "shaders/pose/layers.h"
 #include "shaders/pose/transition.h"
+#include "shaders/pose/contacts.h"
 #include "shaders/pose/local.glsl"
 
 void main() {
@@ -23,5 +25,9 @@ void main() {
         if ((header.y & kStateTravels) != 0u) {
             storePlace(locals + kAffineElements * push.nodeCount, travelled(first, sinceBegin));
         }
+    }
+    for (uint foot = 0u; foot < push.footCount; ++foot) {
+        precise vec4 held = heldFoot(first, foot);
+        scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot] = held;
     }
 }

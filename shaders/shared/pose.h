@@ -3,7 +3,7 @@
 // Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
 // depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
 // element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 0); then the three rows of the fixed matrix, or
+//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 1 + its number if it is a foot, else 0); then the three rows of the fixed matrix, or
 //              translation, rotation (x, y, z, w), scale of the rest pose
 //   rotation   one element each, of the nodes with a fixed matrix: the nearest to it (x, y, z, w)
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
@@ -13,6 +13,11 @@
 //              duration as a high and a low float)
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
 //   clip target  one element a morph target: (channel or 0, place in a value, numbers of a value, 0)
+//   foot       one element each, from `contacts` on: (node, height of the joint over its sole in the rest pose, height of the
+//              sole over the origin, 0)
+//   foot of a clip  one element for every clip and foot of it: (first of its contacts, how many, 0, 0)
+//   contact    kContactElements each, by rising time: (place x, z at the clip's time 0, what it moves by a second, x, z);
+//              (begin, end in seconds of the clip, 1 / the seconds in which it takes hold, 0)
 //   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four an
 //              element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
 //
@@ -45,7 +50,8 @@
 //
 // Scratch (vec4 elements, one run of `scratchStride` an instance): three a node, its local translation, rotation (x, y, z, w;
 // of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
-// what it has travelled. A node whose local matrix is fixed has that, whatever stands here.
+// what it has travelled; then, if feet are planted, one for every foot: (x, 0, z) of where it is held, times how firmly; how
+// firmly. A node whose local matrix is fixed has that, whatever stands here.
 #ifndef SUPPLE_SHARED_POSE_H
 #define SUPPLE_SHARED_POSE_H
 
@@ -69,6 +75,7 @@ SUPPLE_SHARED_CONST kNoNode = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kNodeElements = 4u;
 SUPPLE_SHARED_CONST kJointElements = 4u;
 SUPPLE_SHARED_CONST kAffineElements = 3u;
+SUPPLE_SHARED_CONST kContactElements = 2u;
 
 SUPPLE_SHARED_CONST kStateElements = 7u;
 SUPPLE_SHARED_CONST kLayerElements = 6u;
@@ -94,6 +101,8 @@ SUPPLE_SHARED_CONST kModifierAdd = 1u;
 SUPPLE_SHARED_CONST kModifierAim = 2u;
 SUPPLE_SHARED_CONST kModifierTwoBone = 3u;
 SUPPLE_SHARED_CONST kModifierHandOver = 4u;
+SUPPLE_SHARED_CONST kModifierPlant = 5u;
+SUPPLE_SHARED_CONST kModifierLower = 6u;
 SUPPLE_SHARED_CONST kModifierWorld = 1u;
 SUPPLE_SHARED_CONST kModifierPole = 2u;
 SUPPLE_SHARED_CONST kModifierEndRotation = 4u;
@@ -148,6 +157,8 @@ struct PosePush {
     uint poseStride;
     uint morphWeights; // first element of the weights in an instance's pose
     uint transition;   // first element of the transition in an instance's state
+    uint contacts;     // section of the clip table
+    uint footCount;    // 0: none is planted
 };
 
 SUPPLE_SHARED_END

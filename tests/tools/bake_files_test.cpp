@@ -651,17 +651,25 @@ TEST_F(BakeFiles, ModifiersChangeThePose) {
                                        palette("--two-bone hand.L=0.3,0.8,0.4"),
                                        palette(set + " --weight 0.5"),
                                        palette(set + " --weight 0"),
+                                       palette("--plant foot.L=0,0,0,0.1,1,0"),
+                                       palette("--plant foot.L=0,-0.1,0,0,1,0"),
+                                       palette("--plant foot.L=0,-0.1,0,0,1,0 --lower hips=0"),
+                                       palette("--plant foot.L=0,-0.1,0,0,1,0 --lower hips=0.02"),
                                        palette(set + " --aim head=0.5,1,2")};
-    EXPECT_EQ(all.size(), 6u) << "each does something of its own";
+    EXPECT_EQ(all.size(), 10u) << "each does something of its own";
     EXPECT_EQ(palette(set + " --weight 0"), palette("--aim head=0.5,1,2 --weight 0")) << "nothing is done";
     EXPECT_EQ(palette("--aim head=0.5,1,2 " + set), palette(set + " --aim head=0.5,1,2")) << "in the order of kinds";
-    for (const char* wrong : {"--set chest=0,0,0,0", "--set chest=1,2,3", "--aim head=1,2", "--two-bone =1,2,3",
-                              "--aim head=1,2,nan", "--aim head"}) {
+    for (const char* wrong :
+         {"--set chest=0,0,0,0", "--set chest=1,2,3", "--aim head=1,2", "--two-bone =1,2,3", "--aim head=1,2,nan",
+          "--aim head", "--plant foot.L=0,0,0", "--plant foot.L=0,0,0,1,0,0", "--lower hips=-1"}) {
         EXPECT_EQ(runOnDevice(bake + wrong).exitCode, 2) << wrong;
     }
     const Outcome none = runOnDevice(bake + "--aim nose=1,2,3");
     EXPECT_EQ(none.exitCode, 1);
     EXPECT_NE(none.err.find("no joint \"nose\""), std::string::npos) << none.err;
+    const Outcome hand = runOnDevice(bake + "--plant hand.L=0,0,0,0,1,0");
+    EXPECT_EQ(hand.exitCode, 1);
+    EXPECT_NE(hand.err.find("is no foot"), std::string::npos) << hand.err;
 }
 
 } // namespace

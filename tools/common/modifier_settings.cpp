@@ -43,6 +43,13 @@ std::optional<uint32_t> findJoint(const cage::Character& character, const std::s
     return error == std::errc() && end == last && index < joints.size() ? std::optional(index) : std::nullopt;
 }
 
+/// What takes +Y to a normal that does not point down.
+void putTurnTo(const double* normal, float* rotation) {
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    const std::array<double, 4> q{normal[2], 0.0, -normal[0], length + normal[1]};
+    std::ranges::transform(q, rotation, [](double x) { return static_cast<float>(x); });
+}
+
 } // namespace
 
 Result<ModifierSetting> parseAim(const std::string& text) {
@@ -61,6 +68,22 @@ Result<ModifierSetting> parseSet(const std::string& text) {
     return setting;
 }
 
+Result<ModifierSetting> parsePlant(const std::string& text) {
+    Result<ModifierSetting> setting = parseModifier(text, SUPPLE_MODIFIER_PLANT, 6, "JOINT=x,y,z,nx,ny,nz");
+    if (setting && !(setting->numbers[4] > 0.0)) {
+        return Error{ErrorCode::argument, "the ground's normal points down or aside"};
+    }
+    return setting;
+}
+
+Result<ModifierSetting> parseLower(const std::string& text) {
+    Result<ModifierSetting> setting = parseModifier(text, SUPPLE_MODIFIER_LOWER, 1, "JOINT=distance");
+    if (setting && !(setting->numbers[0] >= 0.0)) {
+        return Error{ErrorCode::argument, text + " lowers by less than nothing"};
+    }
+    return setting;
+}
+
 Result<std::vector<SuppleModifier>> modifiersOf(const cage::Character& character,
                                                 const std::vector<ModifierSetting>& settings, float weight) {
     if (settings.size() > SUPPLE_MAX_MODIFIERS) {
@@ -68,7 +91,8 @@ Result<std::vector<SuppleModifier>> modifiersOf(const cage::Character& character
                      std::to_string(settings.size()) + " modifiers of at most " + std::to_string(SUPPLE_MAX_MODIFIERS)};
     }
     std::vector<SuppleModifier> modifiers;
-    for (const SuppleModifierKind kind : {SUPPLE_MODIFIER_SET, SUPPLE_MODIFIER_AIM, SUPPLE_MODIFIER_TWO_BONE}) {
+    for (const SuppleModifierKind kind : {SUPPLE_MODIFIER_SET, SUPPLE_MODIFIER_AIM, SUPPLE_MODIFIER_TWO_BONE,
+                                          SUPPLE_MODIFIER_LOWER, SUPPLE_MODIFIER_PLANT}) {
         for (const ModifierSetting& setting : settings) {
             if (setting.kind != kind) {
                 continue;
@@ -83,9 +107,14 @@ Result<std::vector<SuppleModifier>> modifiersOf(const cage::Character& character
             modifier.weight = weight;
             if (kind == SUPPLE_MODIFIER_SET) {
                 modifier.flags = SUPPLE_MODIFIER_MODEL;
-                std::ranges::transform(setting.numbers, modifier.rotation,
-                                       [](double x) { return static_cast<float>(x); });
+                std::transform(setting.numbers.begin(), setting.numbers.begin() + 4, modifier.rotation,
+                               [](double x) { return static_cast<float>(x); });
+            } else if (kind == SUPPLE_MODIFIER_LOWER) {
+                modifier.limit = static_cast<float>(setting.numbers[0]);
             } else {
+                if (kind == SUPPLE_MODIFIER_PLANT) {
+                    putTurnTo(&setting.numbers[3], modifier.rotation);
+                }
                 std::copy_n(setting.numbers.begin(), 3, modifier.target);
             }
             modifiers.push_back(modifier);

@@ -2,6 +2,7 @@
 // every scheme's surface, and --memory do.
 #include "cage/message.h"
 #include "cage/topology.h"
+#include "skinning/contacts.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
@@ -228,6 +229,19 @@ Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile
     return found;
 }
 
+/// When a clip's feet stand: where a --plant of theirs holds them.
+nlohmann::ordered_json contactsIn(const cage::Character& character, const skinning::Contacts& contacts, size_t clip) {
+    auto list = nlohmann::ordered_json::array();
+    for (size_t foot = 0; foot < contacts.feet.size(); ++foot) {
+        for (const skinning::Contact& contact : contacts.of(clip, foot)) {
+            nlohmann::ordered_json entry = {{"begin", contact.begin}, {"end", contact.end}};
+            entry["joint"] = character.skeleton.nodes[contacts.feet[foot].node].name;
+            list.push_back(std::move(entry));
+        }
+    }
+    return list;
+}
+
 /// What was measured on a device, if asked for.
 struct Measured {
     std::optional<Comparison> comparison;
@@ -285,12 +299,16 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["joints"] = character.skin.joints.size();
     json["mostInfluences"] = findings.mostInfluences;
     json["clips"] = Json::array();
+    const skinning::Contacts contacts = skinning::findContacts(character);
     for (const cage::Clip& clip : character.clips) {
         Json markers = Json::array();
         for (const cage::Marker& marker : clip.markers) {
             markers.push_back({{"name", marker.name}, {"time", marker.time}});
         }
-        json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}, {"markers", markers}});
+        Json entry = {{"name", clip.name}, {"duration", clip.duration}};
+        entry["markers"] = std::move(markers);
+        entry["contacts"] = contactsIn(character, contacts, json["clips"].size());
+        json["clips"].push_back(std::move(entry));
     }
     json["materials"] = Json::array();
     for (const cage::Material& material : character.materials) {

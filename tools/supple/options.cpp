@@ -238,7 +238,14 @@ void bindModifiers(CLI::App& command, ModifierFlags& flags) {
         command, "--two-bone", flags.settings, host::parseTwoBone,
         "Point of model space to which the two bones above a joint bring it, behind what aims. May be given again",
         "JOINT=x,y,z");
-    command.add_option("--weight", flags.weight, "How much of --set, --aim and --two-bone is done")
+    bindSettings(command, "--lower", flags.settings, host::parseLower,
+                 "Joint, the hips, that goes down as far as the feet of --plant need, and by the distance at most; 0: "
+                 "0.3 of the longest leg",
+                 "JOINT=distance");
+    bindSettings(command, "--plant", flags.settings, host::parsePlant,
+                 "Foot that stands on the plane through a point with a normal, both in model space. May be given again",
+                 "JOINT=x,y,z,nx,ny,nz");
+    command.add_option("--weight", flags.weight, "How much of --set, --aim, --two-bone, --lower and --plant is done")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
 }

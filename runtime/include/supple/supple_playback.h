@@ -283,21 +283,29 @@ SUPPLE_API SuppleResult suppleSetJointMatrices(SuppleContext context, SuppleInst
  * stays. TWO_BONE: the joint is the end of a limb, a hand or a foot. Its two bones turn so that it comes to the target.
  * What is out of reach pulls the limb nearly straight. The end keeps its rotation in model space. HAND_OVER: the joint
  * stands at the target and has `rotation`, both in model space: what another simulation, a ragdoll say, makes of it.
- * What hangs on it follows. */
+ * What hangs on it follows.
+ * PLANT: the joint is a foot, and stands on the ground: the plane through the target whose normal is +Y turned by
+ * `rotation`. Its limb is bent as by TWO_BONE. It goes up or down by what the ground under it differs from the plane
+ * under the foot's sole in the rest pose, and tilts with the ground. While a clip has it on the ground, it stays in one
+ * place there: those times are found when the file is loaded (docs/playback.md). It needs no memory, so it may be
+ * sought, and is replayed. LOWER: the joint, the hips, goes down in model space as far as the feet of the PLANT behind
+ * it in the list need. */
 typedef enum SuppleModifierKind {
     SUPPLE_MODIFIER_SET = 0,
     SUPPLE_MODIFIER_ADD = 1,
     SUPPLE_MODIFIER_AIM = 2,
     SUPPLE_MODIFIER_TWO_BONE = 3,
     SUPPLE_MODIFIER_HAND_OVER = 4,
+    SUPPLE_MODIFIER_PLANT = 5,
+    SUPPLE_MODIFIER_LOWER = 6,
     SUPPLE_MODIFIER_MAX_ENUM = 0x7FFFFFFF
 } SuppleModifierKind;
 
 /** Options of a modifier. */
 typedef enum SuppleModifierFlags {
-    SUPPLE_MODIFIER_WORLD =
-        1, /**< AIM, TWO_BONE, HAND_OVER: target and pole are points of the world, not of model space */
-    SUPPLE_MODIFIER_POLE = 2,         /**< TWO_BONE: the middle joint, a knee or an elbow, points towards the pole */
+    SUPPLE_MODIFIER_WORLD = 1, /**< AIM, TWO_BONE, HAND_OVER, PLANT: target and pole are points of the world, not of
+                                * model space; of PLANT also the ground's normal */
+    SUPPLE_MODIFIER_POLE = 2,  /**< TWO_BONE, PLANT: the middle joint, a knee or an elbow, points towards the pole */
     SUPPLE_MODIFIER_END_ROTATION = 4, /**< TWO_BONE: the end has `rotation` in model space */
     SUPPLE_MODIFIER_MODEL = 8 /**< SET, ADD: rotation is in model space, not in the frame of the joint's parent */
 } SuppleModifierFlags;
@@ -307,25 +315,28 @@ typedef enum SuppleModifierFlags {
  * are fine. */
 typedef struct SuppleModifier {
     SuppleModifierKind kind;
-    uint32_t flags;       /**< SuppleModifierFlags */
-    uint32_t joint;       /**< TWO_BONE: the end. The joint above it is the middle, the next one the root; joints whose
-                           * names differ from the next one's above in digits alone are parts of one bone */
+    uint32_t flags; /**< SuppleModifierFlags */
+    uint32_t joint; /**< TWO_BONE, PLANT: the end. The joint above it is the middle, the next one the root; joints whose
+                     * names differ from the next one's above in digits alone are parts of one bone */
     uint32_t chainLength; /**< AIM: joints that turn, from `joint` upwards, 1..SUPPLE_MAX_AIM_JOINTS; 0 = 1 */
-    float weight;         /**< 0..1. 0: the pose keeps its bits. TWO_BONE and HAND_OVER: how far the joint goes towards
-                           * the target; else the part of the turn */
+    float weight;         /**< 0..1. 0: the pose keeps its bits. TWO_BONE, HAND_OVER, PLANT, LOWER: how far the joint
+                           * goes towards where it shall be; else the part of the turn */
     float fadeWeight;     /**< as in SupplePlaybackLayer */
     float fadeDuration;   /**< seconds; 0: no fade */
     float share;          /**< AIM: part of what is still missing that each joint above `joint` takes, 0..1 */
     double fadeStart;     /**< the group's time at which the fade starts */
     double target[3];     /**< a point of model space or of the world */
     double pole[3];       /**< with POLE: the same */
-    float rotation[4];    /**< x, y, z, w; of any length but 0, if it is needed */
-    float axis[3]; /**< AIM: forward in the joint's frame; zeros: +Z of model space in the rest pose. TWO_BONE: the axis
-                    * in the middle joint's frame about which a straight limb bends; zeros: as in the rest pose */
-    float offset[3];  /**< AIM: the eye, in the joint's frame */
-    float limit;      /**< AIM: radians that each joint turns at most; 0: any */
-    float soft;       /**< TWO_BONE: from this part of its length on, the limb follows ever more slowly, so that it is
-                       * never quite straight: 0.5..0.999; 0 = 0.97 */
+    float rotation[4];    /**< x, y, z, w; of any length but 0, if it is needed. PLANT: takes +Y to the ground's normal;
+                           * zeros: the ground is level */
+    float axis[3];        /**< AIM: forward in the joint's frame; zeros: +Z of model space in the rest pose. TWO_BONE,
+                           * PLANT: the axis in the middle joint's frame about which a straight limb bends; zeros: as in the
+                           * rest pose */
+    float offset[3];      /**< AIM: the eye, in the joint's frame */
+    float limit; /**< AIM: radians that each joint turns at most; 0: any. PLANT: radians that the foot tilts at most;
+                  * 0 = 0.52. LOWER: how far the joint goes down at most; 0: 0.3 of the longest leg */
+    float soft;  /**< TWO_BONE, PLANT: from this part of its length on, the limb follows ever more slowly, so that it is
+                  * never quite straight: 0.5..0.999; 0 = 0.97 */
     float poleWeight; /**< with POLE: 0..1 */
 } SuppleModifier;
 
@@ -343,8 +354,9 @@ typedef struct SuppleModifiersDesc {
  * above scales unevenly or mirrors. With PLAYBACK, a group of which no instance has ever had one records no pass for
  * them. A view that culls leaves out instances before they are posed only if all that their modifiers turn moves in
  * some clip, or hangs on what does, and none is HAND_OVER. The array is read during the call. Errors: the group has not
- * the flag; too many; a kind, flag or joint that does not exist; a chain that is longer than the skeleton, or has a
- * joint with a fixed matrix; a number out of range or not finite; a rotation of length 0; a fade, without PLAYBACK. */
+ * the flag; too many; a kind, flag or joint that does not exist; PLANT of a joint that is no foot; a chain that is
+ * longer than the skeleton, or has a joint with a fixed matrix; a number out of range or not finite; a rotation of
+ * length 0; a fade, without PLAYBACK. */
 SUPPLE_API SuppleResult suppleSetModifiers(SuppleContext context, SuppleInstance instance,
                                            const SuppleModifiersDesc* modifiers);
 
