@@ -153,12 +153,21 @@ struct SharpnessCurve {
     Channel keys; ///< one number per value
 };
 
+/// A clip in a few bits, as the pose pass reads it (skinning/packed_clip.h).
+struct PackedChannels {
+    std::vector<uint32_t> words; ///< none: the clip is not packed
+    uint32_t channelCount = 0;   ///< the first so many channels of the clip are what the words say
+    double error = 0.0;          ///< how far this moves a vertex at most, as a part of the extent
+    uint64_t unpackedBytes = 0;  ///< what the clip took in the clip table before
+};
+
 struct Clip {
     std::string name;
     double duration = 0.0; ///< seconds: the last key of any channel; the clip starts at 0
     std::vector<Channel> channels;
     std::vector<Marker> markers;           ///< by rising time
     std::vector<SharpnessCurve> sharpness; ///< one per set
+    PackedChannels packed;
 };
 
 /// Displacements of cage vertices, added with a weight before skinning. Only vertices that move are listed.

@@ -250,10 +250,11 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
         return;
     }
     const skinning::ClipTable &table = *asset_->clipTable, &before = *other.asset_->clipTable;
-    modifiers_.takeOver(instance, state(instance), other.modifiers_, other.state(instance), [&](uint32_t place) {
+    const auto placeHere = [&](uint32_t place) {
         const uint32_t node = match.nodes[before.nodes[place]];
         return node != cage::kNone ? table.places[node] : cage::kNone;
-    });
+    };
+    modifiers_.takeOver(instance, state(instance), table, other.modifiers_, other.state(instance), placeHere);
     if (other.hasLocals_[instance] == 0) {
         return;
     }
@@ -264,6 +265,12 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
         if (node != cage::kNone && table.places[node] != cage::kNone) {
             locals_[instance * table.nodes.size() + table.places[node]] =
                 other.locals_[instance * before.nodes.size() + place];
+        }
+    }
+    for (uint32_t foot = 0; foot < before.footCount; ++foot) {
+        const uint32_t here = placeHere(before.footPlace(foot));
+        if (here != cage::kNone && table.isFoot(table.nodes[here])) {
+            held(instance)[table.footNumber(here)] = other.held(instance)[foot];
         }
     }
     modify(instance);

@@ -78,17 +78,19 @@ public:
     }
 
     /// Takes over those of an instance of another version of the asset: `moved` gives a node's place here by the one
-    /// there, or kNone. Those that lack a node are left out.
+    /// there, or kNone. Those that lack a node, or a foot, are left out. `table`: the one here.
     template <class Moved>
-    void takeOver(uint32_t slot, skinning::PlaybackState state, const InstanceModifiers& other,
-                  skinning::PlaybackState before, Moved&& moved) {
+    void takeOver(uint32_t slot, skinning::PlaybackState state, const skinning::ClipTable& table,
+                  const InstanceModifiers& other, skinning::PlaybackState before, Moved&& moved) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < before.modifierCount(); ++i) {
             const std::span<const uint32_t> words = before.modifier(other.morphCount_, i);
             skinning::ChainPlaces room;
             const std::span<uint32_t> places = skinning::modifierPlaces(words, room);
             std::transform(places.begin(), places.end(), places.begin(), moved);
-            if (std::find(places.begin(), places.end(), cage::kNone) == places.end()) {
+            const bool known = std::find(places.begin(), places.end(), cage::kNone) == places.end();
+            const bool plants = skinning::modifierKind(words) == shared::kModifierPlant;
+            if (known && (!plants || table.isFoot(table.nodes[places.back()]))) {
                 const std::span<uint32_t> target = state.modifier(morphCount_, count);
                 std::copy(words.begin(), words.end(), target.begin());
                 skinning::writeModifierPlaces(places, target);

@@ -109,7 +109,7 @@ Result<skinning::Modifier> chained(const Asset& asset, const SuppleModifier& fro
     if (length > SUPPLE_MAX_AIM_JOINTS) {
         return beyond("chainLength is beyond SUPPLE_MAX_AIM_JOINTS");
     }
-    const std::optional<skinning::Modifier> found = limb ? skinning::limbOf(character, parents, from.joint)
+    const std::optional<skinning::Modifier> found = limb ? skinning::limbOf(character, asset.rig, from.joint)
                                                          : skinning::chainOf(character, parents, from.joint, length);
     if (!found) {
         return beyond("the chain has fewer joints, or one with a fixed matrix");

@@ -420,7 +420,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
         setMorphWeights(slot, moved.data());
     }
     if (takesModifiers()) {
-        modifiers_.takeOver(slot, state(slot), other.modifiers_, before, [&](uint32_t place) {
+        modifiers_.takeOver(slot, state(slot), *asset_->clipTable, other.modifiers_, before, [&](uint32_t place) {
             return placeInOther(other.asset_->clipTable->nodes[place], match, *asset_->clipTable);
         });
         modifies_ = modifies_ || state(slot).modifierCount() > 0;

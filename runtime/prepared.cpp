@@ -1,5 +1,7 @@
 #include "runtime/prepared.h"
 
+#include "skinning/clip_packer.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -61,6 +63,13 @@ void Prepared::follow() {
         parts.push_back(summaryOf(character, part));
     }
     jointFrames = skinning::jointFrames(character);
+}
+
+void Prepared::packClips(double error) {
+    skinning::packClips(character, error);
+    if (clips) {
+        clips = skinning::buildClipTable(character);
+    }
 }
 
 std::shared_ptr<const PreparedPiece> Prepared::pieceOf(const std::vector<uint32_t>& wanted) const {

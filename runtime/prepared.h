@@ -65,6 +65,9 @@ struct Prepared {
     /// Makes what follows from the character in no time: all but choices, clips, pieces and tables.
     void follow();
 
+    /// Packs the clips (skinning/clip_packer.h).
+    void packClips(double error);
+
     /// Finds the piece of some parts (rising), or makes one that is not kept here.
     [[nodiscard]] std::shared_ptr<const PreparedPiece> pieceOf(const std::vector<uint32_t>& parts) const;
     /// Null if the tables were not prepared.

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <set>
 #include <span>
 
 namespace supple::skinning {
@@ -35,33 +35,11 @@ uint32_t interpolationOf(const Channel& channel) {
 class Builder {
 public:
     Builder(const cage::Character& character, ClipTable& table)
-        : character_(character), table_(table), contacts_(findContacts(character)) {}
-
-    void orderNodes() {
-        const cage::Skeleton& skeleton = character_.skeleton;
-        std::vector<bool> moves(skeleton.nodes.size(), false);
-        for (const uint32_t joint : character_.skin.joints) {
-            for (uint32_t node = joint; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
-                moves[node] = true;
-            }
-        }
-        std::vector<uint32_t> depths(skeleton.nodes.size(), 0);
-        for (const uint32_t node : skeleton.parentsFirst) {
-            const uint32_t parent = skeleton.nodes[node].parent;
-            depths[node] = parent == cage::kNone ? 0 : depths[parent] + 1;
-            if (moves[node]) {
-                table_.nodes.push_back(node);
-            }
-        }
-        std::stable_sort(table_.nodes.begin(), table_.nodes.end(),
-                         [&](uint32_t a, uint32_t b) { return depths[a] < depths[b]; });
-        table_.places.assign(skeleton.nodes.size(), cage::kNone);
-        for (uint32_t place = 0; place < table_.nodes.size(); ++place) {
-            table_.places[table_.nodes[place]] = place;
-            const uint32_t depth = depths[table_.nodes[place]];
-            levelEnds_.resize(depth + 1);
-            levelEnds_[depth] = place + 1;
-        }
+        : character_(character), table_(table), contacts_(findContacts(character)) {
+        NodeOrder order = nodeOrder(character);
+        table_.nodes = std::move(order.nodes);
+        table_.places = std::move(order.places);
+        levelEnds_ = std::move(order.levelEnds);
     }
 
     void putNodes() {
@@ -110,26 +88,20 @@ public:
 
     void putClips() {
         const std::vector<cage::Clip>& clips = character_.clips;
-        const size_t nodeCount = table_.nodes.size();
         table_.clips = next();
-        const uint32_t clipNodes = table_.clips + static_cast<uint32_t>(clips.size());
-        table_.words.resize(table_.words.size() + 4 * clips.size() * (1 + nodeCount), 0u);
+        table_.words.resize(table_.words.size() + 4 * clips.size(), 0u);
         for (size_t c = 0; c < clips.size(); ++c) {
-            const uint32_t first = clipNodes + static_cast<uint32_t>(c * nodeCount);
-            const SplitTime duration = splitTime(clips[c].duration);
-            uint32_t weights = 0;
-            for (const Channel& channel : clips[c].channels) {
-                if (channel.path == ChannelPath::weights) {
-                    weights = weights == 0 ? putTargets() : weights;
-                    putWeights(channel, weights);
-                } else if (const uint32_t place = table_.places[channel.node]; place != cage::kNone) {
-                    // Of several channels for one property the last one counts, as in sampleClip.
-                    const uint32_t record = putChannel(channel, channel.path == ChannelPath::rotation ? 4 : 3);
-                    table_.words[4 * size_t{first + place} + static_cast<size_t>(channel.path)] = record;
-                }
+            const cage::Clip& clip = clips[c];
+            const uint32_t packed = clip.packed.words.empty() ? 0 : putPackedClip(clip.packed.words);
+            const uint32_t nodes = packed == 0 || movesNodes(clip) ? putNodeChannels() : 0;
+            const uint32_t weights = putChannels(clip, nodes);
+            if (packed != 0) {
+                table_.words[4 * size_t{packed + 2}] = nodes;
             }
-            const uint32_t clip[] = {first, weights, bits(duration.high), bits(duration.low)};
-            std::copy(std::begin(clip), std::end(clip),
+            const SplitTime duration = splitTime(clip.duration);
+            const uint32_t element[] = {packed != 0 ? kPackedClip | packed : nodes, weights, bits(duration.high),
+                                        bits(duration.low)};
+            std::copy(std::begin(element), std::end(element),
                       table_.words.begin() + static_cast<ptrdiff_t>(4 * (table_.clips + c)));
         }
     }
@@ -160,7 +132,7 @@ public:
     }
 
 private:
-    static uint32_t floatBits(double x) { return bits(static_cast<float>(x)); }
+    static uint32_t floatBits(double x) { return bits(static_cast<float>(std::clamp(x, -1e30, 1e30))); }
     [[nodiscard]] uint32_t footNumber(uint32_t node) const {
         const std::vector<Foot>& feet = contacts_.feet;
         const auto found = std::find_if(feet.begin(), feet.end(), [&](const Foot& foot) { return foot.node == node; });
@@ -183,6 +155,49 @@ private:
         const uint32_t first = next();
         std::transform(values.begin(), values.end(), std::back_inserter(table_.words), bits);
         table_.words.resize((table_.words.size() + 3) / 4 * 4, 0u);
+        return first;
+    }
+    /// An element per node: no channel moves it yet.
+    uint32_t putNodeChannels() {
+        const uint32_t first = next();
+        table_.words.resize(table_.words.size() + 4 * table_.nodes.size(), 0u);
+        return first;
+    }
+    /// Whether a packed clip has channels of nodes beside what is packed.
+    [[nodiscard]] bool movesNodes(const cage::Clip& clip) const {
+        return std::any_of(
+            clip.channels.begin() + clip.packed.channelCount, clip.channels.end(), [&](const Channel& channel) {
+                return channel.path != ChannelPath::weights && table_.places[channel.node] != cage::kNone;
+            });
+    }
+    /// The channels that are not packed; returns the first element of the morph targets, or 0.
+    uint32_t putChannels(const cage::Clip& clip, uint32_t nodes) {
+        uint32_t weights = 0;
+        for (size_t c = clip.packed.channelCount; c < clip.channels.size(); ++c) {
+            const Channel& channel = clip.channels[c];
+            if (channel.path == ChannelPath::weights) {
+                weights = weights == 0 ? putTargets() : weights;
+                putWeights(channel, weights);
+            } else if (const uint32_t place = table_.places[channel.node]; place != cage::kNone) {
+                // Of several channels for one property the last one counts, as in sampleClip.
+                const uint32_t record = putChannel(channel, channel.path == ChannelPath::rotation ? 4 : 3);
+                table_.words[4 * size_t{nodes + place} + static_cast<size_t>(channel.path)] = record;
+            }
+        }
+        return weights;
+    }
+    /// Words whose offsets count from their first element.
+    uint32_t putPackedClip(std::span<const uint32_t> words) {
+        const uint32_t first = next();
+        table_.words.insert(table_.words.end(), words.begin(), words.end());
+        const auto move = [&](size_t word) { table_.words[4 * size_t{first} + word] += first; };
+        for (size_t section = 4; section < 8; ++section) {
+            move(section);
+        }
+        for (uint32_t segment = 0; segment < words[3]; ++segment) {
+            move(4 * size_t{words[7] + segment});
+            move(4 * size_t{words[7] + segment} + 1);
+        }
         return first;
     }
     /// An element per morph target, for putWeights(): no channel moves it yet.
@@ -234,6 +249,60 @@ private:
 
 } // namespace
 
+uint32_t ClipTable::footPlace(uint32_t number) const {
+    return words[4 * size_t{contacts + number}];
+}
+
+uint32_t ClipTable::footNumber(uint32_t place) const {
+    return words[4 * size_t{kNodeElements * place} + 3] - 1;
+}
+
+NodeOrder nodeOrder(const cage::Character& character) {
+    const cage::Skeleton& skeleton = character.skeleton;
+    std::vector<bool> moves(skeleton.nodes.size(), false);
+    for (const uint32_t joint : character.skin.joints) {
+        for (uint32_t node = joint; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
+            moves[node] = true;
+        }
+    }
+    NodeOrder order;
+    std::vector<uint32_t> depths(skeleton.nodes.size(), 0);
+    for (const uint32_t node : skeleton.parentsFirst) {
+        const uint32_t parent = skeleton.nodes[node].parent;
+        depths[node] = parent == cage::kNone ? 0 : depths[parent] + 1;
+        if (moves[node]) {
+            order.nodes.push_back(node);
+        }
+    }
+    std::stable_sort(order.nodes.begin(), order.nodes.end(),
+                     [&](uint32_t a, uint32_t b) { return depths[a] < depths[b]; });
+    order.places.assign(skeleton.nodes.size(), cage::kNone);
+    for (uint32_t place = 0; place < order.nodes.size(); ++place) {
+        order.places[order.nodes[place]] = place;
+        const uint32_t depth = depths[order.nodes[place]];
+        order.levelEnds.resize(depth + 1);
+        order.levelEnds[depth] = place + 1;
+    }
+    return order;
+}
+
+size_t clipBytes(const NodeOrder& order, const cage::Clip& clip) {
+    constexpr size_t kElement = 16;
+    size_t elements = 1, words = clip.packed.words.size();
+    bool moves = clip.packed.words.empty();
+    std::set<std::vector<float>> times;
+    for (size_t c = clip.packed.channelCount; c < clip.channels.size(); ++c) {
+        const Channel& channel = clip.channels[c];
+        const bool weights = channel.path == ChannelPath::weights;
+        if (weights || order.places[channel.node] != cage::kNone) {
+            elements += 1 + (weights ? (channel.values.size() + 3) / 4 : channel.values.size() / channel.width());
+            words += times.insert(channel.times).second ? channel.times.size() : 0;
+            moves = moves || !weights;
+        }
+    }
+    return kElement * (elements + (moves ? order.nodes.size() : 0)) + sizeof(uint32_t) * words;
+}
+
 bool ClipTable::isFoot(uint32_t node) const {
     const uint32_t place = places[node];
     return place != cage::kNone && words[4 * size_t{kNodeElements * place} + 3] != 0;
@@ -242,7 +311,6 @@ bool ClipTable::isFoot(uint32_t node) const {
 ClipTable buildClipTable(const cage::Character& character) {
     ClipTable table;
     Builder builder(character, table);
-    builder.orderNodes();
     builder.putNodes();
     builder.putSkin();
     builder.putClips();

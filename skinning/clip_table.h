@@ -8,6 +8,17 @@
 
 namespace supple::skinning {
 
+/// Nodes that move a joint, by depth: parents stand before children.
+struct NodeOrder {
+    std::vector<uint32_t> nodes;     ///< by place: the node
+    std::vector<uint32_t> places;    ///< by node: its place, or kNone
+    std::vector<uint32_t> levelEnds; ///< by depth: behind the last place
+};
+[[nodiscard]] NodeOrder nodeOrder(const cage::Character& character);
+
+/// Bytes that a clip takes in the table, beside key times that it shares with others.
+[[nodiscard]] size_t clipBytes(const NodeOrder& order, const cage::Clip& clip);
+
 /// Only nodes that move a joint are in the table, in an order of its own. Sections are given by their first element.
 struct ClipTable {
     std::vector<uint32_t> words;  ///< four an element
@@ -26,6 +37,9 @@ struct ClipTable {
 
     /// Whether feet can be planted there.
     [[nodiscard]] bool isFoot(uint32_t node) const;
+    /// The place of a foot by its number, and back: of a place that is a foot's.
+    [[nodiscard]] uint32_t footPlace(uint32_t number) const;
+    [[nodiscard]] uint32_t footNumber(uint32_t place) const;
 };
 [[nodiscard]] ClipTable buildClipTable(const cage::Character& character);
 

@@ -3,7 +3,10 @@
 #include "skinning/rotation.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 namespace supple::skinning {
 namespace {
@@ -60,6 +63,36 @@ double layerWeight(const Rig& rig, const Layer& layer, uint32_t node) {
                                                            : layer.weight * static_cast<double>(layer.jointMask[joint]);
 }
 
+namespace {
+
+std::string lettersOf(const std::string& name) {
+    std::string letters;
+    std::copy_if(name.begin(), name.end(), std::back_inserter(letters),
+                 [](char c) { return std::isdigit(static_cast<unsigned char>(c)) == 0; });
+    return letters;
+}
+
+std::vector<uint32_t> boneStarts(const cage::Character& character, const Rig& rig) {
+    const std::vector<uint32_t>& joints = character.skin.joints;
+    std::vector<std::string> letters;
+    for (const uint32_t node : joints) {
+        letters.push_back(lettersOf(character.skeleton.nodes[node].name));
+    }
+    std::vector<uint32_t> starts(joints.size());
+    for (const uint32_t node : character.skeleton.parentsFirst) {
+        const uint32_t joint = rig.maskJoints[node];
+        if (joint == cage::kNone || joints[joint] != node) {
+            continue;
+        }
+        const uint32_t parent = rig.jointParents[joint];
+        const bool goesOn = parent != cage::kNone && !letters[joint].empty() && letters[parent] == letters[joint];
+        starts[joint] = goesOn ? starts[parent] : joint;
+    }
+    return starts;
+}
+
+} // namespace
+
 Rig makeRig(const cage::Character& character) {
     const cage::Skeleton& skeleton = character.skeleton;
     Rig rig;
@@ -86,6 +119,7 @@ Rig makeRig(const cage::Character& character) {
             rig.maskJoints[parent] = std::min(rig.maskJoints[parent], rig.maskJoints[node]);
         }
     }
+    rig.boneStarts = boneStarts(character, rig);
     rig.root = findRoot(character);
     return rig;
 }

@@ -15,7 +15,10 @@ namespace supple::skinning {
 struct Rig {
     std::vector<uint32_t> maskJoints;   ///< one a node: the joint whose mask value counts for it, or kNone: always 1
     std::vector<uint32_t> jointParents; ///< one a joint: the nearest joint above it, or kNone
-    uint32_t root = cage::kNone;        ///< findRoot
+    /// One a joint: the first joint of its bone. A bone may be cut into several joints, one below the other, whose
+    /// names differ in digits alone: "lowerleg01.L" and "lowerleg02.L".
+    std::vector<uint32_t> boneStarts;
+    uint32_t root = cage::kNone; ///< findRoot
 };
 [[nodiscard]] Rig makeRig(const cage::Character& character);
 

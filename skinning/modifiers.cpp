@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <string>
 #include <vector>
 
 namespace supple::skinning {
@@ -23,17 +21,6 @@ void putElement(std::span<uint32_t> words, size_t element, const glm::vec4& v) {
     for (size_t i = 0; i < 4; ++i) {
         words[4 * element + i] = bits(v[static_cast<int>(i)]);
     }
-}
-
-/// The letters of a name: "lowerleg02.L" and "lowerleg01.L" are one bone.
-std::string lettersOf(const std::string& name) {
-    std::string letters;
-    for (const char c : name) {
-        if (std::isdigit(static_cast<unsigned char>(c)) == 0) {
-            letters += c;
-        }
-    }
-    return letters;
 }
 
 /// From joints, the end first.
@@ -78,29 +65,18 @@ std::optional<Modifier> chainOf(const cage::Character& character, std::span<cons
     return fromEnd.size() == length ? modifierOf(character, fromEnd) : std::nullopt;
 }
 
-std::optional<Modifier> limbOf(const cage::Character& character, std::span<const uint32_t> jointParents,
-                               uint32_t joint) {
-    const auto letters = [&](uint32_t own) {
-        return lettersOf(character.skeleton.nodes[character.skin.joints[own]].name);
-    };
-    const auto firstOfBone = [&](uint32_t own) {
-        while (jointParents[own] != cage::kNone && letters(jointParents[own]) == letters(own)) {
-            own = jointParents[own];
-        }
-        return own;
-    };
-    const uint32_t parent = jointParents[joint];
+std::optional<Modifier> limbOf(const cage::Character& character, const Rig& rig, uint32_t joint) {
+    const uint32_t parent = rig.jointParents[joint];
     if (parent == cage::kNone) {
         return std::nullopt;
     }
     // If all joints of a chain are called alike, each is a bone.
-    if (letters(parent) != letters(joint) && !letters(parent).empty()) {
-        const uint32_t middle = firstOfBone(parent), above = jointParents[middle];
-        if (above != cage::kNone) {
-            return modifierOf(character, std::array{joint, middle, firstOfBone(above)});
-        }
+    if (rig.boneStarts[joint] != joint) {
+        return chainOf(character, rig.jointParents, joint, 3);
     }
-    return chainOf(character, jointParents, joint, 3);
+    const uint32_t middle = rig.boneStarts[parent], above = rig.jointParents[middle];
+    return above != cage::kNone ? modifierOf(character, std::array{joint, middle, rig.boneStarts[above]})
+                                : chainOf(character, rig.jointParents, joint, 3);
 }
 
 glm::vec3 restForward(const cage::Character& character, uint32_t node) {

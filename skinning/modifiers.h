@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
+#include "skinning/layers.h"
 
 #include <array>
 #include <cstdint>
@@ -38,10 +39,9 @@ struct Modifier {
 /// it, or if one has a fixed matrix, which nothing turns.
 [[nodiscard]] std::optional<Modifier> chainOf(const cage::Character& character, std::span<const uint32_t> jointParents,
                                               uint32_t joint, uint32_t length);
-/// The end of a limb, its middle and its root, in a modifier's chain. A bone may be cut into several joints whose names
-/// differ in digits alone; then it counts from the first of them on.
-[[nodiscard]] std::optional<Modifier> limbOf(const cage::Character& character, std::span<const uint32_t> jointParents,
-                                             uint32_t joint);
+/// The end of a limb, its middle and its root, in a modifier's chain. A bone that is cut into several joints counts
+/// from the first of them on (Rig::boneStarts).
+[[nodiscard]] std::optional<Modifier> limbOf(const cage::Character& character, const Rig& rig, uint32_t joint);
 
 /// Model space's +Z, in the frame that a joint has in the rest pose: where it looks if nobody says.
 [[nodiscard]] glm::vec3 restForward(const cage::Character& character, uint32_t node);

@@ -55,12 +55,13 @@ struct PoseCode : PoseLoads {
 struct ModifyCode : PoseLoads {
     Transform* locals = nullptr;
     Affine place;
-    const vec4* held = nullptr;
+    vec4* held = nullptr;
 
     [[nodiscard]] Transform nodeLocal(uint node) const { return locals[node]; }
     void keepLocal(uint node, const Transform& t) const { locals[node] = t; }
     [[nodiscard]] Affine placement() const { return place; }
     [[nodiscard]] vec4 heldAt(uint foot) const { return held[foot]; }
+    void keepHeld(uint foot, const vec4& own) const { held[foot] = own; }
 #include "shaders/pose/modify.h"
 };
 

@@ -10,6 +10,7 @@ using namespace supple::api; // NOLINT
 namespace {
 
 constexpr const char* kPrepare = "supplePrepare";
+constexpr float kMostClipError = 0.1f;
 
 Error here(const Error& error) {
     return {error.code, std::string(kPrepare) + ": " + error.message};
@@ -68,9 +69,15 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
     if (desc.groupCount > 0 && desc.groups == nullptr) {
         return here(ErrorCode::nullPointer, "groups is null");
     }
+    if (!(desc.clipError >= 0.0f && desc.clipError <= kMostClipError)) {
+        return here(ErrorCode::range, "clipError leaves 0..0.1");
+    }
     const Result<std::shared_ptr<runtime::Prepared>> prepared = readCharacter(desc);
     if (!prepared) {
         return prepared.error();
+    }
+    if (desc.clipError > 0.0f) {
+        (*prepared)->packClips(static_cast<double>(desc.clipError));
     }
     const Status status = forPlanned(kPrepare, desc.groups, desc.groupCount, [&](const runtime::PlannedGroup& group) {
         return runtime::prepareFor(**prepared, group, desc.mapping != SUPPLE_MAPPING_NARROW);

@@ -49,6 +49,14 @@ public:
     void operator()(const T&... values) {
         (put(values), ...);
     }
+    /// A list without its first members; reading gives the others.
+    template <class T>
+    void rest(const std::vector<T>& list, size_t first) {
+        put(uint64_t{list.size() - first});
+        for (size_t i = first; i < list.size(); ++i) {
+            put(list[i]);
+        }
+    }
     void put(std::span<const std::byte> bytes) {
         if (!bytes.empty() && count_ <= out_.size() && bytes.size() <= out_.size() - count_) {
             std::memcpy(out_.data() + count_, bytes.data(), bytes.size());
@@ -113,6 +121,10 @@ public:
     template <class... T>
     void operator()(T&... values) {
         (take(values), ...);
+    }
+    template <class T>
+    void rest(std::vector<T>& list, size_t /*first*/) {
+        take(list);
     }
     /// Null as long as all is well.
     [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }

@@ -59,7 +59,10 @@ void fields(A& a, T& marker) {
 }
 template <class A, Is<Clip> T>
 void fields(A& a, T& clip) {
-    a(clip.name, clip.duration, clip.channels, clip.markers, clip.sharpness);
+    a(clip.name, clip.duration, clip.markers, clip.sharpness, clip.packed.words, clip.packed.error,
+      clip.packed.unpackedBytes);
+    // What is packed is there already.
+    a.rest(clip.channels, clip.packed.channelCount);
 }
 template <class A, Is<SharpnessCurve> T>
 void fields(A& a, T& curve) {

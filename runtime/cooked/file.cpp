@@ -2,6 +2,7 @@
 
 #include "cage/character_check.h"
 #include "runtime/cooked/table_fields.h"
+#include "skinning/packed_clip.h"
 #include "surface/schemes.h"
 #include "surface/table_check.h"
 
@@ -15,7 +16,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 7;
+constexpr uint32_t kVersion = 8;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -81,6 +82,26 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
     }
 }
 
+/// Gives packed clips of a character that is sound their channels. Whether there are any.
+Result<bool> unpackClips(cage::Character& character) {
+    std::optional<skinning::NodeOrder> order;
+    for (cage::Clip& clip : character.clips) {
+        if (clip.packed.words.empty()) {
+            continue;
+        }
+        order = order ? std::move(order) : skinning::nodeOrder(character);
+        const Result<skinning::PackedClip> packed =
+            skinning::readPackedWords(clip.packed.words, clip.duration, order->nodes.size());
+        if (!packed) {
+            return Error{packed.error().code, "clip " + clip.name + ": " + packed.error().message};
+        }
+        std::vector<cage::Channel> channels = skinning::channelsOf(*packed, clip.duration, order->nodes);
+        clip.packed.channelCount = static_cast<uint32_t>(channels.size());
+        clip.channels.insert(clip.channels.begin(), channels.begin(), channels.end());
+    }
+    return order.has_value();
+}
+
 /// What all that follows is read for: the header and the character.
 Status readBeginning(std::span<const std::byte> bytes, const std::string& name, Reader& reader, Prepared& prepared,
                      bool& plays) {
@@ -95,6 +116,13 @@ Status readBeginning(std::span<const std::byte> bytes, const std::string& name, 
     cage::Character& character = prepared.character;
     character.name = name;
     if (const Status sound = cage::checkCharacter(character); !sound) {
+        return sound.error();
+    }
+    const Result<bool> unpacked = unpackClips(character);
+    if (!unpacked) {
+        return refused(unpacked.error().message);
+    }
+    if (const Status sound = *unpacked ? cage::checkCharacter(character) : success(); !sound) {
         return sound.error();
     }
     if (prepared.choices.size() != character.parts.size()) {

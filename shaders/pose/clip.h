@@ -2,6 +2,7 @@
 // Needs table(), tableFloats(), packedFloat() and `push`: GLSL has them from tables.glsl; in C++ this is the inside of a
 // class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are.
 #include "shaders/pose/nodes.h"
+#include "shaders/pose/packed.h"
 
 // Where a time falls among a channel's keys: at key `key`, or at fraction `t` of the `seconds` from it to the next one.
 struct KeySpan {
@@ -77,8 +78,14 @@ vec4 channelAt(uint record, vec2 time, bool turns) {
 }
 
 Transform clipTransform(uint clip, vec2 time, uint node) {
-    uvec4 channels = table(table(push.clips + clip).x + node);
+    uint nodes = table(push.clips + clip).x;
     SUPPLE_PRECISE Transform t = restTransform(node);
+    for (uint packed = nodes & kPackedClip; packed != 0u; packed = 0u) { // a loop, so that lavapipe can leave it out
+        uint head = nodes ^ kPackedClip;
+        t = packedTransform(head, time, node, t);
+        nodes = table(head + 2u).x;
+    }
+    uvec4 channels = nodes != 0u ? table(nodes + node) : uvec4(0u);
     // A loop over those that are there, so that the code is there once.
     uint paths = (channels.x != 0u ? 1u : 0u) | (channels.y != 0u ? 2u : 0u) | (channels.z != 0u ? 4u : 0u);
     for (; paths != 0u; paths &= paths - 1u) {

@@ -25,18 +25,13 @@ vec4 contactAt(uint clip, float time, uint foot) {
     return held;
 }
 
-bool hangsOn(uint node, uint above) {
-    bool found = node == above;
-    for (uint n = parentOf(node), k = 0u; n != kNoNode && k < push.nodeCount; n = parentOf(n), ++k) {
-        if (n == above) found = true;
-    }
-    return found;
-}
-
 // The same with the movement of the root taken out, where root motion takes it: the root stands at `position` with
 // `rotation` where the clip begins.
 vec4 heldInClip(uint clip, vec2 time, uint foot, uint root, uint axes, vec3 position, vec4 rotation) {
-    SUPPLE_PRECISE vec4 held = contactAt(clip, time.x + time.y, foot);
+    vec2 duration = clipDuration(clip);
+    // Outside of the clip its first or its last pose stands.
+    SUPPLE_PRECISE float within = min(max(time.x + time.y, 0.0f), duration.x + duration.y);
+    SUPPLE_PRECISE vec4 held = contactAt(clip, within, foot);
     bool moves = held.w > 0.0f && axes != 0u && hangsOn(table(push.contacts + foot).x, root);
     for (; moves; moves = false) { // a loop, so that lavapipe does not step through it where no foot stands
         SUPPLE_PRECISE Transform own;

@@ -31,6 +31,10 @@ Affine placement() {
     return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
 }
 vec4 heldAt(uint foot) { return scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot]; }
+void keepHeld(uint foot, vec4 held) {
+    precise vec4 own = held;
+    if (listed) scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot] = own;
+}
 #include "shaders/pose/modify.h"
 
 void main() {

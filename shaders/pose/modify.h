@@ -1,5 +1,5 @@
 // Modifiers of an instance (shaders/shared/pose.h), in order, each after the one before. Needs state(), what nodes.h needs,
-// `push`, and what is posed: nodeLocal(), keepLocal(), placement(), heldAt(). Loops with one turn stand for branches: where no lane
+// `push`, and what is posed: nodeLocal(), keepLocal(), placement(), heldAt(), keepHeld(). Loops with one turn stand for branches: where no lane
 // needs one, lavapipe does not step through it.
 #include "shaders/pose/nodes.h"
 
@@ -141,14 +141,15 @@ vec3 groundNormal(Modifier own) {
 }
 
 // Where a foot goes from where it is: to the place where its clips hold it, and up or down by what the ground differs from the
-// plane that it has in the rest pose: `lowered` is how far modifiers have lowered it. On a slope the joint stands higher, so that the sole keeps its distance.
-vec3 plantedPlace(Modifier own, vec3 joint, float lowered) {
+// plane that it has in the rest pose. On a slope the joint stands higher, so that the sole keeps its distance.
+vec3 plantedPlace(Modifier own, vec3 joint) {
     uint foot = table(kNodeElements * chainNode(own, 2u)).w; // 1 + its number
     SUPPLE_PRECISE vec3 place = joint;
     SUPPLE_PRECISE vec2 sole = vec2(0.0f);
     if (foot != 0u) {
-        vec4 held = heldAt(foot - 1u);
+        vec4 held = heldAt(foot - 1u); // y: how far it has been lowered
         place.x = joint.x + (held.x - held.w * joint.x);
+        place.y = joint.y + held.y;
         place.z = joint.z + (held.z - held.w * joint.z);
         vec4 rest = tableFloats(push.contacts + foot - 1u);
         sole = vec2(rest.y, rest.z);
@@ -158,7 +159,7 @@ vec3 plantedPlace(Modifier own, vec3 joint, float lowered) {
     SUPPLE_PRECISE float rise =
         (normal.x * (place.x - own.target.x) + normal.z * (place.z - own.target.z)) * perUp;
     SUPPLE_PRECISE float ground = own.target.y - rise;
-    place.y = (ground + ((joint.y + lowered) - sole.y)) + sole.x * (perUp - 1.0f);
+    place.y = (ground + (place.y - sole.y)) + sole.x * (perUp - 1.0f);
     return place;
 }
 
@@ -168,32 +169,39 @@ void moveJoint(uint node, vec3 position) {
     keepLocal(node, t);
 }
 
-// The joint goes down until the lowest of the feet that are planted behind it, `count` modifiers from `element` on, can reach:
-// by what it returns. They have been lowered by `before`.
-float lowerJoint(Modifier own, uint element, uint count, float before) {
-    SUPPLE_PRECISE float lack = 0.0f;
+// The joint goes down until every foot below it that is planted later, by one of `count` modifiers from `element` on, reaches
+// its ground. Feet are told, so that they still know how high their clips have them.
+void lowerJoint(Modifier own, uint element, uint count) {
+    uint node = chainNode(own, 0u);
+    SUPPLE_PRECISE float missing = 0.0f;
     for (uint i = 0u; i < count; ++i) {
         Modifier other = modifierAt(element + i * kModifierElements);
-        if (other.kind == kModifierPlant && other.weight != 0.0f) {
+        if (other.kind == kModifierPlant && other.weight != 0.0f && hangsOn(chainNode(other, 2u), node)) {
             vec3 joint = placedNode(chainNode(other, 2u)).position;
-            SUPPLE_PRECISE float below = (joint.y - plantedPlace(other, joint, before).y) * other.weight;
-            lack = max(lack, below);
+            SUPPLE_PRECISE float below = (joint.y - plantedPlace(other, joint).y) * other.weight;
+            missing = max(missing, below);
         }
     }
-    SUPPLE_PRECISE vec3 position = placedNode(chainNode(own, 0u)).position;
-    SUPPLE_PRECISE float lowered = min(lack, own.limit.x) * own.weight;
+    SUPPLE_PRECISE float lowered = min(missing, own.limit.x) * own.weight;
+    for (uint foot = 0u; foot < push.footCount; ++foot) {
+        if (hangsOn(table(push.contacts + foot).x, node)) {
+            SUPPLE_PRECISE vec4 held = heldAt(foot);
+            held.y = held.y + lowered;
+            keepHeld(foot, held);
+        }
+    }
+    SUPPLE_PRECISE vec3 position = placedNode(node).position;
     position.y = position.y - lowered;
-    if (lack > 0.0f) moveJoint(chainNode(own, 0u), position);
-    return lowered;
+    if (missing > 0.0f) moveJoint(node, position);
 }
 
 // Two bones bring their end to a target, or to where it is planted.
-void bendLimb(Modifier own, float lowered) {
+void bendLimb(Modifier own) {
     uint a = chainNode(own, 0u), b = chainNode(own, 1u), c = chainNode(own, 2u);
     Placed root = placedNode(a), middle = placedNode(b), end = placedNode(c);
     bool plants = own.kind == kModifierPlant;
     SUPPLE_PRECISE vec3 target = own.target;
-    if (plants) target = plantedPlace(own, end.position, lowered);
+    if (plants) target = plantedPlace(own, end.position);
     SUPPLE_PRECISE vec3 goal = end.position + (target - end.position) * own.weight;
     if (own.weight == 1.0f) goal = target;
     SUPPLE_PRECISE float poleWeight = own.poleWeight * own.weight;
@@ -231,7 +239,6 @@ void modifyInstance(uint first) {
     uint flags = state(first).y;
     uint count = (flags & kStateBindPose) != 0u ? 0u : min((flags >> kStateModifierShift) & 31u, kMaxModifiers);
     uint element = first + modifiersBegin(push.morphCount);
-    SUPPLE_PRECISE float lowered = 0.0f;
     for (uint i = 0u; i < count; ++i) {
         Modifier own = modifierAt(element + i * kModifierElements);
         bool acts = own.weight != 0.0f;
@@ -239,10 +246,10 @@ void modifyInstance(uint first) {
         for (bool it = acts && own.kind == kModifierAdd; it; it = false) turnJoint(own);
         for (bool it = acts && own.kind == kModifierAim; it; it = false) aimChain(own);
         bool bends = own.kind == kModifierTwoBone || own.kind == kModifierPlant;
-        for (bool it = acts && bends; it; it = false) bendLimb(own, lowered);
+        for (bool it = acts && bends; it; it = false) bendLimb(own);
         for (bool it = acts && own.kind == kModifierHandOver; it; it = false) handOver(own);
         for (bool it = acts && own.kind == kModifierLower; it; it = false) {
-            lowered = lowered + lowerJoint(own, element + (i + 1u) * kModifierElements, count - i - 1u, lowered);
+            lowerJoint(own, element + (i + 1u) * kModifierElements, count - i - 1u);
         }
     }
 }

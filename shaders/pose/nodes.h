@@ -1,6 +1,13 @@
-// What the clip table says of nodes. Needs table() and tableFloats().
+// What the clip table says of nodes. Needs table(), tableFloats() and `push`.
 
 uint parentOf(uint node) { return table(kNodeElements * node).x; }
+bool hangsOn(uint node, uint above) {
+    bool found = node == above;
+    for (uint n = parentOf(node), k = 0u; n != kNoNode && k < push.nodeCount; n = parentOf(n), ++k) {
+        if (n == above) found = true;
+    }
+    return found;
+}
 bool isFixed(uint node) { return table(kNodeElements * node).y != 0u; }
 
 Transform restTransform(uint node) {

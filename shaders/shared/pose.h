@@ -10,9 +10,22 @@
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
 //   weights    from `restWeights` on: the file's morph weights, four an element
 //   clip       one element each, from `clips` on: (first of its nodes' elements, first of its targets' elements or 0,
-//              duration as a high and a low float)
+//              duration as a high and a low float). A packed clip has kPackedClip + its first element instead of the former
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
 //   clip target  one element a morph target: (channel or 0, place in a value, numbers of a value, 0)
+//   packed clip  kPackedHeadElements: (frames a second as a float, number of the last frame, properties that change +
+//              65536 * constants, segments); (first element of its masks, constants, statics, segments); (first of its nodes'
+//              elements, for channels that are not packed, or 0; 0, 0, 0). A property is the translation, rotation or scale of
+//              a node; properties are counted by node, then in this order
+//   masks      one element for every 16 nodes, a bit each: properties that change (translations + 65536 * rotations; low half:
+//              scales), constants (high half of the second: scales; translations + 65536 * rotations); properties before these
+//              nodes (those that change + 65536 * constants)
+//   constants  two words each: three numbers of 20 bits with a sign, and in the last 4 bits (27 - their exponent) / 2
+//   statics    a word for every property that changes: its reference, 3 times 9 bits; its exponent + 8
+//   segment    (first record, first element of its data, frames, 0)
+//   record     of a property in a segment: (frames that are knots, a bit each; of x, y and z: the lowest number, 20 bits with a
+//              sign, the bits of each number, 5, and 7 bits of where the first knot begins in the data, in bits)
+//   data       knot after knot x, y and z, and the knot at the segment's end last
 //   foot       one element each, from `contacts` on: (node, height of the joint over its sole in the rest pose, height of the
 //              sole over the origin, 0)
 //   foot of a clip  one element for every clip and foot of it: (first of its contacts, how many, 0, 0)
@@ -36,7 +49,7 @@
 //   modifiers  in groups that have them, kMaxModifiers, of which only as many are read as the flags say; kModifierElements each:
 //              (kind + 256 * flags, length of the chain, 0, 0); nodes of the chain, two a word, the low half first, from the
 //              top down to the joint; (weight, fade weight, fade duration, share of joints above the last one); (fade start,
-//              high and low; cosine and sine of half the limit); (target; weight of the pole); (pole; soft) or, to aim, (the
+//              high and low; cosine and sine of half the limit or, to lower, the way and 0); (target; weight of the pole); (pole; soft) or, to aim, (the
 //              eye in the joint's frame; 0); rotation; (axis in the joint's frame; 0)
 //   transition in groups that have them, from `transition` on, read only if the flags say so: (begin, high and low float;
 //              seconds; kind); kTransitionElements a node, in the order of the table; then two elements for every four morph
@@ -50,8 +63,8 @@
 //
 // Scratch (vec4 elements, one run of `scratchStride` an instance): three a node, its local translation, rotation (x, y, z, w;
 // of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
-// what it has travelled; then, if feet are planted, one for every foot: (x, 0, z) of where it is held, times how firmly; how
-// firmly. A node whose local matrix is fixed has that, whatever stands here.
+// what it has travelled; then, if feet are planted, one for every foot: x of where it is held, times how firmly; how far it has
+// been lowered; z as x; how firmly. A node whose local matrix is fixed has that, whatever stands here.
 #ifndef SUPPLE_SHARED_POSE_H
 #define SUPPLE_SHARED_POSE_H
 
@@ -76,6 +89,11 @@ SUPPLE_SHARED_CONST kNodeElements = 4u;
 SUPPLE_SHARED_CONST kJointElements = 4u;
 SUPPLE_SHARED_CONST kAffineElements = 3u;
 SUPPLE_SHARED_CONST kContactElements = 2u;
+
+// Packed clips.
+SUPPLE_SHARED_CONST kPackedClip = 0x80000000u;
+SUPPLE_SHARED_CONST kPackedHeadElements = 3u;
+SUPPLE_SHARED_CONST kSegmentFrames = 32u;
 
 SUPPLE_SHARED_CONST kStateElements = 7u;
 SUPPLE_SHARED_CONST kLayerElements = 6u;

@@ -14,8 +14,10 @@ SUPPLE_SHARED_BEGIN
 
 #ifdef __cplusplus
 using glm::abs;
+using glm::bitCount;
 using glm::clamp;
 using glm::findLSB;
+using glm::findMSB;
 using glm::mat4;
 using glm::max;
 using glm::min;

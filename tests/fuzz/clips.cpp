@@ -3,8 +3,10 @@
 #include "cage/gltf/reader.h"
 #include "skinning/clip_bounds.h"
 #include "skinning/clip_markers.h"
+#include "skinning/clip_packer.h"
 #include "skinning/clip_table.h"
 #include "skinning/layers.h"
+#include "skinning/packed_clip.h"
 #include "skinning/played_pose.h"
 #include "tests/fuzz/target.h"
 
@@ -112,6 +114,23 @@ void play(const cage::Character& character, const skinning::Rig& rig, Tail& choo
     skinning::poseNodes(character, rig, read, choose.time(10.0), {}, memory);
 }
 
+/// What is packed keeps within its error, and is read as it was written.
+void pack(const cage::Character& character, skinning::PoseMemory& memory) {
+    cage::Character packed = character;
+    skinning::packClips(packed, 1e-3);
+    const skinning::NodeOrder order = skinning::nodeOrder(packed);
+    for (const cage::Clip& clip : packed.clips) {
+        demand(clip.packed.error <= 1e-3, "the error is larger than was asked");
+        if (!clip.packed.words.empty()) {
+            demand(skinning::readPackedWords(clip.packed.words, clip.duration, order.nodes.size()).ok(),
+                   "words that were written are refused");
+        }
+        skinning::sampleClip(packed, clip, 0.4 * clip.duration, memory.pose);
+        demand(finite(memory.pose), "a sample of a packed clip is not finite");
+    }
+    (void)skinning::buildClipTable(packed);
+}
+
 } // namespace
 } // namespace supple::fuzz
 
@@ -131,6 +150,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     fuzz::demandInBox(*character, clip, memory.pose, memory);
     fuzz::layer(*character, rig, choose, memory);
     fuzz::play(*character, rig, choose, memory);
+    if (std::all_of(character->clips.begin(), character->clips.end(),
+                    [](const cage::Clip& own) { return own.duration < 10.0; })) {
+        fuzz::pack(*character, memory);
+    }
     return 0;
 }
 

@@ -43,6 +43,9 @@ std::vector<uint8_t> cook(const uint8_t* data, size_t size, Random& random) {
         return {};
     }
     const std::shared_ptr<runtime::Prepared> prepared = runtime::Prepared::of(*character);
+    if (random() % 2 == 0) {
+        prepared->packClips(1e-3);
+    }
     SuppleGroupDesc desc{};
     desc.structSize = sizeof(desc);
     desc.scheme = static_cast<SuppleScheme>(random() % 8);
@@ -96,6 +99,9 @@ std::vector<uint8_t> spoilMembers(runtime::Prepared& prepared, Random& random) {
         &character.cage.faceStarts,    &character.cage.faceVertices, &character.cage.faceTriangles,
         &character.cage.faceMaterials, &character.cage.faceParts,    &character.cage.holes,
         &character.skin.joints,        &character.weights.starts,    &character.skeleton.parentsFirst};
+    for (cage::Clip& clip : character.clips) {
+        lists.push_back(&clip.packed.words);
+    }
     std::vector<std::shared_ptr<runtime::PreparedTables>> copies;
     for (auto& own : prepared.tables) {
         copies.push_back(std::make_shared<runtime::PreparedTables>(*own));

@@ -143,7 +143,7 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     std::vector<std::byte> other = file;
     other[kVersionAt] = std::byte{9};
     EXPECT_EQ(refusalOf(other),
-              "hero.supple: a cooked file of version 9, and this is version 7: make it anew: supple cook "
+              "hero.supple: a cooked file of version 9, and this is version 8: make it anew: supple cook "
               "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);

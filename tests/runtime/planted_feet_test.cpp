@@ -1,10 +1,10 @@
 // Feet that stand: where clips have them on the ground they stay in one place, on level ground and on slopes, with the
 // bits that the CPU has.
-#include "cage/gltf/reader.h"
 #include "skinning/contacts.h"
 #include "tests/support/boxes.h"
 #include "tests/support/crowd.h"
 #include "tests/support/played_group.h"
+#include "tests/support/read_character.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/walkers.h"
 
@@ -21,12 +21,6 @@ namespace {
 class Feet : public CrowdContexts {};
 
 constexpr uint32_t kWalks = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
-
-cage::Character read(const std::string& file) {
-    Result<cage::Character> character = cage::readGltfFile(file);
-    EXPECT_TRUE(character.ok());
-    return character ? std::move(*character) : cage::Character();
-}
 
 /// The ground: a point of it and its normal.
 struct Ground {
@@ -86,7 +80,7 @@ TEST_F(Feet, StayWhereTheClipHasThem) {
         ASSERT_TRUE(own.valid());
         for (const std::string& file : {kPip, kWren}) {
             for (const double yaw : {0.0, 0.5}) {
-                const cage::Character walker = walking(read(file), yaw);
+                const cage::Character walker = walking(readCharacter(file), yaw);
                 PlantedCrowd crowd(own, walker, 3);
                 PlayedGroup& stage = crowd.stage;
                 ASSERT_TRUE(stage.crowd.valid());
@@ -125,7 +119,7 @@ TEST_F(Feet, StandOnSlopes) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
-        const cage::Character walker = walking(read(kWren), 0.0);
+        const cage::Character walker = walking(readCharacter(kWren), 0.0);
         PlantedCrowd crowd(own, walker, 3, SUPPLE_SKINNING_DUAL_QUATERNION);
         PlayedGroup& stage = crowd.stage;
         const skinning::Foot& foot = crowd.contacts.feet[0];
@@ -180,7 +174,7 @@ TEST_F(Feet, AreHeldByWhatIsBlendedAndNotByWhatIsMaskedOrAdded) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const cage::Character walker = walking(read(kWren), 0.0);
+    const cage::Character walker = walking(readCharacter(kWren), 0.0);
     PlantedCrowd crowd(own, walker, 4);
     PlayedGroup& stage = crowd.stage;
     const auto clip = [&](const char* name) { return static_cast<uint32_t>(clipNumber(walker, name)); };
@@ -232,11 +226,38 @@ TEST_F(Feet, AreHeldByWhatIsBlendedAndNotByWhatIsMaskedOrAdded) {
     EXPECT_EQ(stage.poses, plain);
 }
 
+TEST_F(Feet, StayWhereTheClipEnds) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    ASSERT_TRUE(own.valid());
+    // It walks in place, so the ground moves; and it stands at the clip's beginning and at its end.
+    for (const char* const clip : {"walk", "jump"}) {
+        PlantedCrowd crowd(own, readCharacter(kWren), 1);
+        PlayedGroup& stage = crowd.stage;
+        const size_t number = clipNumber(stage.character(), clip);
+        SupplePlaybackLayer once = PlayedGroup::loops(static_cast<uint32_t>(number), 0.0);
+        once.flags = 0;
+        stage.play(0, {&once, 1});
+        stage.modify(0, crowd.onGround({}));
+        const double duration = stage.character().clips[number].duration;
+        for (const uint32_t foot : crowd.feet) {
+            for (const double end : {0.0, duration}) {
+                EXPECT_EQ(stage.run(end), 0u);
+                const glm::dvec3 place = stage.placeOf(0, foot);
+                for (const double beyond : {0.2, 0.9, 5.0}) {
+                    EXPECT_EQ(stage.run(end > 0.0 ? end + beyond : -beyond), 0u);
+                    EXPECT_EQ(stage.placeOf(0, foot), place) << clip << " " << end << " " << beyond;
+                }
+            }
+        }
+    }
+}
+
 TEST_F(Feet, StandInPosesThatAreSet) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const cage::Character walker = walking(read(kPip), 0.4);
+    const cage::Character walker = walking(readCharacter(kPip), 0.4);
     PlantedCrowd crowd(own, walker, 1);
     SuppleGroupDesc desc = playedGroup(own.createAsset(walker), 2, SUPPLE_GROUP_MODIFIERS);
     desc.poseSource = SUPPLE_POSES_SET;
@@ -283,13 +304,19 @@ TEST_F(Feet, StandInPosesThatAreSet) {
         EXPECT_EQ(suppleSetModifiers(own.handle(), instance, &modifiers), SUPPLE_OK);
         compare("modifiers that come later");
     }
+    // Another version of the file knows where the foot was held.
+    const SuppleAsset asset = desc.asset;
+    cage::Character other = walker;
+    other.clips.erase(other.clips.begin());
+    ASSERT_EQ(own.reloadAsset(asset, other), SUPPLE_OK);
+    compare("another version");
 }
 
 TEST_F(Feet, KeepWithinTheBoxesThatCullingKnows) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const cage::Character walker = walking(read(kPip), 0.3);
+    const cage::Character walker = walking(readCharacter(kPip), 0.3);
     PlantedCrowd crowd(own, walker, 1);
     PlayedGroup& stage = crowd.stage;
     stage.play(0, crowd.clip(), 0.0, kWalks, SUPPLE_PLAYBACK_TRAVEL);
@@ -313,7 +340,7 @@ TEST_F(Feet, AreFeetAndStayWhenTheGroupIsMadeAnew) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    const cage::Character walker = walking(read(kWren), 0.0);
+    const cage::Character walker = walking(readCharacter(kWren), 0.0);
     const SuppleAsset asset = own.createAsset(walker);
     PlayedGroup stage(own, playedGroup(asset, 1, SUPPLE_GROUP_MODIFIERS));
     const uint32_t foot = stage.joint("foot.L");

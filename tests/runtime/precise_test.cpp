@@ -46,6 +46,7 @@ constexpr Checked kShaders[] = {
     {"fragments/fragment.comp", "position"},
     {"pose/locals.comp", "local"},
     {"pose/roots.comp", "local"},
+    {"pose/roots.comp", "held"},
     {"pose/modify.comp", "local"},
     {"pose/palette.comp", "placed"},
     {"polygons/face.comp", "canonical"},

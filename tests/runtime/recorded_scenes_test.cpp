@@ -2,7 +2,7 @@
 // and in both mappings. To record them anew, where a change of words is meant:
 //
 //   SUPPLE_WRITE_RECORDINGS=$PWD/tests/data/recordings build/release/tests/runtime/supple_runtime_tests
-//       --gtest_filter='RecordedScenes.*'
+//       --gtest_filter='*RecordedScenes.*'
 #include "tests/support/crowd.h"
 #include "tests/support/played_group.h"
 #include "tests/support/recordings.h"

@@ -1,9 +1,9 @@
 // Where clips have feet on the ground: what is found is looked at again with the sampler of poses.
 #include "skinning/contacts.h"
 
-#include "cage/gltf/reader.h"
 #include "skinning/pose.h"
 #include "skinning/root_motion.h"
+#include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/walkers.h"
@@ -14,12 +14,6 @@
 
 namespace supple::skinning {
 namespace {
-
-cage::Character read(const std::string& file) {
-    Result<cage::Character> character = cage::readGltfFile(file);
-    EXPECT_TRUE(character.ok());
-    return character ? std::move(*character) : cage::Character();
-}
 
 const cage::Clip& clipCalled(const cage::Character& character, const std::string& name) {
     return character.clips[test::clipNumber(character, name)];
@@ -54,7 +48,7 @@ std::string nameOf(const cage::Character& character, const Foot& foot) {
 
 TEST(Contacts, AreThoseOfTwoFeetThatStandInTurn) {
     for (const std::string& file : {test::kPip, test::kWren}) {
-        const cage::Character character = read(file);
+        const cage::Character character = test::readCharacter(file);
         const Contacts contacts = findContacts(character);
         ASSERT_EQ(contacts.feet.size(), 2u) << "toes and knees are none";
         EXPECT_EQ(nameOf(character, contacts.feet[0]), "foot.L");
@@ -92,7 +86,7 @@ TEST(Contacts, AreThoseOfTwoFeetThatStandInTurn) {
 }
 
 TEST(Contacts, OfOneWhoStandsLastFromLoopToLoop) {
-    const cage::Character wren = read(test::kWren);
+    const cage::Character wren = test::readCharacter(test::kWren);
     const Contacts contacts = findContacts(wren);
     const size_t idle = test::clipNumber(wren, "idle");
     for (size_t f = 0; f < 2; ++f) {
@@ -106,7 +100,7 @@ TEST(Contacts, OfOneWhoStandsLastFromLoopToLoop) {
 
 TEST(Contacts, StandOnTheGroundThatAWalkPasses) {
     for (const std::string& file : {test::kPip, test::kWren}) {
-        const cage::Character before = read(file);
+        const cage::Character before = test::readCharacter(file);
         const size_t number = test::clipNumber(before, "walk");
         const cage::Character walker = test::walking(before, 0.0);
         const Contacts in = findContacts(before), onward = findContacts(walker);
@@ -126,7 +120,7 @@ TEST(Contacts, StandOnTheGroundThatAWalkPasses) {
 
 TEST(Contacts, GoOnOverTheEndOfALoopWhereTheRootHasGone) {
     // It jumps forward and turns in the air.
-    cage::Character wren = read(test::kWren);
+    cage::Character wren = test::readCharacter(test::kWren);
     const size_t number = test::clipNumber(wren, "jump");
     cage::Clip& jump = wren.clips[number];
     const std::vector<float> times{0.0f, 0.6f, 1.0f};
@@ -152,7 +146,7 @@ TEST(Contacts, GoOnOverTheEndOfALoopWhereTheRootHasGone) {
 }
 
 TEST(Contacts, NeedTheGround) {
-    cage::Character bird = read(test::kWren);
+    cage::Character bird = test::readCharacter(test::kWren);
     for (cage::Clip& clip : bird.clips) {
         test::raise(bird, clip, 3.0f);
     }

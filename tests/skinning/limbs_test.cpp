@@ -166,29 +166,28 @@ TEST(ModifierChains, TakeTwistJointsForPartsOfABone) {
     const cage::Character cut =
         named({"hips", "upperleg01.L", "upperleg02.L", "lowerleg01.L", "lowerleg02.L", "foot.L"}, 0.0f);
     const std::vector<uint32_t> parents = {cage::kNone, 0, 1, 2, 3, 4};
-    const auto limb = limbOf(cut, parents, 5);
+    const auto limb = limbOf(cut, makeRig(cut), 5);
     ASSERT_TRUE(limb.has_value());
     EXPECT_EQ(limb->chain[0], cut.skin.joints[1]);
     EXPECT_EQ(limb->chain[1], cut.skin.joints[3]);
     EXPECT_EQ(limb->chain[2], cut.skin.joints[5]);
     const cage::Character tail = named({"tail1", "tail2", "tail3", "tail4"}, 0.0f);
-    const auto end = limbOf(tail, parents, 3);
+    const auto end = limbOf(tail, makeRig(tail), 3);
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->chain[0], tail.skin.joints[1]) << "joints that are called alike are bones each";
-    EXPECT_FALSE(limbOf(tail, parents, 1).has_value());
+    EXPECT_FALSE(limbOf(tail, makeRig(tail), 1).has_value());
     EXPECT_FALSE(chainOf(tail, parents, 1, 3).has_value());
     EXPECT_TRUE(chainOf(tail, parents, 1, 2).has_value());
     cage::Character fixed = tail;
     fixed.skeleton.nodes[fixed.skin.joints[2]].hasMatrix = true;
-    EXPECT_FALSE(limbOf(fixed, parents, 3).has_value());
+    EXPECT_FALSE(limbOf(fixed, makeRig(fixed), 3).has_value());
 }
 
 TEST(ModifierChains, BendAsInTheRestPoseOrAsKneesDo) {
-    const std::vector<uint32_t> parents = {cage::kNone, 0, 1};
     // A leg: the shin goes back, so the knee is in front, and the hinge points to +X.
     for (const float bend : {0.3f, 0.0f}) {
         const cage::Character leg = named({"thigh", "shin", "foot"}, bend);
-        const auto limb = limbOf(leg, parents, 2);
+        const auto limb = limbOf(leg, makeRig(leg), 2);
         ASSERT_TRUE(limb.has_value());
         const glm::vec3 hinge = restHinge(leg, *limb);
         EXPECT_NEAR(hinge.x, 1.0f, 1e-6f) << bend;

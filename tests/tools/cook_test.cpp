@@ -1,6 +1,8 @@
 // supple cook as a user runs it: what it writes is read by other commands, which then do the same as with the source.
 #include "tests/tools/command_runner.h"
 
+#include <nlohmann/json.hpp>
+
 namespace {
 
 using supple::test::Outcome;
@@ -12,8 +14,9 @@ const std::string kToCook = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb";
 class Cook : public supple::test::CommandTest {};
 
 TEST_F(Cook, OtherCommandsReadIt) {
-    const Outcome outcome =
-        run("cook '" + kToCook + "' -o pip.supple --scheme catmull-clark,pm,blend,fragments --rate 4 --for grids");
+    const Outcome outcome = run("cook '" + kToCook +
+                                "' -o pip.supple --scheme catmull-clark,pm,blend,fragments --rate 4 --for grids "
+                                "--clip-error 0");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_TRUE(outcome.out.starts_with("written pip.supple, ")) << outcome.out;
     EXPECT_EQ(outcome.err, "");
@@ -45,8 +48,30 @@ TEST_F(Cook, AnotherVersionIsToldHowToMakeItAnew) {
     const Outcome outcome = run("inspect pip.supple");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err,
-              "supple: pip.supple: a cooked file of version 77, and this is version 7: make it anew: supple cook "
-              "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --parts-apart --scene 0\n");
+              "supple: pip.supple: a cooked file of version 77, and this is version 8: make it anew: supple cook "
+              "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --clip-error 0.0001 --parts-apart "
+              "--scene 0\n");
+}
+
+TEST_F(Cook, ClipsArePackedAsCloselyAsIsAsked) {
+    const auto cook = [&](const std::string& arguments) {
+        EXPECT_EQ(run("cook '" + kToCook + "' -o pip.supple --scheme polygons " + arguments).exitCode, 0);
+        return nlohmann::json::parse(run("inspect pip.supple --json").out)["clips"];
+    };
+    for (const auto& [arguments, error] : {std::pair("", 1e-4), std::pair("--clip-error 1e-3", 1e-3)}) {
+        for (const auto& clip : cook(arguments)) {
+            ASSERT_TRUE(clip.contains("packed")) << clip["name"];
+            EXPECT_LE(clip["packed"]["error"], error);
+            EXPECT_GT(clip["packed"]["ratio"], 5.0) << clip["name"];
+        }
+    }
+    for (const auto& clip : cook("--clip-error 0")) {
+        EXPECT_FALSE(clip.contains("packed"));
+    }
+    // The same is told of a file that is not cooked.
+    const Outcome told = run("inspect '" + kToCook + "' --clip-error 1e-3");
+    EXPECT_NE(told.out.find("packed: "), std::string::npos) << told.out;
+    EXPECT_EQ(run("inspect '" + kToCook + "'").out.find("packed: "), std::string::npos);
 }
 
 TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
@@ -62,7 +87,8 @@ TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {
     EXPECT_EQ(run("cook '" + kToCook + "' -o none.supple --scheme prep").exitCode, 1); // it has triangles
     EXPECT_FALSE(std::filesystem::exists(file("none.supple")));
     for (const char* usage : {"cook", "cook x.glb", "cook x.glb -o y --scheme all", "cook x.glb -o y --rate 0",
-                              "cook x.glb -o y --for crowds", "cook x.glb -o y --mapping auto"}) {
+                              "cook x.glb -o y --for crowds", "cook x.glb -o y --mapping auto",
+                              "cook x.glb -o y --clip-error 1", "cook x.glb -o y --clip-error -1"}) {
         EXPECT_EQ(run(usage).exitCode, 2) << usage;
     }
 }

@@ -46,7 +46,7 @@ std::optional<uint32_t> findJoint(const cage::Character& character, const std::s
 /// What takes +Y to a normal that does not point down.
 void putTurnTo(const double* normal, float* rotation) {
     const double length = std::hypot(normal[0], normal[1], normal[2]);
-    const std::array<double, 4> q{normal[2], 0.0, -normal[0], length + normal[1]};
+    const std::array<double, 4> q{normal[2] / length, 0.0, -normal[0] / length, 1.0 + normal[1] / length};
     std::ranges::transform(q, rotation, [](double x) { return static_cast<float>(x); });
 }
 

@@ -25,6 +25,7 @@ struct CookOptions {
     std::vector<uint32_t> rates{8};
     std::vector<std::string> uses{"grids", "levels"};
     std::string mapping = "both";
+    double clipError = 1e-4;
     SurfaceFlags surface; ///< --scheme and --rate are the lists above
 };
 
@@ -97,11 +98,12 @@ private:
 
 using Bytes = std::vector<std::byte>;
 
-Result<Bytes> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, const std::string& madeBy,
-                      bool warns) {
+Result<Bytes> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, double clipError,
+                      const std::string& madeBy, bool warns) {
     SupplePrepareDesc desc{};
     desc.structSize = sizeof desc;
     desc.mapping = mapping;
+    desc.clipError = static_cast<float>(clipError);
     desc.asset = &asset;
     desc.groups = plan.groups().data();
     desc.groupCount = static_cast<uint32_t>(plan.groups().size());
@@ -130,8 +132,8 @@ Result<Bytes> cook(const host::CharacterFile& file, const Plan& plan, const Cook
                    const std::string& madeBy) {
     const host::AssetDescription source(file);
     const bool wide = options.mapping != "narrow";
-    Result<Bytes> first =
-        prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW, madeBy, true);
+    Result<Bytes> first = prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW,
+                                  options.clipError, madeBy, true);
     if (!first || options.mapping != "both") {
         return first;
     }
@@ -140,7 +142,7 @@ Result<Bytes> cook(const host::CharacterFile& file, const Plan& plan, const Cook
     cooked.name = file.path.c_str();
     cooked.bytes = first->data();
     cooked.byteCount = first->size();
-    return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, madeBy, false);
+    return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, 0.0, madeBy, false);
 }
 
 /// How the file is read, as flags.
@@ -178,7 +180,9 @@ std::string madeByOf(const CookOptions& options) {
     add("--scheme", options.schemes, asIs);
     add("--rate", options.rates, [](uint32_t rate) { return std::to_string(rate); });
     add("--for", options.uses, asIs);
-    return line + " --mapping " + options.mapping + readingOf(options.surface.reading);
+    char clipError[32];
+    std::snprintf(clipError, sizeof clipError, " --clip-error %g", options.clipError);
+    return line + " --mapping " + options.mapping + clipError + readingOf(options.surface.reading);
 }
 
 int runCook(const CookOptions& options) {
@@ -229,6 +233,7 @@ void bindCook(CLI::App& app, int& exitCode) {
     command->add_option("--mapping", options->mapping, "Devices: CPUs are narrow, GPUs wide")
         ->check(CLI::IsMember({"narrow", "wide", "both"}))
         ->capture_default_str();
+    bindClipError(*command, options->clipError);
     bindReading(*command, options->surface.reading);
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles), {{"--output", options->output}});

@@ -2,6 +2,8 @@
 // every scheme's surface, and --memory do.
 #include "cage/message.h"
 #include "cage/topology.h"
+#include "skinning/clip_packer.h"
+#include "skinning/clip_table.h"
 #include "skinning/contacts.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
@@ -34,6 +36,7 @@ struct InspectOptions {
     bool memory = false;
     SurfaceFlags surface; ///< of its fields those that --compare and --memory have flags for; `reading` always
     std::string clip;     ///< name or index; empty: the bind pose
+    double clipError = 0.0;
     double time = 0.0;
     DeviceFlags device;
 };
@@ -229,6 +232,16 @@ Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile
     return found;
 }
 
+/// What a packed clip takes in the clip table, and how much less that is than before.
+struct PackedFacts {
+    size_t bytes = 0;
+    double ratio = 1.0;
+};
+PackedFacts packedFacts(const cage::Character& character, const cage::Clip& clip) {
+    const size_t bytes = skinning::clipBytes(skinning::nodeOrder(character), clip);
+    return {bytes, static_cast<double>(clip.packed.unpackedBytes) / static_cast<double>(bytes)};
+}
+
 /// When a clip's feet stand: where a --plant of theirs holds them.
 nlohmann::ordered_json contactsIn(const cage::Character& character, const skinning::Contacts& contacts, size_t clip) {
     auto list = nlohmann::ordered_json::array();
@@ -307,6 +320,10 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         }
         Json entry = {{"name", clip.name}, {"duration", clip.duration}};
         entry["markers"] = std::move(markers);
+        if (!clip.packed.words.empty()) {
+            const PackedFacts facts = packedFacts(character, clip);
+            entry["packed"] = {{"bytes", facts.bytes}, {"ratio", facts.ratio}, {"error", clip.packed.error}};
+        }
         entry["contacts"] = contactsIn(character, contacts, json["clips"].size());
         json["clips"].push_back(std::move(entry));
     }
@@ -471,6 +488,13 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         char duration[32];
         std::snprintf(duration, sizeof duration, "  %.3f s", character.clips[i].duration);
         printLine("", std::to_string(i) + "  " + character.clips[i].name + duration);
+        if (!character.clips[i].packed.words.empty()) {
+            const PackedFacts facts = packedFacts(character, character.clips[i]);
+            char text[96];
+            std::snprintf(text, sizeof text, "     packed: %zu bytes, %.1f:1, error %.2g extents", facts.bytes,
+                          facts.ratio, character.clips[i].packed.error);
+            printLine("", text);
+        }
         for (const cage::Marker& marker : character.clips[i].markers) {
             char time[32];
             std::snprintf(time, sizeof time, "%.3f s", marker.time);
@@ -518,9 +542,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
 }
 
 int runInspect(const InspectOptions& options) {
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
+    Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
+    }
+    if (options.clipError > 0.0) {
+        skinning::packClips(file->character, options.clipError);
     }
     const auto print = [&](const Measured& measured) {
         const Findings findings = examine(file->character);
@@ -566,6 +593,7 @@ void bindInspect(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_flag("--json", options->json, "Print JSON");
+    bindClipError(*command, options->clipError);
     bindReading(*command, options->surface.reading);
     command->add_flag("--compare", options->compare,
                       "Also evaluate every scheme that takes the cage, and say how far its surface is from the "

@@ -216,6 +216,16 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
         ->capture_default_str();
 }
 
+void bindClipError(CLI::App& command, double& error) {
+    command
+        .add_option("--clip-error", error,
+                    "How far packing a clip may move a vertex, as a part of the character's extent; 0: clips are not "
+                    "packed")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("EXTENTS")
+        ->capture_default_str();
+}
+
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
     bindSettings(command, "--morph", morphs, host::parseMorph,
                  "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in "

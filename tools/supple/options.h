@@ -92,6 +92,9 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
 /// --morph, as often as it is given.
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
 
+/// --clip-error: how closely clips are packed.
+void bindClipError(CLI::App& command, double& error);
+
 /// --set, --aim, --two-bone, each as often as it is given, and --weight.
 struct ModifierFlags {
     std::vector<host::ModifierSetting> settings;

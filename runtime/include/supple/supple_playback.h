@@ -287,9 +287,10 @@ SUPPLE_API SuppleResult suppleSetJointMatrices(SuppleContext context, SuppleInst
  * PLANT: the joint is a foot, and stands on the ground: the plane through the target whose normal is +Y turned by
  * `rotation`. Its limb is bent as by TWO_BONE. It goes up or down by what the ground under it differs from the plane
  * under the foot's sole in the rest pose, and tilts with the ground. While a clip has it on the ground, it stays in one
- * place there: those times are found when the file is loaded (docs/playback.md). It needs no memory, so it may be
- * sought, and is replayed. LOWER: the joint, the hips, goes down in model space as far as the feet of the PLANT behind
- * it in the list need. */
+ * place there: those times are found when the file is loaded (docs/playback.md). PLANT keeps no state: seeking and
+ * replay give the same pose.
+ * LOWER: the joint, the hips, moves down in model space until every foot below it with a later PLANT reaches its
+ * ground. */
 typedef enum SuppleModifierKind {
     SUPPLE_MODIFIER_SET = 0,
     SUPPLE_MODIFIER_ADD = 1,

@@ -32,6 +32,11 @@ typedef struct SupplePrepareDesc {
     uint32_t groupCount;
     SuppleLogFunction log; /**< optional: errors, and warnings about the file */
     void* logUser;
+    /** How far packing may move a vertex from where a clip has it, as a part of the extent, 0..0.1: 1e-4 suits most
+     * games (docs/playback.md). Clips then take about an eighth of the memory on the device. 0: clips stay as they are.
+     * Clips that are packed already stay, too. Packing takes a while: let cooked files keep it. */
+    float clipError;
+    uint32_t reserved; /**< 0 */
 } SupplePrepareDesc;
 
 /** Reads a character and builds what its groups will need: skin tables, the tables of each scheme, and the tables of

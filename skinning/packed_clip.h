@@ -1,0 +1,68 @@
+// Packed clips: the channels of a clip in a few bits, in the layout that the pose pass reads (shaders/shared/pose.h).
+//
+// Time is cut into frames, and these into segments of kSegmentFrames. A channel keeps some frames of each segment, its
+// knots, as whole numbers of a lattice; between two knots it is linear, and rotations go along the arc, as glTF's
+// LINEAR channels do. So a packed clip is a clip with fewer keys, whose values are rounded: channelsOf() gives it.
+//
+// A rotation is kept as the tangent of a quarter of its angle, along its axis, from a reference near all of them:
+// nearly even, and decoded without a root.
+#pragma once
+
+#include "base/result.h"
+#include "cage/character.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace supple::skinning {
+
+/// One property of a node.
+struct PackedProperty {
+    uint32_t place = 0; ///< of the node in the clip table
+    cage::ChannelPath path = cage::ChannelPath::translation;
+    bool isConstant = false;
+    int exponent = 0;                                    ///< values are multiples of 2^-exponent
+    std::array<uint32_t, 3> reference{255u, 255u, 255u}; ///< of rotations that change: 255 is 0, 0 and 510 are -1 and 1
+    std::vector<uint32_t> frames;   ///< of the knots, rising: the first and the last of each segment among them
+    std::vector<glm::ivec3> values; ///< one a knot; of a constant one
+};
+
+struct PackedClip {
+    uint32_t last = 1;                      ///< the number of the last frame, which is the clip's end; the first is 0
+    std::vector<PackedProperty> properties; ///< by place, then by path
+};
+
+/// Numbers that the fields of the layout have room for.
+inline constexpr int kLeastExponent = -8, kMostExponent = 20;
+inline constexpr uint32_t kMostPackedFrames = 1u << 20;
+
+/// The rotation whose axis is as long as the tangent of a quarter of its angle, and back: of w < 0, of the same
+/// rotation with w > 0.
+[[nodiscard]] glm::dquat quarterTangentTurn(const glm::dvec3& r);
+[[nodiscard]] glm::dvec3 quarterTangent(const glm::dquat& q);
+
+/// The reference of a property, and one near a rotation.
+[[nodiscard]] glm::dquat referenceOf(const PackedProperty& property);
+[[nodiscard]] std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation);
+
+/// The exponent with which a constant is kept: its largest number fits into 20 bits.
+[[nodiscard]] int constantExponent(const glm::dvec3& value);
+
+/// Nothing if a number is too large for its field. `nodeCount`: of the clip table. Four words an element; offsets count
+/// from the first.
+[[nodiscard]] std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration,
+                                                               size_t nodeCount);
+
+/// Reads words that may be anybody's; refuses all that a reader of them would have to check.
+[[nodiscard]] Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, size_t nodeCount);
+
+/// The properties as channels, in their order. `nodes`: by place, as ClipTable has them.
+[[nodiscard]] std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration,
+                                                    std::span<const uint32_t> nodes);
+
+} // namespace supple::skinning

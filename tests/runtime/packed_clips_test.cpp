@@ -1,0 +1,137 @@
+// Packed clips on the device: the bits that the CPU has, whatever they are mixed with, also from a cooked file.
+#include "runtime/cooked/file.h"
+#include "skinning/clip_packer.h"
+#include "tests/support/crowd.h"
+#include "tests/support/played_group.h"
+#include "tests/support/read_character.h"
+#include "tests/support/same_character.h"
+#include "tests/support/sample_assets.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <memory>
+#include <supple/supple_prepare.h>
+
+namespace supple::test {
+namespace {
+
+class PackedOnGpu : public CrowdContexts {};
+
+constexpr double kError = 1e-4;
+
+/// A cooked file. Error 0: its clips are not packed.
+std::vector<std::byte> cooked(const cage::Character& character, double error) {
+    cage::Character packed = character;
+    if (error > 0.0) {
+        skinning::packClips(packed, error);
+    }
+    return runtime::writeCooked(*runtime::Prepared::of(std::move(packed)), "");
+}
+
+TEST_F(PackedOnGpu, HaveTheBitsOfTheCpu) {
+    const ValidationGuard guard;
+    constexpr uint32_t kTravels = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        ASSERT_TRUE(own.valid());
+        for (const std::string& file : {kPip, kWren}) {
+            const cage::Character plain = readCharacter(file);
+            const std::vector<std::byte> bytes = cooked(plain, kError);
+            const uint32_t flags = SUPPLE_GROUP_TRANSITIONS;
+            PlayedGroup stage(own, playedGroup(own.createAsset(bytes, "packed"), 5, flags));
+            PlayedGroup before(own, playedGroup(own.asset(file), 5, flags));
+            ASSERT_TRUE(stage.crowd.valid() && before.crowd.valid());
+            const auto clips = static_cast<uint32_t>(plain.clips.size());
+            for (PlayedGroup* const group : {&stage, &before}) {
+                for (uint32_t i = 0; i < 3; ++i) {
+                    group->play(i, i % clips, 0.17 * i, i == 2 ? kTravels : 0u,
+                                i == 2 ? uint32_t{SUPPLE_PLAYBACK_TRAVEL} : 0u);
+                }
+                SupplePlaybackLayer layers[3] = {PlayedGroup::loops(0, 0.1), PlayedGroup::loops(1, 0.3),
+                                                 PlayedGroup::loops(clips - 1, 0.2)};
+                layers[1].weight = 0.4f;
+                layers[2].mode = SUPPLE_LAYER_ADDITIVE;
+                layers[2].weight = 0.5f;
+                group->play(3, layers);
+                group->play(4, 0, 0.0);
+            }
+            double apart = 0.0;
+            for (const double time : {0.0, 0.35, 1.0, 1.2, 17.3}) {
+                if (time == 1.0) {
+                    SupplePlaybackDesc over{};
+                    over.transition = 0.3;
+                    stage.play(4, 1, 0.0, over);
+                    before.play(4, 1, 0.0, over);
+                }
+                EXPECT_EQ(stage.run(time), 0u) << mappingName(mapping) << " " << file << " at " << time;
+                EXPECT_EQ(before.run(time), 0u);
+                for (uint32_t i = 0; i < 2; ++i) {
+                    for (uint32_t j = 0; j < plain.skin.joints.size(); ++j) {
+                        apart = std::max(apart, glm::length(stage.placeOf(i, j) - before.placeOf(i, j)));
+                    }
+                }
+            }
+            EXPECT_LT(apart, 1.5 * kError * stage.extent());
+            EXPECT_GT(apart, 0.0) << "they are others";
+        }
+    }
+}
+
+TEST(PackedFiles, AreReadAsTheyWereWritten) {
+    const cage::Character plain = readCharacter(kWren);
+    cage::Character packed = plain;
+    skinning::packClips(packed, kError);
+    const std::vector<std::byte> bytes = cooked(plain, kError);
+    EXPECT_LT(bytes.size() + 150'000, cooked(plain, 0.0).size()) << "the channels are not there twice";
+    const Result<std::shared_ptr<runtime::Prepared>> read = runtime::readCooked(bytes, plain.name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    const CharacterDifferences differences(packed, (*read)->character);
+    EXPECT_TRUE(differences.found().empty()) << differences.found().front();
+    for (size_t c = 0; c < packed.clips.size(); ++c) {
+        const cage::PackedChannels &a = packed.clips[c].packed, &b = (*read)->character.clips[c].packed;
+        EXPECT_EQ(a.words, b.words);
+        EXPECT_EQ(a.channelCount, b.channelCount);
+        EXPECT_EQ(a.error, b.error);
+        EXPECT_EQ(a.unpackedBytes, b.unpackedBytes);
+    }
+    // Words that say something else are refused, with the file's name.
+    packed.clips[1].packed.words[1] += 1;
+    const std::vector<std::byte> spoiled = runtime::writeCooked(*runtime::Prepared::of(packed), "");
+    const Result<std::shared_ptr<runtime::Prepared>> refused = runtime::readCooked(spoiled, "wren.supple");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("wren.supple: clip walk: "), std::string::npos) << refused.error().message;
+}
+
+TEST(PackedFiles, ArePreparedWithTheErrorThatIsAsked) {
+    const cage::Character plain = readCharacter(kPip);
+    const std::vector<std::byte> file = cooked(plain, 0.0);
+    SuppleAssetDesc asset{};
+    asset.structSize = sizeof asset;
+    asset.name = "pip";
+    asset.bytes = file.data();
+    asset.byteCount = file.size();
+    SupplePrepareDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.asset = &asset;
+    const auto sizeWith = [&](float error) {
+        desc.clipError = error;
+        SupplePrepared prepared = nullptr;
+        EXPECT_EQ(supplePrepare(&desc, &prepared), SUPPLE_OK);
+        size_t size = 0;
+        EXPECT_EQ(suppleSavePrepared(prepared, nullptr, nullptr, &size), SUPPLE_OK);
+        suppleDestroyPrepared(prepared);
+        return size;
+    };
+    const size_t plainSize = sizeWith(0.0f), fine = sizeWith(1e-4f), coarse = sizeWith(1e-3f);
+    EXPECT_LT(fine + 100'000, plainSize);
+    EXPECT_LT(coarse, fine);
+    for (const float wrong : {-1e-4f, 0.2f, std::numeric_limits<float>::quiet_NaN()}) {
+        desc.clipError = wrong;
+        SupplePrepared prepared = nullptr;
+        EXPECT_EQ(supplePrepare(&desc, &prepared), SUPPLE_ERROR_ARGUMENT) << wrong;
+        EXPECT_EQ(prepared, nullptr);
+    }
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,304 @@
+// Packed clips: words that are written are read, whoever spoils them is refused, and what is packed keeps within its
+// error.
+#include "shaders/shared/pose.h"
+#include "skinning/clip_packer.h"
+#include "skinning/clip_table.h"
+#include "skinning/packed_clip.h"
+#include "skinning/playback.h"
+#include "skinning/pose.h"
+#include "skinning/pose_twin.h"
+#include "tests/support/read_character.h"
+#include "tests/support/rigged_tube.h"
+#include "tests/support/sample_assets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace supple::skinning {
+namespace {
+
+using cage::ChannelPath;
+using test::channel;
+using test::clipOf;
+
+double extentOf(const cage::Character& character) {
+    Pose rest;
+    restPose(character, rest);
+    glm::dvec3 low(1e30), high(-1e30);
+    for (const glm::dvec3& p : deformOnCpu(character, rest)) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::length(high - low);
+}
+
+/// The largest distance between two clips of one character, of vertices and joints, in extents.
+double distance(const cage::Character& character, const cage::Clip& a, const cage::Clip& b, int times) {
+    Pose one, other;
+    double worst = 0.0;
+    for (int k = 0; k <= times; ++k) {
+        const double time = a.duration * (k < times ? std::fmod(0.618034 * k, 1.0) : 1.0);
+        sampleClip(character, a, time, one);
+        sampleClip(character, b, time, other);
+        const std::vector<glm::dvec3> p = deformOnCpu(character, one), q = deformOnCpu(character, other);
+        for (size_t v = 0; v < p.size(); ++v) {
+            worst = std::max(worst, glm::length(p[v] - q[v]));
+        }
+    }
+    return worst / extentOf(character);
+}
+
+PackedClip randomClip(std::mt19937& random, uint32_t nodes) {
+    const auto below = [&](uint32_t n) { return std::uniform_int_distribution<uint32_t>(0, n - 1)(random); };
+    PackedClip clip;
+    clip.last = 1 + below(100);
+    for (uint32_t place = 0; place < nodes; ++place) {
+        for (uint32_t path = 0; path < 3; ++path) {
+            if (below(3) == 0) {
+                continue;
+            }
+            PackedProperty& own = clip.properties.emplace_back();
+            own.place = place;
+            own.path = static_cast<ChannelPath>(path);
+            own.isConstant = below(3) == 0;
+            const auto number = [&] { return static_cast<int>(below(1u << (1 + below(20)))) - (1 << below(19)); };
+            const auto value = [&] {
+                return glm::clamp(glm::ivec3(number(), number(), number()), glm::ivec3(-524287), glm::ivec3(524287));
+            };
+            if (own.isConstant) {
+                own.exponent = 27 - 2 * static_cast<int>(below(16));
+                own.values = {value()};
+                continue;
+            }
+            own.exponent = static_cast<int>(below(29)) - 8;
+            own.reference = {below(511), below(511), below(511)};
+            const glm::ivec3 base = value();
+            const uint32_t width = 1u << below(19);
+            for (uint32_t f = 0; f <= clip.last; ++f) {
+                if (f % shared::kSegmentFrames == 0 || f == clip.last || below(3) == 0) {
+                    own.frames.push_back(f);
+                    const glm::ivec3 step(static_cast<int>(below(width)), static_cast<int>(below(width)), 0);
+                    own.values.push_back(glm::clamp(base + step, glm::ivec3(-524287), glm::ivec3(524287)));
+                }
+            }
+        }
+    }
+    return clip;
+}
+
+bool same(const PackedClip& a, const PackedClip& b) {
+    return a.last == b.last && std::equal(a.properties.begin(), a.properties.end(), b.properties.begin(),
+                                          b.properties.end(), [](const PackedProperty& p, const PackedProperty& q) {
+                                              return p.place == q.place && p.path == q.path &&
+                                                     p.isConstant == q.isConstant && p.exponent == q.exponent &&
+                                                     p.reference == q.reference && p.frames == q.frames &&
+                                                     p.values == q.values;
+                                          });
+}
+
+TEST(PackedClips, WordsThatAreWrittenAreRead) {
+    std::mt19937 random(7);
+    for (int i = 0; i < 200; ++i) {
+        const uint32_t nodes = 1 + static_cast<uint32_t>(i) % 40;
+        const PackedClip clip = randomClip(random, nodes);
+        const double duration = 0.1 + 0.05 * i;
+        const std::optional<std::vector<uint32_t>> words = packedWords(clip, duration, nodes);
+        ASSERT_TRUE(words.has_value()) << i;
+        const Result<PackedClip> again = readPackedWords(*words, duration, nodes);
+        ASSERT_TRUE(again.ok()) << i << ": " << again.error().message;
+        EXPECT_TRUE(same(clip, *again)) << i;
+    }
+}
+
+TEST(PackedClips, WordsThatAreSpoiledAreRefusedOrMeanSomething) {
+    std::mt19937 random(8);
+    size_t refused = 0, taken = 0;
+    for (int i = 0; i < 400; ++i) {
+        const uint32_t nodes = 1 + static_cast<uint32_t>(i) % 20;
+        const PackedClip clip = randomClip(random, nodes);
+        std::vector<uint32_t> words = *packedWords(clip, 1.0, nodes);
+        for (int k = 0; k < 20; ++k) {
+            std::vector<uint32_t> spoiled = words;
+            spoiled[random() % spoiled.size()] ^= 1u << random() % 32;
+            if (k == 0) {
+                spoiled.resize(random() % spoiled.size());
+            }
+            const Result<PackedClip> found = readPackedWords(spoiled, 1.0, nodes);
+            (found ? taken : refused)++;
+            if (found) { // its numbers are others: they are written as they were found
+                const std::optional<std::vector<uint32_t>> rewritten = packedWords(*found, 1.0, nodes);
+                EXPECT_TRUE(!rewritten || rewritten->size() <= spoiled.size());
+                std::vector<uint32_t> places(nodes, 0u);
+                for (const cage::Channel& own : channelsOf(*found, 1.0, places)) {
+                    EXPECT_TRUE(std::is_sorted(own.times.begin(), own.times.end()));
+                    EXPECT_TRUE(
+                        std::all_of(own.values.begin(), own.values.end(), [](float x) { return std::isfinite(x); }));
+                }
+            }
+        }
+        EXPECT_FALSE(readPackedWords(words, 2.0, nodes).ok()) << "its rate follows from the duration";
+        EXPECT_FALSE(readPackedWords(words, 1.0, nodes + 16).ok());
+    }
+    EXPECT_GT(refused, 1000u);
+    EXPECT_GT(taken, 1000u);
+}
+
+TEST(PackedClips, NumbersThatAreTooLargeAreNotWritten) {
+    PackedClip clip;
+    PackedProperty& own = clip.properties.emplace_back();
+    own.frames = {0, 1};
+    own.values = {glm::ivec3(0), glm::ivec3(1 << 19, 0, 0)};
+    EXPECT_FALSE(packedWords(clip, 1.0, 1).has_value());
+    own.values[1].x = (1 << 19) - 1;
+    EXPECT_TRUE(packedWords(clip, 1.0, 1).has_value());
+}
+
+TEST(PackedClips, KeepWithinTheErrorAndAreSmaller) {
+    struct Case {
+        std::string file;
+        double ratio;
+    };
+    for (const Case& own : {Case{test::kPip, 7.0}, Case{test::kWren, 5.5}}) {
+        const cage::Character plain = test::readCharacter(own.file);
+        const NodeOrder order = nodeOrder(plain);
+        double bytes = 0.0, before = 0.0;
+        for (const double error : {1e-4, 1e-3}) {
+            cage::Character packed = plain;
+            packClips(packed, error);
+            ASSERT_EQ(packed.clips.size(), plain.clips.size());
+            for (size_t c = 0; c < plain.clips.size(); ++c) {
+                const cage::Clip& clip = packed.clips[c];
+                ASSERT_FALSE(clip.packed.words.empty()) << own.file << " " << clip.name;
+                EXPECT_EQ(clip.name, plain.clips[c].name);
+                EXPECT_EQ(clip.duration, plain.clips[c].duration);
+                EXPECT_EQ(clip.markers.size(), plain.clips[c].markers.size());
+                EXPECT_LE(clip.packed.error, error);
+                EXPECT_GT(clip.packed.error, 0.3 * error) << "it takes what it is given";
+                EXPECT_LE(distance(plain, plain.clips[c], clip, 40), 1.1 * error) << clip.name;
+                EXPECT_EQ(clip.packed.unpackedBytes, clipBytes(order, plain.clips[c]));
+                if (error < 5e-4) {
+                    bytes += static_cast<double>(clipBytes(order, clip));
+                    before += static_cast<double>(clip.packed.unpackedBytes);
+                }
+                // Packed once more, it stays.
+                cage::Character again = packed;
+                packClips(again, error);
+                EXPECT_EQ(again.clips[c].packed.words, clip.packed.words);
+            }
+        }
+        EXPECT_GT(before / bytes, own.ratio) << own.file;
+    }
+}
+
+/// A tube that bends, stretches and blinks, on no frames of a common rate.
+cage::Character oddTube() {
+    cage::Character tube = test::riggedTube({.segments = 6, .sides = 6, .joints = 4, .morphTargets = 3});
+    std::vector<float> times, turns, ways, weights;
+    for (int k = 0; k < 60; ++k) {
+        const float t = 0.0213f * static_cast<float>(k);
+        times.push_back(t);
+        const float angle = 0.4f * std::sin(3.0f * t);
+        turns.insert(turns.end(), {0.0f, std::sin(angle), 0.0f, std::cos(angle)});
+        ways.insert(ways.end(), {0.3f * t, 0.1f * std::cos(5.0f * t), 0.0f});
+        weights.insert(weights.end(), {0.5f * t, 0.0f, 0.25f});
+    }
+    cage::Channel blink = channel(1, ChannelPath::weights, times, weights);
+    const cage::Channel steps =
+        channel(3, ChannelPath::translation, {0, 0.5f, 1}, {2, 0, 0, 2, 1, 0, 2, 0, 0}, cage::Interpolation::step);
+    const cage::Channel curve =
+        channel(4, ChannelPath::scale, {0, 1}, {0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1, 0, 2, 1, 1, 0, 0, 0},
+                cage::Interpolation::cubicSpline);
+    tube.clips.push_back(
+        clipOf({channel(2, ChannelPath::rotation, times, turns), channel(1, ChannelPath::translation, times, ways),
+                blink, steps, curve, channel(3, ChannelPath::rotation, {0, 1}, {0, 0, 0.6f, 0.8f, 0, 0, 0.6f, 0.8f}),
+                channel(4, ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0, 0, 0, 1})}));
+    tube.clips.back().name = "odd";
+    return tube;
+}
+
+TEST(PackedClips, LeaveAloneWhatTheyCannotPack) {
+    const cage::Character plain = oddTube();
+    cage::Character packed = plain;
+    packClips(packed, 1e-3);
+    const cage::Clip& clip = packed.clips.front();
+    ASSERT_FALSE(clip.packed.words.empty());
+    EXPECT_LE(distance(plain, plain.clips.front(), clip, 100), 1.1e-3);
+    const auto find = [&](const cage::Clip& of, uint32_t node, ChannelPath path) -> const cage::Channel* {
+        const auto found = std::find_if(of.channels.begin(), of.channels.end(),
+                                        [&](const cage::Channel& own) { return own.node == node && own.path == path; });
+        return found != of.channels.end() ? &*found : nullptr;
+    };
+    for (const auto& [node, path] : {std::pair(3u, ChannelPath::translation), std::pair(4u, ChannelPath::scale)}) {
+        const cage::Channel *before = find(plain.clips.front(), node, path), *after = find(clip, node, path);
+        ASSERT_NE(after, nullptr);
+        EXPECT_EQ(after->values, before->values);
+        EXPECT_EQ(after->interpolation, before->interpolation);
+    }
+    EXPECT_EQ(find(clip, 4, ChannelPath::rotation), nullptr) << "it is at rest";
+    EXPECT_EQ(find(clip, 3, ChannelPath::rotation)->times.size(), 1u) << "it is constant";
+    const cage::Channel* const weights = find(clip, 1, ChannelPath::weights);
+    ASSERT_NE(weights, nullptr);
+    EXPECT_LT(weights->times.size(), 10u) << "they are straight";
+    // Clips of one pose, and of no channels, stay.
+    cage::Character still = plain;
+    still.clips = {clipOf({channel(2, ChannelPath::rotation, {0}, {0, 0, 0.6f, 0.8f})}), cage::Clip()};
+    packClips(still, 1e-3);
+    EXPECT_TRUE(still.clips[0].packed.words.empty() && still.clips[1].packed.words.empty());
+    // So do long ones, in no time.
+    cage::Character slow = plain;
+    slow.clips = {clipOf({channel(2, ChannelPath::rotation, {0, 1e6f}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})})};
+    packClips(slow, 1e-3);
+    EXPECT_TRUE(slow.clips[0].packed.words.empty());
+}
+
+TEST(PackedClips, AreSampledByTheDevicesCodeAsByTheCpu) {
+    for (cage::Character character : {test::readCharacter(test::kPip), test::readCharacter(test::kWren), oddTube()}) {
+        packClips(character, 1e-4);
+        const ClipTable table = buildClipTable(character);
+        const PoseLayout layout = PoseLayout::of(SkinningMode::linear, table.jointCount, table.targetCount);
+        PoseTwin twin(table, layout, 0);
+        std::vector<uint32_t> words(4 * size_t{PlaybackState::elements(layout.morphCount)});
+        PlaybackState state(words);
+        state.setTransform(glm::mat4(1.0f));
+        std::vector<float> masks(4 * size_t{maskElements(table)} * shared::kMaxMasks, 1.0f);
+        Pose pose;
+        std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
+        const double extent = extentOf(character);
+        for (uint32_t c = 0; c < character.clips.size(); ++c) {
+            PlaybackLayer layer;
+            layer.clip = c;
+            PlaybackDesc desc;
+            desc.layers = {&layer, 1};
+            state.set(character, table, desc);
+            const double duration = character.clips[c].duration;
+            std::vector<double> times = {-1.0, 0.0, duration, duration + 1.0};
+            for (int k = 0; k < 60; ++k) {
+                times.push_back(duration * k / 60.0); // frames, borders of segments, and between
+                times.push_back(std::nextafter(static_cast<float>(duration * k / 60.0), 0.0f));
+            }
+            for (const double time : times) {
+                twin.pose(words, masks, time);
+                sampleClip(character, character.clips[c], time, pose);
+                localMatrices(character.skeleton, pose, nodes);
+                globalTransforms(character.skeleton, nodes, nodes);
+                double worst = 0.0;
+                for (uint32_t j = 0; j < table.jointCount; ++j) {
+                    const glm::mat4 d = twin.joint(j) - nodes[character.skin.joints[j]];
+                    for (int column = 0; column < 4; ++column) {
+                        worst =
+                            std::max(worst, static_cast<double>(glm::length(d[column])) / (column == 3 ? extent : 1.0));
+                    }
+                }
+                EXPECT_LT(worst, 2e-5) << character.clips[c].name << " at " << time;
+                for (uint32_t t = 0; t < layout.morphCount; ++t) {
+                    EXPECT_NEAR(twin.weights()[t / 4][static_cast<int>(t % 4)], pose.morphWeights[t], 2e-5);
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace supple::skinning
