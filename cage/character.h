@@ -413,6 +413,8 @@ struct Character {
     std::vector<Expression> expressions;
     SpringBones springBones;
     std::vector<Clip> clips;
+    /// What moves the character in its clips as they were before they were packed (skinning::findRoot); kNone: ask.
+    uint32_t clipRoot = kNone;
     std::vector<Material> materials;
     std::vector<std::string> materialVariants; ///< names of KHR_materials_variants; one may have been chosen
     std::vector<Image> images;

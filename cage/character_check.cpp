@@ -276,6 +276,7 @@ void Check::expressions() {
 }
 
 void Check::clips() {
+    require(belowOrNone({&character_.clipRoot, 1}, character_.skeleton.nodes.size()), "no such root of clips");
     for (size_t c = 0; c < character_.clips.size(); ++c) {
         const Clip& clip = character_.clips[c];
         const std::string name = at("clip", c) + " ";

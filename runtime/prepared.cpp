@@ -66,7 +66,9 @@ void Prepared::follow() {
 }
 
 void Prepared::packClips(double error) {
-    skinning::packClips(character, error);
+    for (std::string& warning : skinning::packClips(character, error)) {
+        character.warnings.push_back(std::move(warning));
+    }
     if (clips) {
         clips = skinning::buildClipTable(character);
     }

@@ -1,9 +1,12 @@
 #include "skinning/clip_packer.h"
 
+#include "cage/message.h"
 #include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
 #include "skinning/packed_clip.h"
 #include "skinning/pose.h"
+#include "skinning/pose_distance.h"
+#include "skinning/root_motion.h"
 #include "skinning/rotation.h"
 
 #include <algorithm>
@@ -19,13 +22,12 @@ using cage::Channel;
 using cage::ChannelPath;
 using shared::kSegmentFrames;
 
-constexpr double kShell = 0.015;     // of the extent
 constexpr double kStill = 0.5;       // of a budget: what a property may lose to be constant
-constexpr double kForRounding = 0.6; // of a budget; the rest is for knots
+constexpr double kForRounding = 0.6; // of a budget; the rest is for skipped frames
+constexpr double kOffGridRate = 60.0;
 constexpr uint32_t kMostFrames = 4096;
-constexpr size_t kMostPoses = 400'000;   // frames times nodes: what the truth takes
-constexpr size_t kMostWork = 10'000'000; // frames times properties, of all clips
-constexpr size_t kMostWatched = 160;     // vertices that each step of the bisection looks at
+constexpr size_t kMostPoses = 400'000;         // frames times nodes: memory for what the clip was
+constexpr uint64_t kMostWork = 1'000'000'000u; // half microseconds
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 double angleBetween(const glm::dquat& a, const glm::dquat& b) {
@@ -33,186 +35,25 @@ double angleBetween(const glm::dquat& a, const glm::dquat& b) {
     return 4.0 * std::asin(std::min(0.5 * glm::length(d), 1.0));
 }
 
-/// What all clips of a character share.
-class Body {
+/// Spans of frames within a segment: the distance moved if the frames inside of a span are skipped.
+class Spans {
 public:
-    explicit Body(const cage::Character& character)
-        : character_(character), globals_(character.skeleton.nodes.size()), order_(nodeOrder(character)) {
-        Pose rest;
-        skinning::restPose(character, rest);
-        std::vector<glm::dmat4> globals(globals_.size());
-        pose(rest, globals);
-        measureExtent(globals);
-        measureReach(globals);
-        watch(globals);
-        for (const cage::MorphTarget& target : character.morphs.targets) {
-            double& reach = targetReach_.emplace_back(0.0);
-            for (const glm::vec3& delta : target.deltas) {
-                reach = std::max(reach, static_cast<double>(glm::length(delta)));
-            }
-        }
-    }
-
-    [[nodiscard]] const cage::Character& character() const { return character_; }
-    [[nodiscard]] const NodeOrder& order() const { return order_; }
-    [[nodiscard]] double extent() const { return extent_; }
-    /// What a turn by an angle moves at most, as a part of the angle; and a way or a scale, as a part of itself.
-    [[nodiscard]] double reach(uint32_t node, ChannelPath path) const {
-        return path == ChannelPath::translation ? above_[node] : reach_[node];
-    }
-    [[nodiscard]] const std::vector<uint32_t>& watched() const { return watched_; }
-    /// How far a morph target moves a vertex at most.
-    [[nodiscard]] double targetReach(uint32_t target) const { return targetReach_[target]; }
-
-    void pose(const Pose& from, std::vector<glm::dmat4>& globals) const {
-        const cage::Skeleton& skeleton = character_.skeleton;
-        for (const uint32_t node : skeleton.parentsFirst) {
-            const glm::dmat4 local = localMatrix(skeleton.nodes[node], from.locals[node]);
-            const uint32_t parent = skeleton.nodes[node].parent;
-            globals[node] = parent == cage::kNone ? local : globals[parent] * local;
-        }
-    }
-
-    /// Where a vertex is.
-    [[nodiscard]] glm::dvec3 vertex(uint32_t v, const std::vector<glm::dmat4>& globals) const {
-        const cage::SkinWeights& weights = character_.weights;
-        glm::dvec3 sum(0.0);
-        for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
-            const uint32_t joint = weights.influences[i].joint;
-            const glm::dvec4 bound = inverseBinds_[joint] * glm::dvec4(glm::dvec3(character_.cage.positions[v]), 1.0);
-            sum += static_cast<double>(weights.influences[i].weight) *
-                   glm::dvec3(globals[character_.skin.joints[joint]] * bound);
-        }
-        return sum;
-    }
-
-    /// The largest distance, in extents, between two poses: of some vertices, and of the shells of all joints.
-    [[nodiscard]] double distance(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
-                                  std::span<const uint32_t> vertices) const {
-        double worst = 0.0;
-        for (const uint32_t v : vertices) {
-            worst = std::max(worst, glm::length(vertex(v, a) - vertex(v, b)));
-        }
-        for (const uint32_t node : character_.skin.joints) {
-            for (int axis = 0; axis < 3; ++axis) {
-                worst = std::max(worst, glm::length(shellPoint(a[node], axis) - shellPoint(b[node], axis)));
-            }
-        }
-        return worst / extent_;
-    }
-
-private:
-    [[nodiscard]] glm::dvec3 shellPoint(const glm::dmat4& m, int axis) const {
-        const glm::dvec3 along(m[axis]);
-        const double length = glm::length(along);
-        return glm::dvec3(m[3]) + (length > 0.0 ? along * (kShell * extent_ / length) : glm::dvec3(0.0));
-    }
-
-    void measureExtent(const std::vector<glm::dmat4>& globals) {
-        inverseBinds_.assign(character_.skin.inverseBinds.begin(), character_.skin.inverseBinds.end());
-        glm::dvec3 low(kInfinite), high(-kInfinite);
-        for (uint32_t v = 0; v < character_.cage.vertexCount(); ++v) {
-            const glm::dvec3 p = vertex(v, globals);
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        extent_ = glm::length(high - low);
-    }
-
-    /// How far what hangs on a node is from it, by its weight.
-    void measureReach(const std::vector<glm::dmat4>& globals) {
-        const cage::Skeleton& skeleton = character_.skeleton;
-        const cage::SkinWeights& weights = character_.weights;
-        reach_.assign(skeleton.nodes.size(), kShell * extent_);
-        std::vector<double> share(skeleton.nodes.size(), 0.0);
-        std::vector<uint32_t> touched;
-        for (uint32_t v = 0; v < character_.cage.vertexCount(); ++v) {
-            const glm::dvec3 p = vertex(v, globals);
-            for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
-                uint32_t node = character_.skin.joints[weights.influences[i].joint];
-                for (; node != cage::kNone; node = skeleton.nodes[node].parent) {
-                    touched.push_back(node);
-                    share[node] += std::abs(static_cast<double>(weights.influences[i].weight));
-                }
-            }
-            for (const uint32_t node : touched) {
-                reach_[node] = std::max(reach_[node], share[node] * glm::length(p - glm::dvec3(globals[node][3])));
-            }
-            for (const uint32_t node : touched) {
-                share[node] = 0.0;
-            }
-            touched.clear();
-        }
-        for (size_t n = 0; n < skeleton.nodes.size(); ++n) {
-            const uint32_t parent = skeleton.nodes[n].parent;
-            double size = 1.0;
-            if (parent != cage::kNone) {
-                const glm::dmat3 linear(globals[parent]);
-                size = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]), 1e-9});
-            }
-            above_.push_back(size);
-        }
-    }
-
-    /// The vertices farthest from the joints that they follow.
-    void watch(const std::vector<glm::dmat4>& globals) {
-        const cage::SkinWeights& weights = character_.weights;
-        std::vector<std::pair<double, uint32_t>> farthest; // by joint
-        farthest.assign(character_.skin.joints.size(), {-1.0, 0u});
-        for (uint32_t v = 0; v < character_.cage.vertexCount(); ++v) {
-            const glm::dvec3 p = vertex(v, globals);
-            for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
-                const uint32_t joint = weights.influences[i].joint;
-                const double far = static_cast<double>(weights.influences[i].weight) *
-                                   glm::length(p - glm::dvec3(globals[character_.skin.joints[joint]][3]));
-                farthest[joint] = std::max(farthest[joint], {far, v});
-            }
-        }
-        std::sort(farthest.rbegin(), farthest.rend());
-        for (const auto& [far, v] : farthest) {
-            if (far >= 0.0 && watched_.size() < kMostWatched) {
-                watched_.push_back(v);
-            }
-        }
-    }
-
-    const cage::Character& character_;
-    std::vector<glm::mat4> globals_;
-    NodeOrder order_;
-    std::vector<glm::dmat4> inverseBinds_;
-    std::vector<double> reach_, above_; ///< by node; of what it hangs on the scale
-    std::vector<double> targetReach_;
-    std::vector<uint32_t> watched_;
-    double extent_ = 0.0;
-};
-
-/// What the frames between a frame and a later one of its segment move away if they are left out.
-struct Spans {
-    std::vector<std::vector<float>> away; ///< by first frame, then from length 2 on; they end where it is too much
-
-    [[nodiscard]] double of(uint32_t first, uint32_t length) const {
-        if (length < 2) {
-            return 0.0;
-        }
-        const std::vector<float>& own = away[first];
-        return length - 2 < own.size() ? static_cast<double>(own[length - 2]) : kInfinite;
-    }
-    /// `left(first, length)` tells it.
-    template <class Left>
-    void measure(uint32_t last, double tooMuch, Left&& left) {
-        away.assign(last + 1, {});
+    /// `distance(first, length)` tells it. Where it is `tooMuch`, longer spans are not tried.
+    template <class Distance>
+    void measure(uint32_t last, double tooMuch, Distance&& distance) {
+        distances_.assign(last + 1, {});
         for (uint32_t first = 0; first < last; ++first) {
             const uint32_t most = std::min(kSegmentFrames - first % kSegmentFrames, last - first);
             for (uint32_t length = 2; length <= most; ++length) {
-                const double own = left(first, length);
-                away[first].push_back(static_cast<float>(own));
+                const double own = distance(first, length);
+                distances_[first].push_back(static_cast<float>(own));
                 if (own > tooMuch) {
                     break;
                 }
             }
         }
     }
-    /// The fewest knots whose spans move no frame farther away than that; the borders of segments among them.
+    /// The fewest knots whose spans skip no frame by more than that distance. The borders of segments are knots.
     [[nodiscard]] std::vector<uint32_t> knots(uint32_t last, double most) const {
         std::vector<uint32_t> knots;
         for (uint32_t begin = 0; begin < last; begin += kSegmentFrames) {
@@ -221,7 +62,7 @@ struct Spans {
             for (uint32_t f = frames; f-- > 0;) {
                 cost[f] = UINT32_MAX;
                 for (uint32_t to = frames; to > f; --to) {
-                    if (cost[to] + 1 < cost[f] && of(begin + f, to - f) <= most) {
+                    if (cost[to] + 1 < cost[f] && distance(begin + f, to - f) <= most) {
                         cost[f] = cost[to] + 1;
                         next[f] = to;
                     }
@@ -234,53 +75,68 @@ struct Spans {
         knots.push_back(last);
         return knots;
     }
+
+private:
+    [[nodiscard]] double distance(uint32_t first, uint32_t length) const {
+        if (length < 2) {
+            return 0.0;
+        }
+        const std::vector<float>& own = distances_[first];
+        return length - 2 < own.size() ? static_cast<double>(own[length - 2]) : kInfinite;
+    }
+
+    std::vector<std::vector<float>> distances_; ///< by first frame, from length 2 on
 };
 
-/// The morph weights of one part in a clip, on its frames. They stay floats, at fewer keys.
+/// The morph weights of one channel of a clip, on its frames.
 struct WeightTrack {
     const Channel* channel = nullptr;
     std::vector<std::vector<double>> values; ///< by frame
-    double fromRest = 0.0;
+    double fromRest = 0.0;                   ///< distance moved if they stay at rest
     Spans spans;
 };
 
-/// A property of one clip, on its frames.
+/// A property of a clip, on its frames.
 struct Track {
-    uint32_t place = 0;
-    ChannelPath path = ChannelPath::translation;
+    const Channel* channel = nullptr;
+    uint32_t place = 0;             ///< of its node
     std::vector<glm::dvec3> values; ///< one a frame; of rotations the quarter tangents from the reference
     std::vector<glm::dquat> turns;  ///< of rotations
     std::array<uint32_t, 3> reference{255u, 255u, 255u};
-    glm::dvec3 constant{0.0};                  ///< what it would be kept at
-    double reach = 0.0;                        ///< what its values, or its angle, move
-    double fromRest = 0.0, fromConstant = 0.0; ///< what it moves away, if it is left at these
+    glm::dvec3 constant{0.0};                  ///< the value if it is kept constant
+    double reach = 0.0;                        ///< distance moved per radian, or per unit of a value
+    double fromRest = 0.0, fromConstant = 0.0; ///< distance moved if it is kept at these
+    bool jumps = false;                        ///< a rotation by more than the decoder's arc between two frames
     Spans spans;
 
-    [[nodiscard]] bool turnsAbout() const { return path == ChannelPath::rotation; }
+    [[nodiscard]] ChannelPath path() const { return channel->path; }
+    [[nodiscard]] bool isRotation() const { return channel->path == ChannelPath::rotation; }
+};
+
+/// What a clip becomes with some budget.
+struct Attempt {
+    PackedClip packed;
+    std::vector<Channel> rest; ///< channels that are not packed
 };
 
 class ClipPacker {
 public:
-    /// `workLeft`: how many properties of frames may be looked at; it becomes less.
-    ClipPacker(const Body& body, const cage::Clip& clip, double error, size_t& workLeft)
-        : body_(body), clip_(clip), error_(error), workLeft_(workLeft) {}
+    /// `workLeft` becomes less.
+    ClipPacker(const PoseDistance& distance, const NodeOrder& order, const cage::Clip& clip, double error,
+               uint64_t& workLeft)
+        : distance_(distance), order_(order), clip_(clip), error_(error), workLeft_(workLeft) {}
 
-    /// Nothing if it stays as it is.
+    /// Nothing if the clip stays as it is; leftOut() may say why.
     std::optional<cage::Clip> pack() {
-        if (!clip_.packed.words.empty() || clip_.channels.empty() || !(clip_.duration > 0.0) ||
-            !(body_.extent() > 1e-12 && body_.extent() < 1e12) || !chooseChannels()) {
+        const bool plain = clip_.packed.words.empty() && !clip_.channels.empty() && clip_.duration > 1e-6;
+        if (!plain || !(distance_.extent() > 1e-12 && distance_.extent() < 1e12) || !chooseChannels()) {
             return std::nullopt;
         }
-        for (double rate = firstRate(); rate <= 4.0 * std::max(firstRate(), kOffGridRate); rate *= 2.0) {
+        const double first = firstRate();
+        for (double rate = first; rate <= 4.0 * std::max(first, kOffGridRate); rate *= 2.0) {
             last_ = frameAt(rate);
-            const size_t work = size_t{last_} * tracks_.size();
-            if (last_ > kMostFrames || last_ * body_.character().skeleton.nodes.size() > kMostPoses ||
-                work > workLeft_) {
-                break;
-            }
-            workLeft_ -= work;
-            if (!follow()) {
-                break;
+            if (!takeWork() || !follow()) {
+                return std::nullopt;
             }
             if (std::optional<cage::Clip> packed = search()) {
                 return packed;
@@ -288,39 +144,37 @@ public:
         }
         return std::nullopt;
     }
+    [[nodiscard]] const char* leftOut() const { return leftOut_; }
 
 private:
-    static constexpr double kOffGridRate = 60.0;
-
     /// Those that are packed: the last one of a property counts.
     bool chooseChannels() {
-        const NodeOrder& order = body_.order();
-        std::map<std::pair<uint32_t, ChannelPath>, size_t> last;
-        for (size_t c = 0; c < clip_.channels.size(); ++c) {
-            const Channel& own = clip_.channels[c];
-            if (own.path != ChannelPath::weights && order.places[own.node] != cage::kNone) {
-                last[{order.places[own.node], own.path}] = c;
+        std::map<std::pair<uint32_t, ChannelPath>, const Channel*> last;
+        for (const Channel& own : clip_.channels) {
+            if (own.path != ChannelPath::weights && order_.places[own.node] != cage::kNone) {
+                last[{order_.places[own.node], own.path}] = &own;
             }
         }
-        std::vector<bool> taken(clip_.channels.size(), false);
-        for (const auto& [property, c] : last) {
-            const Channel& own = clip_.channels[c];
-            if (own.interpolation == cage::Interpolation::linear &&
-                !body_.character().skeleton.nodes[own.node].hasMatrix) {
-                taken[c] = true;
+        const auto isPacked = [&](const Channel& own) {
+            return own.interpolation == cage::Interpolation::linear &&
+                   !distance_.character().skeleton.nodes[own.node].hasMatrix;
+        };
+        for (const auto& [property, channel] : last) {
+            if (isPacked(*channel)) {
                 Track& track = tracks_.emplace_back();
+                track.channel = channel;
                 track.place = property.first;
-                track.path = property.second;
             }
         }
-        for (size_t c = 0; c < clip_.channels.size(); ++c) {
-            const Channel& own = clip_.channels[c];
-            const uint32_t place = own.path != ChannelPath::weights ? order.places[own.node] : cage::kNone;
-            // What comes before the last one of a property does nothing.
-            const bool stays = place == cage::kNone || last[{place, own.path}] == c;
-            if (own.path == ChannelPath::weights && own.interpolation == cage::Interpolation::linear) {
-                weights_.push_back({&own, {}, 0.0, {}});
-            } else if (!taken[c] && stays) {
+        for (const Channel& own : clip_.channels) {
+            if (own.path == ChannelPath::weights) {
+                if (own.interpolation == cage::Interpolation::linear) {
+                    weights_.push_back({&own, {}, 0.0, {}});
+                } else {
+                    rest_.push_back(own);
+                }
+            } else if (const uint32_t place = order_.places[own.node];
+                       place == cage::kNone || (last[{place, own.path}] == &own && !isPacked(own))) {
                 rest_.push_back(own);
             }
         }
@@ -349,10 +203,22 @@ private:
     }
     [[nodiscard]] double timeOf(double frame) const { return clip_.duration * frame / last_; }
 
-    /// The clip on its frames, and in their middles. False: it leaves what can be packed.
+    /// False: it would take too much memory or time.
+    bool takeWork() {
+        const cage::Character& character = distance_.character();
+        const size_t targets = weights_.empty() ? 0 : character.morphs.targets.size();
+        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets);
+        leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
+                   : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
+                   : work > workLeft_ ? "the clips before it took too long"
+                                      : nullptr;
+        workLeft_ -= leftOut_ == nullptr ? work : 0;
+        return leftOut_ == nullptr;
+    }
+
+    /// The clip on its frames, and in their middles. False: it has numbers that are too large to be packed.
     bool follow() {
-        const cage::Character& character = body_.character();
-        const NodeOrder& order = body_.order();
+        const cage::Character& character = distance_.character();
         for (Track& track : tracks_) {
             track.values.clear();
             track.turns.clear();
@@ -360,46 +226,53 @@ private:
         for (WeightTrack& track : weights_) {
             track.values.clear();
         }
-        const double tooMuch = 0.01 * body_.extent();
-        trueWeights_.assign(2 * size_t{last_} + 1, {});
         truth_.assign(2 * size_t{last_} + 1, std::vector<glm::dmat4>(character.skeleton.nodes.size()));
+        trueWeights_.assign(weights_.empty() ? 0 : truth_.size(), {});
         for (uint32_t k = 0; k < truth_.size(); ++k) {
             sampleClip(character, clip_, timeOf(0.5 * k), pose_);
-            body_.pose(pose_, truth_[k]);
+            distance_.globalsOf(pose_, truth_[k]);
             if (!isModest(truth_[k])) {
+                leftOut_ = "its numbers are too large";
                 return false;
             }
-            trueWeights_[k] = pose_.morphWeights;
-            for (WeightTrack& track : weights_) {
-                if (k % 2 == 0) {
-                    const auto begin = pose_.morphWeights.begin() + track.channel->firstTarget;
-                    track.values.emplace_back(begin, begin + static_cast<ptrdiff_t>(track.channel->width()));
-                }
+            if (!weights_.empty()) {
+                trueWeights_[k] = pose_.morphWeights;
             }
-            for (Track& track : tracks_) {
-                const Transform& own = pose_.locals[order.nodes[track.place]];
-                if (k % 2 == 0 && track.turnsAbout()) {
-                    glm::dquat q = unit(own.rotation);
-                    q = !track.turns.empty() && glm::dot(track.turns.back(), q) < 0.0 ? -q : q;
-                    track.turns.push_back(q);
-                } else if (k % 2 == 0) {
-                    track.values.push_back(track.path == ChannelPath::translation ? own.translation : own.scale);
-                }
+            if (k % 2 == 0) {
+                takeFrame();
             }
         }
+        const double tooMuch = 0.01 * distance_.extent();
         for (Track& track : tracks_) {
             measure(track);
-            track.spans.measure(last_, tooMuch,
-                                [&](uint32_t first, uint32_t length) { return left(track, first, length); });
+            track.spans.measure(last_, tooMuch, [&](uint32_t first, uint32_t length) {
+                return distanceIfSkipped(track, first, length);
+            });
         }
         for (WeightTrack& track : weights_) {
             measure(track);
-            track.spans.measure(last_, tooMuch,
-                                [&](uint32_t first, uint32_t length) { return left(track, first, length); });
+            track.spans.measure(last_, tooMuch, [&](uint32_t first, uint32_t length) {
+                return distanceIfSkipped(track, first, length);
+            });
         }
         return true;
     }
-    /// Neither the nodes nor what is said of them is so far off that whole numbers do not reach there.
+    void takeFrame() {
+        for (WeightTrack& track : weights_) {
+            const auto begin = pose_.morphWeights.begin() + track.channel->firstTarget;
+            track.values.emplace_back(begin, begin + static_cast<ptrdiff_t>(track.channel->width()));
+        }
+        for (Track& track : tracks_) {
+            const Transform& own = pose_.locals[order_.nodes[track.place]];
+            if (track.isRotation()) {
+                const glm::dquat q = unit(own.rotation);
+                const bool other = !track.turns.empty() && glm::dot(track.turns.back(), q) < 0.0;
+                track.turns.push_back(other ? -q : q);
+            } else {
+                track.values.push_back(track.path() == ChannelPath::translation ? own.translation : own.scale);
+            }
+        }
+    }
     [[nodiscard]] bool isModest(const std::vector<glm::dmat4>& globals) const {
         constexpr double kFar = 1e12;
         const auto modest = [](const glm::dvec3& v) { return glm::all(glm::lessThan(glm::abs(v), glm::dvec3(kFar))); };
@@ -412,36 +285,105 @@ private:
                            [](double w) { return std::abs(w) < kFar; });
     }
 
-    /// How far weights move a vertex at most.
-    [[nodiscard]] double moved(uint32_t firstTarget, std::span<const double> a, std::span<const double> b) const {
+    static glm::dvec3 middleOf(const std::vector<glm::dvec3>& values) {
+        glm::dvec3 low(kInfinite), high(-kInfinite);
+        for (const glm::dvec3& v : values) {
+            low = glm::min(low, v);
+            high = glm::max(high, v);
+        }
+        return 0.5 * (low + high);
+    }
+    void measure(Track& track) const {
+        const uint32_t node = order_.nodes[track.place];
+        const cage::Node& own = distance_.character().skeleton.nodes[node];
+        track.reach = distance_.reach(node, track.path());
+        track.fromRest = track.fromConstant = 0.0;
+        if (track.isRotation()) {
+            measureTurns(track, unit(glm::dquat(own.rotation)));
+            return;
+        }
+        track.constant = middleOf(track.values);
+        const glm::dvec3 rest(track.path() == ChannelPath::translation ? own.translation : own.scale);
+        for (const glm::dvec3& v : track.values) {
+            track.fromRest = std::max(track.fromRest, track.reach * glm::length(v - rest));
+            track.fromConstant = std::max(track.fromConstant, track.reach * glm::length(v - track.constant));
+        }
+    }
+    void measureTurns(Track& track, const glm::dquat& rest) const {
+        glm::dquat sum(0.0, 0.0, 0.0, 0.0);
+        for (const glm::dquat& q : track.turns) {
+            sum = sum + q;
+        }
+        track.reference = referenceNear(glm::length(sum) > 1e-3 ? sum : track.turns.front());
+        const glm::dquat reference = referenceTurn(track.reference);
+        track.values.clear();
+        track.jumps = false;
+        for (size_t f = 0; f < track.turns.size(); ++f) {
+            track.values.push_back(toQuarterTangent(glm::conjugate(reference) * track.turns[f]));
+            track.jumps = track.jumps || (f > 0 && !isShortArc(track.turns[f - 1], track.turns[f]));
+        }
+        const glm::dquat constant = reference * fromQuarterTangent(middleOf(track.values));
+        track.constant = toQuarterTangent(constant);
+        for (const glm::dquat& q : track.turns) {
+            track.fromRest = std::max(track.fromRest, track.reach * angleBetween(q, rest));
+            track.fromConstant = std::max(track.fromConstant, track.reach * angleBetween(q, constant));
+        }
+    }
+    /// Up to 120 degrees, which slerpShare is made for.
+    static bool isShortArc(const glm::dquat& a, const glm::dquat& b) { return std::abs(glm::dot(a, b)) > 0.501; }
+
+    [[nodiscard]] double distanceIfSkipped(const Track& track, uint32_t first, uint32_t length) const {
+        double worst = 0.0;
+        const uint32_t end = first + length;
+        if (track.isRotation()) {
+            const glm::dquat &a = track.turns[first], &b = track.turns[end];
+            if (!isShortArc(a, b)) {
+                return kInfinite;
+            }
+            for (uint32_t k = 1; k < length; ++k) {
+                const glm::dquat q = slerp(a, b, static_cast<double>(k) / length);
+                worst = std::max(worst, angleBetween(q, track.turns[first + k]));
+            }
+        } else {
+            const glm::dvec3 &a = track.values[first], &b = track.values[end];
+            for (uint32_t k = 1; k < length; ++k) {
+                const glm::dvec3 v = glm::mix(a, b, static_cast<double>(k) / length);
+                worst = std::max(worst, glm::length(v - track.values[first + k]));
+            }
+        }
+        return worst * track.reach;
+    }
+
+    /// The largest distance between two lists of morph weights.
+    [[nodiscard]] double between(uint32_t firstTarget, std::span<const double> a, std::span<const double> b) const {
         double sum = 0.0;
         for (size_t t = 0; t < a.size(); ++t) {
-            sum += body_.targetReach(firstTarget + static_cast<uint32_t>(t)) * std::abs(a[t] - b[t]);
+            sum += distance_.targetReach(firstTarget + static_cast<uint32_t>(t)) * std::abs(a[t] - b[t]);
         }
         return sum;
     }
     void measure(WeightTrack& track) const {
-        const std::vector<float>& weights = body_.character().morphs.weights;
+        const std::vector<float>& weights = distance_.character().morphs.weights;
         const auto begin = weights.begin() + track.channel->firstTarget;
         const std::vector<double> rest(begin, begin + static_cast<ptrdiff_t>(track.values.front().size()));
         track.fromRest = 0.0;
         for (const std::vector<double>& own : track.values) {
-            track.fromRest = std::max(track.fromRest, moved(track.channel->firstTarget, own, rest));
+            track.fromRest = std::max(track.fromRest, between(track.channel->firstTarget, own, rest));
         }
     }
-    [[nodiscard]] double left(const WeightTrack& track, uint32_t first, uint32_t length) const {
+    [[nodiscard]] double distanceIfSkipped(const WeightTrack& track, uint32_t first, uint32_t length) const {
         const std::vector<double>&a = track.values[first], &b = track.values[first + length];
-        std::vector<double> between(a.size());
-        double away = 0.0;
+        std::vector<double> mixed(a.size());
+        double worst = 0.0;
         for (uint32_t k = 1; k < length; ++k) {
             for (size_t t = 0; t < a.size(); ++t) {
-                between[t] = glm::mix(a[t], b[t], static_cast<double>(k) / length);
+                mixed[t] = glm::mix(a[t], b[t], static_cast<double>(k) / length);
             }
-            away = std::max(away, moved(track.channel->firstTarget, between, track.values[first + k]));
+            worst = std::max(worst, between(track.channel->firstTarget, mixed, track.values[first + k]));
         }
-        return away;
+        return worst;
     }
-    /// The keys that are left; nothing if the weights stay at rest.
+    /// The weights at fewer keys; nothing if they stay at rest.
     [[nodiscard]] std::optional<Channel> thinned(const WeightTrack& track, double budget) const {
         if (track.fromRest <= kStill * budget) {
             return std::nullopt;
@@ -458,163 +400,104 @@ private:
         return channel.times.size() < track.channel->times.size() ? channel : *track.channel;
     }
 
-    void measure(Track& track) const {
-        const cage::Node& node = body_.character().skeleton.nodes[body_.order().nodes[track.place]];
-        track.reach = body_.reach(body_.order().nodes[track.place], track.path);
-        const auto middle = [&] {
-            glm::dvec3 low(kInfinite), high(-kInfinite);
-            for (const glm::dvec3& v : track.values) {
-                low = glm::min(low, v);
-                high = glm::max(high, v);
-            }
-            return 0.5 * (low + high);
-        };
-        track.fromRest = track.fromConstant = 0.0;
-        if (!track.turnsAbout()) {
-            track.constant = middle();
-            const glm::dvec3 rest(track.path == ChannelPath::translation ? node.translation : node.scale);
-            for (const glm::dvec3& v : track.values) {
-                track.fromRest = std::max(track.fromRest, track.reach * glm::length(v - rest));
-                track.fromConstant = std::max(track.fromConstant, track.reach * glm::length(v - track.constant));
-            }
-            return;
-        }
-        glm::dquat sum(0.0, 0.0, 0.0, 0.0);
-        for (const glm::dquat& q : track.turns) {
-            sum = sum + q;
-        }
-        track.reference = referenceNear(glm::length(sum) > 1e-3 ? sum : track.turns.front());
-        PackedProperty own;
-        own.reference = track.reference;
-        const glm::dquat reference = referenceOf(own);
-        track.values.clear();
-        for (const glm::dquat& q : track.turns) {
-            track.values.push_back(quarterTangent(glm::conjugate(reference) * q));
-        }
-        const glm::dquat constant = reference * quarterTangentTurn(middle());
-        track.constant = quarterTangent(constant);
-        const glm::dquat rest = unit(glm::dquat(node.rotation));
-        for (const glm::dquat& q : track.turns) {
-            track.fromRest = std::max(track.fromRest, track.reach * angleBetween(q, rest));
-            track.fromConstant = std::max(track.fromConstant, track.reach * angleBetween(q, constant));
-        }
-    }
-
-    /// What the frames inside of a span move away if they are left out.
-    [[nodiscard]] double left(const Track& track, uint32_t first, uint32_t length) const {
-        double away = 0.0;
-        const uint32_t end = first + length;
-        if (track.turnsAbout()) {
-            const glm::dquat &a = track.turns[first], &b = track.turns[end];
-            if (std::abs(glm::dot(a, b)) < 0.5 + 1e-3) { // more than 120 degrees, which slerpShare does not know
-                return kInfinite;
-            }
-            for (uint32_t k = 1; k < length; ++k) {
-                const glm::dquat q = slerp(a, b, static_cast<double>(k) / length);
-                away = std::max(away, angleBetween(q, track.turns[first + k]));
-            }
-        } else {
-            const glm::dvec3 &a = track.values[first], &b = track.values[end];
-            for (uint32_t k = 1; k < length; ++k) {
-                const glm::dvec3 v = glm::mix(a, b, static_cast<double>(k) / length);
-                away = std::max(away, glm::length(v - track.values[first + k]));
-            }
-        }
-        return away * track.reach;
-    }
-
-    /// What is too large for the layout stays too large.
+    /// What is too large for 20 bits stays too large.
     static glm::ivec3 wholeOf(const glm::dvec3& value, int exponent) {
         return glm::ivec3(glm::clamp(glm::round(value * std::ldexp(1.0, exponent)), -1e6, 1e6));
     }
-
-    /// The clip if each property may move `budget` away.
-    [[nodiscard]] PackedClip packedWith(double budget) const {
-        PackedClip packed;
-        packed.last = last_;
-        for (const Track& track : tracks_) {
-            if (track.fromRest <= kStill * budget) {
-                continue;
-            }
-            PackedProperty own;
-            own.place = track.place;
-            own.path = track.path;
-            own.isConstant = track.fromConstant <= kStill * budget;
-            if (own.isConstant) {
-                own.exponent = constantExponent(track.constant);
-                own.values.push_back(wholeOf(track.constant, own.exponent));
-            } else {
-                // An angle is four quarter tangents. 0.87: the distance to the nearest point of a lattice, in steps.
-                const double metric = track.reach * (track.turnsAbout() ? 4.0 : 1.0);
-                const double step = kForRounding * budget / (0.87 * metric);
-                own.exponent = std::clamp(static_cast<int>(std::ceil(-std::log2(step))), kLeastExponent, kMostExponent);
-                own.reference = track.reference;
-                own.frames = track.spans.knots(last_, (1.0 - kForRounding) * budget);
-                for (const uint32_t frame : own.frames) {
-                    own.values.push_back(wholeOf(track.values[frame], own.exponent));
-                }
-            }
-            packed.properties.push_back(std::move(own));
+    /// Nothing if the property stays at rest.
+    [[nodiscard]] std::optional<PackedProperty> packed(const Track& track, double budget) const {
+        if (track.fromRest <= kStill * budget) {
+            return std::nullopt;
         }
-        return packed;
+        PackedProperty own;
+        own.place = track.place;
+        own.path = track.path();
+        own.isConstant = track.fromConstant <= kStill * budget;
+        if (own.isConstant) {
+            own.exponent = constantExponent(track.constant);
+            own.values.push_back(wholeOf(track.constant, own.exponent));
+            return own;
+        }
+        // An angle is four quarter tangents. 0.87: the distance to the nearest point of a lattice, in steps.
+        const double metric = track.reach * (track.isRotation() ? 4.0 : 1.0);
+        const double step = kForRounding * budget / (0.87 * metric);
+        own.exponent = std::clamp(static_cast<int>(std::ceil(-std::log2(step))), kLeastExponent, kMostExponent);
+        own.reference = track.reference;
+        own.frames = track.spans.knots(last_, (1.0 - kForRounding) * budget);
+        for (const uint32_t frame : own.frames) {
+            own.values.push_back(wholeOf(track.values[frame], own.exponent));
+        }
+        removeEqualKnots(own);
+        return own;
     }
 
-    [[nodiscard]] cage::Clip decoded(const PackedClip& packed, double budget) const {
+    [[nodiscard]] Attempt attempt(double budget) const {
+        Attempt attempt;
+        attempt.packed.last = last_;
+        attempt.rest = rest_;
+        for (const Track& track : tracks_) {
+            std::optional<PackedProperty> own = packed(track, budget);
+            if (own && (track.jumps || !fitsLayout(*own))) {
+                attempt.rest.push_back(*track.channel);
+            } else if (own) {
+                attempt.packed.properties.push_back(std::move(*own));
+            }
+        }
+        for (const WeightTrack& track : weights_) {
+            if (std::optional<Channel> own = thinned(track, budget)) {
+                attempt.rest.push_back(std::move(*own));
+            }
+        }
+        return attempt;
+    }
+
+    [[nodiscard]] cage::Clip decoded(const Attempt& attempt) const {
         cage::Clip clip;
         clip.name = clip_.name;
         clip.duration = clip_.duration;
         clip.markers = clip_.markers;
         clip.sharpness = clip_.sharpness;
-        clip.channels = channelsOf(packed, clip_.duration, body_.order().nodes);
+        clip.channels = channelsOf(attempt.packed, clip_.duration, order_.nodes);
         clip.packed.channelCount = static_cast<uint32_t>(clip.channels.size());
-        clip.channels.insert(clip.channels.end(), rest_.begin(), rest_.end());
-        for (const WeightTrack& track : weights_) {
-            if (std::optional<Channel> own = thinned(track, budget)) {
-                clip.channels.push_back(std::move(*own));
-            }
-        }
+        clip.channels.insert(clip.channels.end(), attempt.rest.begin(), attempt.rest.end());
         return clip;
     }
 
     [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices) {
         double worst = 0.0;
-        std::vector<glm::dmat4> globals(body_.character().skeleton.nodes.size());
+        std::vector<glm::dmat4> globals(distance_.character().skeleton.nodes.size());
         for (uint32_t k = 0; k < truth_.size() && worst <= error_; ++k) {
-            sampleClip(body_.character(), clip, timeOf(0.5 * k), pose_);
-            body_.pose(pose_, globals);
-            worst = std::max(worst, body_.distance(globals, truth_[k], vertices) +
-                                        moved(0, pose_.morphWeights, trueWeights_[k]) / body_.extent());
+            sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
+            distance_.globalsOf(pose_, globals);
+            double own = distance_.between(globals, truth_[k], vertices);
+            if (!weights_.empty()) {
+                own += between(0, pose_.morphWeights, trueWeights_[k]) / distance_.extent();
+            }
+            worst = std::max(worst, own);
         }
         return worst;
     }
 
     /// The largest budget that keeps within the error, first of some vertices, at last of all.
     std::optional<cage::Clip> search() {
-        double low = 0.0, high = 0.0, part = 0.5;
+        double low = 0.0, high = 0.0, part = 0.5; // budgets, in errors
         for (int i = 0; i < 10; ++i) {
-            const double budget = part * error_ * body_.extent();
-            const bool keeps = errorOf(decoded(packedWith(budget), budget), body_.watched()) <= error_;
-            (keeps ? low : high) = part;
+            const cage::Clip clip = decoded(attempt(part * error_ * distance_.extent()));
+            (errorOf(clip, distance_.watched()) <= error_ ? low : high) = part;
             part = high == 0.0 ? 1.5 * part : 0.5 * (low + high);
             if (low > 0.0 && high > 0.0 && high < 1.05 * low) {
                 break;
             }
         }
-        std::vector<uint32_t> all(body_.character().cage.vertexCount());
-        for (uint32_t v = 0; v < all.size(); ++v) {
-            all[v] = v;
-        }
         for (int i = 0; i < 12 && low > 0.0; ++i, low *= 0.93) {
-            const double budget = low * error_ * body_.extent();
-            const PackedClip packed = packedWith(budget);
-            cage::Clip clip = decoded(packed, budget);
-            if (clip.channels.empty()) {
-                return std::nullopt; // all of it is the rest pose
+            const Attempt own = attempt(low * error_ * distance_.extent());
+            std::optional<std::vector<uint32_t>> words = packedWords(own.packed, clip_.duration, order_.nodes.size());
+            if (!words || own.packed.properties.empty()) {
+                return std::nullopt;
             }
-            clip.packed.error = errorOf(clip, all);
-            std::optional<std::vector<uint32_t>> words =
-                packedWords(packed, clip_.duration, body_.order().nodes.size());
-            if (clip.packed.error <= error_ && words) {
+            cage::Clip clip = decoded(own);
+            clip.packed.error = errorOf(clip, distance_.all());
+            if (clip.packed.error <= error_) {
                 clip.packed.words = std::move(*words);
                 return clip;
             }
@@ -622,14 +505,16 @@ private:
         return std::nullopt;
     }
 
-    const Body& body_;
+    const PoseDistance& distance_;
+    const NodeOrder& order_;
     const cage::Clip& clip_;
     double error_;
-    size_t& workLeft_;
+    uint64_t& workLeft_;
+    const char* leftOut_ = nullptr;
     uint32_t last_ = 0;
     std::vector<Track> tracks_;
     std::vector<WeightTrack> weights_;
-    std::vector<Channel> rest_;                  ///< channels that stay
+    std::vector<Channel> rest_;                  ///< channels that are never packed
     std::vector<std::vector<glm::dmat4>> truth_; ///< by half frame
     std::vector<std::vector<double>> trueWeights_;
     Pose pose_;
@@ -637,26 +522,38 @@ private:
 
 } // namespace
 
-void packClips(cage::Character& character, double error) {
+std::vector<std::string> packClips(cage::Character& character, double error) {
+    std::vector<std::string> leftOut;
     if (character.clips.empty() || character.skin.joints.empty()) {
-        return;
+        return leftOut;
     }
+    const uint32_t root = findRoot(character);
     std::vector<std::optional<cage::Clip>> packed;
-    const Body body(character);
-    size_t workLeft = kMostWork;
-    for (const cage::Clip& clip : character.clips) {
-        std::optional<cage::Clip> own = ClipPacker(body, clip, error, workLeft).pack();
-        const size_t bytes = clipBytes(body.order(), clip);
-        if (own) {
-            own->packed.unpackedBytes = bytes;
+    {
+        const PoseDistance distance(character);
+        const NodeOrder order = nodeOrder(character);
+        uint64_t workLeft = kMostWork;
+        for (const cage::Clip& clip : character.clips) {
+            ClipPacker packer(distance, order, clip, error, workLeft);
+            std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
+            const size_t bytes = clipBytes(order, clip);
+            if (own && clipBytes(order, *own) < bytes) {
+                own->packed.unpackedBytes = bytes;
+            } else {
+                own.reset();
+            }
+            if (packer.leftOut() != nullptr) {
+                leftOut.push_back("clip " + cage::quoted(clip.name) + " is not packed: " + packer.leftOut());
+            }
         }
-        packed.push_back(own && clipBytes(body.order(), *own) < bytes ? std::move(own) : std::nullopt);
     }
     for (size_t c = 0; c < packed.size(); ++c) {
         if (packed[c]) {
             character.clips[c] = std::move(*packed[c]);
+            character.clipRoot = root;
         }
     }
+    return leftOut;
 }
 
 } // namespace supple::skinning

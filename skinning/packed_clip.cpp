@@ -3,6 +3,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/rotation.h"
+#include "skinning/split_time.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +18,8 @@ using cage::ChannelPath;
 constexpr uint32_t kLow20 = 0xFFFFFu;
 constexpr int kMostWhole = (1 << 19) - 1;
 constexpr int kMostConstantExponent = 27, kLeastConstantExponent = -3;
+constexpr double kLeastRate = 1e-6, kMostRate = 1e6; // frames a second
+constexpr size_t kPadding = 2;                       // elements: knots are read as two
 
 uint32_t segmentsOf(uint32_t last) {
     return (last + kSegmentFrames - 1) / kSegmentFrames;
@@ -27,11 +30,19 @@ int signExtended(uint32_t low20) {
 }
 
 /// Where the masks of 16 nodes have a path: of properties that change, and of constants.
-struct Half {
+struct MaskBits {
     size_t word;
     uint32_t shift;
 };
-constexpr Half kMasks[2][3] = {{{0, 0}, {0, 16}, {1, 0}}, {{2, 0}, {2, 16}, {1, 16}}};
+constexpr MaskBits kMasks[2][3] = {{{0, 0}, {0, 16}, {1, 0}}, {{2, 0}, {2, 16}, {1, 16}}};
+
+/// Frames a second.
+double rateOf(uint32_t last, double duration) {
+    return static_cast<double>(last) / duration;
+}
+bool isRate(double rate) {
+    return rate >= kLeastRate && rate <= kMostRate;
+}
 
 bool fits(const glm::ivec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMostWhole;
@@ -96,17 +107,20 @@ public:
     }
 
     std::optional<std::vector<uint32_t>> write(double duration) {
+        const double rate = rateOf(clip_.last, duration);
+        if (animated_.size() > 0xFFFF || constants_.size() > 0xFFFF || !isRate(rate)) {
+            return std::nullopt;
+        }
+        const SplitTime split = splitTime(rate);
         words_.assign(4 * sections_.data, 0u);
-        words_[0] = bits(static_cast<float>(static_cast<double>(clip_.last) / duration));
+        words_[0] = bits(split.high);
+        words_[9] = bits(split.low);
         words_[1] = clip_.last;
         words_[2] = static_cast<uint32_t>(animated_.size()) | static_cast<uint32_t>(constants_.size()) << 16;
         words_[3] = segmentsOf(clip_.last);
         const size_t sections[] = {sections_.masks, sections_.constantsBegin, sections_.statics, sections_.segments};
         std::transform(std::begin(sections), std::end(sections), words_.begin() + 4,
                        [](size_t at) { return static_cast<uint32_t>(at); });
-        if (animated_.size() > 0xFFFF || constants_.size() > 0xFFFF) {
-            return std::nullopt;
-        }
         putMasks();
         const bool fit = putConstants() && putStatics();
         for (uint32_t segment = 0; fit && segment < segmentsOf(clip_.last); ++segment) {
@@ -114,7 +128,7 @@ public:
                 return std::nullopt;
             }
         }
-        words_.insert(words_.end(), 4, 0u); // knots are read as two elements
+        words_.insert(words_.end(), 4 * kPadding, 0u);
         return fit ? std::optional(std::move(words_)) : std::nullopt;
     }
 
@@ -123,7 +137,7 @@ private:
 
     void putMasks() {
         for (const PackedProperty& property : clip_.properties) {
-            const Half half = kMasks[property.isConstant ? 1 : 0][static_cast<size_t>(property.path)];
+            const MaskBits half = kMasks[property.isConstant ? 1 : 0][static_cast<size_t>(property.path)];
             word(sections_.masks + property.place / 16, half.word) |= 1u << (half.shift + property.place % 16);
         }
         uint32_t animated = 0, constants = 0;
@@ -143,7 +157,7 @@ private:
             uint32_t* const two = &words_[4 * sections_.constantsBegin + 2 * i];
             two[0] = v.x | v.y << 20;
             two[1] = v.y >> 12 | v.z << 8 | static_cast<uint32_t>(kMostConstantExponent - own.exponent) / 2 << 28;
-            if (!fits(own.values.front())) {
+            if (!fitsLayout(own)) {
                 return false;
             }
         }
@@ -155,7 +169,7 @@ private:
             const PackedProperty& own = *animated_[i];
             words_[4 * sections_.statics + i] = own.reference[0] | own.reference[1] << 9 | own.reference[2] << 18 |
                                                 static_cast<uint32_t>(own.exponent - kLeastExponent) << 27;
-            if (!std::all_of(own.values.begin(), own.values.end(), fits)) {
+            if (!fitsLayout(own)) {
                 return false;
             }
         }
@@ -244,12 +258,16 @@ private:
         }
         const size_t animated = words_[2] & 0xFFFFu, constants = words_[2] >> 16;
         sections_ = Sections(nodeCount_, constants, animated, clip_.last);
-        const bool sound = words_[0] == bits(static_cast<float>(static_cast<double>(clip_.last) / duration)) &&
+        const double rate = rateOf(clip_.last, duration);
+        if (!isRate(rate)) {
+            return refuse("a packed clip of no sound rate");
+        }
+        const SplitTime split = splitTime(rate);
+        const bool sound = words_[0] == bits(split.high) && words_[9] == bits(split.low) &&
                            words_[3] == segmentsOf(clip_.last) && words_[4] == sections_.masks &&
                            words_[5] == sections_.constantsBegin && words_[6] == sections_.statics &&
-                           words_[7] == sections_.segments &&
-                           std::all_of(words_.begin() + 8, words_.begin() + 12, [](uint32_t w) { return w == 0; });
-        if (!sound || words_.size() / 4 < sections_.data + 1) {
+                           words_[7] == sections_.segments && words_[8] == 0 && words_[10] == 0 && words_[11] == 0;
+        if (!sound || words_.size() / 4 < sections_.data + kPadding) {
             return refuse("a packed clip whose sections are elsewhere");
         }
         return true;
@@ -264,7 +282,7 @@ private:
             }
             for (uint32_t bit = 0; bit < 16; ++bit) {
                 for (size_t path = 0; path < 3; ++path) {
-                    const auto has = [&](const Half& half) {
+                    const auto has = [&](const MaskBits& half) {
                         return (word(element, half.word) >> (half.shift + bit) & 1u) != 0;
                     };
                     const bool moves = has(kMasks[0][path]), stands = has(kMasks[1][path]);
@@ -280,6 +298,9 @@ private:
                         ++(stands ? constants : animated);
                     }
                 }
+            }
+            if (animated > (words_[2] & 0xFFFFu) || constants > words_[2] >> 16) {
+                return refuse("a packed clip whose masks count wrongly");
             }
         }
         return (animated | constants << 16) == words_[2] || refuse("a packed clip whose masks count wrongly");
@@ -302,25 +323,31 @@ private:
     }
 
     bool readSegments() {
-        const size_t animated = words_[2] & 0xFFFFu;
+        std::vector<PackedProperty*> changing;
+        for (PackedProperty& own : clip_.properties) {
+            if (!own.isConstant) {
+                changing.push_back(&own);
+            }
+        }
         size_t begin = sections_.data;
         for (uint32_t segment = 0; segment < segmentsOf(clip_.last); ++segment) {
             const size_t element = sections_.segments + segment;
             const uint32_t first = segment * kSegmentFrames, frames = std::min(kSegmentFrames, clip_.last - first);
-            const size_t record = sections_.records + segment * animated;
+            const size_t record = sections_.records + segment * changing.size();
             if (word(element, 0) != record || word(element, 1) != begin || word(element, 2) != frames ||
                 word(element, 3) != 0) {
                 return refuse("a segment of a packed clip that is elsewhere");
             }
-            size_t length = 0, i = 0;
-            for (PackedProperty& own : clip_.properties) {
-                if (!own.isConstant && !readRecord(own, first, frames, record + i++, begin, length)) {
+            size_t length = 0;
+            for (size_t i = 0; i < changing.size(); ++i) {
+                if (!readRecord(*changing[i], first, frames, record + i, begin, length)) {
                     return false;
                 }
             }
             begin += (length + 127) / 128;
         }
-        return begin + 1 == words_.size() / 4 || refuse("a packed clip that is longer or shorter than its segments");
+        return begin + kPadding == words_.size() / 4 ||
+               refuse("a packed clip that is longer or shorter than its segments");
     }
 
     bool readRecord(PackedProperty& own, uint32_t first, uint32_t frames, size_t element, size_t begin,
@@ -340,7 +367,8 @@ private:
         const uint32_t knots = static_cast<uint32_t>(std::popcount(mask)) + 1,
                        width = widths[0] + widths[1] + widths[2];
         const size_t end = length + size_t{knots} * width;
-        if (!sound || begin + (end + 127) / 128 > words_.size() / 4 - 1) {
+        // Equal values need no knots in between: what is read stays in proportion to its words.
+        if (!sound || (width == 0 && mask != 1) || begin + (end + 127) / 128 + kPadding > words_.size() / 4) {
             return refuse("a record of a packed clip that does not fit");
         }
         const std::span<const uint32_t> data = words_.subspan(4 * begin);
@@ -374,25 +402,52 @@ private:
 
 } // namespace
 
-glm::dquat quarterTangentTurn(const glm::dvec3& r) {
+glm::dquat fromQuarterTangent(const glm::dvec3& r) {
     const double squares = glm::dot(r, r), scale = 1.0 / (1.0 + squares);
     return {(1.0 - squares) * scale, 2.0 * scale * r.x, 2.0 * scale * r.y, 2.0 * scale * r.z};
 }
 
-glm::dvec3 quarterTangent(const glm::dquat& q) {
+glm::dvec3 toQuarterTangent(const glm::dquat& q) {
     const glm::dquat own = unit(q);
     const double side = own.w < 0.0 ? -1.0 : 1.0;
     return glm::dvec3(own.x, own.y, own.z) * side / (1.0 + side * own.w);
 }
 
-glm::dquat referenceOf(const PackedProperty& property) {
-    const std::array<uint32_t, 3>& r = property.reference;
-    return quarterTangentTurn((glm::dvec3(r[0], r[1], r[2]) - 255.0) / 255.0);
+glm::dquat referenceTurn(const std::array<uint32_t, 3>& reference) {
+    return fromQuarterTangent((glm::dvec3(reference[0], reference[1], reference[2]) - 255.0) / 255.0);
 }
 
 std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation) {
-    const glm::dvec3 r = glm::round(quarterTangent(rotation) * 255.0) + 255.0;
+    const glm::dvec3 r = glm::round(toQuarterTangent(rotation) * 255.0) + 255.0;
     return {static_cast<uint32_t>(r.x), static_cast<uint32_t>(r.y), static_cast<uint32_t>(r.z)};
+}
+
+bool fitsLayout(const PackedProperty& property) {
+    return std::all_of(property.values.begin(), property.values.end(), fits);
+}
+
+void removeEqualKnots(PackedProperty& property) {
+    const std::vector<uint32_t> frames = std::move(property.frames);
+    const std::vector<glm::ivec3> values = std::move(property.values);
+    property.frames.clear();
+    property.values.clear();
+    for (size_t begin = 0; begin + 1 < frames.size();) {
+        const uint32_t border = (frames[begin] / kSegmentFrames + 1) * kSegmentFrames;
+        size_t end = begin + 1;
+        while (end + 1 < frames.size() && frames[end] < border) {
+            ++end;
+        }
+        const bool equal = std::all_of(values.begin() + static_cast<ptrdiff_t>(begin),
+                                       values.begin() + static_cast<ptrdiff_t>(end) + 1,
+                                       [&](const glm::ivec3& v) { return v == values[begin]; });
+        for (size_t k = begin; k < (equal ? begin + 1 : end); ++k) {
+            property.frames.push_back(frames[k]);
+            property.values.push_back(values[k]);
+        }
+        begin = end;
+    }
+    property.frames.push_back(frames.back());
+    property.values.push_back(values.back());
 }
 
 int constantExponent(const glm::dvec3& value) {
@@ -419,13 +474,14 @@ std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, s
         channel.node = nodes[property.place];
         channel.path = property.path;
         const bool turns = property.path == ChannelPath::rotation;
-        const glm::dquat reference = turns && !property.isConstant ? referenceOf(property) : glm::dquat(1, 0, 0, 0);
+        const glm::dquat reference =
+            turns && !property.isConstant ? referenceTurn(property.reference) : glm::dquat(1, 0, 0, 0);
         for (size_t k = 0; k < property.values.size(); ++k) {
             const double part = property.isConstant ? 0.0 : static_cast<double>(property.frames[k]) / clip.last;
             channel.times.push_back(static_cast<float>(duration * part));
             const glm::dvec3 v = glm::dvec3(property.values[k]) * std::ldexp(1.0, -property.exponent);
             if (turns) {
-                const glm::dquat q = reference * quarterTangentTurn(v);
+                const glm::dquat q = reference * fromQuarterTangent(v);
                 channel.values.insert(channel.values.end(), {static_cast<float>(q.x), static_cast<float>(q.y),
                                                              static_cast<float>(q.z), static_cast<float>(q.w)});
             } else {
@@ -433,6 +489,14 @@ std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, s
                                       {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
             }
         }
+    }
+    const bool stands = std::all_of(clip.properties.begin(), clip.properties.end(),
+                                    [](const PackedProperty& own) { return own.isConstant; });
+    if (stands && !channels.empty()) { // a key at the end, from which others take the duration
+        cage::Channel& first = channels.front();
+        const std::vector<float> values = first.values;
+        first.times.push_back(static_cast<float>(duration));
+        first.values.insert(first.values.end(), values.begin(), values.end());
     }
     return channels;
 }

@@ -26,8 +26,10 @@ struct PackedProperty {
     uint32_t place = 0; ///< of the node in the clip table
     cage::ChannelPath path = cage::ChannelPath::translation;
     bool isConstant = false;
-    int exponent = 0;                                    ///< values are multiples of 2^-exponent
-    std::array<uint32_t, 3> reference{255u, 255u, 255u}; ///< of rotations that change: 255 is 0, 0 and 510 are -1 and 1
+    int exponent = 0; ///< values are multiples of 2^-exponent
+    /// Used only by rotations that change: the quarter tangent of a rotation near all of them. 255 encodes 0, and 0 and
+    /// 510 encode -1 and 1.
+    std::array<uint32_t, 3> reference{255u, 255u, 255u};
     std::vector<uint32_t> frames;   ///< of the knots, rising: the first and the last of each segment among them
     std::vector<glm::ivec3> values; ///< one a knot; of a constant one
 };
@@ -41,20 +43,24 @@ struct PackedClip {
 inline constexpr int kLeastExponent = -8, kMostExponent = 20;
 inline constexpr uint32_t kMostPackedFrames = 1u << 20;
 
-/// The rotation whose axis is as long as the tangent of a quarter of its angle, and back: of w < 0, of the same
-/// rotation with w > 0.
-[[nodiscard]] glm::dquat quarterTangentTurn(const glm::dvec3& r);
-[[nodiscard]] glm::dvec3 quarterTangent(const glm::dquat& q);
+/// The rotation whose axis is as long as the tangent of a quarter of its angle, and back. q and -q are one rotation.
+[[nodiscard]] glm::dquat fromQuarterTangent(const glm::dvec3& r);
+[[nodiscard]] glm::dvec3 toQuarterTangent(const glm::dquat& q);
 
-/// The reference of a property, and one near a rotation.
-[[nodiscard]] glm::dquat referenceOf(const PackedProperty& property);
+/// The rotation that a reference encodes, and the reference nearest to a rotation.
+[[nodiscard]] glm::dquat referenceTurn(const std::array<uint32_t, 3>& reference);
 [[nodiscard]] std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation);
+
+/// Whether the values of a property have room in the layout.
+[[nodiscard]] bool fitsLayout(const PackedProperty& property);
+/// Removes the knots inside of segments all of whose values are equal: the layout has no such knots.
+void removeEqualKnots(PackedProperty& property);
 
 /// The exponent with which a constant is kept: its largest number fits into 20 bits.
 [[nodiscard]] int constantExponent(const glm::dvec3& value);
 
-/// Nothing if a number is too large for its field. `nodeCount`: of the clip table. Four words an element; offsets count
-/// from the first.
+/// Nothing if a number is too large for its field. `nodeCount`: of the clip table. There are four words an element, and
+/// offsets count from the first.
 [[nodiscard]] std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration,
                                                                size_t nodeCount);
 

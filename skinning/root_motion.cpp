@@ -115,6 +115,9 @@ LoopTime loopTime(double time, double duration) {
 }
 
 uint32_t findRoot(const cage::Character& character) {
+    if (character.clipRoot != cage::kNone) {
+        return character.clipRoot;
+    }
     const cage::Skeleton& skeleton = character.skeleton;
     std::vector<bool> moving(skeleton.nodes.size(), false);
     for (const cage::Clip& clip : character.clips) {

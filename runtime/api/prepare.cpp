@@ -72,6 +72,9 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
     if (!(desc.clipError >= 0.0f && desc.clipError <= kMostClipError)) {
         return here(ErrorCode::range, "clipError leaves 0..0.1");
     }
+    if (desc.reserved != 0) {
+        return here(ErrorCode::range, "reserved is not 0");
+    }
     const Result<std::shared_ptr<runtime::Prepared>> prepared = readCharacter(desc);
     if (!prepared) {
         return prepared.error();

@@ -97,7 +97,8 @@ Result<bool> unpackClips(cage::Character& character) {
         }
         std::vector<cage::Channel> channels = skinning::channelsOf(*packed, clip.duration, order->nodes);
         clip.packed.channelCount = static_cast<uint32_t>(channels.size());
-        clip.channels.insert(clip.channels.begin(), channels.begin(), channels.end());
+        clip.channels.insert(clip.channels.begin(), std::make_move_iterator(channels.begin()),
+                             std::make_move_iterator(channels.end()));
     }
     return order.has_value();
 }

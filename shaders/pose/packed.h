@@ -25,8 +25,9 @@ struct PackedTime {
     uint frame;
     float part;
 };
-PackedTime packedTime(uvec4 head, vec2 time) {
-    vec2 at = timeProduct(time, uintBitsToFloat(head.x));
+PackedTime packedTime(uvec4 head, float rateLow, vec2 time) {
+    SUPPLE_PRECISE float low = time.x * rateLow;
+    vec2 at = timeSum(timeProduct(time, uintBitsToFloat(head.x)), vec2(low, 0.0f));
     SUPPLE_PRECISE float whole = floor(at.x);
     SUPPLE_PRECISE float part = (at.x - whole) + at.y;
     if (part < 0.0f) {
@@ -44,12 +45,12 @@ PackedTime packedTime(uvec4 head, vec2 time) {
     return result;
 }
 
-vec3 knotAt(uvec4 record, uvec4 a, uvec4 b, uint at, float unit) {
+vec3 knotAt(uvec4 record, uvec4 a, uvec4 b, uint at, float step) {
     uvec4 widths = (record >> 20u) & 31u;
     int x = wholeOf(record.y) + int(bitsOf(a, b, at, widths.y));
     int y = wholeOf(record.z) + int(bitsOf(a, b, at + widths.y, widths.z));
     int z = wholeOf(record.w) + int(bitsOf(a, b, at + widths.y + widths.z, widths.w));
-    SUPPLE_PRECISE vec3 value = vec3(float(x), float(y), float(z)) * unit;
+    SUPPLE_PRECISE vec3 value = vec3(float(x), float(y), float(z)) * step;
     return value;
 }
 
@@ -68,8 +69,8 @@ vec4 changingValue(uvec4 sections, PackedTime at, uint property, bool turns) {
     uint place = offset + rank * width, element = segment.y + place / 128u;
     uvec4 a = table(element), b = table(element + 1u);
     place = place & 127u;
-    float unit = powerOfHalf(int(own >> 27u) - 8);
-    vec3 from = knotAt(record, a, b, place, unit), to = knotAt(record, a, b, place + width, unit);
+    float step = powerOfHalf(int(own >> 27u) - 8);
+    vec3 from = knotAt(record, a, b, place, step), to = knotAt(record, a, b, place + width, step);
     SUPPLE_PRECISE vec3 mixed = from + (to - from) * t;
     SUPPLE_PRECISE vec4 value = vec4(mixed, 0.0f);
     if (turns) {
@@ -87,18 +88,18 @@ vec4 changingValue(uvec4 sections, PackedTime at, uint property, bool turns) {
 
 vec4 constantValue(uvec4 sections, uint constant, bool turns) {
     uint x = packedWord(sections.y, 2u * constant), y = packedWord(sections.y, 2u * constant + 1u);
-    float unit = powerOfHalf(27 - 2 * int(y >> 28u));
+    float step = powerOfHalf(27 - 2 * int(y >> 28u));
     SUPPLE_PRECISE vec3 v =
-        vec3(float(wholeOf(x)), float(wholeOf(x >> 20u | y << 12u)), float(wholeOf(y >> 8u))) * unit;
+        vec3(float(wholeOf(x)), float(wholeOf(x >> 20u | y << 12u)), float(wholeOf(y >> 8u))) * step;
     SUPPLE_PRECISE vec4 value = vec4(v, 0.0f);
     if (turns) value = quarterTangentTurn(v);
     return value;
 }
 
-// What a packed clip, whose first element is `head`, has of a node; the rest is as it is.
+// The node's transform in a packed clip, whose first element is `head`. Properties without data keep the rest pose.
 Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
     uvec4 sections = table(head + 1u);
-    PackedTime at = packedTime(table(head), time);
+    PackedTime at = packedTime(table(head), tableFloats(head + 2u).y, time);
     uvec4 masks = table(sections.x + node / 16u);
     uint bit = node & 15u, below = (1u << bit) - 1u, both = below | below << 16u;
     // By path, 1, 2 and 4: what changes, and what is constant.

@@ -15,7 +15,7 @@
 //   clip target  one element a morph target: (channel or 0, place in a value, numbers of a value, 0)
 //   packed clip  kPackedHeadElements: (frames a second as a float, number of the last frame, properties that change +
 //              65536 * constants, segments); (first element of its masks, constants, statics, segments); (first of its nodes'
-//              elements, for channels that are not packed, or 0; 0, 0, 0). A property is the translation, rotation or scale of
+//              elements, for channels that are not packed, or 0; what the frames a second are more than that float, 0, 0). A property is the translation, rotation or scale of
 //              a node; properties are counted by node, then in this order
 //   masks      one element for every 16 nodes, a bit each: properties that change (translations + 65536 * rotations; low half:
 //              scales), constants (high half of the second: scales; translations + 65536 * rotations); properties before these

@@ -117,7 +117,7 @@ void play(const cage::Character& character, const skinning::Rig& rig, Tail& choo
 /// What is packed keeps within its error, and is read as it was written.
 void pack(const cage::Character& character, skinning::PoseMemory& memory) {
     cage::Character packed = character;
-    skinning::packClips(packed, 1e-3);
+    (void)skinning::packClips(packed, 1e-3);
     const skinning::NodeOrder order = skinning::nodeOrder(packed);
     for (const cage::Clip& clip : packed.clips) {
         demand(clip.packed.error <= 1e-3, "the error is larger than was asked");

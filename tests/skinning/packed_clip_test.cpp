@@ -7,6 +7,7 @@
 #include "skinning/playback.h"
 #include "skinning/pose.h"
 #include "skinning/pose_twin.h"
+#include "skinning/root_motion.h"
 #include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
@@ -83,6 +84,7 @@ PackedClip randomClip(std::mt19937& random, uint32_t nodes) {
                     own.values.push_back(glm::clamp(base + step, glm::ivec3(-524287), glm::ivec3(524287)));
                 }
             }
+            removeEqualKnots(own);
         }
     }
     return clip;
@@ -145,6 +147,105 @@ TEST(PackedClips, WordsThatAreSpoiledAreRefusedOrMeanSomething) {
     EXPECT_GT(taken, 1000u);
 }
 
+TEST(PackedClips, CountsThatOverflowAreRefused) {
+    // 65,541 properties that change, and one constant: as halves of a word these look like 5 and 1.
+    constexpr uint32_t kNodes = 22'000, kChanging = 65'541;
+    PackedClip clip;
+    for (uint32_t place = 0; place < 5; ++place) {
+        PackedProperty& own = clip.properties.emplace_back();
+        own.place = place;
+        own.frames = {0, 1};
+        own.values = {glm::ivec3(0), glm::ivec3(1)};
+    }
+    PackedProperty& still = clip.properties.emplace_back();
+    still.place = kNodes - 1;
+    still.isConstant = true;
+    still.exponent = 27;
+    still.values = {glm::ivec3(0)};
+    std::vector<uint32_t> words = *packedWords(clip, 1.0, kNodes);
+    ASSERT_TRUE(readPackedWords(words, 1.0, kNodes).ok());
+    uint32_t changing = 0;
+    for (size_t element = words[4]; element < words[5]; ++element) {
+        uint32_t* const masks = &words[4 * element];
+        masks[3] = changing;
+        for (const auto& [word, bits] : {std::pair(0, 32u), std::pair(1, 16u)}) {
+            const bool last = element + 1 == words[5];
+            const uint32_t count = last ? 0 : std::min(bits, kChanging - changing);
+            const uint32_t kept = masks[word] & (word == 1 ? 0xFFFF0000u : 0u);
+            masks[word] = kept | (count == 32 ? 0xFFFFFFFFu : (1u << count) - 1u);
+            changing += count;
+        }
+    }
+    ASSERT_EQ(changing, kChanging);
+    EXPECT_FALSE(readPackedWords(words, 1.0, kNodes).ok());
+}
+
+TEST(PackedClips, ThatStandAtTheEndAreReadWithinTheTable) {
+    // Its last segment has no bits, and nothing follows the clip in the table.
+    cage::Character tube = test::riggedTube({.segments = 4, .sides = 4, .joints = 2});
+    std::vector<float> times, turns;
+    for (int k = 0; k <= 40; ++k) {
+        times.push_back(static_cast<float>(k) / 30.0f);
+        const float angle = k < 20 ? 0.1f * std::sin(0.7f * static_cast<float>(k)) : 0.05f;
+        turns.insert(turns.end(), {0.0f, std::sin(angle), 0.0f, std::cos(angle)});
+    }
+    tube.clips.push_back(clipOf({channel(2, ChannelPath::rotation, times, turns)}));
+    ASSERT_TRUE(packClips(tube, 1e-3).empty());
+    ASSERT_FALSE(tube.clips[0].packed.words.empty());
+    const ClipTable table = buildClipTable(tube);
+    EXPECT_EQ(table.footCount, 0u);
+    // Exactly as large as it is: a reader beyond it is found by sanitizers and by the layer that poisons memory.
+    EXPECT_EQ(table.words.size() % 4, 0u);
+    const PoseLayout layout = PoseLayout::of(SkinningMode::linear, table.jointCount, 0);
+    PoseTwin twin(table, layout, 0);
+    std::vector<uint32_t> words(4 * size_t{PlaybackState::elements(0)});
+    PlaybackState state(words);
+    state.setTransform(glm::mat4(1.0f));
+    PlaybackLayer layer;
+    PlaybackDesc desc;
+    desc.layers = {&layer, 1};
+    state.set(tube, table, desc);
+    std::vector<float> masks(4 * size_t{maskElements(table)} * shared::kMaxMasks, 1.0f);
+    Pose pose;
+    for (const double time : {1.1, 1.3, 1.34, 2.0}) {
+        twin.sample(words, masks, time);
+        sampleClip(tube, tube.clips[0], time, pose);
+        const glm::dquat& q = pose.locals[2].rotation;
+        const glm::vec4 own = twin.locals()[table.places[2]].rotation;
+        EXPECT_LT(glm::length(own - glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w))), 2e-6f) << time;
+    }
+}
+
+TEST(PackedClips, KeepTheRootThatTheClipsHad) {
+    // The topmost node trembles by less than anybody sees.
+    cage::Character wren = test::readCharacter(test::kWren);
+    for (cage::Clip& clip : wren.clips) {
+        const auto end = static_cast<float>(clip.duration);
+        clip.channels.push_back(channel(0, ChannelPath::translation, {0, end}, {0, 0, 0, 1e-7f, 0, 0}));
+    }
+    const uint32_t root = findRoot(wren);
+    EXPECT_EQ(root, 0u);
+    (void)packClips(wren, 1e-4);
+    EXPECT_EQ(findRoot(wren), root);
+    wren.clipRoot = cage::kNone;
+    EXPECT_NE(findRoot(wren), root) << "the channels that told are gone";
+}
+
+TEST(PackedClips, TellWhatTheyLeaveOut) {
+    cage::Character tube = test::riggedTube({.segments = 4, .sides = 4, .joints = 2});
+    std::vector<float> times, turns;
+    for (int k = 0; k < 300; ++k) {
+        times.push_back(static_cast<float>(k));
+        turns.insert(turns.end(), {0.0f, 0.6f, 0.0f, 0.8f + 0.001f * static_cast<float>(k % 7)});
+    }
+    tube.clips.push_back(clipOf({channel(2, ChannelPath::rotation, times, turns)}));
+    tube.clips.back().name = "long";
+    const std::vector<std::string> leftOut = packClips(tube, 1e-4);
+    ASSERT_EQ(leftOut.size(), 1u);
+    EXPECT_EQ(leftOut[0], "clip \"long\" is not packed: it has too many frames");
+    EXPECT_TRUE(tube.clips[0].packed.words.empty());
+}
+
 TEST(PackedClips, NumbersThatAreTooLargeAreNotWritten) {
     PackedClip clip;
     PackedProperty& own = clip.properties.emplace_back();
@@ -166,7 +267,7 @@ TEST(PackedClips, KeepWithinTheErrorAndAreSmaller) {
         double bytes = 0.0, before = 0.0;
         for (const double error : {1e-4, 1e-3}) {
             cage::Character packed = plain;
-            packClips(packed, error);
+            (void)packClips(packed, error);
             ASSERT_EQ(packed.clips.size(), plain.clips.size());
             for (size_t c = 0; c < plain.clips.size(); ++c) {
                 const cage::Clip& clip = packed.clips[c];
@@ -184,7 +285,7 @@ TEST(PackedClips, KeepWithinTheErrorAndAreSmaller) {
                 }
                 // Packed once more, it stays.
                 cage::Character again = packed;
-                packClips(again, error);
+                (void)packClips(again, error);
                 EXPECT_EQ(again.clips[c].packed.words, clip.packed.words);
             }
         }
@@ -221,7 +322,7 @@ cage::Character oddTube() {
 TEST(PackedClips, LeaveAloneWhatTheyCannotPack) {
     const cage::Character plain = oddTube();
     cage::Character packed = plain;
-    packClips(packed, 1e-3);
+    (void)packClips(packed, 1e-3);
     const cage::Clip& clip = packed.clips.front();
     ASSERT_FALSE(clip.packed.words.empty());
     EXPECT_LE(distance(plain, plain.clips.front(), clip, 100), 1.1e-3);
@@ -244,18 +345,18 @@ TEST(PackedClips, LeaveAloneWhatTheyCannotPack) {
     // Clips of one pose, and of no channels, stay.
     cage::Character still = plain;
     still.clips = {clipOf({channel(2, ChannelPath::rotation, {0}, {0, 0, 0.6f, 0.8f})}), cage::Clip()};
-    packClips(still, 1e-3);
+    (void)packClips(still, 1e-3);
     EXPECT_TRUE(still.clips[0].packed.words.empty() && still.clips[1].packed.words.empty());
     // So do long ones, in no time.
     cage::Character slow = plain;
     slow.clips = {clipOf({channel(2, ChannelPath::rotation, {0, 1e6f}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})})};
-    packClips(slow, 1e-3);
+    (void)packClips(slow, 1e-3);
     EXPECT_TRUE(slow.clips[0].packed.words.empty());
 }
 
 TEST(PackedClips, AreSampledByTheDevicesCodeAsByTheCpu) {
     for (cage::Character character : {test::readCharacter(test::kPip), test::readCharacter(test::kWren), oddTube()}) {
-        packClips(character, 1e-4);
+        (void)packClips(character, 1e-4);
         const ClipTable table = buildClipTable(character);
         const PoseLayout layout = PoseLayout::of(SkinningMode::linear, table.jointCount, table.targetCount);
         PoseTwin twin(table, layout, 0);

@@ -35,6 +35,7 @@ public:
         compareAll("morphs.targets", a.morphs.targets, b.morphs.targets, &CharacterDifferences::compareTargets);
         compare("morphs.weights", a.morphs.weights, b.morphs.weights);
         compareAll("clips", a.clips, b.clips, &CharacterDifferences::compareClips);
+        compare("clipRoot", a.clipRoot, b.clipRoot);
         compareAll("materials", a.materials, b.materials, &CharacterDifferences::compareMaterials);
         compareAll("images", a.images, b.images, &CharacterDifferences::compareImages);
         if (!overlooked.messages) {

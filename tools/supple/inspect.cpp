@@ -547,7 +547,9 @@ int runInspect(const InspectOptions& options) {
         return fail(kExitBadInput, file.error().message);
     }
     if (options.clipError > 0.0) {
-        skinning::packClips(file->character, options.clipError);
+        for (std::string& warning : skinning::packClips(file->character, options.clipError)) {
+            file->character.warnings.push_back(std::move(warning));
+        }
     }
     const auto print = [&](const Measured& measured) {
         const Findings findings = examine(file->character);

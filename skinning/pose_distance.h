@@ -1,0 +1,59 @@
+// How far apart two poses of a character are, as whoever looks at it sees it: what packed clips are measured by.
+#pragma once
+
+#include "cage/character.h"
+#include "skinning/pose.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::skinning {
+
+/// Distances of vertices that are skinned linearly, and of the *shell*: three points around each joint, 0.015 of the
+/// extent away. With the shell, sockets and joints that move no vertex count too.
+class PoseDistance {
+public:
+    /// The character must outlive this.
+    explicit PoseDistance(const cage::Character& character);
+
+    [[nodiscard]] const cage::Character& character() const { return character_; }
+    /// The diagonal of the box of the rest pose.
+    [[nodiscard]] double extent() const { return extent_; }
+
+    /// Distance moved per radian of a node's rotation, or per unit of its translation or scale, in the rest pose.
+    [[nodiscard]] double reach(uint32_t node, cage::ChannelPath path) const {
+        return path == cage::ChannelPath::translation ? parentScale_[node] : reach_[node];
+    }
+    /// Distance moved per unit of a morph target's weight, in the rest pose.
+    [[nodiscard]] double targetReach(uint32_t target) const { return targetReach_[target]; }
+
+    /// The vertices farthest from the joints that they follow, and all vertices.
+    [[nodiscard]] std::span<const uint32_t> watched() const { return watched_; }
+    [[nodiscard]] std::span<const uint32_t> all() const { return all_; }
+
+    /// One matrix a node, in model space.
+    void globalsOf(const Pose& pose, std::vector<glm::dmat4>& globals) const;
+
+    /// The largest distance between two poses, in extents: of these vertices, and of all shells.
+    [[nodiscard]] double between(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
+                                 std::span<const uint32_t> vertices) const;
+
+private:
+    [[nodiscard]] glm::dvec3 vertex(uint32_t v, const std::vector<glm::dmat4>& globals) const;
+    [[nodiscard]] glm::dvec3 shellPoint(const glm::dmat4& m, int axis) const;
+    void measureExtent(const std::vector<glm::dmat4>& globals);
+    void measureReach(const std::vector<glm::dmat4>& globals);
+    void measureTargets(const std::vector<glm::dmat4>& globals);
+    void watch(const std::vector<glm::dmat4>& globals);
+
+    const cage::Character& character_;
+    std::vector<glm::dmat4> inverseBinds_;
+    std::vector<double> reach_, parentScale_; ///< by node
+    std::vector<double> targetReach_;
+    std::vector<uint32_t> watched_, all_;
+    double extent_ = 0.0;
+};
+
+} // namespace supple::skinning
