@@ -137,8 +137,8 @@ void fields(A& a, T& character) {
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
       character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
-      character.clips, character.clipRoot, character.materials, character.materialVariants, character.images, character.warnings,
-      character.damages, character.sourceVertexCount, character.seamVertexCount);
+      character.clips, character.clipRoot, character.materials, character.materialVariants, character.images,
+      character.warnings, character.damages, character.sourceVertexCount, character.seamVertexCount);
 }
 
 } // namespace supple::cage
