@@ -45,15 +45,6 @@ PackedTime packedTime(uvec4 head, float rateLow, vec2 time) {
     return result;
 }
 
-vec3 knotAt(uvec4 record, uvec4 a, uvec4 b, uint at, float step) {
-    uvec4 widths = (record >> 20u) & 31u;
-    int x = wholeOf(record.y) + int(bitsOf(a, b, at, widths.y));
-    int y = wholeOf(record.z) + int(bitsOf(a, b, at + widths.y, widths.z));
-    int z = wholeOf(record.w) + int(bitsOf(a, b, at + widths.y + widths.z, widths.w));
-    SUPPLE_PRECISE vec3 value = vec3(float(x), float(y), float(z)) * step;
-    return value;
-}
-
 // A property that changes: its number among those of the clip.
 vec4 changingValue(uvec4 sections, PackedTime at, uint property, bool turns) {
     uint own = packedWord(sections.z, property);
@@ -70,7 +61,21 @@ vec4 changingValue(uvec4 sections, PackedTime at, uint property, bool turns) {
     uvec4 a = table(element), b = table(element + 1u);
     place = place & 127u;
     float step = powerOfHalf(int(own >> 27u) - 8);
-    vec3 from = knotAt(record, a, b, place, step), to = knotAt(record, a, b, place + width, step);
+    SUPPLE_PRECISE vec3 from = vec3(0.0f);
+    SUPPLE_PRECISE vec3 to = vec3(0.0f);
+    // A loop over the numbers of both knots, so that the code is there once.
+    for (uint k = 0u; k < 6u; ++k) {
+        uint axis = k < 3u ? k : k - 3u;
+        uint word = wordAt(record, axis + 1u), count = (word >> 20u) & 31u;
+        SUPPLE_PRECISE float number = float(wholeOf(word) + int(bitsOf(a, b, place, count))) * step;
+        place += count;
+        if (k == 0u) from.x = number;
+        if (k == 1u) from.y = number;
+        if (k == 2u) from.z = number;
+        if (k == 3u) to.x = number;
+        if (k == 4u) to.y = number;
+        if (k == 5u) to.z = number;
+    }
     SUPPLE_PRECISE vec3 mixed = from + (to - from) * t;
     SUPPLE_PRECISE vec4 value = vec4(mixed, 0.0f);
     if (turns) {
