@@ -280,8 +280,8 @@ void Check::clips() {
     for (size_t c = 0; c < character_.clips.size(); ++c) {
         const Clip& clip = character_.clips[c];
         const std::string name = at("clip", c) + " ";
-        require(std::isfinite(clip.duration) && clip.duration >= 0.0 && std::isfinite(clip.packed.error),
-                name + "has no duration");
+        require(std::isfinite(clip.duration) && clip.duration >= 0.0, name + "has no duration");
+        require(std::isfinite(clip.packed.error), name + "is packed with no finite error");
         for (size_t i = 0; i < clip.channels.size(); ++i) {
             channel(clip.channels[i], name + at("channel", i) + ": ");
         }

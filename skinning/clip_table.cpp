@@ -179,7 +179,7 @@ private:
                 weights = weights == 0 ? putTargets() : weights;
                 putWeights(channel, weights);
             } else if (const uint32_t place = table_.places[channel.node]; place != cage::kNone) {
-                // Of several channels for one property the last one counts, as in sampleClip.
+                // If several channels have one property, the last one counts, as in sampleClip.
                 const uint32_t record = putChannel(channel, channel.path == ChannelPath::rotation ? 4 : 3);
                 table_.words[4 * size_t{nodes + place} + static_cast<size_t>(channel.path)] = record;
             }

@@ -30,9 +30,9 @@ struct Modifier {
     glm::vec3 target{0.0f}, pole{0.0f};
     float poleWeight = 0.0f, soft = 0.97f;
     glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f}; ///< x, y, z, w, of unit length
-    glm::vec3 axis{0.0f, 0.0f,
-                   1.0f}; ///< to aim: forward, in the joint's frame; two bones, feet: the hinge, in the middle's
-    glm::vec3 eye{0.0f};  ///< to aim: in the joint's frame
+    /// To aim: forward, in the joint's frame. Of two bones, and of a foot: the hinge, in the middle joint's frame.
+    glm::vec3 axis{0.0f, 0.0f, 1.0f};
+    glm::vec3 eye{0.0f}; ///< to aim: in the joint's frame
 };
 
 /// The joint and those above it, as many as `length`, in a modifier's chain; nothing if the skeleton has fewer above

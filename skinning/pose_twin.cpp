@@ -169,8 +169,7 @@ void PoseTwin::hold(const cage::Character& character, const Rig& rig, const Laye
     for (uint32_t foot = 0; foot < held.size(); ++foot) {
         const glm::vec4 own = code.heldInClip(clip, {time.high, time.low}, foot, node, rooted ? root.axes : 0u,
                                               glm::vec3(begin.position), rotation);
-        const uint32_t place = table_->words[4 * size_t{table_->contacts + foot}];
-        const auto weight = static_cast<float>(layerWeight(rig, layer, table_->nodes[place]));
+        const auto weight = static_cast<float>(layerWeight(rig, layer, table_->nodes[table_->footPlace(foot)]));
         held[foot] = weight != 0.0f ? code.heldMix(held[foot], own, weight) : held[foot];
     }
 }

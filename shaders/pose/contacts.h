@@ -52,7 +52,8 @@ vec4 heldMix(vec4 before, vec4 held, float weight) {
     return mixed;
 }
 
-// Of all layers. A transition lets go of what was held, and takes hold of what is played as it blends that in.
+// What all layers hold, mixed as they are played. A transition lets go of what was held before, and takes hold of what is
+// played as it blends that in.
 vec4 heldFoot(uint first, uint foot) {
     uvec4 header = state(first);
     uint node = table(push.contacts + foot).x;

@@ -1,6 +1,6 @@
 // Modifiers of an instance (shaders/shared/pose.h), in order, each after the one before. Needs state(), what nodes.h needs,
-// `push`, and what is posed: nodeLocal(), keepLocal(), placement(), heldAt(), keepHeld(). Loops with one turn stand for branches: where no lane
-// needs one, lavapipe does not step through it.
+// `push`, and what is posed: nodeLocal(), keepLocal(), placement(), heldAt(), keepHeld(). Loops with one turn stand for
+// branches: where no lane needs one, lavapipe does not step through it.
 #include "shaders/pose/nodes.h"
 
 struct Modifier {
@@ -10,7 +10,7 @@ struct Modifier {
     uvec4 chain; // nodes, two a word
     float weight;
     float share;       // of what is still missing, that joints above the last one take
-    vec2 limit;        // cosine and sine of half the angle; to lower: the way
+    vec2 limit;        // cosine and sine of half the angle; to lower: the distance
     vec3 target;       // in model space
     float poleWeight;
     vec3 pole;         // in model space; to aim: the eye, in the joint's frame

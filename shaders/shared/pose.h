@@ -3,8 +3,8 @@
 // Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
 // depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
 // element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 1 + its number if it is a foot, else 0); then the three rows of the fixed matrix, or
-//              translation, rotation (x, y, z, w), scale of the rest pose
+//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 1 + its number if it is
+//              a foot, else 0); then the three rows of the fixed matrix, or translation, rotation (x, y, z, w), scale of the rest pose
 //   rotation   one element each, of the nodes with a fixed matrix: the nearest to it (x, y, z, w)
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
@@ -49,7 +49,7 @@
 //   modifiers  in groups that have them, kMaxModifiers, of which only as many are read as the flags say; kModifierElements each:
 //              (kind + 256 * flags, length of the chain, 0, 0); nodes of the chain, two a word, the low half first, from the
 //              top down to the joint; (weight, fade weight, fade duration, share of joints above the last one); (fade start,
-//              high and low; cosine and sine of half the limit or, to lower, the way and 0); (target; weight of the pole); (pole; soft) or, to aim, (the
+//              high and low; cosine and sine of half the limit or, to lower, the distance and 0); (target; weight of the pole); (pole; soft) or, to aim, (the
 //              eye in the joint's frame; 0); rotation; (axis in the joint's frame; 0)
 //   transition in groups that have them, from `transition` on, read only if the flags say so: (begin, high and low float;
 //              seconds; kind); kTransitionElements a node, in the order of the table; then two elements for every four morph

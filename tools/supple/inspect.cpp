@@ -237,8 +237,8 @@ struct PackedFacts {
     size_t bytes = 0;
     double ratio = 1.0;
 };
-PackedFacts packedFacts(const cage::Character& character, const cage::Clip& clip) {
-    const size_t bytes = skinning::clipBytes(skinning::nodeOrder(character), clip);
+PackedFacts packedFacts(const skinning::NodeOrder& order, const cage::Clip& clip) {
+    const size_t bytes = skinning::clipBytes(order, clip);
     return {bytes, static_cast<double>(clip.packed.unpackedBytes) / static_cast<double>(bytes)};
 }
 
@@ -313,6 +313,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["mostInfluences"] = findings.mostInfluences;
     json["clips"] = Json::array();
     const skinning::Contacts contacts = skinning::findContacts(character);
+    const skinning::NodeOrder order = skinning::nodeOrder(character);
     for (const cage::Clip& clip : character.clips) {
         Json markers = Json::array();
         for (const cage::Marker& marker : clip.markers) {
@@ -321,7 +322,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         Json entry = {{"name", clip.name}, {"duration", clip.duration}};
         entry["markers"] = std::move(markers);
         if (!clip.packed.words.empty()) {
-            const PackedFacts facts = packedFacts(character, clip);
+            const PackedFacts facts = packedFacts(order, clip);
             entry["packed"] = {{"bytes", facts.bytes}, {"ratio", facts.ratio}, {"error", clip.packed.error}};
         }
         entry["contacts"] = contactsIn(character, contacts, json["clips"].size());
@@ -484,12 +485,13 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");
     printLine("clips", std::to_string(character.clips.size()));
+    const skinning::NodeOrder order = skinning::nodeOrder(character);
     for (size_t i = 0; i < character.clips.size(); ++i) {
         char duration[32];
         std::snprintf(duration, sizeof duration, "  %.3f s", character.clips[i].duration);
         printLine("", std::to_string(i) + "  " + character.clips[i].name + duration);
         if (!character.clips[i].packed.words.empty()) {
-            const PackedFacts facts = packedFacts(character, character.clips[i]);
+            const PackedFacts facts = packedFacts(order, character.clips[i]);
             char text[96];
             std::snprintf(text, sizeof text, "     packed: %zu bytes, %.1f:1, error %.2g extents", facts.bytes,
                           facts.ratio, character.clips[i].packed.error);
