@@ -40,6 +40,28 @@ uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) 
                   (room.modifiers ? table.footCount : 0));
 }
 
+/// What the pose pass's dispatches of any window have in common.
+PosePush constantsOf(const Playback::Desc& desc) {
+    const skinning::ClipTable& table = *desc.asset->clipTable;
+    PosePush push{};
+    push.nodeCount = static_cast<uint32_t>(table.nodes.size());
+    push.jointCount = table.jointCount;
+    push.morphCount = desc.layout.morphCount;
+    push.joints = table.joints;
+    push.levels = table.levels;
+    push.levelCount = table.levelCount;
+    push.restWeights = table.restWeights;
+    push.clips = table.clips;
+    push.stateStride = stateStride(table, desc.layout, desc.room);
+    push.transition = transitionBegin(desc.layout, desc.room);
+    push.maskStride = skinning::maskElements(table);
+    push.scratchStride = scratchStride(table, desc.room);
+    push.contacts = table.contacts;
+    push.poseStride = desc.layout.stride;
+    push.morphWeights = desc.layout.morphWeights;
+    return push;
+}
+
 /// A node's place in the table of another version of the asset, or kNone.
 uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::ClipTable& table) {
     const uint32_t moved = match.nodes[node];
@@ -62,22 +84,8 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.capacity_ = desc.capacity;
     playback.windowSize_ = desc.windowSize;
     playback.framesInFlight_ = desc.framesInFlight;
-    PosePush& push = playback.push_;
-    push.nodeCount = static_cast<uint32_t>(table.nodes.size());
-    push.jointCount = table.jointCount;
-    push.morphCount = desc.layout.morphCount;
-    push.joints = table.joints;
-    push.levels = table.levels;
-    push.levelCount = table.levelCount;
-    push.restWeights = table.restWeights;
-    push.clips = table.clips;
-    push.stateStride = stateStride(table, desc.layout, desc.room);
-    push.transition = transitionBegin(desc.layout, desc.room);
-    push.maskStride = skinning::maskElements(table);
-    push.scratchStride = scratchStride(table, desc.room);
-    push.contacts = table.contacts;
-    push.poseStride = desc.layout.stride;
-    push.morphWeights = desc.layout.morphWeights;
+    playback.push_ = constantsOf(desc);
+    const PosePush& push = playback.push_;
     playback.transitionElements_ = transitionElements(table, desc.layout, desc.room);
     playback.mode_ = desc.layout.mode;
 
