@@ -17,22 +17,6 @@
 namespace supple::cage {
 namespace {
 
-constexpr size_t kNamesSaid = 8; ///< of a list in a message
-
-/// "ik_hand_l, ik_hand_r", "a, b and 20 more"
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (size_t i = 0; i < std::min(names.size(), kNamesSaid); ++i) {
-        text += (i == 0 ? "" : ", ") + names[i];
-    }
-    return names.size() > kNamesSaid ? text + " and " + std::to_string(names.size() - kNamesSaid) + " more" : text;
-}
-
-std::string nameOf(const Skeleton& skeleton, uint32_t node) {
-    const std::string& name = skeleton.nodes[node].name;
-    return name.empty() ? at("node", node) : name;
-}
-
 /// Names for clips that no clip has yet.
 class FreeNames {
 public:
@@ -115,7 +99,7 @@ std::vector<float> valuesFor(const Channel& channel, const TargetMatch& match, c
 class ClipTaker {
 public:
     ClipTaker(const ClipSet& set, std::span<const PartCage> parts, Character& character)
-        : set_(set), character_(character), match_(matchNodes(set.skeleton, character.skeleton)),
+        : set_(set), character_(character), match_(match(set, character.skeleton)),
           bone_(compareBones(set.skeleton, set.clips, character.skeleton, match_)), clipCount_(set.clips.size()) {
         for (const PartCage& part : parts) {
             parts_.emplace(part.part.node, &part);
@@ -173,6 +157,16 @@ public:
     }
 
 private:
+    [[nodiscard]] static NodeMatch match(const ClipSet& set, const Skeleton& skeleton) {
+        if (!set.isFitted) {
+            return matchNodes(set.skeleton, skeleton);
+        }
+        NodeMatch same;
+        same.partners.resize(skeleton.nodes.size());
+        std::iota(same.partners.begin(), same.partners.end(), 0u);
+        return same;
+    }
+
     void count(uint64_t floats) {
         floats_ += floats;
         if (floats_ > kMaxClipFloats) {

@@ -22,6 +22,7 @@ struct ClipSet {
     std::vector<std::vector<std::string>> targetNames; ///< by mesh: of its morph targets, or empty
     std::vector<Clip> clips;                           ///< channels of weights are as wide as the file has them
     std::vector<std::string> warnings;                 ///< without the name
+    bool isFitted = false; ///< the skeleton is the character's own: nodes have the same numbers
 };
 
 /// The name of a file without folder and ending.
@@ -34,7 +35,8 @@ struct ClipSet {
 /// Skeleton::parentsFirst are matched. Weights move the targets of the part that the node carries: by name if both
 /// sides have names, else all of them if there are as many. Targets without a match keep the weights they have at rest.
 /// Channels without a match are left out. One warning a set says what was not matched, and where the bones of the two
-/// skeletons differ in length by more than 1 %; there is none if everything matches. Nothing is retargeted.
+/// skeletons differ in length by more than 1 %; there is none if everything matches. Nothing is retargeted here: a set
+/// that was (skinning/retarget.h) is fitted, and its nodes are the character's.
 ///
 /// A clip without a match stays, without channels. A clip whose name is taken gets "@" and the file's name behind it,
 /// and if that is taken too, a number. A node with a matrix that a clip moves becomes one with translation, rotation

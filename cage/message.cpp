@@ -87,6 +87,15 @@ std::string quoted(const std::string& text) {
     return "\"" + text + "\"";
 }
 
+std::string listed(const std::vector<std::string>& names) {
+    constexpr size_t kMost = 8;
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+        text += (i == 0 ? "" : ", ") + names[i];
+    }
+    return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more" : text;
+}
+
 std::string shortNumber(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", value);

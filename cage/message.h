@@ -19,6 +19,8 @@ namespace supple::cage {
 /// "1 vertex", "2 vertices"
 [[nodiscard]] std::string counted(size_t count, const char* one, const char* many);
 [[nodiscard]] std::string quoted(const std::string& text);
+/// "a, b", "a, b, c, d, e, f, g, h and 20 more"
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
 /// Three significant digits.
 [[nodiscard]] std::string shortNumber(double value);
 /// Messages are one line that reads as it stands, whatever a file calls its parts: `instead` takes the place of control

@@ -67,6 +67,11 @@ void makeAffine(glm::mat4& matrix, const std::string& element, Leniency& lenienc
     }
 }
 
+std::string nameOf(const Skeleton& skeleton, uint32_t node) {
+    const std::string& name = skeleton.nodes[node].name;
+    return name.empty() ? at("node", node) : name;
+}
+
 glm::dmat4 localMatrix(const Node& node) {
     if (node.hasMatrix) {
         return glm::dmat4(node.matrix);

@@ -19,6 +19,9 @@ void makeAffine(glm::mat4& matrix, const std::string& element);
 /// The same for the matrix of a file, where such a row is a fault that can be mended.
 void makeAffine(glm::mat4& matrix, const std::string& element, Leniency& leniency);
 
+/// What messages call a node: its name, or its number if it has none.
+[[nodiscard]] std::string nameOf(const Skeleton& skeleton, uint32_t node);
+
 /// From a node to its parent, as it rests.
 [[nodiscard]] glm::dmat4 localMatrix(const Node& node);
 /// By node: from the node to the scene, as it rests.

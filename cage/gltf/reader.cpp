@@ -197,7 +197,13 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
     character.springBones = readSpringBones(document, character.skeleton, warnings);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
-        leniency.gather([&] { takeClips(readClipSet(file, options), parts, character); });
+        leniency.gather([&] {
+            ClipSet set = readClipSet(file, options);
+            if (options.fitClips) {
+                options.fitClips(set, character.skeleton);
+            }
+            takeClips(std::move(set), parts, character);
+        });
     }
     leniency.raise();
     for (Damage& damage : leniency.takeDamages()) {

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "cage/clip_set.h"
 #include "cage/file_reader.h"
 #include "cage/normal_creases.h"
 #include "cage/skeleton.h"
@@ -28,7 +29,8 @@ struct ClipFile {
 struct GltfOptions {
     /// Which scene's meshes are read: the file's own choice if it is not given.
     std::optional<uint32_t> scene;
-    /// Which of KHR_materials_variants the materials are; empty: the file's own. The error lists the variants there are.
+    /// Which of KHR_materials_variants the materials are; empty: the file's own. The error lists the variants there
+    /// are.
     std::string variant;
     /// Sew parts together where their boundaries coincide.
     bool sewParts = true;
@@ -48,6 +50,9 @@ struct GltfOptions {
     FileReader readFile;
     /// Files whose clips come behind the character's own, file after file (cage/clip_set.h). Their meshes are not read.
     std::vector<ClipFile> clipFiles;
+    /// Makes the clips of such a file fit the character's skeleton before they are matched (skinning/retarget.h). None:
+    /// they move the nodes of their names. May throw Refusal (cage/refusal.h).
+    std::function<void(ClipSet& set, const Skeleton& skeleton)> fitClips;
 };
 
 /// Parses a glTF or GLB held in memory; docs/gltf.md says in full what is taken, repaired and refused.

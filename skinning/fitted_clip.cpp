@@ -1,0 +1,420 @@
+#include "skinning/fitted_clip.h"
+
+#include "cage/skeleton.h"
+#include "shaders/pose/limbs.h"
+#include "skinning/pose.h"
+#include "skinning/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace supple::skinning {
+namespace {
+
+using cage::Channel;
+using cage::ChannelPath;
+using cage::Interpolation;
+using cage::kNone;
+
+constexpr double kLongestGap = 1.0 / 23.0; ///< seconds between two keys; longer ones get keys between
+constexpr double kMostRate = 60.0;         ///< frames a second of clips whose keys are closer than twice that
+constexpr float kAnkleSoft = 0.995f;       ///< the part of a leg's length from which on it stretches ever more slowly
+
+bool isTurnOrMove(const Channel& channel) {
+    return channel.path != ChannelPath::weights;
+}
+
+/// When the fitted clip has keys.
+struct Lattice {
+    std::vector<double> times;
+    bool isStepped = false;
+};
+
+/// Stops behind `most` keys.
+Lattice latticeOf(const cage::Clip& clip, uint64_t most) {
+    Lattice lattice;
+    std::vector<double>& times = lattice.times;
+    lattice.isStepped = true;
+    for (const Channel& channel : clip.channels) {
+        if (isTurnOrMove(channel)) {
+            times.insert(times.end(), channel.times.begin(), channel.times.end());
+            lattice.isStepped = lattice.isStepped && channel.interpolation == Interpolation::step;
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    if (times.empty() || lattice.isStepped) {
+        return lattice;
+    }
+    const double first = times.front(), length = times.back() - first;
+    if (static_cast<double>(times.size()) > 2.0 * kMostRate * length + 2.0) {
+        const auto count = static_cast<size_t>(std::ceil(length * kMostRate)); // fewer than the keys
+        times.clear();
+        for (size_t k = 0; k <= count; ++k) {
+            times.push_back(first + length * static_cast<double>(k) / static_cast<double>(std::max<size_t>(count, 1)));
+        }
+        return lattice;
+    }
+    std::vector<double> closer;
+    for (size_t k = 0; k + 1 < times.size() && closer.size() <= most; ++k) {
+        const double gap = times[k + 1] - times[k];
+        const double pieces =
+            std::min(gap > kLongestGap ? std::ceil(gap * 30.0 - 1e-6) : 1.0, static_cast<double>(most) + 1.0);
+        for (double i = 0.0; i < pieces; ++i) {
+            closer.push_back(times[k] + gap * i / pieces);
+        }
+    }
+    closer.push_back(times.back());
+    times = std::move(closer);
+    return lattice;
+}
+
+glm::vec4 asVector(const glm::dquat& q) {
+    return glm::vec4(q.x, q.y, q.z, q.w);
+}
+glm::dquat asRotation(const glm::vec4& q) {
+    return unit(glm::dquat(q.w, q.x, q.y, q.z));
+}
+
+/// How a channel of vectors is written: each number of a key.
+void append(std::vector<float>& values, const glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) {
+        values.push_back(static_cast<float>(v[i]));
+    }
+}
+
+/// One key is enough where all are alike.
+void addChannel(uint32_t node, ChannelPath path, const Lattice& lattice, std::vector<float> values, cage::Clip& clip) {
+    const size_t width = path == ChannelPath::rotation ? 4 : 3;
+    constexpr float kAlike = 1e-7f;
+    bool isConstant = true;
+    for (size_t i = width; i < values.size() && isConstant; ++i) {
+        const float first = values[i % width];
+        isConstant = std::abs(values[i] - first) <= kAlike * std::max(1.0f, std::abs(first));
+    }
+    Channel channel{node, path, lattice.isStepped ? Interpolation::step : Interpolation::linear, {}, {}, 0};
+    if (isConstant) {
+        values.resize(width);
+    }
+    channel.values = std::move(values);
+    for (size_t k = 0; k < (isConstant ? 1 : lattice.times.size()); ++k) {
+        channel.times.push_back(static_cast<float>(lattice.times[k]));
+    }
+    clip.channels.push_back(std::move(channel));
+}
+
+/// The poses of one clip.
+class FittedFrames {
+public:
+    FittedFrames(const FittedSkeletons& of, const cage::Clip& clip, Lattice lattice)
+        : of_(of), followers_(of.followers), lattice_(std::move(lattice)) {
+        source_.skeleton = of.from;
+        clip_.channels = clip.channels;
+        std::erase_if(clip_.channels, [](const Channel& channel) { return !isTurnOrMove(channel); });
+        const size_t frames = lattice_.times.size();
+        turns_.resize(frames * followers_.turned.size());
+        moves_.resize(frames * followers_.moved.size());
+        hips_.resize(frames);
+        places_.assign(of.to.nodes.size(), kNone);
+        for (size_t i = 0; i < followers_.turned.size(); ++i) {
+            places_[followers_.turned[i].node] = static_cast<uint32_t>(i);
+        }
+        for (size_t side = 0; side < 2; ++side) {
+            goals_[side].resize(frames);
+            axes_[side].resize(frames);
+        }
+        globals_.resize(of.to.nodes.size(), glm::dmat4(1.0));
+        model_.resize(of.to.nodes.size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
+    }
+
+    void follow() {
+        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+            readSource(lattice_.times[frame]);
+            place(frame);
+            noteLegs(frame);
+        }
+    }
+
+    /// Returns how far a leg ends short of its goal, at most. If that is more than `most`, nothing is changed.
+    [[nodiscard]] double placeFeet(double most) {
+        const std::vector<glm::dquat> free = turns_;
+        double miss = 0.0;
+        for (size_t side = 0; side < 2; ++side) {
+            if (canBend(followers_.legs[side])) {
+                miss = std::max(miss, bend(followers_.legs[side]));
+            }
+        }
+        if (miss > most) {
+            turns_ = free;
+        }
+        return miss;
+    }
+
+    [[nodiscard]] cage::Clip write(const cage::Clip& as) const {
+        cage::Clip clip;
+        clip.name = as.name;
+        clip.duration = as.duration;
+        clip.markers = as.markers;
+        clip.sharpness = as.sharpness;
+        for (size_t i = 0; i < followers_.turned.size(); ++i) {
+            writeTurns(i, clip);
+        }
+        const uint32_t hips = followers_.to[roleOf(Part::hips)];
+        std::vector<float> values;
+        for (const glm::dvec3& place : hips_) {
+            append(values, place);
+        }
+        addChannel(hips, ChannelPath::translation, lattice_, std::move(values), clip);
+        for (size_t i = 0; i < followers_.moved.size(); ++i) {
+            values.clear();
+            for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+                append(values, moves_[frame * followers_.moved.size() + i]);
+            }
+            addMoves(followers_.moved[i].node, values, clip);
+        }
+        return clip;
+    }
+
+private:
+    /// Where the joints of the clip are and how they are turned.
+    void readSource(double time) {
+        sampleClip(source_, clip_, time, pose_);
+        const cage::Skeleton& skeleton = source_.skeleton;
+        sourceGlobals_.resize(skeleton.nodes.size());
+        sourceModel_.resize(skeleton.nodes.size());
+        for (const uint32_t n : skeleton.parentsFirst) {
+            const cage::Node& node = skeleton.nodes[n];
+            const glm::dmat4 local = localMatrix(node, pose_.locals[n]);
+            const glm::dquat own = node.hasMatrix ? nearestRotation(glm::dmat3(local)) : unit(pose_.locals[n].rotation);
+            sourceGlobals_[n] = node.parent == kNone ? local : sourceGlobals_[node.parent] * local;
+            sourceModel_[n] = node.parent == kNone ? own : sourceModel_[node.parent] * own;
+        }
+    }
+    /// D, in the frame of the skeleton that follows.
+    [[nodiscard]] glm::dquat turnOf(uint32_t leader) const {
+        const glm::dquat& yaw = followers_.yaw;
+        return unit(yaw * sourceModel_[leader] * glm::conjugate(of_.fromRest.turns[leader]) * glm::conjugate(yaw));
+    }
+    /// Where a joint of a role goes, by where the clip's goes from its rest.
+    [[nodiscard]] glm::dvec3 goalOf(Role role) const {
+        const uint32_t leader = followers_.from[role];
+        const glm::dvec3 way = glm::dvec3(sourceGlobals_[leader][3]) - of_.fromRest.place(leader);
+        return of_.toRest.place(followers_.to[role]) + followers_.yaw * way * followers_.scale;
+    }
+
+    /// Fills the locals of a frame, and globals_ and model_.
+    void place(size_t frame) {
+        for (size_t i = 0; i < followers_.moved.size(); ++i) {
+            const MoveFollower& moved = followers_.moved[i];
+            const glm::dvec3 way =
+                pose_.locals[moved.leader].translation - glm::dvec3(source_.skeleton.nodes[moved.leader].translation);
+            moves_[frame * followers_.moved.size() + i] =
+                glm::dvec3(of_.to.nodes[moved.node].translation) + moved.map * way;
+        }
+        poseTarget(frame, [&](uint32_t node, const glm::dquat& above) {
+            const TurnFollower& own = followers_.turned[places_[node]];
+            const glm::dquat turn = own.leader == own.next
+                                        ? turnOf(own.leader)
+                                        : unit(slerp(turnOf(own.leader), turnOf(own.next), own.share));
+            return unit(glm::conjugate(above) * (turn * own.rest));
+        });
+    }
+
+    /// turn(node, rotation of its parent in model space): the local rotation of a node that follows.
+    template <class Turn>
+    void poseTarget(size_t frame, Turn&& turn) {
+        const cage::Skeleton& to = of_.to;
+        const uint32_t hips = followers_.to[roleOf(Part::hips)];
+        moved_.assign(to.nodes.size(), kNone);
+        for (size_t i = 0; i < followers_.moved.size(); ++i) {
+            moved_[followers_.moved[i].node] = static_cast<uint32_t>(i);
+        }
+        for (const uint32_t n : of_.needed) {
+            const cage::Node& node = to.nodes[n];
+            const glm::dquat above = node.parent == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : model_[node.parent];
+            const glm::dmat4 parent = node.parent == kNone ? glm::dmat4(1.0) : globals_[node.parent];
+            Transform local{node.translation, glm::dquat(node.rotation), node.scale};
+            if (places_[n] != kNone) {
+                local.rotation = turn(n, above);
+                turns_[frame * followers_.turned.size() + places_[n]] = local.rotation;
+            }
+            if (n == hips) {
+                placeHips(frame, parent);
+                local.translation = hips_[frame];
+            } else if (moved_[n] != kNone) {
+                local.translation = moves_[frame * followers_.moved.size() + moved_[n]];
+            }
+            const glm::dmat4 matrix = localMatrix(node, local);
+            globals_[n] = parent * matrix;
+            model_[n] = above * (node.hasMatrix ? nearestRotation(glm::dmat3(matrix)) : unit(local.rotation));
+        }
+    }
+    void placeHips(size_t frame, const glm::dmat4& parent) {
+        if (!isBent_) {
+            const glm::dmat3 frameOfParent(parent);
+            const glm::dvec3 way = goalOf(roleOf(Part::hips)) - glm::dvec3(parent[3]);
+            const bool isFlat = !(std::abs(glm::determinant(frameOfParent)) > 0.0);
+            hips_[frame] = isFlat ? glm::dvec3(of_.to.nodes[followers_.to[roleOf(Part::hips)]].translation)
+                                  : glm::inverse(frameOfParent) * way;
+        }
+    }
+
+    [[nodiscard]] glm::dvec3 placeOf(uint32_t node) const { return glm::dvec3(globals_[node][3]); }
+    [[nodiscard]] std::array<glm::dvec3, 3> jointsOf(const Leg& leg) const {
+        return {placeOf(leg.path.front()), placeOf(leg.path[leg.shin]), placeOf(leg.path.back())};
+    }
+
+    /// Keeps where the ankles of a frame should go, and about which axes the knees bend.
+    void noteLegs(size_t frame) {
+        for (const Leg& leg : followers_.legs) {
+            const auto [a, b, c] = jointsOf(leg);
+            const glm::dvec3 axis = glm::cross(b - a, c - b);
+            const double length = glm::length(axis);
+            axes_[leg.side][frame] = length > 0.0 ? axis / length : glm::dvec3(0.0);
+            goals_[leg.side][frame] = goalOf(roleOf(Part::foot, leg.side));
+        }
+    }
+
+    /// All of a leg must be free to turn.
+    [[nodiscard]] bool canBend(const Leg& leg) const {
+        return leg.shin > 0 && leg.shin + 1 < leg.path.size() &&
+               std::all_of(leg.path.begin(), leg.path.end(), [&](uint32_t node) { return places_[node] != kNone; });
+    }
+
+    /// The median of the axes about which the knee bends; of a leg that is always straight, the way to the left.
+    [[nodiscard]] glm::dvec3 hingeOf(const Leg& leg) const {
+        glm::dvec3 hinge(0.0);
+        for (int i = 0; i < 3; ++i) {
+            std::vector<double> numbers;
+            for (const glm::dvec3& axis : axes_[leg.side]) {
+                numbers.push_back(axis[i]);
+            }
+            const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+            std::nth_element(numbers.begin(), middle, numbers.end());
+            hinge[i] = *middle;
+        }
+        const glm::dvec3 left = of_.toRest.place(followers_.to[roleOf(Part::thigh, kLeft)]) -
+                                of_.toRest.place(followers_.to[roleOf(Part::thigh, kRight)]);
+        return glm::length(hinge) > 0.1 ? glm::normalize(hinge) : glm::normalize(left);
+    }
+
+    /// Brings the ankle to its goal in every frame; the foot keeps its rotation.
+    [[nodiscard]] double bend(const Leg& leg) {
+        const glm::dvec3 hinge = hingeOf(leg);
+        const double height = hipsHeight(of_.toRest, followers_.to);
+        double miss = 0.0;
+        isBent_ = true; // the hips are placed
+        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+            poseTarget(frame, [&](uint32_t node, const glm::dquat&) {
+                return turns_[frame * followers_.turned.size() + places_[node]];
+            });
+            const auto [a, b, c] = jointsOf(leg);
+            const glm::dvec3 goal = goals_[leg.side][frame];
+            // About the thigh: so that floats are exact however far the clip has carried the character.
+            const shared::LimbTurns turns =
+                shared::bentLimb(glm::vec3(0.0f), glm::vec3(b - a), glm::vec3(c - a), glm::vec3(goal - a),
+                                 glm::vec3(hinge), glm::vec3(0.0f), 0.0f, kAnkleSoft);
+            miss = std::max(miss, glm::length(glm::dvec3(turns.end) - (goal - a)) / height);
+            turnLeg(leg, frame, asRotation(turns.root), asRotation(turns.middle));
+        }
+        return miss;
+    }
+    void turnLeg(const Leg& leg, size_t frame, const glm::dquat& ofThigh, const glm::dquat& ofShin) {
+        const uint32_t parent = of_.to.nodes[leg.path.front()].parent;
+        glm::dquat above = parent == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : model_[parent];
+        for (size_t i = 0; i < leg.path.size(); ++i) {
+            const glm::dquat& was = model_[leg.path[i]];
+            const glm::dquat now = i < leg.shin ? ofThigh * was : i + 1 < leg.path.size() ? ofShin * was : was;
+            turns_[frame * followers_.turned.size() + places_[leg.path[i]]] = unit(glm::conjugate(above) * now);
+            above = now;
+        }
+    }
+
+    /// Keys that follow each other are on one side, so that what lies between is the short way.
+    void writeTurns(size_t place, cage::Clip& clip) const {
+        std::vector<float> values;
+        glm::dquat last = glm::dquat(of_.to.nodes[followers_.turned[place].node].rotation);
+        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+            glm::dquat q = turns_[frame * followers_.turned.size() + place];
+            q = glm::dot(q, last) < 0.0 ? -q : q;
+            last = q;
+            const glm::vec4 v = asVector(q);
+            values.insert(values.end(), {v.x, v.y, v.z, v.w});
+        }
+        addChannel(followers_.turned[place].node, ChannelPath::rotation, lattice_, std::move(values), clip);
+    }
+    /// A joint that is not moved has no channel.
+    void addMoves(uint32_t node, const std::vector<float>& values, cage::Clip& clip) const {
+        const glm::vec3 rest = of_.to.nodes[node].translation;
+        const double most = 1e-6 * hipsHeight(of_.toRest, followers_.to);
+        for (size_t i = 0; i < values.size(); ++i) {
+            if (std::abs(static_cast<double>(values[i] - rest[static_cast<int>(i % 3)])) > most) {
+                addChannel(node, ChannelPath::translation, lattice_, values, clip);
+                return;
+            }
+        }
+    }
+
+    const FittedSkeletons& of_;
+    const Followers& followers_;
+    Lattice lattice_;
+    cage::Character source_; ///< the clip's skeleton alone
+    cage::Clip clip_;
+    Pose pose_;
+    std::vector<glm::dmat4> sourceGlobals_, globals_;
+    std::vector<glm::dquat> sourceModel_, model_;         ///< rotations alone, in model space
+    std::vector<glm::dquat> turns_;                       ///< by frame: local rotations of what follows
+    std::vector<glm::dvec3> moves_, hips_;                ///< by frame: local translations
+    std::vector<uint32_t> places_, moved_;                ///< by node: among those that turn, or are moved
+    std::array<std::vector<glm::dvec3>, 2> goals_, axes_; ///< by side and frame
+    bool isBent_ = false;
+};
+
+} // namespace
+
+FittedSkeletons::FittedSkeletons(const cage::Skeleton& leading, const cage::Skeleton& own, const Followers& following)
+    : from(leading), to(own), followers(following), fromRest(leading), toRest(own) {
+    std::vector<bool> isNeeded(to.nodes.size(), false);
+    const auto need = [&](uint32_t node) {
+        for (; node != kNone && !isNeeded[node]; node = to.nodes[node].parent) {
+            isNeeded[node] = true;
+        }
+    };
+    for (const TurnFollower& follower : followers.turned) {
+        need(follower.node);
+    }
+    for (const MoveFollower& follower : followers.moved) {
+        need(follower.node);
+    }
+    need(followers.to[roleOf(Part::hips)]);
+    std::copy_if(to.parentsFirst.begin(), to.parentsFirst.end(), std::back_inserter(needed),
+                 [&](uint32_t node) { return isNeeded[node]; });
+}
+
+std::optional<ClipFitter::Fitted> ClipFitter::fit(const cage::Clip& clip, Feet feet, double mostMissed) {
+    const uint64_t most = std::min(left_, kMostPosesOfClip), nodes = of_.from.nodes.size() + of_.needed.size();
+    Lattice lattice = latticeOf(clip, most / nodes);
+    const uint64_t poses = uint64_t{lattice.times.size()} * nodes;
+    if (poses > most) {
+        return std::nullopt;
+    }
+    left_ -= poses;
+    Fitted fitted;
+    if (lattice.times.empty()) {
+        fitted.clip = clip;
+        fitted.clip.channels.clear();
+        return fitted;
+    }
+    FittedFrames frames(of_, clip, std::move(lattice));
+    frames.follow();
+    if (feet == Feet::placed) {
+        fitted.miss = frames.placeFeet(mostMissed);
+        fitted.areFeetPlaced = fitted.miss <= mostMissed;
+    }
+    fitted.clip = frames.write(clip);
+    return fitted;
+}
+
+} // namespace supple::skinning

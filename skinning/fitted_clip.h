@@ -1,0 +1,49 @@
+// A clip of one skeleton as another one plays it, by its followers (skinning/followers.h).
+#pragma once
+
+#include "cage/character.h"
+#include "skinning/followers.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace supple::skinning {
+
+/// Poses of nodes that all clips of a set may take, and one of them: a few keys far apart can ask for any number.
+inline constexpr uint64_t kMostFittedPoses = 8'000'000, kMostPosesOfClip = 4'000'000;
+
+/// Two skeletons and what the one does of the other's clips. What they refer to must outlive them.
+struct FittedSkeletons {
+    const cage::Skeleton &from, &to;
+    const Followers& followers;
+    RestPlaces fromRest, toRest;
+    std::vector<uint32_t> needed; ///< nodes of `to` that follow, and those above them; parents first
+
+    FittedSkeletons(const cage::Skeleton& leading, const cage::Skeleton& own, const Followers& following);
+};
+
+/// Makes clips for `to`, one after the other. Everything it is given must outlive it.
+class ClipFitter {
+public:
+    ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers)
+        : of_(from, to, followers) {}
+
+    /// Whether ankles are brought where those of the clip are, by the legs' bends.
+    enum class Feet : uint8_t { free, placed };
+
+    struct Fitted {
+        cage::Clip clip;   ///< of `to`; markers and curves of sharpness are those of the given clip
+        double miss = 0.0; ///< how far a leg ends short of where its ankle should be, at most; in heights of the hips
+        bool areFeetPlaced = false;
+    };
+    /// Channels of weights are left out. Legs that end more than `mostMissed` short of their goal in some frame keep
+    /// the clip's angles, and so does the other leg. Nothing: the clip takes more poses than are left.
+    [[nodiscard]] std::optional<Fitted> fit(const cage::Clip& clip, Feet feet, double mostMissed);
+
+private:
+    FittedSkeletons of_;
+    uint64_t left_ = kMostFittedPoses;
+};
+
+} // namespace supple::skinning

@@ -1,0 +1,261 @@
+#include "skinning/retarget.h"
+
+#include "cage/message.h"
+#include "cage/node_match.h"
+#include "cage/refusal.h"
+#include "cage/skeleton.h"
+#include "skinning/fitted_clip.h"
+#include "skinning/followers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace supple::skinning {
+namespace {
+
+using cage::kNone;
+
+constexpr double kSameLength = 0.01; ///< relative: bones of skeletons that are the same
+constexpr double kFarMiss = 0.05;    ///< heights of the hips: what is told
+constexpr double kMostMissed = 0.3;  ///< beyond it a leg does not fit, and keeps the clip's angles
+uint32_t nodeNamed(const cage::Skeleton& skeleton, const std::string& name) {
+    const auto found = std::find_if(skeleton.parentsFirst.begin(), skeleton.parentsFirst.end(),
+                                    [&](uint32_t n) { return skeleton.nodes[n].name == name; });
+    return found != skeleton.parentsFirst.end() ? *found : kNone;
+}
+
+/// The skeleton with matrices taken apart where they can be, as takeClips() does it.
+cage::Skeleton withoutMatrices(cage::Skeleton skeleton) {
+    for (cage::Node& node : skeleton.nodes) {
+        if (node.hasMatrix) {
+            (void)cage::decompose(node); // a sheared one stays, and is not turned
+        }
+    }
+    return skeleton;
+}
+
+/// Fits one set.
+class SetFitter {
+public:
+    SetFitter(const RetargetOptions& options, const cage::Skeleton& to, cage::ClipSet& set)
+        : options_(options), to_(withoutMatrices(to)), set_(set), match_(cage::matchNodes(set.skeleton, to_)) {
+        Roles from{}, own{};
+        from.fill(kNone);
+        own.fill(kNone);
+        for (const JointPair& pair : options.pairs) {
+            takePair(pair, from, own);
+        }
+        faults_.raise();
+        from_ = findRoles(set.skeleton, from);
+        own_ = findRoles(to_, own);
+    }
+
+    void fit() {
+        const std::string reason = whyNot();
+        if (!reason.empty()) {
+            if (options_.fitting != ClipFitting::differing) {
+                cage::refuse(set_.name, "cannot be retargeted: " + reason);
+            }
+            return;
+        }
+        if (options_.fitting == ClipFitting::differing && options_.pairs.empty() && isSameSkeleton()) {
+            return;
+        }
+        const Followers followers = findFollowers(set_.skeleton, from_, to_, own_, match_.partners);
+        noteLeftOut(followers);
+        fitClips(followers);
+        tell(followers);
+        moveWeights();
+        set_.skeleton = to_;
+        set_.isFitted = true;
+    }
+
+private:
+    void takePair(const JointPair& pair, Roles& from, Roles& own) {
+        const uint32_t leader = nodeNamed(set_.skeleton, pair.from), node = nodeNamed(to_, pair.to);
+        if (node == kNone) {
+            faults_.keep({ErrorCode::argument, {"retarget map: the character has no node " + cage::quoted(pair.to)}});
+        } else if (leader == kNone) {
+            unknown_.push_back(pair.from);
+        } else if (pair.role) {
+            from[*pair.role] = leader;
+            own[*pair.role] = node;
+        } else {
+            std::replace(match_.partners.begin(), match_.partners.end(), node, kNone);
+            match_.partners[leader] = node;
+        }
+    }
+
+    /// Why the clips cannot be fitted, or nothing.
+    [[nodiscard]] std::string whyNot() const {
+        const std::string reason = whyNot(from_, set_.skeleton, "its");
+        return reason.empty() ? whyNot(own_, to_, "the character's") : reason;
+    }
+    [[nodiscard]] static std::string whyNot(const Roles& roles, const cage::Skeleton& skeleton, const char* whose) {
+        if (!hasLegs(roles)) {
+            return std::string("no hips above two legs were found in ") + whose + " skeleton";
+        }
+        if (!(hipsHeight(RestPlaces(skeleton), roles) > 0.0)) {
+            return std::string("the hips of ") + whose + " skeleton are not above the ankles";
+        }
+        return {};
+    }
+
+    /// Whether clips fit as they are: nodes of one role have one name, and limbs are as long.
+    [[nodiscard]] bool isSameSkeleton() const {
+        const RestPlaces from(set_.skeleton), own(to_);
+        const double scale = hipsHeight(own, own_) / hipsHeight(from, from_);
+        const auto fromHips = [&](const RestPlaces& rest, const Roles& roles, Role role) {
+            const uint32_t hips = roles[roleOf(Part::hips)];
+            return glm::length(rest.place(roles[role]) - rest.place(hips));
+        };
+        for (Role role = 0; role < kRoles; ++role) {
+            if (from_[role] == kNone || own_[role] == kNone) {
+                continue;
+            }
+            const double a = fromHips(from, from_, role), b = fromHips(own, own_, role);
+            if (match_.partners[from_[role]] != own_[role] || std::abs(a - b) > kSameLength * std::max(a, b)) {
+                return false;
+            }
+        }
+        return std::abs(scale - 1.0) <= kSameLength;
+    }
+
+    /// Names what the clips move and nothing follows.
+    void noteLeftOut(const Followers& followers) {
+        std::set<uint32_t> turning, moving{from_[roleOf(Part::hips)]};
+        for (const TurnFollower& follower : followers.turned) {
+            turning.insert({follower.leader, follower.next});
+        }
+        for (const MoveFollower& follower : followers.moved) {
+            moving.insert(follower.leader);
+        }
+        std::set<uint32_t> alone, scaled, stretched;
+        for (const cage::Clip& clip : set_.clips) {
+            for (const cage::Channel& channel : clip.channels) {
+                if (channel.path == cage::ChannelPath::rotation && turning.count(channel.node) == 0) {
+                    alone.insert(channel.node);
+                } else if (channel.path == cage::ChannelPath::scale && varies(channel)) {
+                    scaled.insert(channel.node);
+                } else if (channel.path == cage::ChannelPath::translation && moving.count(channel.node) == 0 &&
+                           varies(channel)) {
+                    stretched.insert(channel.node);
+                }
+            }
+        }
+        say("turns of ", alone);
+        say("scales of ", scaled);
+        say("movements of ", stretched);
+    }
+    void say(const char* what, const std::set<uint32_t>& nodes) {
+        std::vector<std::string> names;
+        for (const uint32_t node : nodes) {
+            names.push_back(cage::nameOf(set_.skeleton, node));
+        }
+        if (!names.empty()) {
+            leftOut_ += (leftOut_.empty() ? "" : "; ") + (what + cage::listed(names));
+        }
+    }
+    /// By more than a hundredth of the largest number.
+    [[nodiscard]] static bool varies(const cage::Channel& channel) {
+        const size_t stride = channel.interpolation == cage::Interpolation::cubicSpline ? 9 : 3;
+        const size_t first = stride == 9 ? 3 : 0;
+        float largest = 0.0f, difference = 0.0f;
+        for (size_t k = first; k + 2 < channel.values.size(); k += stride) {
+            for (size_t i = 0; i < 3; ++i) {
+                largest = std::max(largest, std::abs(channel.values[k + i]));
+                difference = std::max(difference, std::abs(channel.values[k + i] - channel.values[first + i]));
+            }
+        }
+        return difference > 0.01f * largest;
+    }
+
+    void fitClips(const Followers& followers) {
+        ClipFitter fitter(set_.skeleton, to_, followers);
+        const ClipFitter::Feet feet =
+            options_.fitting == ClipFitting::freeFeet ? ClipFitter::Feet::free : ClipFitter::Feet::placed;
+        std::vector<cage::Clip> fitted;
+        for (cage::Clip& clip : set_.clips) {
+            std::optional<ClipFitter::Fitted> own = fitter.fit(clip, feet, kMostMissed);
+            if (!own) {
+                longOnes_.push_back(cage::quoted(clip.name));
+                continue;
+            }
+            if (own->miss > kMostMissed) {
+                unfit_.push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own->miss));
+            } else if (own->miss > kFarMiss) {
+                far_.push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own->miss));
+            }
+            std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(own->clip.channels),
+                         [](const cage::Channel& c) { return c.path == cage::ChannelPath::weights; });
+            fitted.push_back(std::move(own->clip));
+        }
+        count_ = fitted.size();
+        set_.clips = std::move(fitted);
+        if (options_.strict && !unfit_.empty()) {
+            cage::refuse(set_.name, "its clips do not fit the character's legs: ankles are out of reach: " +
+                                        cage::listed(unfit_) + " of the hips' height");
+        }
+        if (options_.strict && !longOnes_.empty()) {
+            cage::refuse(set_.name, "too long to be retargeted: " + cage::listed(longOnes_), ErrorCode::limit);
+        }
+    }
+
+    void tell(const Followers& followers) {
+        std::string text = cage::counted(count_, "clip", "clips") +
+                           " retargeted: " + cage::counted(followers.byRole, "joint", "joints") + " by role, " +
+                           std::to_string(followers.byName) + " by name, hips scaled by " +
+                           cage::shortNumber(followers.scale);
+        const auto add = [&](const char* what, const std::string& names, const char* behind = "") {
+            text += names.empty() ? "" : "; " + (what + names) + behind;
+        };
+        add("left out: ", leftOut_);
+        add("not in its skeleton: ", cage::listed(unknown_));
+        add("ankles out of reach: ", cage::listed(far_), " of the hips' height");
+        add("legs keep their angles, as ankles are out of reach: ", cage::listed(unfit_), " of the hips' height");
+        add("too long to be retargeted, left out: ", cage::listed(longOnes_));
+        set_.warnings.push_back(std::move(text));
+    }
+
+    /// Channels of weights go to the nodes of their names.
+    void moveWeights() {
+        std::vector<uint32_t> meshes(to_.nodes.size(), kNone);
+        for (uint32_t node = 0; node < set_.meshes.size(); ++node) {
+            if (match_.partners[node] != kNone) {
+                meshes[match_.partners[node]] = set_.meshes[node];
+            }
+        }
+        set_.meshes = std::move(meshes);
+        for (cage::Clip& clip : set_.clips) {
+            std::erase_if(clip.channels, [&](cage::Channel& channel) {
+                if (channel.path == cage::ChannelPath::weights) {
+                    channel.node = match_.partners[channel.node];
+                }
+                return channel.node == kNone;
+            });
+        }
+    }
+
+    const RetargetOptions& options_;
+    const cage::Skeleton to_;
+    cage::ClipSet& set_;
+    cage::NodeMatch match_;
+    Roles from_{}, own_{};
+    cage::Refusals faults_;
+    std::string leftOut_;
+    std::vector<std::string> unknown_, longOnes_, far_, unfit_;
+    size_t count_ = 0;
+};
+
+} // namespace
+
+void fitClips(const RetargetOptions& options, const cage::Skeleton& to, cage::ClipSet& set) {
+    if (options.fitting != ClipFitting::byName && !set.clips.empty()) {
+        SetFitter(options, to, set).fit();
+    }
+}
+
+} // namespace supple::skinning
