@@ -56,12 +56,12 @@ public:
     void fit() {
         const std::string reason = whyNot();
         if (!reason.empty()) {
-            if (options_.fitting != ClipFitting::differing) {
+            if (options_.retargeting != Retargeting::differing) {
                 cage::refuse(set_.name, "cannot be retargeted: " + reason);
             }
             return;
         }
-        if (options_.fitting == ClipFitting::differing && options_.pairs.empty() && isSameSkeleton()) {
+        if (options_.retargeting == Retargeting::differing && options_.pairs.empty() && isSameSkeleton()) {
             return;
         }
         const Followers followers = findFollowers(set_.skeleton, from_, to_, own_, match_.partners);
@@ -76,14 +76,17 @@ public:
 private:
     void takePair(const JointPair& pair, Roles& from, Roles& own) {
         const uint32_t leader = nodeNamed(set_.skeleton, pair.from), node = nodeNamed(to_, pair.to);
-        if (node == kNone) {
-            faults_.keep({ErrorCode::argument, {"retarget map: the character has no node " + cage::quoted(pair.to)}});
-        } else if (leader == kNone) {
+        if (!pair.to.empty() && node == kNone) {
+            faults_.keep({ErrorCode::argument, {"joint pairs: the character has no node " + cage::quoted(pair.to)}});
+            return;
+        }
+        if (!pair.from.empty() && leader == kNone) {
             unknown_.push_back(pair.from);
-        } else if (pair.role) {
+        }
+        if (pair.role) {
             from[*pair.role] = leader;
             own[*pair.role] = node;
-        } else {
+        } else if (leader != kNone) {
             std::replace(match_.partners.begin(), match_.partners.end(), node, kNone);
             match_.partners[leader] = node;
         }
@@ -176,7 +179,7 @@ private:
     void fitClips(const Followers& followers) {
         ClipFitter fitter(set_.skeleton, to_, followers);
         const ClipFitter::Feet feet =
-            options_.fitting == ClipFitting::freeFeet ? ClipFitter::Feet::free : ClipFitter::Feet::placed;
+            options_.retargeting == Retargeting::freeFeet ? ClipFitter::Feet::free : ClipFitter::Feet::placed;
         std::vector<cage::Clip> fitted;
         for (cage::Clip& clip : set_.clips) {
             std::optional<ClipFitter::Fitted> own = fitter.fit(clip, feet, kMostMissed);
@@ -253,7 +256,7 @@ private:
 } // namespace
 
 void fitClips(const RetargetOptions& options, const cage::Skeleton& to, cage::ClipSet& set) {
-    if (options.fitting != ClipFitting::byName && !set.clips.empty()) {
+    if (options.retargeting != Retargeting::never && !set.clips.empty()) {
         SetFitter(options, to, set).fit();
     }
 }

@@ -11,9 +11,10 @@
 
 namespace supple::skinning {
 
-enum class ClipFitting : uint8_t {
+/// In the order of SuppleRetargeting.
+enum class Retargeting : uint8_t {
     differing, ///< retargets sets of clips whose skeleton is another one than the character's, if both are bipeds
-    byName,    ///< leaves all as they are
+    never,     ///< leaves all as they are: clips move nodes of their names
     all,       ///< retargets all sets, and refuses those of which it cannot be done
     freeFeet   ///< as `all`, and legs keep the angles of the clip: ankles go where these take them
 };
@@ -21,18 +22,19 @@ enum class ClipFitting : uint8_t {
 /// A node of the clips' skeleton and its counterpart among the character's.
 struct JointPair {
     std::optional<Role> role; ///< of both; none: the one turns as the other does
-    std::string from, to;
+    std::string from, to;     ///< one may be empty if there is a role: then it is found
 };
 
 struct RetargetOptions {
-    ClipFitting fitting = ClipFitting::differing;
+    Retargeting retargeting = Retargeting::differing;
     std::vector<JointPair> pairs; ///< go before what names and structure say
     bool strict = false;          ///< refuses clips whose ankles a leg does not reach
 };
 
 /// Makes the clips of a set move `to`: afterwards the set's skeleton is `to`, and ClipSet::isFitted. Sets whose joints
 /// have the names of the character's, in the same roles, with bones as long as its, are left as they are, but for
-/// `all`. So are sets of which one of the skeletons has no hips above two legs. Warnings of the set tell what was done.
+/// `all` and `freeFeet`. So are sets of which one of the skeletons has no hips above two legs. Warnings of the set tell
+/// what was done.
 ///
 /// The formulas are those of model space. D is how a joint of the clip is turned from its rest; C0 is the yaw from the
 /// one skeleton's left-to-right to the other's. A joint with a role is turned from its own rest by C0 D C0^-1, limbs

@@ -1,12 +1,14 @@
 #include "runtime/api/descriptions.h"
 
 #include "cage/formats/reader.h"
+#include "cage/message.h"
 #include "cage/repair.h"
 #include "runtime/api/entry.h"
 #include "runtime/arrays/character_arrays.h"
 #include "runtime/cooked/file.h"
 #include "runtime/sized.h"
 #include "runtime/vertex_streams.h"
+#include "skinning/retarget.h"
 #include "surface/schemes.h"
 
 #include <cmath>
@@ -81,6 +83,24 @@ std::optional<Error> faultOfFlags(uint32_t flags) {
     return std::nullopt;
 }
 
+std::optional<Error> faultOfJointPairs(const SuppleAssetDesc& desc) {
+    if (desc.jointPairCount > 0 && desc.jointPairs == nullptr) {
+        return Error{ErrorCode::nullPointer, "jointPairs is null"};
+    }
+    for (uint32_t i = 0; i < desc.jointPairCount; ++i) {
+        const SuppleJointPair& pair = desc.jointPairs[i];
+        const std::string name = "jointPairs[" + std::to_string(i) + "]: ";
+        if (pair.role != nullptr && !skinning::roleNamed(pair.role)) {
+            return Error{ErrorCode::argument, name + "no role is called " + cage::quoted(pair.role)};
+        }
+        const bool isWhole = pair.from != nullptr && pair.to != nullptr;
+        if (!isWhole && (pair.role == nullptr || (pair.from == nullptr && pair.to == nullptr))) {
+            return Error{ErrorCode::nullPointer, name + (pair.from == nullptr ? "from is null" : "to is null")};
+        }
+    }
+    return std::nullopt;
+}
+
 /// Why the description's clip files cannot be read, if they cannot.
 std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
     if (desc.clipFileCount > 0 && desc.clipFiles == nullptr) {
@@ -88,6 +108,12 @@ std::optional<Error> faultOfClipFiles(const SuppleAssetDesc& desc) {
     }
     if (desc.clipFileCount > 0 && desc.bytes == nullptr) {
         return Error{ErrorCode::argument, nameOf(desc) + ": both arrays and clipFiles"};
+    }
+    if (runtime::rawValue(desc.retargeting) > SUPPLE_RETARGET_FREE_FEET) {
+        return Error{ErrorCode::range, "no such retargeting"};
+    }
+    if (std::optional<Error> fault = faultOfJointPairs(desc)) {
+        return fault;
     }
     for (uint32_t i = 0; i < desc.clipFileCount; ++i) {
         const SuppleClipFile& file = desc.clipFiles[i];
@@ -243,6 +269,18 @@ Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc
     return prepared;
 }
 
+skinning::RetargetOptions retargetOptions(const SuppleAssetDesc& desc) {
+    skinning::RetargetOptions options;
+    options.retargeting = static_cast<skinning::Retargeting>(desc.retargeting);
+    options.strict = (desc.flags & SUPPLE_ASSET_STRICT) != 0;
+    for (uint32_t i = 0; i < desc.jointPairCount; ++i) {
+        const SuppleJointPair& pair = desc.jointPairs[i];
+        options.pairs.push_back({pair.role != nullptr ? skinning::roleNamed(pair.role) : std::nullopt,
+                                 orEmpty(pair.from), orEmpty(pair.to)});
+    }
+    return options;
+}
+
 Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& desc) {
     const std::string name = nameOf(desc);
     const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
@@ -281,6 +319,9 @@ Result<cage::Character> readAsset(const char* function, const SuppleAssetDesc& d
                                      orEmpty(file.baseDirectory),
                                      reader(file.files)});
     }
+    options.fitClips = [retarget = retargetOptions(desc)](cage::ClipSet& set, const cage::Skeleton& skeleton) {
+        skinning::fitClips(retarget, skeleton, set);
+    };
     return cage::readCharacter({static_cast<const std::byte*>(desc.bytes), desc.byteCount}, name,
                                orEmpty(desc.baseDirectory), options);
 }

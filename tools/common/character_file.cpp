@@ -3,10 +3,13 @@
 #include "cage/formats/reader.h"
 #include "cage/repair.h"
 #include "runtime/cooked/file.h"
+#include "skinning/retarget.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 namespace supple::host {
 namespace {
@@ -56,7 +59,27 @@ Result<CharacterFile> readCookedFile(FileInMemory file, const ReadOptions& flags
     if (const Status sound = cage::refuseDamages(*character); flags.strict && !sound) {
         return sound.error();
     }
-    return CharacterFile{std::move(file), {}, flags, std::move(*character)};
+    return CharacterFile{std::move(file), {}, {}, flags, std::move(*character)};
+}
+
+Result<std::vector<JointPairSetting>> readRetargetMap(const std::string& path) {
+    if (path.empty()) {
+        return std::vector<JointPairSetting>{};
+    }
+    const Result<std::vector<std::byte>> bytes = readFile(path);
+    if (!bytes) {
+        return bytes.error();
+    }
+    return parseRetargetMap({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+}
+
+skinning::RetargetOptions retargetOptions(const ReadOptions& flags, const std::vector<JointPairSetting>& pairs) {
+    skinning::RetargetOptions options{
+        static_cast<skinning::Retargeting>(retargetingOf(flags.retargeting)), {}, flags.strict};
+    for (const JointPairSetting& pair : pairs) {
+        options.pairs.push_back({skinning::roleNamed(pair.role), pair.from, pair.to});
+    }
+    return options;
 }
 
 uint64_t memoryLimit(const ReadOptions& flags) {
@@ -64,6 +87,11 @@ uint64_t memoryLimit(const ReadOptions& flags) {
 }
 
 } // namespace
+
+SuppleRetargeting retargetingOf(const std::string& name) {
+    const auto found = std::find(std::begin(kRetargetings), std::end(kRetargetings), name);
+    return static_cast<SuppleRetargeting>(found - std::begin(kRetargetings));
+}
 
 Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptions& flags) {
     Result<FileInMemory> file = load(path);
@@ -91,6 +119,13 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
         clipFiles.push_back(std::move(*clips));
         options.clipFiles.push_back({clipPath, clipFiles.back().bytes, clipFiles.back().directory, nullptr});
     }
+    Result<std::vector<JointPairSetting>> pairs = readRetargetMap(flags.retargetMap);
+    if (!pairs) {
+        return pairs.error();
+    }
+    options.fitClips = [retarget = retargetOptions(flags, *pairs)](cage::ClipSet& set, const cage::Skeleton& skeleton) {
+        skinning::fitClips(retarget, skeleton, set);
+    };
     if (runtime::isCooked(file->bytes)) {
         return readCookedFile(std::move(*file), flags);
     }
@@ -98,7 +133,7 @@ Result<CharacterFile> readCharacterFile(const std::string& path, const ReadOptio
     if (!character) {
         return character.error();
     }
-    return CharacterFile{std::move(*file), std::move(clipFiles), flags, std::move(*character)};
+    return CharacterFile{std::move(*file), std::move(clipFiles), std::move(*pairs), flags, std::move(*character)};
 }
 
 AssetDescription::AssetDescription(const CharacterFile& file) {
@@ -129,6 +164,10 @@ AssetDescription::AssetDescription(const CharacterFile& file) {
     }
     desc_.clipFiles = clipFiles_.data();
     desc_.clipFileCount = static_cast<uint32_t>(clipFiles_.size());
+    jointPairs_ = jointPairsOf(file.jointPairs);
+    desc_.retargeting = retargetingOf(file.flags.retargeting);
+    desc_.jointPairs = jointPairs_.data();
+    desc_.jointPairCount = static_cast<uint32_t>(jointPairs_.size());
 }
 
 Result<SuppleAsset> createAsset(Context& context, const CharacterFile& file) {

@@ -5,6 +5,7 @@
 #include "cage/character.h"
 #include "host/context.h"
 #include "tools/common/cage_arrays.h"
+#include "tools/common/retarget_map.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,19 +16,25 @@
 
 namespace supple::host {
 
+/// Names of SuppleRetargeting.
+inline constexpr const char* kRetargetings[] = {"differing", "never", "all", "free-feet"};
+[[nodiscard]] SuppleRetargeting retargetingOf(const std::string& name);
+
 /// How a file is read.
 struct ReadOptions {
-    bool pairQuads = false;             ///< SUPPLE_ASSET_PAIR_QUADS
-    bool keepTriangles = false;         ///< SUPPLE_ASSET_KEEP_TRIANGLES
-    bool creasesFromNormals = false;    ///< SUPPLE_ASSET_CREASES_FROM_NORMALS
-    bool smooth = false;                ///< SUPPLE_ASSET_SMOOTH
-    bool strict = false;                ///< SUPPLE_ASSET_STRICT
-    bool partsApart = false;            ///< SUPPLE_ASSET_PARTS_APART
-    bool verticesApart = false;         ///< SUPPLE_ASSET_VERTICES_APART
-    uint32_t memoryLimit = 0;           ///< SuppleAssetDesc.memoryLimit in MiB
-    std::optional<uint32_t> scene;      ///< the file's own choice if it is not given
-    std::string variant;                ///< SuppleAssetDesc.materialVariant
-    std::vector<std::string> clipFiles; ///< paths of files whose clips the character takes
+    bool pairQuads = false;                ///< SUPPLE_ASSET_PAIR_QUADS
+    bool keepTriangles = false;            ///< SUPPLE_ASSET_KEEP_TRIANGLES
+    bool creasesFromNormals = false;       ///< SUPPLE_ASSET_CREASES_FROM_NORMALS
+    bool smooth = false;                   ///< SUPPLE_ASSET_SMOOTH
+    bool strict = false;                   ///< SUPPLE_ASSET_STRICT
+    bool partsApart = false;               ///< SUPPLE_ASSET_PARTS_APART
+    bool verticesApart = false;            ///< SUPPLE_ASSET_VERTICES_APART
+    uint32_t memoryLimit = 0;              ///< SuppleAssetDesc.memoryLimit in MiB
+    std::optional<uint32_t> scene;         ///< the file's own choice if it is not given
+    std::string variant;                   ///< SuppleAssetDesc.materialVariant
+    std::vector<std::string> clipFiles;    ///< paths of files whose clips the character takes
+    std::string retargeting = "differing"; ///< of clipFiles: one of kRetargetings
+    std::string retargetMap;               ///< path of a file of pairs of joints; empty: none
 };
 
 struct FileInMemory {
@@ -38,6 +45,7 @@ struct FileInMemory {
 
 struct CharacterFile : FileInMemory {
     std::vector<FileInMemory> clipFiles;
+    std::vector<JointPairSetting> jointPairs;
     ReadOptions flags;
     cage::Character character; ///< called as the path
 };
@@ -55,6 +63,7 @@ public:
 private:
     SuppleAssetDesc desc_{};
     std::vector<SuppleClipFile> clipFiles_;
+    std::vector<SuppleJointPair> jointPairs_;
     std::unique_ptr<const CageArrays> cage_;
 };
 

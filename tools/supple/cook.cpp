@@ -163,6 +163,8 @@ std::string readingOf(const host::ReadOptions& reading) {
     for (const std::string& clips : reading.clipFiles) {
         line += " " + fs::path(clips).filename().string();
     }
+    add(reading.retargeting != host::ReadOptions{}.retargeting, "retarget " + reading.retargeting);
+    add(!reading.retargetMap.empty(), "retarget-map " + fs::path(reading.retargetMap).filename().string());
     return line;
 }
 

@@ -38,6 +38,23 @@ SuppleMapping mappingOf(const DeviceFlags& flags) {
                                      : SUPPLE_MAPPING_AUTO;
 }
 
+namespace {
+
+void bindRetargeting(CLI::App& command, host::ReadOptions& reading) {
+    command
+        .add_option("--retarget", reading.retargeting,
+                    "Which of --clips are retargeted: those of which the skeleton is another one, never, all, or all "
+                    "but for the feet, which then go where the legs take them")
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(host::kRetargetings), std::end(host::kRetargetings))))
+        ->capture_default_str();
+    command
+        .add_option("--retarget-map", reading.retargetMap,
+                    "JSON that says which joints of --clips are which of the character (docs/gltf.md)")
+        ->type_name("MAP.json");
+}
+
+} // namespace
+
 void bindReading(CLI::App& command, host::ReadOptions& reading) {
     CLI::Option* const pair = command.add_flag("--pair-quads", reading.pairQuads,
                                                "Pair plain triangles into quads also where few of them make good ones");
@@ -45,8 +62,9 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
         ->excludes(pair);
     command
         .add_option("--clips", reading.clipFiles,
-                    "glTF files whose clips the character takes: they move the nodes of their names")
+                    "glTF files whose clips the character takes: they move the nodes of their names, or are retargeted")
         ->type_name("CLIPS.glb");
+    bindRetargeting(command, reading);
     command.add_option("--scene", reading.scene, "Read this scene of a glTF file, counted from 0");
     command
         .add_option("--variant", reading.variant,

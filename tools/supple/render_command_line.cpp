@@ -78,6 +78,8 @@ void addReading(Words& words, const host::ReadOptions& reading) {
         words.add("--clips");
     for (const std::string& clips : reading.clipFiles)
         words.add(clips);
+    words.option("--retarget", reading.retargeting, host::ReadOptions{}.retargeting);
+    words.option("--retarget-map", reading.retargetMap, {});
 }
 
 void addDraw(Words& words, const DrawOptions& draw) {

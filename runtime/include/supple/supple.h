@@ -438,8 +438,9 @@ typedef struct SuppleFiles {
  * A clip moves the nodes that have the names of those that it was made for. If several nodes of one skeleton have the
  * same name, the names of the nodes above tell them apart, else the first one is taken. Morph weights move the targets
  * of the part that the node of that name carries: by the targets' names if both files have them, else all if there are
- * as many. What has no counterpart is left out, and one warning per file says what that is. Poses are not retargeted:
- * the warning says so if the bones of the two skeletons differ in length by more than 1 %. */
+ * as many. What has no counterpart is left out, and one warning per file says what that is. Clips of bipeds whose
+ * skeleton is another one are retargeted (SuppleRetargeting). Else a warning says so if the bones of the two skeletons
+ * differ in length by more than 1 %. */
 typedef struct SuppleClipFile {
     const char* name; /**< optional; begins every message about the file. Clips without a name are called as the file */
     const void* bytes; /**< a .glb or .gltf file */
@@ -447,6 +448,30 @@ typedef struct SuppleClipFile {
     const char* baseDirectory; /**< where its external files lie; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
+
+/** What becomes of clips that were made for another skeleton (docs/gltf.md#retargeting). Then joints are told by what
+ * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the rest
+ * pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of the
+ * clip go. One warning per file says how many joints follow, what is left out, and which clips do not fit. */
+typedef enum SuppleRetargeting {
+    /** Clip files of which nodes of one role have other names, or of which limbs are longer or shorter by more than 1 %.
+     * Both skeletons must be bipeds: hips above two legs. Else clips move nodes of their names alone. */
+    SUPPLE_RETARGET_DIFFERING = 0,
+    SUPPLE_RETARGET_NEVER = 1, /**< clips move nodes of their names */
+    SUPPLE_RETARGET_ALL = 2,   /**< all clip files; one of which it cannot be done fails the call */
+    /** As SUPPLE_RETARGET_ALL, but legs keep the angles of the clip, and ankles come where these take them. */
+    SUPPLE_RETARGET_FREE_FEET = 3
+} SuppleRetargeting;
+
+/** Two joints that are the same, one of the clip files and one of the asset, where their names do not tell it. */
+typedef struct SuppleJointPair {
+    /** What both are: "hips", "neck" or "head", or with ".l" or ".r" behind it "thigh", "shin", "foot", "toes",
+     * "clavicle", "upperarm", "lowerarm" or "hand". Null: nothing of these; the one turns as the other does. */
+    const char* role;
+    /** Names of nodes. One of the two may be null if there is a role: that one is then found. A clip file without the
+     * node ignores the pair, and its warning says so. */
+    const char *from, *to;
+} SuppleJointPair;
 
 /** Either a file in memory (`bytes`), or arrays (`cage`, `character`), or what was prepared of one of these
  * (`prepared`). Everything is copied before the call returns.
@@ -487,6 +512,12 @@ typedef struct SuppleAssetDesc {
      * load the asset anew with suppleReloadAsset: instances, poses and playback stay. glTF files alone: cooked files
      * have the variant that they were cooked with. Errors: no such variant; the message lists those there are. */
     const char* materialVariant;
+    SuppleRetargeting retargeting; /**< of clipFiles; 0: of those whose skeleton is another one */
+    uint32_t jointPairCount;
+    /** jointPairCount pairs, for all clipFiles: they go before what names and structure say, and clip files are then
+     * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset does
+     * not have. */
+    const SuppleJointPair* jointPairs;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
