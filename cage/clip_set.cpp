@@ -149,8 +149,8 @@ public:
             text += "; bones differ in length, most of all " + nameOf(set_.skeleton, bone_.node) + ": " +
                     shortNumber(bone_.from) + " instead of " + shortNumber(bone_.to);
         }
-        if (text.empty()) {
-            return text;
+        if (text.empty() || set_.isFitted) {
+            return text.empty() ? text : text.substr(2); // who fitted the set has told the rest
         }
         return counted(clipCount_, "clip", "clips") + "; " + std::to_string(animated_.size() - alone.size()) + " of " +
                counted(animated_.size(), "node", "nodes") + " matched by name" + text;

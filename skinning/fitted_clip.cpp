@@ -1,5 +1,6 @@
 #include "skinning/fitted_clip.h"
 
+#include "cage/limits.h"
 #include "cage/skeleton.h"
 #include "shaders/pose/limbs.h"
 #include "skinning/pose.h"
@@ -21,6 +22,8 @@ using cage::kNone;
 constexpr double kLongestGap = 1.0 / 23.0; ///< seconds between two keys; longer ones get keys between
 constexpr double kMostRate = 60.0;         ///< frames a second of clips whose keys are closer than twice that
 constexpr float kAnkleSoft = 0.995f;       ///< the part of a leg's length from which on it stretches ever more slowly
+
+constexpr uint64_t kLeastBudget = 250'000, kLargestBudget = 8'000'000; ///< poses of nodes
 
 bool isTurnOrMove(const Channel& channel) {
     return channel.path != ChannelPath::weights;
@@ -76,6 +79,14 @@ glm::vec4 asVector(const glm::dquat& q) {
 }
 glm::dquat asRotation(const glm::vec4& q) {
     return unit(glm::dquat(q.w, q.x, q.y, q.z));
+}
+
+/// A clip that scales far may come to numbers that no file could have.
+bool isWithinLimits(const cage::Clip& clip) {
+    return std::all_of(clip.channels.begin(), clip.channels.end(), [](const Channel& channel) {
+        return std::all_of(channel.values.begin(), channel.values.end(),
+                           [](float value) { return std::abs(value) <= cage::kMaxCoordinate; });
+    });
 }
 
 /// How a channel of vectors is written: each number of a key.
@@ -161,7 +172,7 @@ public:
         for (size_t i = 0; i < followers_.turned.size(); ++i) {
             writeTurns(i, clip);
         }
-        const uint32_t hips = followers_.to[roleOf(Part::hips)];
+        const uint32_t hips = followers_.to[roleOf(BodyPart::hips)];
         std::vector<float> values;
         for (const glm::dvec3& place : hips_) {
             append(values, place);
@@ -226,7 +237,7 @@ private:
     template <class Turn>
     void poseTarget(size_t frame, Turn&& turn) {
         const cage::Skeleton& to = of_.to;
-        const uint32_t hips = followers_.to[roleOf(Part::hips)];
+        const uint32_t hips = followers_.to[roleOf(BodyPart::hips)];
         moved_.assign(to.nodes.size(), kNone);
         for (size_t i = 0; i < followers_.moved.size(); ++i) {
             moved_[followers_.moved[i].node] = static_cast<uint32_t>(i);
@@ -254,9 +265,9 @@ private:
     void placeHips(size_t frame, const glm::dmat4& parent) {
         if (!isBent_) {
             const glm::dmat3 frameOfParent(parent);
-            const glm::dvec3 way = goalOf(roleOf(Part::hips)) - glm::dvec3(parent[3]);
+            const glm::dvec3 way = goalOf(roleOf(BodyPart::hips)) - glm::dvec3(parent[3]);
             const bool isFlat = !(std::abs(glm::determinant(frameOfParent)) > 0.0);
-            hips_[frame] = isFlat ? glm::dvec3(of_.to.nodes[followers_.to[roleOf(Part::hips)]].translation)
+            hips_[frame] = isFlat ? glm::dvec3(of_.to.nodes[followers_.to[roleOf(BodyPart::hips)]].translation)
                                   : glm::inverse(frameOfParent) * way;
         }
     }
@@ -272,10 +283,13 @@ private:
             const auto [a, b, c] = jointsOf(leg);
             const glm::dvec3 axis = glm::cross(b - a, c - b);
             const double length = glm::length(axis);
-            axes_[leg.side][frame] = length > 0.0 ? axis / length : glm::dvec3(0.0);
-            goals_[leg.side][frame] = goalOf(roleOf(Part::foot, leg.side));
+            axes_[leg.side][frame] = length > 0.0 ? hingeFrame(leg) * axis / length : glm::dvec3(0.0);
+            goals_[leg.side][frame] = goalOf(roleOf(BodyPart::foot, leg.side));
         }
     }
+
+    /// To the knee's own frame: a character may turn round in a clip.
+    [[nodiscard]] glm::dquat hingeFrame(const Leg& leg) const { return glm::conjugate(model_[leg.path[leg.shin]]); }
 
     /// All of a leg must be free to turn.
     [[nodiscard]] bool canBend(const Leg& leg) const {
@@ -283,7 +297,8 @@ private:
                std::all_of(leg.path.begin(), leg.path.end(), [&](uint32_t node) { return places_[node] != kNone; });
     }
 
-    /// The median of the axes about which the knee bends; of a leg that is always straight, the way to the left.
+    /// The median of the axes about which the knee bends, in its frame; of a leg that is always straight, the way to
+    /// the left as it rests.
     [[nodiscard]] glm::dvec3 hingeOf(const Leg& leg) const {
         glm::dvec3 hinge(0.0);
         for (int i = 0; i < 3; ++i) {
@@ -295,9 +310,10 @@ private:
             std::nth_element(numbers.begin(), middle, numbers.end());
             hinge[i] = *middle;
         }
-        const glm::dvec3 left = of_.toRest.place(followers_.to[roleOf(Part::thigh, kLeft)]) -
-                                of_.toRest.place(followers_.to[roleOf(Part::thigh, kRight)]);
-        return glm::length(hinge) > 0.1 ? glm::normalize(hinge) : glm::normalize(left);
+        const glm::dvec3 left = of_.toRest.place(followers_.to[roleOf(BodyPart::thigh, kLeft)]) -
+                                of_.toRest.place(followers_.to[roleOf(BodyPart::thigh, kRight)]);
+        return glm::length(hinge) > 0.1 ? glm::normalize(hinge)
+                                        : glm::conjugate(of_.toRest.turns[leg.path[leg.shin]]) * glm::normalize(left);
     }
 
     /// Brings the ankle to its goal in every frame; the foot keeps its rotation.
@@ -315,7 +331,7 @@ private:
             // About the thigh: so that floats are exact however far the clip has carried the character.
             const shared::LimbTurns turns =
                 shared::bentLimb(glm::vec3(0.0f), glm::vec3(b - a), glm::vec3(c - a), glm::vec3(goal - a),
-                                 glm::vec3(hinge), glm::vec3(0.0f), 0.0f, kAnkleSoft);
+                                 glm::vec3(glm::conjugate(hingeFrame(leg)) * hinge), glm::vec3(0.0f), 0.0f, kAnkleSoft);
             miss = std::max(miss, glm::length(glm::dvec3(turns.end) - (goal - a)) / height);
             turnLeg(leg, frame, asRotation(turns.root), asRotation(turns.middle));
         }
@@ -388,20 +404,25 @@ FittedSkeletons::FittedSkeletons(const cage::Skeleton& leading, const cage::Skel
     for (const MoveFollower& follower : followers.moved) {
         need(follower.node);
     }
-    need(followers.to[roleOf(Part::hips)]);
+    need(followers.to[roleOf(BodyPart::hips)]);
     std::copy_if(to.parentsFirst.begin(), to.parentsFirst.end(), std::back_inserter(needed),
                  [&](uint32_t node) { return isNeeded[node]; });
 }
 
-std::optional<ClipFitter::Fitted> ClipFitter::fit(const cage::Clip& clip, Feet feet, double mostMissed) {
-    const uint64_t most = std::min(left_, kMostPosesOfClip), nodes = of_.from.nodes.size() + of_.needed.size();
-    Lattice lattice = latticeOf(clip, most / nodes);
+ClipFitter::ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers,
+                       uint64_t numbers)
+    : of_(from, to, followers), left_(std::min(kLeastBudget + 8 * numbers, kLargestBudget)) {}
+
+ClipFitter::Fitted ClipFitter::fit(const cage::Clip& clip, Feet feet, double mostMissed) {
+    const uint64_t nodes = of_.from.nodes.size() + of_.needed.size();
+    Lattice lattice = latticeOf(clip, left_ / nodes);
     const uint64_t poses = uint64_t{lattice.times.size()} * nodes;
-    if (poses > most) {
-        return std::nullopt;
+    Fitted fitted;
+    if (poses > left_) {
+        fitted.whyLeftOut = "too long";
+        return fitted;
     }
     left_ -= poses;
-    Fitted fitted;
     if (lattice.times.empty()) {
         fitted.clip = clip;
         fitted.clip.channels.clear();
@@ -411,9 +432,11 @@ std::optional<ClipFitter::Fitted> ClipFitter::fit(const cage::Clip& clip, Feet f
     frames.follow();
     if (feet == Feet::placed) {
         fitted.miss = frames.placeFeet(mostMissed);
-        fitted.areFeetPlaced = fitted.miss <= mostMissed;
     }
     fitted.clip = frames.write(clip);
+    if (!isWithinLimits(fitted.clip)) {
+        fitted.whyLeftOut = "numbers beyond the limit";
+    }
     return fitted;
 }
 

@@ -5,13 +5,10 @@
 #include "skinning/followers.h"
 
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace supple::skinning {
-
-/// Poses of nodes that all clips of a set may take, and one of them: a few keys far apart can ask for any number.
-inline constexpr uint64_t kMostFittedPoses = 8'000'000, kMostPosesOfClip = 4'000'000;
 
 /// Two skeletons and what the one does of the other's clips. What they refer to must outlive them.
 struct FittedSkeletons {
@@ -26,24 +23,25 @@ struct FittedSkeletons {
 /// Makes clips for `to`, one after the other. Everything it is given must outlive it.
 class ClipFitter {
 public:
-    ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers)
-        : of_(from, to, followers) {}
+    /// `numbers`: of keys and values that all clips have together. By them, clips may take some number of poses: so
+    /// that a few keys far apart do not ask for any.
+    ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers, uint64_t numbers);
 
     /// Whether ankles are brought where those of the clip are, by the legs' bends.
     enum class Feet : uint8_t { free, placed };
 
     struct Fitted {
-        cage::Clip clip;   ///< of `to`; markers and curves of sharpness are those of the given clip
-        double miss = 0.0; ///< how far a leg ends short of where its ankle should be, at most; in heights of the hips
-        bool areFeetPlaced = false;
+        cage::Clip clip;        ///< of `to`; markers and curves of sharpness are those of the given clip
+        double miss = 0.0;      ///< how far a leg ends short of where its ankle should be, in heights of the hips
+        std::string whyLeftOut; ///< empty, or there is no clip
     };
     /// Channels of weights are left out. Legs that end more than `mostMissed` short of their goal in some frame keep
-    /// the clip's angles, and so does the other leg. Nothing: the clip takes more poses than are left.
-    [[nodiscard]] std::optional<Fitted> fit(const cage::Clip& clip, Feet feet, double mostMissed);
+    /// the clip's angles, and so does the other leg.
+    [[nodiscard]] Fitted fit(const cage::Clip& clip, Feet feet, double mostMissed);
 
 private:
     FittedSkeletons of_;
-    uint64_t left_ = kMostFittedPoses;
+    uint64_t left_; ///< poses of nodes
 };
 
 } // namespace supple::skinning

@@ -13,23 +13,23 @@ namespace {
 using cage::kNone;
 
 /// The part that a bone of a limb leads to.
-std::optional<Part> childOf(Part part) {
+std::optional<BodyPart> childOf(BodyPart part) {
     switch (part) {
-    case Part::thigh:
-        return Part::shin;
-    case Part::shin:
-        return Part::foot;
-    case Part::upperArm:
-        return Part::lowerArm;
-    case Part::lowerArm:
-        return Part::hand;
+    case BodyPart::thigh:
+        return BodyPart::shin;
+    case BodyPart::shin:
+        return BodyPart::foot;
+    case BodyPart::upperArm:
+        return BodyPart::lowerArm;
+    case BodyPart::lowerArm:
+        return BodyPart::hand;
     default:
         return std::nullopt;
     }
 }
 
-Part partOf(Role role) {
-    return static_cast<Part>(role < kMiddleParts ? role : (role - kMiddleParts) % kSideParts + kMiddleParts);
+BodyPart partOf(Role role) {
+    return static_cast<BodyPart>(role < kMiddleParts ? role : (role - kMiddleParts) % kSideParts + kMiddleParts);
 }
 size_t sideOf(Role role) {
     return role < kMiddleParts + kSideParts ? kLeft : kRight;
@@ -54,7 +54,7 @@ glm::dquat shortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
 /// The way to the left, along the ground.
 glm::dvec3 leftOf(const RestPlaces& rest, const Roles& roles) {
     const glm::dvec3 way =
-        rest.place(roles[roleOf(Part::thigh, kLeft)]) - rest.place(roles[roleOf(Part::thigh, kRight)]);
+        rest.place(roles[roleOf(BodyPart::thigh, kLeft)]) - rest.place(roles[roleOf(BodyPart::thigh, kRight)]);
     return {way.x, 0.0, way.z};
 }
 
@@ -148,7 +148,7 @@ private:
     /// arms do.
     void findCorrections() {
         for (Role role = 0; role < kRoles; ++role) {
-            const std::optional<Part> child = childOf(partOf(role));
+            const std::optional<BodyPart> child = childOf(partOf(role));
             const Role next = child ? roleOf(*child, sideOf(role)) : role;
             if (next != role && isCommon(role) && isCommon(next)) {
                 const auto bone = [&](const RestPlaces& rest, const Roles& roles) {
@@ -158,12 +158,12 @@ private:
             }
         }
         for (const size_t side : {kLeft, kRight}) {
-            corrections_[roleOf(Part::hand, side)] = corrections_[roleOf(Part::lowerArm, side)];
+            corrections_[roleOf(BodyPart::hand, side)] = corrections_[roleOf(BodyPart::lowerArm, side)];
         }
     }
 
     void followWithinLimb(Role role) {
-        const std::optional<Part> child = childOf(partOf(role));
+        const std::optional<BodyPart> child = childOf(partOf(role));
         if (!child || !isCommon(role) || found_.to[roleOf(*child, sideOf(role))] == kNone) {
             return;
         }
@@ -174,8 +174,8 @@ private:
 
     /// Joints between the hips and the neck turn by their share of the way.
     void followSpine() {
-        const Role top = isCommon(roleOf(Part::neck)) ? roleOf(Part::neck) : roleOf(Part::head);
-        const Role hips = roleOf(Part::hips);
+        const Role top = isCommon(roleOf(BodyPart::neck)) ? roleOf(BodyPart::neck) : roleOf(BodyPart::head);
+        const Role hips = roleOf(BodyPart::hips);
         if (!isCommon(top)) {
             return;
         }
@@ -242,8 +242,8 @@ private:
     void findLeg(size_t side) {
         Leg& leg = found_.legs[side];
         leg.side = side;
-        const uint32_t thigh = found_.to[roleOf(Part::thigh, side)], shin = found_.to[roleOf(Part::shin, side)];
-        leg.path = pathBelow(to_, thigh, found_.to[roleOf(Part::foot, side)]);
+        const uint32_t thigh = found_.to[roleOf(BodyPart::thigh, side)], shin = found_.to[roleOf(BodyPart::shin, side)];
+        leg.path = pathBelow(to_, thigh, found_.to[roleOf(BodyPart::foot, side)]);
         leg.path.insert(leg.path.begin(), thigh);
         leg.shin = static_cast<size_t>(std::find(leg.path.begin(), leg.path.end(), shin) - leg.path.begin());
     }
@@ -269,9 +269,9 @@ RestPlaces::RestPlaces(const cage::Skeleton& skeleton) : matrices(cage::restPlac
 }
 
 double hipsHeight(const RestPlaces& rest, const Roles& roles) {
-    const double ankles =
-        std::min(rest.place(roles[roleOf(Part::foot, kLeft)]).y, rest.place(roles[roleOf(Part::foot, kRight)]).y);
-    return rest.place(roles[roleOf(Part::hips)]).y - ankles;
+    const double ankles = std::min(rest.place(roles[roleOf(BodyPart::foot, kLeft)]).y,
+                                   rest.place(roles[roleOf(BodyPart::foot, kRight)]).y);
+    return rest.place(roles[roleOf(BodyPart::hips)]).y - ankles;
 }
 
 Followers findFollowers(const cage::Skeleton& from, const Roles& fromRoles, const cage::Skeleton& to,

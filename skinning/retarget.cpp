@@ -112,7 +112,7 @@ private:
         const RestPlaces from(set_.skeleton), own(to_);
         const double scale = hipsHeight(own, own_) / hipsHeight(from, from_);
         const auto fromHips = [&](const RestPlaces& rest, const Roles& roles, Role role) {
-            const uint32_t hips = roles[roleOf(Part::hips)];
+            const uint32_t hips = roles[roleOf(BodyPart::hips)];
             return glm::length(rest.place(roles[role]) - rest.place(hips));
         };
         for (Role role = 0; role < kRoles; ++role) {
@@ -129,17 +129,15 @@ private:
 
     /// Names what the clips move and nothing follows.
     void noteLeftOut(const Followers& followers) {
-        std::set<uint32_t> turning, moving{from_[roleOf(Part::hips)]};
-        for (const TurnFollower& follower : followers.turned) {
-            turning.insert({follower.leader, follower.next});
-        }
+        std::set<uint32_t> moving{from_[roleOf(BodyPart::hips)]};
+        const std::vector<bool> turning = atOrAboveLeaders(followers);
         for (const MoveFollower& follower : followers.moved) {
             moving.insert(follower.leader);
         }
         std::set<uint32_t> alone, scaled, stretched;
         for (const cage::Clip& clip : set_.clips) {
             for (const cage::Channel& channel : clip.channels) {
-                if (channel.path == cage::ChannelPath::rotation && turning.count(channel.node) == 0) {
+                if (channel.path == cage::ChannelPath::rotation && !turning[channel.node]) {
                     alone.insert(channel.node);
                 } else if (channel.path == cage::ChannelPath::scale && varies(channel)) {
                     scaled.insert(channel.node);
@@ -152,6 +150,18 @@ private:
         say("turns of ", alone);
         say("scales of ", scaled);
         say("movements of ", stretched);
+    }
+    /// By node: whether its turns reach somebody who follows.
+    [[nodiscard]] std::vector<bool> atOrAboveLeaders(const Followers& followers) const {
+        std::vector<bool> reaches(set_.skeleton.nodes.size(), false);
+        for (const TurnFollower& follower : followers.turned) {
+            for (const uint32_t leader : {follower.leader, follower.next}) {
+                for (uint32_t n = leader; n != kNone && !reaches[n]; n = set_.skeleton.nodes[n].parent) {
+                    reaches[n] = true;
+                }
+            }
+        }
+        return reaches;
     }
     void say(const char* what, const std::set<uint32_t>& nodes) {
         std::vector<std::string> names;
@@ -177,38 +187,45 @@ private:
     }
 
     void fitClips(const Followers& followers) {
-        ClipFitter fitter(set_.skeleton, to_, followers);
+        uint64_t numbers = 0;
+        for (const cage::Clip& clip : set_.clips) {
+            for (const cage::Channel& channel : clip.channels) {
+                numbers += channel.times.size() + channel.values.size();
+            }
+        }
+        ClipFitter fitter(set_.skeleton, to_, followers, numbers);
         const ClipFitter::Feet feet =
             options_.retargeting == Retargeting::freeFeet ? ClipFitter::Feet::free : ClipFitter::Feet::placed;
         std::vector<cage::Clip> fitted;
-        for (cage::Clip& clip : set_.clips) {
-            std::optional<ClipFitter::Fitted> own = fitter.fit(clip, feet, kMostMissed);
-            if (!own) {
-                longOnes_.push_back(cage::quoted(clip.name));
+        for (const cage::Clip& clip : set_.clips) {
+            ClipFitter::Fitted own = fitter.fit(clip, feet, kMostMissed);
+            if (!own.whyLeftOut.empty()) {
+                unfitted_.push_back(cage::quoted(clip.name) + " (" + own.whyLeftOut + ")");
                 continue;
             }
-            if (own->miss > kMostMissed) {
-                unfit_.push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own->miss));
-            } else if (own->miss > kFarMiss) {
-                far_.push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own->miss));
+            if (own.miss > kFarMiss) {
+                (own.miss > kMostMissed ? unreached_ : far_)
+                    .push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own.miss));
             }
-            std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(own->clip.channels),
+            std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(own.clip.channels),
                          [](const cage::Channel& c) { return c.path == cage::ChannelPath::weights; });
-            fitted.push_back(std::move(own->clip));
+            fitted.push_back(std::move(own.clip));
         }
-        count_ = fitted.size();
         set_.clips = std::move(fitted);
-        if (options_.strict && !unfit_.empty()) {
+        refuseMisfits();
+    }
+    void refuseMisfits() const {
+        if (options_.strict && !unreached_.empty()) {
             cage::refuse(set_.name, "its clips do not fit the character's legs: ankles are out of reach: " +
-                                        cage::listed(unfit_) + " of the hips' height");
+                                        cage::listed(unreached_) + " of the hips' height");
         }
-        if (options_.strict && !longOnes_.empty()) {
-            cage::refuse(set_.name, "too long to be retargeted: " + cage::listed(longOnes_), ErrorCode::limit);
+        if (options_.strict && !unfitted_.empty()) {
+            cage::refuse(set_.name, "clips that cannot be retargeted: " + cage::listed(unfitted_), ErrorCode::limit);
         }
     }
 
     void tell(const Followers& followers) {
-        std::string text = cage::counted(count_, "clip", "clips") +
+        std::string text = cage::counted(set_.clips.size(), "clip", "clips") +
                            " retargeted: " + cage::counted(followers.byRole, "joint", "joints") + " by role, " +
                            std::to_string(followers.byName) + " by name, hips scaled by " +
                            cage::shortNumber(followers.scale);
@@ -218,8 +235,8 @@ private:
         add("left out: ", leftOut_);
         add("not in its skeleton: ", cage::listed(unknown_));
         add("ankles out of reach: ", cage::listed(far_), " of the hips' height");
-        add("legs keep their angles, as ankles are out of reach: ", cage::listed(unfit_), " of the hips' height");
-        add("too long to be retargeted, left out: ", cage::listed(longOnes_));
+        add("legs keep their angles, as ankles are out of reach: ", cage::listed(unreached_), " of the hips' height");
+        add("clips that cannot be retargeted, left out: ", cage::listed(unfitted_));
         set_.warnings.push_back(std::move(text));
     }
 
@@ -249,8 +266,7 @@ private:
     Roles from_{}, own_{};
     cage::Refusals faults_;
     std::string leftOut_;
-    std::vector<std::string> unknown_, longOnes_, far_, unfit_;
-    size_t count_ = 0;
+    std::vector<std::string> unknown_, unfitted_, far_, unreached_;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@ constexpr const char* kPartNames[kParts] = {"hips", "neck",     "head",     "thi
                                             "toes", "clavicle", "upperarm", "lowerarm", "hand"};
 
 /// What a part is called, in small letters and without digits. Names of `weak` mean it only where no other node has one
-/// of the first: a leg is a thigh above a knee, and a shin below an upper leg.
+/// of those before: a leg is a thigh above a knee, and a shin below an upper leg.
 struct Synonyms {
     std::initializer_list<std::string_view> strong, weak;
 };
@@ -147,8 +148,17 @@ std::string keyOf(const std::vector<std::string>& words) {
 /// Nodes that may have a role, the likelier ones first.
 using Candidates = std::array<std::vector<uint32_t>, kRoles>;
 
+/// How well a key names a part: 0 is best; nothing: not at all.
+std::optional<size_t> rankOf(const std::string& key, const Synonyms& names) {
+    if (std::find(names.strong.begin(), names.strong.end(), key) != names.strong.end()) {
+        return 0;
+    }
+    const auto weak = std::find(names.weak.begin(), names.weak.end(), key);
+    return weak != names.weak.end() ? std::optional(static_cast<size_t>(weak - names.weak.begin()) + 1) : std::nullopt;
+}
+
 Candidates findCandidates(const cage::Skeleton& skeleton) {
-    Candidates strong, weak;
+    std::array<std::vector<std::pair<size_t, uint32_t>>, kRoles> ranked;
     for (const uint32_t node : skeleton.parentsFirst) {
         const std::string& name = skeleton.nodes[node].name;
         if (name.empty() || name.size() > kLongestName) {
@@ -157,26 +167,21 @@ Candidates findCandidates(const cage::Skeleton& skeleton) {
         const NameParts parts = partsOf(name);
         const std::string key = keyOf(parts.words);
         for (size_t p = 0; p < kParts; ++p) {
-            const bool isSided = p >= kMiddleParts;
-            if (isSided != parts.side.has_value()) {
-                continue;
-            }
-            const auto isOf = [&](const auto& names) {
-                return std::find(names.begin(), names.end(), key) != names.end();
-            };
-            const Role role = roleOf(static_cast<Part>(p), parts.side.value_or(kLeft));
-            if (isOf(kSynonyms[p].strong)) {
-                strong[role].push_back(node);
-            } else if (isOf(kSynonyms[p].weak)) {
-                weak[role].push_back(node);
+            const std::optional<size_t> rank = rankOf(key, kSynonyms[p]);
+            if (rank && (p >= kMiddleParts) == parts.side.has_value()) {
+                ranked[roleOf(static_cast<BodyPart>(p), parts.side.value_or(kLeft))].emplace_back(*rank, node);
             }
         }
     }
+    Candidates candidates;
     for (size_t role = 0; role < kRoles; ++role) {
-        strong[role].insert(strong[role].end(), weak[role].begin(), weak[role].end());
-        strong[role].resize(std::min(strong[role].size(), kMostCandidates));
+        std::stable_sort(ranked[role].begin(), ranked[role].end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        ranked[role].resize(std::min(ranked[role].size(), kMostCandidates));
+        std::transform(ranked[role].begin(), ranked[role].end(), std::back_inserter(candidates[role]),
+                       [](const auto& candidate) { return candidate.second; });
     }
-    return strong;
+    return candidates;
 }
 
 class RoleFinder {
@@ -192,23 +197,23 @@ public:
 
     [[nodiscard]] Roles find() {
         for (const size_t side : {kLeft, kRight}) {
-            findLimb({Part::thigh, Part::shin, Part::foot}, side);
-            findLimb({Part::upperArm, Part::lowerArm}, side);
-            findBelow(Part::toes, side, at(Part::foot, side));
-            findBelow(Part::hand, side, at(Part::lowerArm, side));
-            findAbove(Part::clavicle, side, at(Part::upperArm, side));
+            findLimb({BodyPart::thigh, BodyPart::shin, BodyPart::foot}, side);
+            findLimb({BodyPart::upperArm, BodyPart::lowerArm}, side);
+            findBelow(BodyPart::toes, side, at(BodyPart::foot, side));
+            findBelow(BodyPart::hand, side, at(BodyPart::lowerArm, side));
+            findAbove(BodyPart::clavicle, side, at(BodyPart::upperArm, side));
         }
-        if (at(Part::hips) == kNone) {
-            set(Part::hips, lowestAbove(at(Part::thigh, kLeft), at(Part::thigh, kRight)));
+        if (at(BodyPart::hips) == kNone) {
+            set(BodyPart::hips, lowestAbove(at(BodyPart::thigh, kLeft), at(BodyPart::thigh, kRight)));
         }
-        findBelow(Part::neck, kLeft, at(Part::hips));
-        findBelow(Part::head, kLeft, at(Part::neck) != kNone ? at(Part::neck) : at(Part::hips));
+        findBelow(BodyPart::neck, kLeft, at(BodyPart::hips));
+        findBelow(BodyPart::head, kLeft, at(BodyPart::neck) != kNone ? at(BodyPart::neck) : at(BodyPart::hips));
         return roles_;
     }
 
 private:
-    [[nodiscard]] uint32_t at(Part part, size_t side = kLeft) const { return roles_[roleOf(part, side)]; }
-    void set(Part part, uint32_t node, size_t side = kLeft) { roles_[roleOf(part, side)] = node; }
+    [[nodiscard]] uint32_t at(BodyPart part, size_t side = kLeft) const { return roles_[roleOf(part, side)]; }
+    void set(BodyPart part, uint32_t node, size_t side = kLeft) { roles_[roleOf(part, side)] = node; }
 
     [[nodiscard]] bool isBelow(uint32_t node, uint32_t above) const {
         for (node = skeleton_.nodes[node].parent; node != kNone; node = skeleton_.nodes[node].parent) {
@@ -219,13 +224,13 @@ private:
         return false;
     }
     /// The likeliest node of a role below another one.
-    [[nodiscard]] uint32_t below(Part part, size_t side, uint32_t above) const {
+    [[nodiscard]] uint32_t below(BodyPart part, size_t side, uint32_t above) const {
         const std::vector<uint32_t>& nodes = candidates_[roleOf(part, side)];
         const auto found = std::find_if(nodes.begin(), nodes.end(), [&](uint32_t n) { return isBelow(n, above); });
         return found != nodes.end() ? *found : kNone;
     }
     /// Gives the roles of a limb to nodes of which each is below the one before, or to none.
-    void findLimb(std::initializer_list<Part> parts, size_t side) {
+    void findLimb(std::initializer_list<BodyPart> parts, size_t side) {
         for (const uint32_t top : candidates_[roleOf(*parts.begin(), side)]) {
             std::vector<uint32_t> limb{top};
             for (auto part = parts.begin() + 1; part != parts.end() && limb.back() != kNone; ++part) {
@@ -233,20 +238,20 @@ private:
             }
             if (limb.back() != kNone) {
                 size_t i = 0;
-                for (const Part part : parts) {
+                for (const BodyPart part : parts) {
                     set(part, limb[i++], side);
                 }
                 return;
             }
         }
-        for (const Part part : parts) {
+        for (const BodyPart part : parts) {
             set(part, kNone, side);
         }
     }
-    void findBelow(Part part, size_t side, uint32_t above) {
+    void findBelow(BodyPart part, size_t side, uint32_t above) {
         set(part, above == kNone ? kNone : below(part, side, above), side);
     }
-    void findAbove(Part part, size_t side, uint32_t node) {
+    void findAbove(BodyPart part, size_t side, uint32_t node) {
         const std::vector<uint32_t>& nodes = candidates_[roleOf(part, side)];
         const auto found =
             std::find_if(nodes.begin(), nodes.end(), [&](uint32_t n) { return node != kNone && isBelow(node, n); });
@@ -292,8 +297,8 @@ Roles findRoles(const cage::Skeleton& skeleton, const Roles& given) {
 }
 
 bool hasLegs(const Roles& roles) {
-    const auto has = [&](Part part, size_t side) { return roles[roleOf(part, side)] != kNone; };
-    return has(Part::hips, kLeft) && has(Part::foot, kLeft) && has(Part::foot, kRight);
+    const auto has = [&](BodyPart part, size_t side) { return roles[roleOf(part, side)] != kNone; };
+    return has(BodyPart::hips, kLeft) && has(BodyPart::foot, kLeft) && has(BodyPart::foot, kRight);
 }
 
 } // namespace supple::skinning

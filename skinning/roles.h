@@ -13,7 +13,7 @@
 namespace supple::skinning {
 
 /// Parts of a body. Those of limbs are there on both sides.
-enum class Part : uint8_t { hips, neck, head, thigh, shin, foot, toes, clavicle, upperArm, lowerArm, hand };
+enum class BodyPart : uint8_t { hips, neck, head, thigh, shin, foot, toes, clavicle, upperArm, lowerArm, hand };
 inline constexpr size_t kParts = 11;
 inline constexpr size_t kMiddleParts = 3; ///< the first so many have no side
 
@@ -22,7 +22,7 @@ using Role = uint8_t;
 inline constexpr size_t kSideParts = kParts - kMiddleParts;
 inline constexpr size_t kRoles = kMiddleParts + 2 * kSideParts;
 inline constexpr size_t kLeft = 0, kRight = 1;
-[[nodiscard]] constexpr Role roleOf(Part part, size_t side = kLeft) {
+[[nodiscard]] constexpr Role roleOf(BodyPart part, size_t side = kLeft) {
     const auto p = static_cast<size_t>(part);
     return static_cast<Role>(p < kMiddleParts ? p : p + side * kSideParts);
 }

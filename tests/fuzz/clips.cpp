@@ -1,6 +1,8 @@
 // The clips of any glTF, sampled, layered and played at any time. What comes out is finite, and the cage lies in the
 // box of its clip.
 #include "cage/gltf/reader.h"
+#include "cage/limits.h"
+#include "cage/refusal.h"
 #include "skinning/clip_bounds.h"
 #include "skinning/clip_markers.h"
 #include "skinning/clip_packer.h"
@@ -8,6 +10,7 @@
 #include "skinning/layers.h"
 #include "skinning/packed_clip.h"
 #include "skinning/played_pose.h"
+#include "skinning/retarget.h"
 #include "tests/fuzz/target.h"
 
 #include <algorithm>
@@ -114,6 +117,52 @@ void play(const cage::Character& character, const skinning::Rig& rig, Tail& choo
     skinning::poseNodes(character, rig, read, choose.time(10.0), {}, memory);
 }
 
+/// Any nodes have any roles, of the clips' skeleton and of another one. What comes out is as clips of files are.
+void retarget(const cage::Character& character, Tail& choose) {
+    const auto count = static_cast<uint32_t>(character.skeleton.nodes.size());
+    cage::ClipSet set;
+    set.name = "clips";
+    set.skeleton = character.skeleton;
+    set.clips = character.clips;
+    set.meshes.assign(count, cage::kNone);
+    cage::Skeleton to = character.skeleton;
+    for (cage::Node& node : to.nodes) {
+        node.translation *= 0.5f + choose.weight();
+        node.name += node.name.empty() || choose.below(2) == 0 ? "node" : "";
+    }
+    skinning::RetargetOptions options{skinning::Retargeting::all, {}, choose.below(2) == 1};
+    for (skinning::Role role = 0; role < skinning::kRoles; ++role) {
+        const uint32_t node = choose.below(count);
+        options.pairs.push_back({role, character.skeleton.nodes[node].name, to.nodes[choose.below(count)].name});
+    }
+    for (const size_t side : {skinning::kLeft, skinning::kRight}) { // legs, more often than by chance
+        uint32_t from = choose.below(count), own = choose.below(count);
+        using skinning::BodyPart;
+        for (const BodyPart part : {BodyPart::foot, BodyPart::shin, BodyPart::thigh}) {
+            options.pairs.push_back(
+                {skinning::roleOf(part, side), character.skeleton.nodes[from].name, to.nodes[own].name});
+            from = character.skeleton.nodes[from].parent == cage::kNone ? from : character.skeleton.nodes[from].parent;
+            own = to.nodes[own].parent == cage::kNone ? own : to.nodes[own].parent;
+        }
+    }
+    try {
+        skinning::fitClips(options, to, set);
+    } catch (const cage::Refusal&) {
+        return;
+    }
+    demand(set.isFitted && set.skeleton.nodes.size() == count, "neither fitted nor refused");
+    for (const cage::Clip& clip : set.clips) {
+        for (const cage::Channel& channel : clip.channels) {
+            demand(channel.node < count && !channel.times.empty() &&
+                       channel.values.size() == channel.width() * channel.times.size(),
+                   "a channel of no node, or without values");
+            demand(std::all_of(channel.values.begin(), channel.values.end(),
+                               [](float v) { return std::abs(v) <= cage::kMaxCoordinate; }),
+                   "a key beyond all limits");
+        }
+    }
+}
+
 /// What is packed keeps within its error, and is read as it was written.
 void pack(const cage::Character& character, skinning::PoseMemory& memory) {
     cage::Character packed = character;
@@ -154,6 +203,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                     [](const cage::Clip& own) { return own.duration < 10.0; })) {
         fuzz::pack(*character, memory);
     }
+    fuzz::retarget(*character, choose);
     return 0;
 }
 

@@ -806,6 +806,21 @@ void createAsset(Rows& r) {
         d.clipFiles = &kBroken;
         d.clipFileCount = 1;
     });
+    spoiled("retargeting", SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
+            [](Desc& d) { d.retargeting = static_cast<SuppleRetargeting>(4); });
+    static const SuppleJointPair kNoSuchRole{"tail", "a", "b"}, kNoFrom{nullptr, nullptr, "b"},
+        kNoTo{nullptr, "a", nullptr}, kNeither{"hips", nullptr, nullptr};
+    const auto pair = [&](const char* what, int message, const SuppleJointPair* pairs) {
+        spoiled(what, SUPPLE_ERROR_ARGUMENT, message, [pairs](Desc& d) {
+            d.jointPairs = pairs;
+            d.jointPairCount = 1;
+        });
+    };
+    pair("jointPairs null", SUPPLE_MESSAGE_NULL_POINTER, nullptr);
+    pair("jointPairs: no such role", SUPPLE_MESSAGE_CONFLICT, &kNoSuchRole);
+    pair("jointPairs: from null", SUPPLE_MESSAGE_NULL_POINTER, &kNoFrom);
+    pair("jointPairs: to null", SUPPLE_MESSAGE_NULL_POINTER, &kNoTo);
+    pair("jointPairs: neither", SUPPLE_MESSAGE_NULL_POINTER, &kNeither);
     spoiled("no bytes", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount = 0; });
     spoiled("half the file", SUPPLE_ERROR_ASSET, SUPPLE_MESSAGE_ASSET_REFUSED, [](Desc& d) { d.byteCount /= 2; });
 

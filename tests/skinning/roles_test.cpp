@@ -140,14 +140,14 @@ TEST(Roles, WhatAUserSaysGoesFirst) {
                                                 {"foot.R", "shin.R"}});
     EXPECT_FALSE(hasLegs(findRoles(skeleton, noRoles())));
     Roles given = noRoles();
-    given[roleOf(Part::thigh, kLeft)] = 1;
-    given[roleOf(Part::shin, kLeft)] = 2;
-    given[roleOf(Part::foot, kLeft)] = 3;
+    given[roleOf(BodyPart::thigh, kLeft)] = 1;
+    given[roleOf(BodyPart::shin, kLeft)] = 2;
+    given[roleOf(BodyPart::foot, kLeft)] = 3;
     const Roles found = findRoles(skeleton, given);
     EXPECT_TRUE(hasLegs(found));
     EXPECT_EQ(told(skeleton, found),
               "hips=root thigh.l=Bone shin.l=Bone.001 foot.l=Bone.002 thigh.r=thigh.R shin.r=shin.R foot.r=foot.R");
-    given[roleOf(Part::shin, kLeft)] = 3; // above the foot it is not
+    given[roleOf(BodyPart::shin, kLeft)] = 3; // above the foot it is not
     EXPECT_FALSE(hasLegs(findRoles(skeleton, given)));
 }
 
@@ -155,7 +155,7 @@ TEST(Roles, HaveNames) {
     for (Role role = 0; role < kRoles; ++role) {
         EXPECT_EQ(roleNamed(nameOfRole(role)), std::optional(role));
     }
-    EXPECT_EQ(nameOfRole(roleOf(Part::lowerArm, kRight)), "lowerarm.r");
+    EXPECT_EQ(nameOfRole(roleOf(BodyPart::lowerArm, kRight)), "lowerarm.r");
     EXPECT_FALSE(roleNamed("thigh") || roleNamed("tail") || roleNamed(""));
 }
 

@@ -109,6 +109,55 @@ TEST_F(ClipFiles, EveryCommandThatReadsCharactersTakesThem) {
         << "convert writes the clips into its file";
 }
 
+TEST_F(ClipFiles, ClipsOfAnotherSkeletonAreRetargeted) {
+    const std::string pip = "'" + std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb'";
+    const std::string wren = "'" + std::string(SUPPLE_SAMPLE_ASSETS) + "/wren.glb'";
+    const Outcome converted = run("convert " + pip + " --clips " + wren + " -o both.glb");
+    ASSERT_EQ(converted.exitCode, 0) << converted.err;
+    EXPECT_NE(converted.err.find("6 clips retargeted: 19 joints by role"), std::string::npos) << converted.err;
+    const Json both = Json::parse(run("inspect both.glb --json").out);
+    EXPECT_EQ(both["clips"].size(), 9u);
+    const auto baked = [&](const std::string& arguments) {
+        const Outcome outcome = run("bake " + arguments + " -o pose.obj --scheme cage --time 0.3 --clip run");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return readText(file("pose.obj"));
+    };
+    const std::string loaded = baked(pip + " --clips " + wren),
+                      freed = baked(pip + " --retarget free-feet --clips " + wren),
+                      named = baked(pip + " --retarget never --clips " + wren);
+    EXPECT_TRUE(loaded == baked("both.glb")) << "what is written is what is loaded";
+    EXPECT_FALSE(loaded == freed || loaded == named || freed == named);
+    const Outcome never = run("inspect " + pip + " --json --retarget never --clips " + wren);
+    EXPECT_NE(never.out.find("bones differ in length"), std::string::npos);
+}
+
+TEST_F(ClipFiles, AMapSaysWhichJointIsWhich) {
+    const std::string pip = "'" + std::string(SUPPLE_SAMPLE_ASSETS) + "/pip.glb'";
+    const std::string wren = " --clips '" + std::string(SUPPLE_SAMPLE_ASSETS) + "/wren.glb' --retarget-map map.json";
+    writeText(file("map.json"), R"({"roles": {"head": {"to": "neck"}, "neck": {"from": "chest"}},
+                                    "joints": [{"from": "ponytail1", "to": "jaw"}]})");
+    const Outcome outcome = run("inspect " + pip + " --json" + wren);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("6 clips retargeted"), std::string::npos);
+    const auto fails = [&](const char* map, const std::string& reason) {
+        writeText(file("map.json"), map);
+        expectFailure(run("inspect " + pip + wren), 1, reason);
+    };
+    fails("{", "map.json: is no JSON");
+    fails("[]", "map.json: must be an object with \"roles\" and \"joints\"");
+    writeText(file("map.json"), R"({"roles": {"tail": {"to": "x"}}, "joints": [{"from": "a"}, 3], "more": 1})");
+    EXPECT_EQ(run("inspect " + pip + wren).err, "supple: map.json: joint 0: needs from and to\n"
+                                                "supple: map.json: joint 1: must be an object with from and to\n"
+                                                "supple: map.json: unknown key \"more\"; there are \"roles\" and "
+                                                "\"joints\"\n"
+                                                "supple: map.json: no role is called \"tail\"\n");
+    fails(R"({"roles": {"hips": {"to": 3}}})", "map.json: roles \"hips\": to must be a name");
+    fails(R"({"roles": {"hips": {}}})", "map.json: roles \"hips\": needs from, to or both");
+    fails(R"({"roles": {"hips": {"to": "belt"}}})", "joint pairs: the character has no node \"belt\"");
+    std::filesystem::remove(file("map.json"));
+    expectFailure(run("inspect " + pip + wren), 1, "map.json: cannot be opened");
+}
+
 TEST_F(ClipFiles, WhatIsWrongIsSaid) {
     GltfBuilder quad = supple::test::skinnedQuad();
     writeText(file("quad.glb"), textOf(quad.glb()));
