@@ -5,9 +5,11 @@
 #include "gpu/static_buffers.h"
 #include "runtime/clip_bounds.h"
 #include "runtime/prepared.h"
+#include "skinning/contacts.h"
 #include "supple/supple.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace supple::runtime {
@@ -38,9 +40,10 @@ struct Asset {
     const skinning::Rig& rig;
     const skinning::JointFrames& jointFrames;
 
-    gpu::StaticBuffers buffers;    ///< 0: the deform table
-    uint32_t firstInfluences = 0;  ///< skinning::DeformTable
-    mutable ClipBounds clipBounds; ///< what has been asked for
+    gpu::StaticBuffers buffers;                         ///< 0: the deform table
+    uint32_t firstInfluences = 0;                       ///< skinning::DeformTable
+    mutable ClipBounds clipBounds;                      ///< what has been asked for
+    mutable std::optional<skinning::Contacts> contacts; ///< once they have been asked for
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table

@@ -276,6 +276,8 @@ SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t
         return describePart(context, "suppleGetClipInfo", "clip", clip, clips.size(), out, [&](SuppleClipInfo& info) {
             info.name = clips[clip].name.c_str();
             info.duration = clips[clip].duration;
+            info.byteCount = skinning::clipBytes(skinning::nodeOrder(found.character), clips[clip]);
+            info.packedError = clips[clip].packed.words.empty() ? 0.0 : clips[clip].packed.error;
         });
     });
 }

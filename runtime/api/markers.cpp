@@ -1,7 +1,9 @@
-// supple_playback.h, markers.
+// supple_playback.h, markers and contacts.
 #include "runtime/api/entry.h"
 #include "skinning/clip_markers.h"
+#include "skinning/contacts.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -10,7 +12,7 @@ using namespace supple::api; // NOLINT
 
 namespace {
 
-/// `body(context, clip)`, with a clip that the asset has, if there is a count to fill.
+/// `body(context, asset, clip)`, with a clip that the asset has, if there is a count to fill.
 template <class Body>
 SuppleResult withMarkers(SuppleContext handle, SuppleAsset asset, const char* function, uint32_t clip,
                          const uint32_t* count, Body&& body) noexcept {
@@ -24,29 +26,58 @@ SuppleResult withMarkers(SuppleContext handle, SuppleAsset asset, const char* fu
                           found.character.name + ": clip " + std::to_string(clip) + " of " +
                               std::to_string(clips.size()));
         }
-        return body(context, clips[clip]);
+        return body(context, found, clips[clip]);
     });
+}
+
+/// By rising begin; what lies beyond the clip is cut off.
+std::vector<SuppleClipContact> contactsOf(const Asset& asset, uint32_t clip, double duration) {
+    const cage::Character& character = asset.character;
+    if (!asset.contacts) {
+        asset.contacts = skinning::findContacts(character);
+    }
+    std::vector<SuppleClipContact> list;
+    for (size_t f = 0; f < asset.contacts->feet.size(); ++f) {
+        const skinning::Foot& foot = asset.contacts->feet[f];
+        const std::vector<uint32_t>& joints = character.skin.joints;
+        const auto joint = std::find(joints.begin(), joints.end(), foot.node) - joints.begin();
+        for (const skinning::Contact& contact : asset.contacts->of(clip, f)) {
+            const double begin = std::max(contact.begin, 0.0), end = std::min(contact.end, duration);
+            if (begin < end) {
+                const glm::dvec2 place = contact.place + contact.drift * begin;
+                list.push_back(
+                    {static_cast<uint32_t>(joint),
+                     begin,
+                     end,
+                     {static_cast<float>(place.x), static_cast<float>(foot.sole), static_cast<float>(place.y)},
+                     {static_cast<float>(contact.drift.x), 0.0f, static_cast<float>(contact.drift.y)}});
+            }
+        }
+    }
+    std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    return list;
 }
 
 } // namespace
 
 SuppleResult suppleGetClipMarkers(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipMarker* out,
                                   uint32_t* count) {
-    return withMarkers(handle, asset, "suppleGetClipMarkers", clip, count, [&](Context&, const cage::Clip& found) {
-        const auto total = static_cast<uint32_t>(found.markers.size());
-        const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
-        for (uint32_t m = 0; m < n; ++m) {
-            out[m] = {found.markers[m].name.c_str(), found.markers[m].time};
-        }
-        *count = total;
-        return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
-    });
+    return withMarkers(handle, asset, "suppleGetClipMarkers", clip, count,
+                       [&](Context&, const Asset&, const cage::Clip& found) {
+                           const auto total = static_cast<uint32_t>(found.markers.size());
+                           const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
+                           for (uint32_t m = 0; m < n; ++m) {
+                               out[m] = {found.markers[m].name.c_str(), found.markers[m].time};
+                           }
+                           *count = total;
+                           return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+                       });
 }
 
 SuppleResult suppleGetClipMarkersBetween(SuppleContext handle, SuppleAsset asset, uint32_t clip, double from, double to,
                                          uint32_t flags, SuppleClipMarker* out, uint32_t* count) {
     constexpr const char* kHere = "suppleGetClipMarkersBetween";
-    return withMarkers(handle, asset, kHere, clip, count, [&](Context& context, const cage::Clip& found) {
+    return withMarkers(handle, asset, kHere, clip, count, [&](Context& context, const Asset&, const cage::Clip& found) {
         if ((flags & ~uint32_t{SUPPLE_MARKERS_LOOP | SUPPLE_MARKERS_START}) != 0) {
             return refuse(context, ErrorCode::range, kHere, "unknown flags");
         }
@@ -69,5 +100,18 @@ SuppleResult suppleGetClipMarkersBetween(SuppleContext handle, SuppleAsset asset
             out[m] = {found.markers[passed[m].marker].name.c_str(), passed[m].time};
         }
         return out != nullptr && passed.size() < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+    });
+}
+
+SuppleResult suppleGetClipContacts(SuppleContext handle, SuppleAsset asset, uint32_t clip, SuppleClipContact* out,
+                                   uint32_t* count) {
+    constexpr const char* kHere = "suppleGetClipContacts";
+    return withMarkers(handle, asset, kHere, clip, count, [&](Context&, const Asset& found, const cage::Clip& own) {
+        const std::vector<SuppleClipContact> contacts = contactsOf(found, clip, own.duration);
+        const auto total = static_cast<uint32_t>(contacts.size());
+        const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
+        std::copy_n(contacts.begin(), n, out);
+        *count = total;
+        return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
     });
 }

@@ -413,6 +413,7 @@ private:
         call(
             "suppleGetClipSharpness", [&] { return suppleGetClipSharpness(handle(), tube_, 0, 0, 0.0, &sharpness); },
             SUPPLE_ERROR_ARGUMENT);
+        call("suppleGetClipContacts", [&] { return suppleGetClipContacts(handle(), tube_, 0, nullptr, &count); });
         call("suppleGetClipMarkers", [&] { return suppleGetClipMarkers(handle(), tube_, 0, nullptr, &count); });
         call(
             "suppleGetTimings", [&] { return suppleGetTimings(handle(), sizeof(SuppleTiming), nullptr, &count); },

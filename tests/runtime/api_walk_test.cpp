@@ -944,6 +944,13 @@ void markers(Rows& r) {
     r.assets(kAll, [](World& w, SuppleContext c, SuppleAsset a) {
         return suppleGetClipMarkers(c, a, 0, w.plain<SuppleClipMarker>(), w.number(1));
     });
+    constexpr const char* kContacts = "suppleGetClipContacts";
+    r.assets(kContacts, [](World& w, SuppleContext c, SuppleAsset a) {
+        return suppleGetClipContacts(c, a, 0, w.plain<SuppleClipContact>(), w.number(1));
+    });
+    r.refuse(kContacts, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleGetClipContacts(w.handle(), w.mine.asset, 0, w.plain<SuppleClipContact>(), nullptr);
+    });
     r.assets(kBetween, [](World& w, SuppleContext c, SuppleAsset a) {
         return suppleGetClipMarkersBetween(c, a, 0, 0.0, 1.0, 0, w.plain<SuppleClipMarker>(), w.number(1));
     });
@@ -957,6 +964,9 @@ void markers(Rows& r) {
     for (const uint32_t clip : {kClips, SUPPLE_BIND_POSE, SUPPLE_REST_POSE}) {
         r.refuse(kAll, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
             return suppleGetClipMarkers(w.handle(), w.mine.asset, clip, w.plain<SuppleClipMarker>(), w.number(1));
+        });
+        r.refuse(kContacts, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE, [=](World& w) {
+            return suppleGetClipContacts(w.handle(), w.mine.asset, clip, w.plain<SuppleClipContact>(), w.number(1));
         });
         r.refuse(kBetween, "clip " + std::to_string(clip), SUPPLE_MESSAGE_OUT_OF_RANGE,
                  [=](World& w) { return between(w, w.mine.asset, clip, 0.0, 1.0, 0); });

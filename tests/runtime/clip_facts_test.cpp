@@ -1,8 +1,12 @@
 // What the API tells of clips beside their names: markers, and the boxes that hold their cages and surfaces.
+#include "skinning/clip_table.h"
+#include "skinning/pose.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/walkers.h"
 #include "tools/gltf/writer.h"
 
 #include <algorithm>
@@ -78,6 +82,48 @@ TEST_F(ClipFacts, Markers) {
     EXPECT_EQ(suppleGetClipMarkers(own->handle(), tube, 0, markers.data(), &count), SUPPLE_INCOMPLETE);
     EXPECT_EQ(count, 3u);
     EXPECT_EQ(markers[1].name, nullptr) << "no more than there was room for";
+}
+
+TEST_F(ClipFacts, ContactsAreThoseOfFeetThatStand) {
+    const ValidationGuard guard;
+    const cage::Character wren = readCharacter(kWren);
+    const SuppleAsset asset = own->createAsset(wren);
+    const auto walk = static_cast<uint32_t>(clipNumber(wren, "walk"));
+    uint32_t count = 0;
+    ASSERT_EQ(suppleGetClipContacts(own->handle(), asset, walk, nullptr, &count), SUPPLE_OK);
+    ASSERT_GT(count, 1u);
+    std::vector<SuppleClipContact> contacts(count);
+    ASSERT_EQ(suppleGetClipContacts(own->handle(), asset, walk, contacts.data(), &count), SUPPLE_OK);
+    double last = 0.0;
+    for (const SuppleClipContact& contact : contacts) {
+        const uint32_t foot = wren.skin.joints[contact.joint];
+        EXPECT_EQ(wren.skeleton.nodes[foot].name.substr(0, 4), "foot");
+        EXPECT_GE(contact.begin, last);
+        EXPECT_LE(contact.end, wren.clips[walk].duration);
+        last = contact.begin;
+        std::vector<glm::mat4> globals(wren.skeleton.nodes.size());
+        for (const double part : {0.0, 0.5, 1.0}) {
+            const double time = contact.begin + part * (contact.end - contact.begin);
+            skinning::sampleClip(wren.skeleton, wren.clips[walk], time, globals);
+            skinning::globalTransforms(wren.skeleton, globals, globals);
+            const glm::vec3 place(globals[foot][3]);
+            const auto held = [&](int axis) {
+                return contact.position[axis] + contact.velocity[axis] * static_cast<float>(time - contact.begin);
+            };
+            EXPECT_LT(glm::length(glm::vec2(place.x - held(0), place.z - held(2))), 0.1f) << "legs are 0.9 long";
+            EXPECT_GT(place.y, contact.position[1]);
+        }
+    }
+    count = 1;
+    EXPECT_EQ(suppleGetClipContacts(own->handle(), asset, walk, contacts.data(), &count), SUPPLE_INCOMPLETE);
+    EXPECT_EQ(suppleGetClipContacts(own->handle(), tube, 0, nullptr, &count), SUPPLE_OK);
+    EXPECT_EQ(count, 0u) << "a tube has no feet";
+
+    SuppleClipInfo info{};
+    info.structSize = sizeof(info);
+    ASSERT_EQ(suppleGetClipInfo(own->handle(), asset, walk, &info), SUPPLE_OK);
+    EXPECT_EQ(info.byteCount, skinning::clipBytes(skinning::nodeOrder(wren), wren.clips[walk]));
+    EXPECT_EQ(info.packedError, 0.0);
 }
 
 TEST_F(ClipFacts, MarkersThatPlaybackPasses) {

@@ -591,8 +591,12 @@ typedef struct SupplePartInfo {
 /** An animation clip. */
 typedef struct SuppleClipInfo {
     uint32_t structSize;
-    const char* name; /**< lives as long as the asset */
-    double duration;  /**< seconds */
+    const char* name;   /**< lives as long as the asset */
+    double duration;    /**< seconds */
+    uint64_t byteCount; /**< that it takes on the device, beside key times that it shares with other clips */
+    /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip is
+     * not packed. */
+    double packedError;
 } SuppleClipInfo;
 
 /** A box with sides along the axes. min is greater than max where there is nothing. */

@@ -375,6 +375,10 @@ public:
                                                   SuppleClipMarker* out, uint32_t& count) const {
         return suppleGetClipMarkersBetween(context_, handle_, clip, from, to, flags, out, &count);
     }
+    /// The same of times in which feet stand.
+    [[nodiscard]] SuppleResult clipContacts(uint32_t clip, SuppleClipContact* out, uint32_t& count) const {
+        return suppleGetClipContacts(context_, handle_, clip, out, &count);
+    }
     /// Fills out: the sharpness that a clip gives to a crease set.
     [[nodiscard]] SuppleResult clipSharpness(uint32_t clip, uint32_t set, double time, float& out) const {
         return suppleGetClipSharpness(context_, handle_, clip, set, time, &out);

@@ -112,6 +112,22 @@ SUPPLE_API SuppleResult suppleGetRootMotion(SuppleContext context, SuppleAsset a
 SUPPLE_API SuppleResult suppleGetClipSharpness(SuppleContext context, SuppleAsset asset, uint32_t clip, uint32_t set,
                                                double time, float* out);
 
+/* --------------------------------------------------------------------------------------------------- contacts */
+
+/** A time in which a foot stands in a clip: for sounds and prints of steps, and what SUPPLE_MODIFIER_PLANT holds on to.
+ * docs/playback.md says when a foot stands. */
+typedef struct SuppleClipContact {
+    uint32_t joint;    /**< of the foot */
+    double begin, end; /**< seconds, within the clip. A contact that spans the end of a loop is two */
+    float position[3]; /**< model space: the ground below the joint at `begin`, without root motion taken out */
+    float velocity[3]; /**< a second: how the ground moves, where the character walks in place */
+} SuppleClipContact;
+
+/** Fills out and count: the contacts of a clip, by rising begin. The first call for an asset looks for those of all
+ * clips, which takes some milliseconds. Errors: no such clip. */
+SUPPLE_API SuppleResult suppleGetClipContacts(SuppleContext context, SuppleAsset asset, uint32_t clip,
+                                              SuppleClipContact* out, uint32_t* count);
+
 /* ---------------------------------------------------------------------------------------------------- markers */
 
 /** A named time of a clip: a footstep, the moment a blade hits. docs/gltf.md says how files name them. */
