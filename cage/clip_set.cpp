@@ -152,6 +152,9 @@ public:
         if (text.empty() || set_.isFitted) {
             return text.empty() ? text : text.substr(2); // who fitted the set has told the rest
         }
+        if (!set_.whyNotFitted.empty()) {
+            text += "; not retargeted: " + set_.whyNotFitted;
+        }
         return counted(clipCount_, "clip", "clips") + "; " + std::to_string(animated_.size() - alone.size()) + " of " +
                counted(animated_.size(), "node", "nodes") + " matched by name" + text;
     }

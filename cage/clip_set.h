@@ -22,6 +22,7 @@ struct ClipSet {
     std::vector<std::vector<std::string>> targetNames; ///< by mesh: of its morph targets, or empty
     std::vector<Clip> clips;                           ///< channels of weights are as wide as the file has them
     std::vector<std::string> warnings;                 ///< without the name
+    std::string whyNotFitted;                          ///< if somebody has tried (skinning/retarget.h), and could not
     bool isFitted = false; ///< the skeleton is the character's own: nodes have the same numbers
 };
 

@@ -20,58 +20,85 @@ using cage::Interpolation;
 using cage::kNone;
 
 constexpr double kLongestGap = 1.0 / 23.0; ///< seconds between two keys; longer ones get keys between
+constexpr double kRateBetween = 30.0;      ///< of the keys between
 constexpr double kMostRate = 60.0;         ///< frames a second of clips whose keys are closer than twice that
 constexpr float kAnkleSoft = 0.995f;       ///< the part of a leg's length from which on it stretches ever more slowly
 
 constexpr uint64_t kLeastBudget = 250'000, kLargestBudget = 8'000'000; ///< poses of nodes
 
-bool isTurnOrMove(const Channel& channel) {
+bool movesNode(const Channel& channel) {
     return channel.path != ChannelPath::weights;
 }
 
 /// When the fitted clip has keys.
-struct Lattice {
-    std::vector<double> times;
+struct KeyTimes {
+    std::vector<double> times; ///< as floats, no two are alike
     bool isStepped = false;
+    bool isCoarse = false; ///< fewer than the clip needs
 };
 
-/// Stops behind `most` keys.
-Lattice latticeOf(const cage::Clip& clip, uint64_t most) {
-    Lattice lattice;
-    std::vector<double>& times = lattice.times;
-    lattice.isStepped = true;
-    for (const Channel& channel : clip.channels) {
-        if (isTurnOrMove(channel)) {
-            times.insert(times.end(), channel.times.begin(), channel.times.end());
-            lattice.isStepped = lattice.isStepped && channel.interpolation == Interpolation::step;
-        }
+/// Appends a time that is later than the last one, also as floats.
+void append(std::vector<double>& times, double time) {
+    if (times.empty() || static_cast<float>(time) > static_cast<float>(times.back())) {
+        times.push_back(time);
     }
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (times.empty() || lattice.isStepped) {
-        return lattice;
+}
+
+/// `count` of them, from the first to the last.
+std::vector<double> evenTimes(double first, double last, size_t count) {
+    std::vector<double> times;
+    for (size_t k = 0; k < count; ++k) {
+        const double part = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0.0;
+        append(times, first + (last - first) * part);
     }
-    const double first = times.front(), length = times.back() - first;
-    if (static_cast<double>(times.size()) > 2.0 * kMostRate * length + 2.0) {
-        const auto count = static_cast<size_t>(std::ceil(length * kMostRate)); // fewer than the keys
-        times.clear();
-        for (size_t k = 0; k <= count; ++k) {
-            times.push_back(first + length * static_cast<double>(k) / static_cast<double>(std::max<size_t>(count, 1)));
-        }
-        return lattice;
-    }
+    return times;
+}
+
+/// The times, and more between those that are far apart: `rate` a second.
+std::vector<double> closerTimes(const std::vector<double>& times, double rate, uint64_t most) {
     std::vector<double> closer;
     for (size_t k = 0; k + 1 < times.size() && closer.size() <= most; ++k) {
         const double gap = times[k + 1] - times[k];
         const double pieces =
-            std::min(gap > kLongestGap ? std::ceil(gap * 30.0 - 1e-6) : 1.0, static_cast<double>(most) + 1.0);
+            std::min(gap > kLongestGap ? std::ceil(gap * rate - 1e-6) : 1.0, static_cast<double>(most) + 1.0);
         for (double i = 0.0; i < pieces; ++i) {
-            closer.push_back(times[k] + gap * i / pieces);
+            append(closer, times[k] + gap * i / pieces);
         }
     }
-    closer.push_back(times.back());
-    times = std::move(closer);
-    return lattice;
+    append(closer, times.back());
+    return closer;
+}
+
+/// No more than `most`, which is 2 or more: then keys are farther apart than they should be.
+KeyTimes keyTimesOf(const cage::Clip& clip, uint64_t most) {
+    KeyTimes keys;
+    std::vector<double> times;
+    keys.isStepped = true;
+    for (const Channel& channel : clip.channels) {
+        if (movesNode(channel)) {
+            times.insert(times.end(), channel.times.begin(), channel.times.end());
+            keys.isStepped = keys.isStepped && channel.interpolation == Interpolation::step;
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    keys.times = times;
+    if (!times.empty() && !keys.isStepped) {
+        const double length = times.back() - times.front();
+        const double atMostRate = std::ceil(length * kMostRate) + 1.0;
+        keys.times = static_cast<double>(times.size()) > 2.0 * atMostRate
+                         ? evenTimes(times.front(), times.back(), static_cast<size_t>(atMostRate))
+                         : closerTimes(times, kRateBetween, most);
+        for (double rate = kRateBetween / 2; keys.times.size() > most && rate > 1.0; rate /= 2) {
+            keys.times = closerTimes(times, rate, most);
+            keys.isCoarse = true;
+        }
+    }
+    if (keys.times.size() > most) {
+        keys.times = evenTimes(times.front(), times.back(), most);
+        keys.isCoarse = true;
+    }
+    return keys;
 }
 
 glm::vec4 asVector(const glm::dquat& q) {
@@ -97,7 +124,7 @@ void append(std::vector<float>& values, const glm::dvec3& v) {
 }
 
 /// One key is enough where all are alike.
-void addChannel(uint32_t node, ChannelPath path, const Lattice& lattice, std::vector<float> values, cage::Clip& clip) {
+void addChannel(uint32_t node, ChannelPath path, const KeyTimes& keys, std::vector<float> values, cage::Clip& clip) {
     const size_t width = path == ChannelPath::rotation ? 4 : 3;
     constexpr float kAlike = 1e-7f;
     bool isConstant = true;
@@ -105,13 +132,13 @@ void addChannel(uint32_t node, ChannelPath path, const Lattice& lattice, std::ve
         const float first = values[i % width];
         isConstant = std::abs(values[i] - first) <= kAlike * std::max(1.0f, std::abs(first));
     }
-    Channel channel{node, path, lattice.isStepped ? Interpolation::step : Interpolation::linear, {}, {}, 0};
+    Channel channel{node, path, keys.isStepped ? Interpolation::step : Interpolation::linear, {}, {}, 0};
     if (isConstant) {
         values.resize(width);
     }
     channel.values = std::move(values);
-    for (size_t k = 0; k < (isConstant ? 1 : lattice.times.size()); ++k) {
-        channel.times.push_back(static_cast<float>(lattice.times[k]));
+    for (size_t k = 0; k < (isConstant ? 1 : keys.times.size()); ++k) {
+        channel.times.push_back(static_cast<float>(keys.times[k]));
     }
     clip.channels.push_back(std::move(channel));
 }
@@ -119,18 +146,22 @@ void addChannel(uint32_t node, ChannelPath path, const Lattice& lattice, std::ve
 /// The poses of one clip.
 class FittedFrames {
 public:
-    FittedFrames(const FittedSkeletons& of, const cage::Clip& clip, Lattice lattice)
-        : of_(of), followers_(of.followers), lattice_(std::move(lattice)) {
+    FittedFrames(const FittedSkeletons& of, const cage::Clip& clip, KeyTimes keys)
+        : of_(of), followers_(of.followers), keys_(std::move(keys)) {
         source_.skeleton = of.from;
         clip_.channels = clip.channels;
-        std::erase_if(clip_.channels, [](const Channel& channel) { return !isTurnOrMove(channel); });
-        const size_t frames = lattice_.times.size();
+        std::erase_if(clip_.channels, [](const Channel& channel) { return !movesNode(channel); });
+        const size_t frames = keys_.times.size();
         turns_.resize(frames * followers_.turned.size());
         moves_.resize(frames * followers_.moved.size());
         hips_.resize(frames);
         places_.assign(of.to.nodes.size(), kNone);
         for (size_t i = 0; i < followers_.turned.size(); ++i) {
             places_[followers_.turned[i].node] = static_cast<uint32_t>(i);
+        }
+        moved_.assign(of.to.nodes.size(), kNone);
+        for (size_t i = 0; i < followers_.moved.size(); ++i) {
+            moved_[followers_.moved[i].node] = static_cast<uint32_t>(i);
         }
         for (size_t side = 0; side < 2; ++side) {
             goals_[side].resize(frames);
@@ -141,8 +172,8 @@ public:
     }
 
     void follow() {
-        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
-            readSource(lattice_.times[frame]);
+        for (size_t frame = 0; frame < keys_.times.size(); ++frame) {
+            readSource(keys_.times[frame]);
             place(frame);
             noteLegs(frame);
         }
@@ -177,10 +208,10 @@ public:
         for (const glm::dvec3& place : hips_) {
             append(values, place);
         }
-        addChannel(hips, ChannelPath::translation, lattice_, std::move(values), clip);
+        addChannel(hips, ChannelPath::translation, keys_, std::move(values), clip);
         for (size_t i = 0; i < followers_.moved.size(); ++i) {
             values.clear();
-            for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+            for (size_t frame = 0; frame < keys_.times.size(); ++frame) {
                 append(values, moves_[frame * followers_.moved.size() + i]);
             }
             addMoves(followers_.moved[i].node, values, clip);
@@ -224,24 +255,24 @@ private:
             moves_[frame * followers_.moved.size() + i] =
                 glm::dvec3(of_.to.nodes[moved.node].translation) + moved.map * way;
         }
-        poseTarget(frame, [&](uint32_t node, const glm::dquat& above) {
-            const TurnFollower& own = followers_.turned[places_[node]];
-            const glm::dquat turn = own.leader == own.next
-                                        ? turnOf(own.leader)
-                                        : unit(slerp(turnOf(own.leader), turnOf(own.next), own.share));
-            return unit(glm::conjugate(above) * (turn * own.rest));
-        });
+        poseTarget(
+            frame,
+            [&](uint32_t node, const glm::dquat& above) {
+                const TurnFollower& own = followers_.turned[places_[node]];
+                const glm::dquat turn = own.leader == own.next
+                                            ? turnOf(own.leader)
+                                            : unit(slerp(turnOf(own.leader), turnOf(own.next), own.share));
+                return unit(glm::conjugate(above) * (turn * own.rest));
+            },
+            [&](const glm::dmat4& parent) { return hipsIn(parent); });
     }
 
-    /// turn(node, rotation of its parent in model space): the local rotation of a node that follows.
-    template <class Turn>
-    void poseTarget(size_t frame, Turn&& turn) {
+    /// turn(node, rotation of its parent in model space): the local rotation of a node that follows. hips(matrix of
+    /// their parent): where they are in its frame.
+    template <class Turn, class Hips>
+    void poseTarget(size_t frame, Turn&& turn, Hips&& placeOfHips) {
         const cage::Skeleton& to = of_.to;
         const uint32_t hips = followers_.to[roleOf(BodyPart::hips)];
-        moved_.assign(to.nodes.size(), kNone);
-        for (size_t i = 0; i < followers_.moved.size(); ++i) {
-            moved_[followers_.moved[i].node] = static_cast<uint32_t>(i);
-        }
         for (const uint32_t n : of_.needed) {
             const cage::Node& node = to.nodes[n];
             const glm::dquat above = node.parent == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : model_[node.parent];
@@ -252,8 +283,7 @@ private:
                 turns_[frame * followers_.turned.size() + places_[n]] = local.rotation;
             }
             if (n == hips) {
-                placeHips(frame, parent);
-                local.translation = hips_[frame];
+                local.translation = hips_[frame] = placeOfHips(parent);
             } else if (moved_[n] != kNone) {
                 local.translation = moves_[frame * followers_.moved.size() + moved_[n]];
             }
@@ -262,14 +292,12 @@ private:
             model_[n] = above * (node.hasMatrix ? nearestRotation(glm::dmat3(matrix)) : unit(local.rotation));
         }
     }
-    void placeHips(size_t frame, const glm::dmat4& parent) {
-        if (!isBent_) {
-            const glm::dmat3 frameOfParent(parent);
-            const glm::dvec3 way = goalOf(roleOf(BodyPart::hips)) - glm::dvec3(parent[3]);
-            const bool isFlat = !(std::abs(glm::determinant(frameOfParent)) > 0.0);
-            hips_[frame] = isFlat ? glm::dvec3(of_.to.nodes[followers_.to[roleOf(BodyPart::hips)]].translation)
-                                  : glm::inverse(frameOfParent) * way;
+    [[nodiscard]] glm::dvec3 hipsIn(const glm::dmat4& parent) const {
+        const glm::dmat3 frame(parent);
+        if (!(std::abs(glm::determinant(frame)) > 0.0)) {
+            return glm::dvec3(of_.to.nodes[followers_.to[roleOf(BodyPart::hips)]].translation);
         }
+        return glm::inverse(frame) * (goalOf(roleOf(BodyPart::hips)) - glm::dvec3(parent[3]));
     }
 
     [[nodiscard]] glm::dvec3 placeOf(uint32_t node) const { return glm::dvec3(globals_[node][3]); }
@@ -321,11 +349,13 @@ private:
         const glm::dvec3 hinge = hingeOf(leg);
         const double height = hipsHeight(of_.toRest, followers_.to);
         double miss = 0.0;
-        isBent_ = true; // the hips are placed
-        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
-            poseTarget(frame, [&](uint32_t node, const glm::dquat&) {
-                return turns_[frame * followers_.turned.size() + places_[node]];
-            });
+        for (size_t frame = 0; frame < keys_.times.size(); ++frame) {
+            poseTarget(
+                frame,
+                [&](uint32_t node, const glm::dquat&) {
+                    return turns_[frame * followers_.turned.size() + places_[node]];
+                },
+                [&](const glm::dmat4&) { return hips_[frame]; });
             const auto [a, b, c] = jointsOf(leg);
             const glm::dvec3 goal = goals_[leg.side][frame];
             // About the thigh: so that floats are exact however far the clip has carried the character.
@@ -352,14 +382,14 @@ private:
     void writeTurns(size_t place, cage::Clip& clip) const {
         std::vector<float> values;
         glm::dquat last = glm::dquat(of_.to.nodes[followers_.turned[place].node].rotation);
-        for (size_t frame = 0; frame < lattice_.times.size(); ++frame) {
+        for (size_t frame = 0; frame < keys_.times.size(); ++frame) {
             glm::dquat q = turns_[frame * followers_.turned.size() + place];
             q = glm::dot(q, last) < 0.0 ? -q : q;
             last = q;
             const glm::vec4 v = asVector(q);
             values.insert(values.end(), {v.x, v.y, v.z, v.w});
         }
-        addChannel(followers_.turned[place].node, ChannelPath::rotation, lattice_, std::move(values), clip);
+        addChannel(followers_.turned[place].node, ChannelPath::rotation, keys_, std::move(values), clip);
     }
     /// A joint that is not moved has no channel.
     void addMoves(uint32_t node, const std::vector<float>& values, cage::Clip& clip) const {
@@ -367,7 +397,7 @@ private:
         const double most = 1e-6 * hipsHeight(of_.toRest, followers_.to);
         for (size_t i = 0; i < values.size(); ++i) {
             if (std::abs(static_cast<double>(values[i] - rest[static_cast<int>(i % 3)])) > most) {
-                addChannel(node, ChannelPath::translation, lattice_, values, clip);
+                addChannel(node, ChannelPath::translation, keys_, values, clip);
                 return;
             }
         }
@@ -375,7 +405,7 @@ private:
 
     const FittedSkeletons& of_;
     const Followers& followers_;
-    Lattice lattice_;
+    KeyTimes keys_;
     cage::Character source_; ///< the clip's skeleton alone
     cage::Clip clip_;
     Pose pose_;
@@ -385,7 +415,6 @@ private:
     std::vector<glm::dvec3> moves_, hips_;                ///< by frame: local translations
     std::vector<uint32_t> places_, moved_;                ///< by node: among those that turn, or are moved
     std::array<std::vector<glm::dvec3>, 2> goals_, axes_; ///< by side and frame
-    bool isBent_ = false;
 };
 
 } // namespace
@@ -409,26 +438,28 @@ FittedSkeletons::FittedSkeletons(const cage::Skeleton& leading, const cage::Skel
                  [&](uint32_t node) { return isNeeded[node]; });
 }
 
-ClipFitter::ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers,
+ClipFitter::ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers, uint64_t clips,
                        uint64_t numbers)
-    : of_(from, to, followers), left_(std::min(kLeastBudget + 8 * numbers, kLargestBudget)) {}
+    : of_(from, to, followers), clipsLeft_(clips), left_(std::min(kLeastBudget + 8 * numbers, kLargestBudget)) {}
 
 ClipFitter::Fitted ClipFitter::fit(const cage::Clip& clip, Feet feet, double mostMissed) {
     const uint64_t nodes = of_.from.nodes.size() + of_.needed.size();
-    Lattice lattice = latticeOf(clip, left_ / nodes);
-    const uint64_t poses = uint64_t{lattice.times.size()} * nodes;
+    const uint64_t most = left_ / std::max<uint64_t>(clipsLeft_, 1) / nodes;
+    clipsLeft_ -= clipsLeft_ > 0 ? 1 : 0;
     Fitted fitted;
-    if (poses > left_) {
-        fitted.whyLeftOut = "too long";
+    if (most < 2) {
+        fitted.whyLeftOut = "no room for its poses";
         return fitted;
     }
-    left_ -= poses;
-    if (lattice.times.empty()) {
+    KeyTimes keys = keyTimesOf(clip, most);
+    left_ -= keys.times.size() * nodes;
+    fitted.isCoarse = keys.isCoarse;
+    if (keys.times.empty()) {
         fitted.clip = clip;
         fitted.clip.channels.clear();
         return fitted;
     }
-    FittedFrames frames(of_, clip, std::move(lattice));
+    FittedFrames frames(of_, clip, std::move(keys));
     frames.follow();
     if (feet == Feet::placed) {
         fitted.miss = frames.placeFeet(mostMissed);

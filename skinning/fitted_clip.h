@@ -23,9 +23,10 @@ struct FittedSkeletons {
 /// Makes clips for `to`, one after the other. Everything it is given must outlive it.
 class ClipFitter {
 public:
-    /// `numbers`: of keys and values that all clips have together. By them, clips may take some number of poses: so
-    /// that a few keys far apart do not ask for any.
-    ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers, uint64_t numbers);
+    /// `clips`: how many there will be. `numbers`: of keys and values that all of them have together. By these, clips
+    /// may take some number of poses: so that a few keys far apart do not ask for any.
+    ClipFitter(const cage::Skeleton& from, const cage::Skeleton& to, const Followers& followers, uint64_t clips,
+               uint64_t numbers);
 
     /// Whether ankles are brought where those of the clip are, by the legs' bends.
     enum class Feet : uint8_t { free, placed };
@@ -33,6 +34,7 @@ public:
     struct Fitted {
         cage::Clip clip;        ///< of `to`; markers and curves of sharpness are those of the given clip
         double miss = 0.0;      ///< how far a leg ends short of where its ankle should be, in heights of the hips
+        bool isCoarse = false;  ///< it has fewer keys than it needs, as there was no room for more poses
         std::string whyLeftOut; ///< empty, or there is no clip
     };
     /// Channels of weights are left out. Legs that end more than `mostMissed` short of their goal in some frame keep
@@ -41,6 +43,7 @@ public:
 
 private:
     FittedSkeletons of_;
+    uint64_t clipsLeft_;
     uint64_t left_; ///< poses of nodes
 };
 

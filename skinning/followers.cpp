@@ -96,18 +96,20 @@ std::vector<size_t> nearestRoles(const cage::Skeleton& skeleton, const Roles& ro
 
 class FollowerFinder {
 public:
-    FollowerFinder(const cage::Skeleton& from, const Roles& fromRoles, const cage::Skeleton& to, const Roles& toRoles,
+    FollowerFinder(const Biped& from, const Biped& to, std::span<const NodePair> given,
                    std::span<const uint32_t> partners)
-        : from_(from), to_(to), partners_(partners), fromRest_(from), toRest_(to), leaders_(to.nodes.size()) {
-        found_.from = fromRoles;
-        found_.to = toRoles;
-        found_.yaw = yawBetween(leftOf(fromRest_, fromRoles), leftOf(toRest_, toRoles));
-        found_.scale = hipsHeight(toRest_, toRoles) / hipsHeight(fromRest_, fromRoles);
+        : from_(from.skeleton), to_(to.skeleton), given_(given), partners_(partners), fromRest_(from.skeleton),
+          toRest_(to.skeleton), leaders_(to.skeleton.nodes.size()) {
+        found_.from = from.roles;
+        found_.to = to.roles;
+        found_.yaw = yawBetween(leftOf(fromRest_, from.roles), leftOf(toRest_, to.roles));
+        found_.scale = hipsHeight(toRest_, to.roles) / hipsHeight(fromRest_, from.roles);
         corrections_.fill(glm::dquat(1.0, 0.0, 0.0, 0.0));
     }
 
     [[nodiscard]] Followers find() {
         findCorrections();
+        followGiven();
         for (Role role = 0; role < kRoles; ++role) {
             if (isCommon(role)) {
                 follow(found_.to[role], found_.from[role], corrections_[role]);
@@ -118,6 +120,7 @@ public:
             followWithinLimb(role);
         }
         followSpine();
+        followPelvis();
         followNames();
         for (const uint32_t node : to_.parentsFirst) {
             if (leaders_[node].node != kNone) {
@@ -132,6 +135,10 @@ public:
 
 private:
     [[nodiscard]] bool isCommon(size_t role) const { return found_.from[role] != kNone && found_.to[role] != kNone; }
+    /// Of what hangs on a role, or on none.
+    [[nodiscard]] glm::dquat correctionOf(size_t role) const {
+        return role < kRoles ? corrections_[role] : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    }
     [[nodiscard]] bool isFree(uint32_t node) const {
         return leaders_[node].node == kNone && !to_.nodes[node].hasMatrix;
     }
@@ -159,6 +166,17 @@ private:
         }
         for (const size_t side : {kLeft, kRight}) {
             corrections_[roleOf(BodyPart::hand, side)] = corrections_[roleOf(BodyPart::lowerArm, side)];
+        }
+    }
+
+    void followGiven() {
+        const std::vector<size_t> nearest = nearestRoles(to_, found_.to);
+        for (const auto& [leader, node] : given_) {
+            if (isFree(node)) {
+                follow(node, leader, correctionOf(nearest[node]));
+                followMove(node, leader);
+                ++found_.byName;
+            }
         }
     }
 
@@ -210,6 +228,17 @@ private:
         return ways;
     }
 
+    /// What lies between the hips and a thigh turns as what the other thigh hangs on.
+    void followPelvis() {
+        for (const size_t side : {kLeft, kRight}) {
+            const Role thigh = roleOf(BodyPart::thigh, side);
+            for (uint32_t n = to_.nodes[found_.to[thigh]].parent; n != kNone && n != found_.to[roleOf(BodyPart::hips)];
+                 n = to_.nodes[n].parent) {
+                follow(n, from_.nodes[found_.from[thigh]].parent, {1.0, 0.0, 0.0, 0.0});
+            }
+        }
+    }
+
     /// Fingers, tails, hair, props: nodes of one name that hang on the same part of the body.
     void followNames() {
         const std::vector<size_t> fromNearest = nearestRoles(from_, found_.from);
@@ -219,8 +248,7 @@ private:
             if (node == kNone || !isFree(node) || fromNearest[leader] != toNearest[node]) {
                 continue;
             }
-            const size_t role = toNearest[node];
-            follow(node, leader, role < kRoles ? corrections_[role] : glm::dquat(1.0, 0.0, 0.0, 0.0));
+            follow(node, leader, correctionOf(toNearest[node]));
             followMove(node, leader);
             ++found_.byName;
         }
@@ -249,6 +277,7 @@ private:
     }
 
     const cage::Skeleton &from_, &to_;
+    std::span<const NodePair> given_;
     std::span<const uint32_t> partners_;
     RestPlaces fromRest_, toRest_;
     Followers found_;
@@ -274,9 +303,9 @@ double hipsHeight(const RestPlaces& rest, const Roles& roles) {
     return rest.place(roles[roleOf(BodyPart::hips)]).y - ankles;
 }
 
-Followers findFollowers(const cage::Skeleton& from, const Roles& fromRoles, const cage::Skeleton& to,
-                        const Roles& toRoles, std::span<const uint32_t> partners) {
-    return FollowerFinder(from, fromRoles, to, toRoles, partners).find();
+Followers findFollowers(const Biped& from, const Biped& to, std::span<const NodePair> given,
+                        std::span<const uint32_t> partners) {
+    return FollowerFinder(from, to, given, partners).find();
 }
 
 } // namespace supple::skinning

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace supple::skinning {
@@ -56,10 +57,18 @@ struct Followers {
     size_t byRole = 0, byName = 0;
 };
 
-/// `partners`: by node of `from`, the node of `to` of the same name, or kNone. Both have legs (hasLegs()), and hips
-/// that are higher than the ankles. Nodes of `to` that have a matrix are never turned.
-[[nodiscard]] Followers findFollowers(const cage::Skeleton& from, const Roles& fromRoles, const cage::Skeleton& to,
-                                      const Roles& toRoles, std::span<const uint32_t> partners);
+/// A skeleton and its roles: it has legs (hasLegs()), and hips that are higher than the ankles.
+struct Biped {
+    const cage::Skeleton& skeleton;
+    const Roles& roles;
+};
+/// A node of one skeleton, and the one of the other that follows it.
+using NodePair = std::pair<uint32_t, uint32_t>;
+
+/// `given`: pairs that a user knows: they go first. `partners`: by node of `from`, the node of `to` of the same name,
+/// or kNone. Nodes of `to` that have a matrix are never turned.
+[[nodiscard]] Followers findFollowers(const Biped& from, const Biped& to, std::span<const NodePair> given,
+                                      std::span<const uint32_t> partners);
 
 /// How high the hips rest over the lower ankle.
 [[nodiscard]] double hipsHeight(const RestPlaces& rest, const Roles& roles);

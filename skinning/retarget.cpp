@@ -18,13 +18,19 @@ namespace {
 
 using cage::kNone;
 
-constexpr double kSameLength = 0.01; ///< relative: bones of skeletons that are the same
-constexpr double kFarMiss = 0.05;    ///< heights of the hips: what is told
-constexpr double kMostMissed = 0.3;  ///< beyond it a leg does not fit, and keeps the clip's angles
+constexpr float kSameBone = 0.01f;  ///< relative: bones of skeletons that are the same
+constexpr double kFarMiss = 0.05;   ///< heights of the hips: what is told
+constexpr double kMostMissed = 0.3; ///< beyond it a leg does not fit, and keeps the clip's angles
+
+/// The first, parents before children; kNone also for no name.
 uint32_t nodeNamed(const cage::Skeleton& skeleton, const std::string& name) {
     const auto found = std::find_if(skeleton.parentsFirst.begin(), skeleton.parentsFirst.end(),
                                     [&](uint32_t n) { return skeleton.nodes[n].name == name; });
-    return found != skeleton.parentsFirst.end() ? *found : kNone;
+    return found != skeleton.parentsFirst.end() && !name.empty() ? *found : kNone;
+}
+
+glm::vec3 restTranslation(const cage::Node& node) {
+    return node.hasMatrix ? glm::vec3(node.matrix[3]) : node.translation;
 }
 
 /// The skeleton with matrices taken apart where they can be, as takeClips() does it.
@@ -54,17 +60,22 @@ public:
     }
 
     void fit() {
-        const std::string reason = whyNot();
+        const bool isAsked = options_.retargeting != Retargeting::differing || !options_.pairs.empty();
+        std::string reason = whyNot();
+        if (reason.empty() && !isAsked) {
+            reason = isUpright(set_.skeleton, from_) && isUpright(to_, own_) ? "" : "not both skeletons stand upright";
+        }
         if (!reason.empty()) {
-            if (options_.retargeting != Retargeting::differing) {
+            if (isAsked) {
                 cage::refuse(set_.name, "cannot be retargeted: " + reason);
             }
+            set_.whyNotFitted = reason;
             return;
         }
-        if (options_.retargeting == Retargeting::differing && options_.pairs.empty() && isSameSkeleton()) {
+        if (!isAsked && isSameSkeleton()) {
             return;
         }
-        const Followers followers = findFollowers(set_.skeleton, from_, to_, own_, match_.partners);
+        const Followers followers = findFollowers({set_.skeleton, from_}, {to_, own_}, given_, match_.partners);
         noteLeftOut(followers);
         fitClips(followers);
         tell(followers);
@@ -82,13 +93,11 @@ private:
         }
         if (!pair.from.empty() && leader == kNone) {
             unknown_.push_back(pair.from);
-        }
-        if (pair.role) {
-            from[*pair.role] = leader;
-            own[*pair.role] = node;
-        } else if (leader != kNone) {
-            std::replace(match_.partners.begin(), match_.partners.end(), node, kNone);
-            match_.partners[leader] = node;
+        } else if (!pair.role) {
+            given_.emplace_back(leader, node);
+        } else {
+            from[*pair.role] = leader != kNone ? leader : from[*pair.role];
+            own[*pair.role] = node != kNone ? node : own[*pair.role];
         }
     }
 
@@ -99,7 +108,7 @@ private:
     }
     [[nodiscard]] static std::string whyNot(const Roles& roles, const cage::Skeleton& skeleton, const char* whose) {
         if (!hasLegs(roles)) {
-            return std::string("no hips above two legs were found in ") + whose + " skeleton";
+            return whatIsMissing(roles) + " in " + whose + " skeleton";
         }
         if (!(hipsHeight(RestPlaces(skeleton), roles) > 0.0)) {
             return std::string("the hips of ") + whose + " skeleton are not above the ankles";
@@ -107,37 +116,57 @@ private:
         return {};
     }
 
-    /// Whether clips fit as they are: nodes of one role have one name, and limbs are as long.
+    /// Whether the head is farther above the hips than beside them. One without a head is.
+    [[nodiscard]] static bool isUpright(const cage::Skeleton& skeleton, const Roles& roles) {
+        const Role top = roles[roleOf(BodyPart::head)] != kNone ? roleOf(BodyPart::head) : roleOf(BodyPart::neck);
+        if (roles[top] == kNone) {
+            return true;
+        }
+        const RestPlaces rest(skeleton);
+        const glm::dvec3 way = rest.place(roles[top]) - rest.place(roles[roleOf(BodyPart::hips)]);
+        return way.y > glm::length(glm::dvec2(way.x, way.z));
+    }
+
+    /// Whether clips fit as they are: nodes of one role have one name, and the bones from them to the hips are the
+    /// same, each in its parent's frame. So it does not count in which pose the two skeletons rest.
     [[nodiscard]] bool isSameSkeleton() const {
-        const RestPlaces from(set_.skeleton), own(to_);
-        const double scale = hipsHeight(own, own_) / hipsHeight(from, from_);
-        const auto fromHips = [&](const RestPlaces& rest, const Roles& roles, Role role) {
-            const uint32_t hips = roles[roleOf(BodyPart::hips)];
-            return glm::length(rest.place(roles[role]) - rest.place(hips));
-        };
         for (Role role = 0; role < kRoles; ++role) {
-            if (from_[role] == kNone || own_[role] == kNone) {
-                continue;
-            }
-            const double a = fromHips(from, from_, role), b = fromHips(own, own_, role);
-            if (match_.partners[from_[role]] != own_[role] || std::abs(a - b) > kSameLength * std::max(a, b)) {
+            const bool isCommon = from_[role] != kNone && own_[role] != kNone;
+            if (isCommon && (match_.partners[from_[role]] != own_[role] || !haveSameBones(from_[role]))) {
                 return false;
             }
         }
-        return std::abs(scale - 1.0) <= kSameLength;
+        return true;
+    }
+    /// Up to the hips, or to the root where they are not above the node.
+    [[nodiscard]] bool haveSameBones(uint32_t node) const {
+        for (; node != kNone && node != from_[roleOf(BodyPart::hips)]; node = set_.skeleton.nodes[node].parent) {
+            const uint32_t partner = match_.partners[node], above = set_.skeleton.nodes[node].parent;
+            if (partner == kNone || to_.nodes[partner].parent != (above == kNone ? kNone : match_.partners[above])) {
+                return false;
+            }
+            const glm::vec3 a = restTranslation(set_.skeleton.nodes[node]), b = restTranslation(to_.nodes[partner]);
+            if (glm::length(a - b) > kSameBone * std::max(glm::length(a), glm::length(b))) {
+                return false;
+            }
+        }
+        return true;
     }
 
     /// Names what the clips move and nothing follows.
     void noteLeftOut(const Followers& followers) {
-        std::set<uint32_t> moving{from_[roleOf(BodyPart::hips)]};
         const std::vector<bool> turning = atOrAboveLeaders(followers);
+        std::set<uint32_t> moving; // of what is above the hips as well, the hips have it all
+        for (uint32_t n = from_[roleOf(BodyPart::hips)]; n != kNone; n = set_.skeleton.nodes[n].parent) {
+            moving.insert(n);
+        }
         for (const MoveFollower& follower : followers.moved) {
             moving.insert(follower.leader);
         }
         std::set<uint32_t> alone, scaled, stretched;
         for (const cage::Clip& clip : set_.clips) {
             for (const cage::Channel& channel : clip.channels) {
-                if (channel.path == cage::ChannelPath::rotation && !turning[channel.node]) {
+                if (channel.path == cage::ChannelPath::rotation && !turning[channel.node] && varies(channel)) {
                     alone.insert(channel.node);
                 } else if (channel.path == cage::ChannelPath::scale && varies(channel)) {
                     scaled.insert(channel.node);
@@ -174,11 +203,12 @@ private:
     }
     /// By more than a hundredth of the largest number.
     [[nodiscard]] static bool varies(const cage::Channel& channel) {
-        const size_t stride = channel.interpolation == cage::Interpolation::cubicSpline ? 9 : 3;
-        const size_t first = stride == 9 ? 3 : 0;
+        const size_t width = channel.width();
+        const bool cubic = channel.interpolation == cage::Interpolation::cubicSpline;
+        const size_t stride = cubic ? 3 * width : width, first = cubic ? width : 0;
         float largest = 0.0f, difference = 0.0f;
-        for (size_t k = first; k + 2 < channel.values.size(); k += stride) {
-            for (size_t i = 0; i < 3; ++i) {
+        for (size_t k = first; k + width <= channel.values.size(); k += stride) {
+            for (size_t i = 0; i < width; ++i) {
                 largest = std::max(largest, std::abs(channel.values[k + i]));
                 difference = std::max(difference, std::abs(channel.values[k + i] - channel.values[first + i]));
             }
@@ -193,7 +223,7 @@ private:
                 numbers += channel.times.size() + channel.values.size();
             }
         }
-        ClipFitter fitter(set_.skeleton, to_, followers, numbers);
+        ClipFitter fitter(set_.skeleton, to_, followers, set_.clips.size(), numbers);
         const ClipFitter::Feet feet =
             options_.retargeting == Retargeting::freeFeet ? ClipFitter::Feet::free : ClipFitter::Feet::placed;
         std::vector<cage::Clip> fitted;
@@ -203,9 +233,12 @@ private:
                 unfitted_.push_back(cage::quoted(clip.name) + " (" + own.whyLeftOut + ")");
                 continue;
             }
+            if (own.isCoarse) {
+                coarse_.push_back(cage::quoted(clip.name));
+            }
             if (own.miss > kFarMiss) {
                 (own.miss > kMostMissed ? unreached_ : far_)
-                    .push_back(cage::quoted(clip.name) + " by " + cage::shortNumber(own.miss));
+                    .push_back(cage::quoted(clip.name) + " " + cage::shortNumber(own.miss));
             }
             std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(own.clip.channels),
                          [](const cage::Channel& c) { return c.path == cage::ChannelPath::weights; });
@@ -216,8 +249,8 @@ private:
     }
     void refuseMisfits() const {
         if (options_.strict && !unreached_.empty()) {
-            cage::refuse(set_.name, "its clips do not fit the character's legs: ankles are out of reach: " +
-                                        cage::listed(unreached_) + " of the hips' height");
+            cage::refuse(set_.name, "legs are too short for its clips, in heights of the hips: " +
+                                        cage::listed(unreached_) + "; with free feet they need not reach");
         }
         if (options_.strict && !unfitted_.empty()) {
             cage::refuse(set_.name, "clips that cannot be retargeted: " + cage::listed(unfitted_), ErrorCode::limit);
@@ -229,13 +262,14 @@ private:
                            " retargeted: " + cage::counted(followers.byRole, "joint", "joints") + " by role, " +
                            std::to_string(followers.byName) + " by name, hips scaled by " +
                            cage::shortNumber(followers.scale);
-        const auto add = [&](const char* what, const std::string& names, const char* behind = "") {
-            text += names.empty() ? "" : "; " + (what + names) + behind;
+        const auto add = [&](const char* what, const std::string& names) {
+            text += names.empty() ? "" : "; " + (what + names);
         };
         add("left out: ", leftOut_);
         add("not in its skeleton: ", cage::listed(unknown_));
-        add("ankles out of reach: ", cage::listed(far_), " of the hips' height");
-        add("legs keep their angles, as ankles are out of reach: ", cage::listed(unreached_), " of the hips' height");
+        add("legs are too short to reach, in heights of the hips: ", cage::listed(far_));
+        add("and by so much that they keep the clip's angles: ", cage::listed(unreached_));
+        add("fewer keys than they need, as they are too long: ", cage::listed(coarse_));
         add("clips that cannot be retargeted, left out: ", cage::listed(unfitted_));
         set_.warnings.push_back(std::move(text));
     }
@@ -266,12 +300,16 @@ private:
     Roles from_{}, own_{};
     cage::Refusals faults_;
     std::string leftOut_;
-    std::vector<std::string> unknown_, unfitted_, far_, unreached_;
+    std::vector<std::string> unknown_, unfitted_, coarse_, far_, unreached_;
+    std::vector<NodePair> given_;
 };
 
 } // namespace
 
 void fitClips(const RetargetOptions& options, const cage::Skeleton& to, cage::ClipSet& set) {
+    if (options.retargeting == Retargeting::never && !options.pairs.empty()) {
+        cage::refuse("joint pairs", "they say how to retarget, which is turned off", ErrorCode::argument);
+    }
     if (options.retargeting != Retargeting::never && !set.clips.empty()) {
         SetFitter(options, to, set).fit();
     }

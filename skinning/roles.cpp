@@ -1,5 +1,7 @@
 #include "skinning/roles.h"
 
+#include "cage/skeleton.h"
+
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
@@ -22,15 +24,15 @@ struct Synonyms {
 };
 const Synonyms kSynonyms[kParts] = {
     {{"hips", "pelvis"}, {"hip"}},
-    {{"neck"}, {}},
+    {{"neck"}, {"necklower"}},
     {{"head"}, {}},
-    {{"thigh", "upperleg", "upleg", "legupper"}, {"leg", "hip", "femur"}},
+    {{"thigh", "upperleg", "upleg", "legupper", "thighbend"}, {"leg", "hip", "femur"}},
     {{"shin", "calf", "lowerleg", "lowleg", "leglower"}, {"leg", "knee"}},
     {{"foot"}, {"ankle"}},
     {{"toes", "toe", "ball", "toebase"}, {}},
     {{"clavicle", "shoulder", "collar"}, {}},
-    {{"upperarm", "uparm", "armupper"}, {"arm", "shoulder"}},
-    {{"lowerarm", "lowarm", "forearm", "armlower"}, {"elbow", "arm"}},
+    {{"upperarm", "uparm", "armupper", "shldrbend", "shldr"}, {"arm", "shoulder"}},
+    {{"lowerarm", "lowarm", "forearm", "armlower", "forearmbend"}, {"elbow", "arm"}},
     {{"hand"}, {"palm", "wrist"}},
 };
 /// Words that rigs put in front of all names.
@@ -142,6 +144,10 @@ std::string keyOf(const std::vector<std::string>& words) {
     for (size_t i = first; i < words.size(); ++i) {
         key += words[i];
     }
+    constexpr std::string_view kMixamo = "mixamorig"; // some writers leave out the colon behind it
+    if (key.size() > kMixamo.size() && key.substr(0, kMixamo.size()) == kMixamo) {
+        key.erase(0, kMixamo.size());
+    }
     return std::string(withoutDigits(key));
 }
 
@@ -187,7 +193,8 @@ Candidates findCandidates(const cage::Skeleton& skeleton) {
 class RoleFinder {
 public:
     RoleFinder(const cage::Skeleton& skeleton, const Roles& given)
-        : skeleton_(skeleton), candidates_(findCandidates(skeleton)), roles_(given) {
+        : skeleton_(skeleton), places_(cage::restPlaces(skeleton)), candidates_(findCandidates(skeleton)),
+          roles_(given) {
         for (size_t role = 0; role < kRoles; ++role) {
             if (given[role] != kNone) {
                 candidates_[role] = {given[role]};
@@ -204,7 +211,7 @@ public:
             findAbove(BodyPart::clavicle, side, at(BodyPart::upperArm, side));
         }
         if (at(BodyPart::hips) == kNone) {
-            set(BodyPart::hips, lowestAbove(at(BodyPart::thigh, kLeft), at(BodyPart::thigh, kRight)));
+            set(BodyPart::hips, findHips());
         }
         findBelow(BodyPart::neck, kLeft, at(BodyPart::hips));
         findBelow(BodyPart::head, kLeft, at(BodyPart::neck) != kNone ? at(BodyPart::neck) : at(BodyPart::hips));
@@ -262,13 +269,37 @@ private:
             return kNone;
         }
         uint32_t node = skeleton_.nodes[a].parent;
-        while (node != kNone && !isBelow(b, node)) {
+        while (node != kNone && node != b && !isBelow(b, node)) {
             node = skeleton_.nodes[node].parent;
         }
         return node;
     }
 
+    /// The lowest node above both thighs, and above the rest of the body where that is not much lower: some rigs have a
+    /// pelvis with the legs beside the spine.
+    [[nodiscard]] uint32_t findHips() const {
+        const uint32_t pelvis = lowestAbove(at(BodyPart::thigh, kLeft), at(BodyPart::thigh, kRight));
+        uint32_t hips = pelvis;
+        for (const Role upper : {roleOf(BodyPart::neck), roleOf(BodyPart::head), roleOf(BodyPart::upperArm, kLeft),
+                                 roleOf(BodyPart::upperArm, kRight)}) {
+            const uint32_t node = roles_[upper] != kNone       ? roles_[upper]
+                                  : candidates_[upper].empty() ? kNone
+                                                               : candidates_[upper].front();
+            if (hips != kNone && node != kNone && !isBelow(node, hips)) {
+                hips = lowestAbove(node, hips);
+            }
+        }
+        if (hips == kNone || hips == pelvis) {
+            return pelvis;
+        }
+        const double ankle = heightOf(at(BodyPart::foot, kLeft));
+        constexpr double kLeast = 0.6; // of the pelvis' height: roots mostly stand on the ground
+        return heightOf(hips) - ankle > kLeast * (heightOf(pelvis) - ankle) ? hips : pelvis;
+    }
+    [[nodiscard]] double heightOf(uint32_t node) const { return places_[node][3].y; }
+
     const cage::Skeleton& skeleton_;
+    std::vector<glm::dmat4> places_;
     Candidates candidates_;
     Roles roles_;
 };
@@ -297,8 +328,20 @@ Roles findRoles(const cage::Skeleton& skeleton, const Roles& given) {
 }
 
 bool hasLegs(const Roles& roles) {
-    const auto has = [&](BodyPart part, size_t side) { return roles[roleOf(part, side)] != kNone; };
-    return has(BodyPart::hips, kLeft) && has(BodyPart::foot, kLeft) && has(BodyPart::foot, kRight);
+    return whatIsMissing(roles).empty();
+}
+
+std::string whatIsMissing(const Roles& roles) {
+    std::string missing;
+    for (const Role role : {roleOf(BodyPart::foot, kLeft), roleOf(BodyPart::foot, kRight)}) {
+        if (roles[role] == kNone) {
+            missing += missing.empty() ? "" : " and ";
+            missing += role == roleOf(BodyPart::foot, kLeft) ? "left" : "right";
+        }
+    }
+    return !missing.empty()                         ? "no " + missing + " thigh, shin and foot below each other"
+           : roles[roleOf(BodyPart::hips)] == kNone ? "nothing above both thighs"
+                                                    : "";
 }
 
 } // namespace supple::skinning

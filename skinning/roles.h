@@ -39,11 +39,14 @@ using Roles = std::array<uint32_t, kRoles>;
 /// upperleg, upleg; shin, calf, lowerleg; ...), but for digits behind it and prefixes such as Bip01, DEF or J_Bip.
 ///
 /// A shin is below its thigh, a foot below its shin, and so on; of several nodes of one name, the topmost for which
-/// there is a whole limb. The hips are the lowest node above both thighs. `given` has the roles that a user knows
-/// better: they go first.
+/// there is a whole limb. The hips are the lowest node above both thighs, arms and the head, unless that is much lower
+/// than what is above both thighs, which then are the hips. `given` has the roles that a user knows better: they go
+/// first.
 [[nodiscard]] Roles findRoles(const cage::Skeleton& skeleton, const Roles& given);
 
 /// Hips and two legs: less than that cannot be retargeted.
 [[nodiscard]] bool hasLegs(const Roles& roles);
+/// Why it has not, or nothing: "no left thigh, shin and foot below each other".
+[[nodiscard]] std::string whatIsMissing(const Roles& roles);
 
 } // namespace supple::skinning

@@ -87,6 +87,9 @@ std::optional<Error> faultOfJointPairs(const SuppleAssetDesc& desc) {
     if (desc.jointPairCount > 0 && desc.jointPairs == nullptr) {
         return Error{ErrorCode::nullPointer, "jointPairs is null"};
     }
+    if (desc.jointPairCount > 0 && runtime::rawValue(desc.retargeting) == SUPPLE_RETARGET_NEVER) {
+        return Error{ErrorCode::argument, "both jointPairs and SUPPLE_RETARGET_NEVER"};
+    }
     for (uint32_t i = 0; i < desc.jointPairCount; ++i) {
         const SuppleJointPair& pair = desc.jointPairs[i];
         const std::string name = "jointPairs[" + std::to_string(i) + "]: ";
@@ -269,6 +272,8 @@ Result<std::shared_ptr<runtime::Prepared>> readCookedAsset(const SuppleAssetDesc
     return prepared;
 }
 
+static_assert(static_cast<int>(SUPPLE_RETARGET_NEVER) == static_cast<int>(skinning::Retargeting::never) &&
+              static_cast<int>(SUPPLE_RETARGET_FREE_FEET) == static_cast<int>(skinning::Retargeting::freeFeet));
 skinning::RetargetOptions retargetOptions(const SuppleAssetDesc& desc) {
     skinning::RetargetOptions options;
     options.retargeting = static_cast<skinning::Retargeting>(desc.retargeting);

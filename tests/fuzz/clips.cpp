@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace supple::fuzz {
@@ -156,6 +157,9 @@ void retarget(const cage::Character& character, Tail& choose) {
             demand(channel.node < count && !channel.times.empty() &&
                        channel.values.size() == channel.width() * channel.times.size(),
                    "a channel of no node, or without values");
+            demand(std::adjacent_find(channel.times.begin(), channel.times.end(), std::greater_equal<>()) ==
+                       channel.times.end(),
+                   "times that do not rise");
             demand(std::all_of(channel.values.begin(), channel.values.end(),
                                [](float v) { return std::abs(v) <= cage::kMaxCoordinate; }),
                    "a key beyond all limits");

@@ -551,7 +551,9 @@ TEST(Contract, ClipsOfOtherFiles) {
     const std::vector<LogLine> lines = own.takeLines();
     ASSERT_EQ(lines.size(), 1u) << "those that match in full are not worth a line";
     EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_ASSET_WARNING);
-    EXPECT_EQ(lines[0].text, "quad.glb: clip file 1: 1 clip; 0 of 1 node matched by name; not matched: extra");
+    EXPECT_EQ(lines[0].text,
+              "quad.glb: clip file 1: 1 clip; 0 of 1 node matched by name; not matched: extra; not retargeted: no "
+              "left and right thigh, shin and foot below each other in its skeleton");
 
     // A host of the first version, whose struct ends before `scene`.
     desc.structSize = offsetof(SuppleAssetDesc, scene);

@@ -4,6 +4,7 @@
 
 #include "cage/node_match.h"
 #include "cage/refusal.h"
+#include "cage/skeleton.h"
 #include "skinning/followers.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -193,7 +195,8 @@ TEST(Retarget, AnklesGoWhereThoseOfTheClipGo) {
 
 TEST(Retarget, JointsOfOneNameFollowToo) {
     const cage::Character from = test::readCharacter(test::kWren), to = test::readCharacter(test::kPip);
-    const Followers followers = findFollowers(from.skeleton, rolesOf(from), to.skeleton, rolesOf(to),
+    const Roles leading = rolesOf(from), own = rolesOf(to);
+    const Followers followers = findFollowers({from.skeleton, leading}, {to.skeleton, own}, {},
                                               cage::matchNodes(from.skeleton, to.skeleton).partners);
     EXPECT_EQ(followers.byRole, 19u);
     EXPECT_GT(followers.byName, 0u);
@@ -211,11 +214,14 @@ TEST(Retarget, WhatIsNoBipedIsLeftAsItIsOrRefused) {
     const cage::Character wren = test::readCharacter(test::kWren);
     cage::Character helmet = test::readCharacter(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb");
     EXPECT_FALSE(fit(wren, helmet).set.isFitted);
-    EXPECT_EQ(fit(wren, helmet, {Retargeting::all, {}, false}).refusal,
-              "clips.glb: cannot be retargeted: no hips above two legs were found in the character's skeleton");
+    EXPECT_EQ(
+        fit(wren, helmet, {Retargeting::all, {}, false}).refusal,
+        "clips.glb: cannot be retargeted: no left and right thigh, shin and foot below each other in the character's "
+        "skeleton");
     helmet.clips = {{.name = "turn", .duration = 1.0, .channels = {}, .markers = {}, .sharpness = {}, .packed = {}}};
-    EXPECT_EQ(fit(helmet, wren, {Retargeting::freeFeet, {}, false}).refusal,
-              "clips.glb: cannot be retargeted: no hips above two legs were found in its skeleton");
+    EXPECT_EQ(
+        fit(helmet, wren, {Retargeting::freeFeet, {}, false}).refusal,
+        "clips.glb: cannot be retargeted: no left and right thigh, shin and foot below each other in its skeleton");
     const cage::Character pip = test::readCharacter(test::kPip);
     EXPECT_FALSE(fit(wren, pip, {Retargeting::never, {}, false}).set.isFitted);
 }
@@ -252,14 +258,33 @@ TEST(Retarget, PairsSayWhatNamesDoNot) {
     EXPECT_EQ(fit(from, pip, options).refusal, "joint pairs: the character has no node \"no such\"");
     options.pairs.back() = {std::nullopt, "other rig's", "jaw"};
     EXPECT_NE(fit(from, pip, options).warning().find("not in its skeleton: other rig's"), std::string::npos);
-    const uint32_t ponytail = nodeOf(wren.skeleton, "ponytail1");
-    options.pairs.back() = {std::nullopt, from.skeleton.nodes[ponytail].name, "jaw"};
-    const Outcome paired = fit(from, pip, options);
-    const uint32_t jaw = nodeOf(pip.skeleton, "jaw");
-    const cage::Clip& clip = clipCalled(paired.set.clips, "run");
-    EXPECT_TRUE(std::any_of(clip.channels.begin(), clip.channels.end(), [&](const cage::Channel& channel) {
-        return channel.node == jaw;
-    })) << "a joint without a role turns as its counterpart";
+    options.pairs.push_back({roleOf(BodyPart::hips), "other rig's", ""});
+    EXPECT_TRUE(fit(from, pip, options).set.isFitted) << "what an earlier pair says stays";
+    const auto moves = [&](const char* leader, const char* follower) {
+        const uint32_t node = nodeOf(pip.skeleton, follower);
+        const Outcome paired = fit(wren, pip, {Retargeting::differing, {{std::nullopt, leader, follower}}, false});
+        const cage::Clip& clip = clipCalled(paired.set.clips, "run");
+        const uint32_t leading = nodeOf(wren.skeleton, leader);
+        const ModelPose was = poseOf(wren.skeleton, clipCalled(wren.clips, "run"), 0.3),
+                        now = poseOf(pip.skeleton, clip, 0.3);
+        const RestPlaces fromRest(wren.skeleton), rest(pip.skeleton);
+        return angleBetween(was.turns[leading] * glm::conjugate(fromRest.turns[leading]),
+                            now.turns[node] * glm::conjugate(rest.turns[node]));
+    };
+    EXPECT_LT(moves("ponytail1", "jaw"), 1e-3) << "a joint without a role turns as its counterpart";
+    EXPECT_LT(moves("chest", "spine"), 1e-3) << "pairs go before the spine";
+    EXPECT_LT(moves("ponytail1", "tail1"), 1e-3) << "and may hang on other parts";
+    EXPECT_EQ(fit(from, pip, {Retargeting::never, {{std::nullopt, "a", "jaw"}}, false}).refusal,
+              "joint pairs: they say how to retarget, which is turned off");
+    const JointPair wrong{roleOf(BodyPart::shin, kLeft), "", "hand.L"};
+    EXPECT_EQ(fit(wren, pip, {Retargeting::differing, {wrong}, false}).refusal,
+              "clips.glb: cannot be retargeted: no left thigh, shin and foot below each other in the character's "
+              "skeleton");
+    cage::Character unnamed = pip;
+    unnamed.skeleton.nodes[unnamed.skeleton.parentsFirst[0]].name.clear();
+    EXPECT_TRUE(
+        fit(wren, unnamed, {Retargeting::differing, {{roleOf(BodyPart::hips), "", "hips"}}, false}).set.isFitted)
+        << "no name is nobody's";
 }
 
 TEST(Retarget, TellsWhatDoesNotFit) {
@@ -271,33 +296,121 @@ TEST(Retarget, TellsWhatDoesNotFit) {
     const Outcome outcome = fit(knight, wren);
     ASSERT_TRUE(outcome.set.isFitted);
     EXPECT_NE(outcome.warning().find("76 clips retargeted: 16 joints by role"), std::string::npos) << outcome.warning();
-    EXPECT_NE(outcome.warning().find("\"Running_A\" by 0.59"), std::string::npos)
+    EXPECT_NE(outcome.warning().find("and by so much that they keep the clip's angles: "), std::string::npos)
         << "a chibi's steps are too large for long legs\n"
         << outcome.warning();
-    EXPECT_NE(fit(knight, wren, {Retargeting::differing, {}, true}).refusal.find("ankles are out of reach"),
+    EXPECT_NE(outcome.warning().find("\"Running_A\" 0.59"), std::string::npos) << outcome.warning();
+    EXPECT_EQ(outcome.warning().find("movements of root"), std::string::npos) << "the hips have those";
+    EXPECT_NE(fit(knight, wren, {Retargeting::differing, {}, true}).refusal.find("legs are too short for its clips"),
               std::string::npos);
     EXPECT_EQ(fit(knight, wren, {Retargeting::freeFeet, {}, true}).refusal, "");
-    EXPECT_EQ(fit(wren, knight).warning().find("out of reach"), std::string::npos);
+    EXPECT_EQ(fit(wren, knight).warning().find("too short"), std::string::npos);
+}
+
+/// One clip that turns a node from 0 to `end` seconds.
+cage::Clip turningOne(uint32_t node, float end) {
+    cage::Channel turn{node, cage::ChannelPath::rotation, cage::Interpolation::linear, {}, {}, 0};
+    turn.times = {0.0f, end};
+    turn.values = {0, 0, 0, 1, 0, 1, 0, 0};
+    return {.name = "long", .duration = double{end}, .channels = {turn}, .markers = {}, .sharpness = {}, .packed = {}};
 }
 
 TEST(Retarget, FewKeysFarApartTakeNoMemory) {
     const cage::Character wren = test::readCharacter(test::kWren), pip = test::readCharacter(test::kPip);
     cage::Character from = wren;
-    const uint32_t hips = nodeOf(wren.skeleton, "hips");
-    cage::Channel turn{hips, cage::ChannelPath::rotation, cage::Interpolation::linear, {}, {}, 0};
-    turn.times = {0.0f, 1e9f};
-    turn.values = {0, 0, 0, 1, 0, 1, 0, 0};
-    from.clips = {{.name = "long", .duration = 1e9, .channels = {turn}, .markers = {}, .sharpness = {}, .packed = {}}};
+    from.clips = {turningOne(nodeOf(wren.skeleton, "hips"), 1e9f)};
     const Outcome outcome = fit(from, pip);
-    EXPECT_TRUE(outcome.set.clips.empty());
-    EXPECT_NE(outcome.warning().find("clips that cannot be retargeted, left out: \"long\" (too long)"),
-              std::string::npos)
+    ASSERT_EQ(outcome.set.clips.size(), 1u);
+    EXPECT_NE(outcome.warning().find("fewer keys than they need, as they are too long: \"long\""), std::string::npos)
         << outcome.warning();
-    EXPECT_NE(fit(from, pip, {Retargeting::all, {}, true})
-                  .refusal.find("clips that cannot be retargeted: \"long\" (too long)"),
-              std::string::npos);
+    size_t keys = 0;
+    for (const cage::Channel& channel : outcome.set.clips[0].channels) {
+        keys += channel.times.size();
+        EXPECT_TRUE(std::is_sorted(channel.times.begin(), channel.times.end(), std::less_equal<>()));
+    }
+    EXPECT_LT(keys, 250'000u);
+    from.clips = {turningOne(nodeOf(wren.skeleton, "hips"), 30.0f)};
+    EXPECT_EQ(fit(from, pip).warning().find("fewer keys"), std::string::npos)
+        << "half a minute of three keys is no more";
     from.clips[0].channels.clear();
     EXPECT_EQ(fit(from, pip).set.clips.size(), 1u) << "a clip that moves nothing stays";
+    from.clips = wren.clips;
+    for (cage::Channel& channel : from.clips[0].channels) { // where floats are half a second apart
+        std::transform(channel.times.begin(), channel.times.end(), channel.times.begin(),
+                       [](float time) { return time + 8e6f; });
+        channel.times.erase(std::unique(channel.times.begin(), channel.times.end()), channel.times.end());
+        channel.values.resize(channel.times.size() * channel.width());
+    }
+    from.clips.resize(1);
+    const Outcome late = fit(from, pip);
+    for (const cage::Channel& channel : late.set.clips.at(0).channels) {
+        EXPECT_EQ(std::adjacent_find(channel.times.begin(), channel.times.end(), std::greater_equal<>()),
+                  channel.times.end());
+    }
+}
+
+TEST(Retarget, InWhichPoseASkeletonRestsDoesNotMakeItAnother) {
+    const cage::Character wren = test::readCharacter(test::kWren);
+    cage::Character posed = wren;
+    const cage::Clip& walk = clipCalled(wren.clips, "walk");
+    for (uint32_t n = 0; n < posed.skeleton.nodes.size(); ++n) {
+        const Transform local = sampleNode(wren.skeleton, walk, 0.3, n);
+        posed.skeleton.nodes[n].translation = glm::vec3(local.translation);
+        posed.skeleton.nodes[n].rotation = glm::quat(local.rotation);
+    }
+    EXPECT_FALSE(fit(posed, wren).set.isFitted);
+    cage::Character rolled = wren; // the same places, other axes
+    const glm::quat roll = glm::angleAxis(1.5f, glm::vec3(0.0f, 1.0f, 0.0f));
+    const uint32_t thigh = nodeOf(wren.skeleton, "thigh.L");
+    rolled.skeleton.nodes[thigh].rotation = rolled.skeleton.nodes[thigh].rotation * roll;
+    for (cage::Node& node : rolled.skeleton.nodes) {
+        if (node.parent == thigh) {
+            node.translation = glm::inverse(roll) * (node.translation + glm::vec3(0.01f, 0.0f, 0.0f));
+        }
+    }
+    EXPECT_TRUE(fit(rolled, wren).set.isFitted);
+}
+
+TEST(Retarget, FourLegsAreNotTakenForTwo) {
+    const cage::Character wren = test::readCharacter(test::kWren);
+    cage::Character beast = wren;
+    const uint32_t spine = nodeOf(wren.skeleton, "spine");
+    beast.skeleton.nodes[spine].rotation =
+        beast.skeleton.nodes[spine].rotation * glm::angleAxis(1.5f, glm::vec3(1.0f, 0.0f, 0.0f));
+    beast.skeleton.nodes[nodeOf(wren.skeleton, "shin.L")].translation *= 1.2f;
+    const Outcome outcome = fit(beast, wren);
+    EXPECT_FALSE(outcome.set.isFitted);
+    EXPECT_EQ(outcome.set.whyNotFitted, "not both skeletons stand upright");
+    EXPECT_TRUE(fit(beast, wren, {Retargeting::all, {}, false}).set.isFitted) << "unless a user asks for it";
+}
+
+TEST(Retarget, WhatMovesAboveTheHipsIsInTheHips) {
+    const cage::Character wren = test::readCharacter(test::kWren), pip = test::readCharacter(test::kPip);
+    cage::Character from = wren;
+    cage::Node root;
+    root.name = "mover";
+    const auto number = static_cast<uint32_t>(from.skeleton.nodes.size());
+    from.skeleton.nodes.push_back(root);
+    const uint32_t hips = nodeOf(wren.skeleton, "hips");
+    from.skeleton.nodes[number].parent = from.skeleton.nodes[hips].parent;
+    from.skeleton.nodes[hips].parent = number;
+    from.skeleton.parentsFirst.clear();
+    cage::orderParentsFirst(from.skeleton);
+    cage::Clip walk{.name = "go", .duration = 1.0, .channels = {}, .markers = {}, .sharpness = {}, .packed = {}};
+    walk.channels.push_back(
+        {number, cage::ChannelPath::translation, cage::Interpolation::linear, {0.0f, 1.0f}, {0, 0, 0, 0, 0, 2}, 0});
+    from.clips = {walk};
+    const Outcome outcome = fit(from, pip);
+    ASSERT_TRUE(outcome.set.isFitted);
+    const Roles own = rolesOf(pip);
+    const uint32_t moved = own[roleOf(BodyPart::hips)];
+    const cage::Clip& clip = outcome.set.clips[0];
+    const double way =
+        poseOf(pip.skeleton, clip, 1.0).places[moved].z - poseOf(pip.skeleton, clip, 0.0).places[moved].z;
+    const double scale =
+        hipsHeight(RestPlaces(pip.skeleton), own) / hipsHeight(RestPlaces(wren.skeleton), rolesOf(wren));
+    EXPECT_NEAR(way, 2.0 * scale, 1e-5);
+    EXPECT_EQ(outcome.warning().find("mover"), std::string::npos) << outcome.warning();
 }
 
 TEST(Retarget, MarkersAndStepsStay) {

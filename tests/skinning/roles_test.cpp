@@ -105,14 +105,59 @@ TEST(Roles, AreFoundInRigsOfManyMakers) {
               "hips=J_Bip_C_Hips thigh.l=J_Bip_L_UpperLeg shin.l=J_Bip_L_LowerLeg foot.l=J_Bip_L_Foot "
               "thigh.r=J_Bip_R_UpperLeg shin.r=J_Bip_R_LowerLeg foot.r=J_Bip_R_Foot");
     EXPECT_EQ(rolesIn({{"hip", ""},
-                       {"lThighBend", "hip"},
-                       {"lThigh", "hip"},
-                       {"lShin", "lThigh"},
+                       {"pelvis", "hip"},
+                       {"lThighBend", "pelvis"},
+                       {"lThighTwist", "lThighBend"},
+                       {"lShin", "lThighTwist"},
                        {"lFoot", "lShin"},
-                       {"rThigh", "hip"},
-                       {"rShin", "rThigh"},
-                       {"rFoot", "rShin"}}),
-              "hips=hip thigh.l=lThigh shin.l=lShin foot.l=lFoot thigh.r=rThigh shin.r=rShin foot.r=rFoot");
+                       {"rThighBend", "pelvis"},
+                       {"rThighTwist", "rThighBend"},
+                       {"rShin", "rThighTwist"},
+                       {"rFoot", "rShin"},
+                       {"abdomenLower", "hip"},
+                       {"neckLower", "abdomenLower"},
+                       {"head", "neckLower"},
+                       {"lCollar", "abdomenLower"},
+                       {"lShldrBend", "lCollar"},
+                       {"lForearmBend", "lShldrBend"},
+                       {"lHand", "lForearmBend"}}),
+              "hips=pelvis thigh.l=lThighBend shin.l=lShin foot.l=lFoot clavicle.l=lCollar upperarm.l=lShldrBend "
+              "lowerarm.l=lForearmBend hand.l=lHand thigh.r=rThighBend shin.r=rShin foot.r=rFoot")
+        << "all in one place: a hip that is no higher than the feet is not taken";
+    EXPECT_EQ(rolesIn({{"mixamorigHips", ""},
+                       {"mixamorigLeftUpLeg", "mixamorigHips"},
+                       {"mixamorigLeftLeg", "mixamorigLeftUpLeg"},
+                       {"mixamorigLeftFoot", "mixamorigLeftLeg"},
+                       {"mixamorigRightUpLeg", "mixamorigHips"},
+                       {"mixamorigRightLeg", "mixamorigRightUpLeg"},
+                       {"mixamorigRightFoot", "mixamorigRightLeg"}}),
+              "hips=mixamorigHips thigh.l=mixamorigLeftUpLeg shin.l=mixamorigLeftLeg foot.l=mixamorigLeftFoot "
+              "thigh.r=mixamorigRightUpLeg shin.r=mixamorigRightLeg foot.r=mixamorigRightFoot");
+}
+
+TEST(Roles, HipsAreAboveTheSpineToo) {
+    cage::Skeleton skeleton = skeletonOf({{"root", ""},
+                                          {"hip", "root"},
+                                          {"pelvis", "hip"},
+                                          {"thigh.L", "pelvis"},
+                                          {"shin.L", "thigh.L"},
+                                          {"foot.L", "shin.L"},
+                                          {"thigh.R", "pelvis"},
+                                          {"shin.R", "thigh.R"},
+                                          {"foot.R", "shin.R"},
+                                          {"waist", "hip"},
+                                          {"neck", "waist"},
+                                          {"head", "neck"}});
+    skeleton.nodes[1].translation.y = 1.0f;                                     // hip
+    skeleton.nodes[4].translation.y = skeleton.nodes[7].translation.y = -0.45f; // shins
+    skeleton.nodes[5].translation.y = skeleton.nodes[8].translation.y = -0.45f; // feet
+    const std::string legs = " thigh.l=thigh.L shin.l=shin.L foot.l=foot.L thigh.r=thigh.R shin.r=shin.R foot.r=foot.R";
+    EXPECT_EQ(told(skeleton, findRoles(skeleton, noRoles())), "hips=hip neck=neck head=head" + legs);
+    skeleton.nodes[9].parent = 0; // the spine hangs on the root
+    skeleton.parentsFirst.clear();
+    cage::orderParentsFirst(skeleton);
+    EXPECT_EQ(told(skeleton, findRoles(skeleton, noRoles())), "hips=pelvis" + legs)
+        << "a root on the ground is no hips";
 }
 
 TEST(Roles, AreLegsWithKneesThatMayBeCalledLegs) {

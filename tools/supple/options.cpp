@@ -43,8 +43,8 @@ namespace {
 void bindRetargeting(CLI::App& command, host::ReadOptions& reading) {
     command
         .add_option("--retarget", reading.retargeting,
-                    "Which of --clips are retargeted: those of which the skeleton is another one, never, all, or all "
-                    "but for the feet, which then go where the legs take them")
+                    "Which of --clips are retargeted: those of another skeleton, none, all, or all, with feet that go "
+                    "where the legs take them")
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(host::kRetargetings), std::end(host::kRetargetings))))
         ->capture_default_str();
     command

@@ -452,10 +452,11 @@ typedef struct SuppleClipFile {
 /** What becomes of clips that were made for another skeleton (docs/gltf.md#retargeting). Then joints are told by what
  * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the rest
  * pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of the
- * clip go. One warning per file says how many joints follow, what is left out, and which clips do not fit. */
+ * clip go. A warning says how many joints follow, what is left out, and for which clips the legs are too short. */
 typedef enum SuppleRetargeting {
-    /** Clip files of which nodes of one role have other names, or of which limbs are longer or shorter by more than 1 %.
-     * Both skeletons must be bipeds: hips above two legs. Else clips move nodes of their names alone. */
+    /** Clip files of which nodes of one role have other names than the asset's, or other bones. Both skeletons must be
+     * of bipeds that stand upright: hips above two legs. Else clips move nodes of their names alone, and the warning
+     * says why. */
     SUPPLE_RETARGET_DIFFERING = 0,
     SUPPLE_RETARGET_NEVER = 1, /**< clips move nodes of their names */
     SUPPLE_RETARGET_ALL = 2,   /**< all clip files; one of which it cannot be done fails the call */
@@ -469,7 +470,7 @@ typedef struct SuppleJointPair {
      * "clavicle", "upperarm", "lowerarm" or "hand". Null: nothing of these; the one turns as the other does. */
     const char* role;
     /** Names of nodes. One of the two may be null if there is a role: that one is then found. A clip file without the
-     * node ignores the pair, and its warning says so. */
+     * node ignores the pair, and its warning says so: so one list may serve files of several rigs. */
     const char *from, *to;
 } SuppleJointPair;
 
@@ -516,7 +517,7 @@ typedef struct SuppleAssetDesc {
     uint32_t jointPairCount;
     /** jointPairCount pairs, for all clipFiles: they go before what names and structure say, and clip files are then
      * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset does
-     * not have. */
+     * not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
     const SuppleJointPair* jointPairs;
 } SuppleAssetDesc;
 
