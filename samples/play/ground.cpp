@@ -1,0 +1,103 @@
+#include "ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace play {
+
+namespace {
+
+// Two steps that lead up to a square platform.
+constexpr glm::vec2 kPlatform{1.55f, -0.25f};
+constexpr float kPlatformReach = 0.75f; ///< half its side
+constexpr float kTread = 0.42f;
+constexpr float kRise = 0.11f;
+constexpr float kEdge = 0.03f; ///< half the width over which a step rises
+
+// What a foot reaches beyond its joints.
+constexpr float kHeel = 0.06f, kToeTip = 0.07f;
+/// Ground that differs by more between heel and toes is a step, not a slope.
+constexpr float kSlopeMost = 0.07f;
+
+constexpr float kMeshReach = 8.0f;
+constexpr uint32_t kMeshCells = 400; ///< along a side
+
+float bump(glm::vec2 place, glm::vec2 center, float height, float width) {
+    const glm::vec2 away = (place - center) / width;
+    return height * std::exp(-glm::dot(away, away));
+}
+
+/// 0 outside a square round the platform, 1 inside.
+float within(glm::vec2 place, float reach) {
+    const glm::vec2 away = glm::abs(place - kPlatform);
+    return 1.0f - glm::smoothstep(reach - kEdge, reach + kEdge, std::max(away.x, away.y));
+}
+
+} // namespace
+
+float heightAt(glm::vec2 place) {
+    const float meadow = bump(place, {-0.85f, 0.25f}, 0.17f, 0.55f) + bump(place, {0.5f, 2.1f}, 0.26f, 0.9f) +
+                         bump(place, {-2.6f, -1.6f}, 0.3f, 1.0f) +
+                         0.018f * std::sin(2.3f * place.x + 0.7f) * std::sin(1.9f * place.y);
+    const float lower = within(place, kPlatformReach + kTread), upper = within(place, kPlatformReach);
+    return glm::mix(meadow, kRise, lower) + kRise * upper;
+}
+
+glm::vec3 normalAt(glm::vec2 place) {
+    constexpr float kStep = 0.01f;
+    const float x = heightAt(place + glm::vec2(kStep, 0.0f)) - heightAt(place - glm::vec2(kStep, 0.0f));
+    const float z = heightAt(place + glm::vec2(0.0f, kStep)) - heightAt(place - glm::vec2(0.0f, kStep));
+    return glm::normalize(glm::vec3(-x, 2.0f * kStep, -z));
+}
+
+std::optional<glm::vec3> meetGround(glm::vec3 from, glm::vec3 direction) {
+    constexpr float kFarthest = 30.0f, kStride = 0.05f;
+    for (float away = 0.0f; away < kFarthest; away += kStride) {
+        const glm::vec3 point = from + away * direction;
+        if (point.y <= heightAt(placeOf(point)))
+            return onGround(placeOf(point));
+    }
+    return std::nullopt;
+}
+
+Footing footingUnder(glm::vec3 ankle, glm::vec3 toes) {
+    const glm::vec2 along = placeOf(toes) - placeOf(ankle);
+    const float length = glm::length(along);
+    const glm::vec2 ahead = length > 1e-4f ? along / length : glm::vec2(0.0f, 1.0f);
+    const glm::vec2 heel = placeOf(ankle) - kHeel * ahead, tip = placeOf(toes) + kToeTip * ahead;
+    const float atHeel = heightAt(heel), atTip = heightAt(tip);
+    const float highest = std::max({atHeel, heightAt(placeOf(ankle)), heightAt(placeOf(toes)), atTip});
+    if (std::abs(atTip - atHeel) > kSlopeMost)
+        return {{ankle.x, highest, ankle.z}, {0.0f, 1.0f, 0.0f}};
+    const glm::vec2 aside(-ahead.y, ahead.x);
+    constexpr float kHalfWidth = 0.04f;
+    const glm::vec2 middle = 0.5f * (heel + tip);
+    const float roll = heightAt(middle + kHalfWidth * aside) - heightAt(middle - kHalfWidth * aside);
+    const float forwards = (atTip - atHeel) / glm::length(tip - heel), sideways = roll / (2.0f * kHalfWidth);
+    const glm::vec2 slope = forwards * ahead + sideways * aside;
+    // Through the higher of what is under the ends and the middle, so that no sole dips into a crest.
+    const float crest = std::max(heightAt(middle) - 0.5f * (atHeel + atTip), 0.0f);
+    const float atAnkle = atHeel + forwards * kHeel + crest;
+    return {{ankle.x, atAnkle, ankle.z}, glm::normalize(glm::vec3(-slope.x, 1.0f, -slope.y))};
+}
+
+GroundMesh makeGroundMesh() {
+    GroundMesh mesh;
+    constexpr uint32_t kSide = kMeshCells + 1;
+    for (uint32_t row = 0; row < kSide; ++row) {
+        for (uint32_t column = 0; column < kSide; ++column) {
+            const glm::vec2 part = glm::vec2(column, row) / static_cast<float>(kMeshCells);
+            const glm::vec2 place = kMeshReach * (2.0f * part - 1.0f);
+            mesh.vertices.push_back({glm::vec4(onGround(place), 1.0f), glm::vec4(normalAt(place), 0.0f)});
+        }
+    }
+    for (uint32_t row = 0; row < kMeshCells; ++row) {
+        for (uint32_t column = 0; column < kMeshCells; ++column) {
+            const uint32_t a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
+        }
+    }
+    return mesh;
+}
+
+} // namespace play

@@ -1,0 +1,229 @@
+#include "ragdoll.h"
+
+#include "ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace play {
+
+namespace {
+
+constexpr float kStep = 1.0f / 240.0f;
+constexpr int kRounds = 10; ///< in which sticks are mended, a step
+constexpr float kGravity = 9.81f;
+constexpr float kDrag = 0.4f;      ///< part of the speed that a second takes
+constexpr float kFriction = 0.35f; ///< part of the speed along the ground that a touch takes
+constexpr float kToneSeconds = 0.22f;
+constexpr float kTone = 0.12f;
+constexpr float kLyingSpeed = 0.12f;
+constexpr float kUnbounded = 1e9f;
+
+glm::vec3 along(glm::vec3 from, glm::vec3 to) {
+    return glm::normalize(to - from);
+}
+
+/// The axes of a body part: x along `left`, y near `up`.
+glm::quat frameOf(glm::vec3 left, glm::vec3 up) {
+    const glm::vec3 x = glm::normalize(left), z = glm::normalize(glm::cross(x, up));
+    return glm::quat_cast(glm::mat3(x, glm::cross(z, x), z));
+}
+
+/// The shortest turn after `turn` that points `start` along `now`.
+glm::quat swung(const glm::quat& turn, glm::vec3 start, glm::vec3 now) {
+    return glm::normalize(glm::quat(turn * start, now) * turn);
+}
+
+} // namespace
+
+Ragdoll::Ragdoll(const BodyPose& pose, const BodyPose& before, float seconds, glm::vec3 push)
+    : points_(pointsOf(pose)), start_(points_) {
+    const BodyPoints earlier = pointsOf(before);
+    for (uint32_t i = 0; i < kPoints; ++i) {
+        const bool isLeg = i == kThighL || i == kThighR || i == kShinL || i == kShinR || i == kFootL || i == kFootR ||
+                           i == kToesL || i == kToesR;
+        const float share = isLeg ? 0.0f : i == kHips ? 0.4f : i == kSpine ? 0.7f : 1.0f;
+        const glm::vec3 speed = (points_[i] - earlier[i]) / seconds + share * push;
+        before_[i] = points_[i] - kStep * speed;
+        lengths_[i] = glm::distance(points_[i], points_[kBody[i].above]);
+    }
+    for (uint32_t i = 0; i < kMoved; ++i) {
+        rotations_[i] = glm::normalize(glm::quat_cast(glm::mat3(pose[i])));
+        turns_[i] = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
+    }
+    addSkeleton();
+    addLimits();
+}
+
+void Ragdoll::addStick(Point a, Point b, float stiffness) {
+    const float length = glm::distance(points_[a], points_[b]);
+    sticks_.push_back({a, b, length, length, stiffness});
+}
+
+void Ragdoll::addLimit(Point a, Point b, float least, float most) {
+    sticks_.push_back({a, b, least, most, 0.5f});
+}
+
+/// Bones, and what keeps shoulders and hips in shape.
+void Ragdoll::addSkeleton() {
+    for (uint32_t i = 1; i < kPoints; ++i)
+        addStick(kBody[i].above, static_cast<Point>(i));
+    for (const auto& [a, b] : {std::pair(kUpperArmL, kUpperArmR), std::pair(kNeck, kUpperArmL),
+                               std::pair(kNeck, kUpperArmR), std::pair(kThighL, kThighR), std::pair(kSpine, kThighL),
+                               std::pair(kSpine, kThighR)})
+        addStick(a, b);
+    // The trunk bends and twists a little.
+    for (const auto& [a, b] :
+         {std::pair(kSpine, kUpperArmL), std::pair(kSpine, kUpperArmR), std::pair(kThighL, kUpperArmL),
+          std::pair(kThighR, kUpperArmR), std::pair(kThighL, kUpperArmR), std::pair(kThighR, kUpperArmL)})
+        addStick(a, b, 0.12f);
+    for (const auto& [a, b] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kHandL),
+                               std::pair(kUpperArmR, kHandR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
+                               std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
+                               std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
+        const float length = glm::distance(points_[a], points_[b]);
+        tone_.push_back({a, b, length, length, kTone});
+    }
+}
+
+/// How far joints bend: a distance that may not become shorter, or longer.
+void Ragdoll::addLimits() {
+    const float leg = lengths_[kShinL] + lengths_[kFootL], arm = lengths_[kForeArmL] + lengths_[kHandL];
+    const float trunk = lengths_[kSpine] + lengths_[kChest] + lengths_[kNeck];
+    for (const auto& [thigh, shin, foot, toes] :
+         {std::array{kThighL, kShinL, kFootL, kToesL}, std::array{kThighR, kShinR, kFootR, kToesR}}) {
+        addLimit(thigh, foot, 0.5f * leg, 0.995f * leg);
+        addLimit(kChest, shin, 0.55f * trunk, kUnbounded);
+        addLimit(shin, toes, 0.92f * lengths_[foot], lengths_[foot] + 0.6f * lengths_[toes]);
+    }
+    for (const auto& [upper, fore, hand] :
+         {std::array{kUpperArmL, kForeArmL, kHandL}, std::array{kUpperArmR, kForeArmR, kHandR}}) {
+        addLimit(upper, hand, 0.45f * arm, 0.99f * arm);
+        addLimit(kHips, hand, 0.2f, kUnbounded);
+        addLimit(kSpine, fore, 0.2f, kUnbounded);
+        addLimit(kChest, fore, 0.2f, kUnbounded);
+        addLimit(kHead, hand, 0.2f, kUnbounded);
+    }
+    addLimit(kShinL, kShinR, 0.13f, 0.6f);
+    addLimit(kFootL, kFootR, 0.13f, 0.8f);
+    addLimit(kHips, kNeck, 0.9f * trunk, kUnbounded);
+    addLimit(kChest, kHead, 0.93f * (lengths_[kNeck] + lengths_[kHead]), kUnbounded);
+    addLimit(kChest, kCrown, 0.85f * glm::distance(start_[kChest], start_[kCrown]), kUnbounded);
+    for (const Point arm_ : {kUpperArmL, kUpperArmR})
+        addLimit(kCrown, arm_, 0.3f, kUnbounded);
+}
+
+void Ragdoll::update(float seconds) {
+    const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep)));
+    for (int i = 0; i < steps; ++i)
+        step(seconds / static_cast<float>(steps));
+    keepLengths();
+    turn();
+    age_ += seconds;
+}
+
+void Ragdoll::step(float seconds) {
+    for (uint32_t i = 0; i < kPoints; ++i) {
+        const glm::vec3 now = points_[i];
+        points_[i] += (1.0f - kDrag * seconds) * (now - before_[i]) - glm::vec3(0.0f, kGravity * seconds * seconds, 0.0f);
+        before_[i] = now;
+    }
+    const float tone = kTone * std::exp(-age_ / kToneSeconds);
+    for (const Stick& stick : tone_)
+        hold(stick, tone);
+    for (int round = 0; round < kRounds; ++round) {
+        for (const Stick& stick : sticks_)
+            hold(stick, stick.stiffness);
+        bend(kThighL, kShinL, kFootL, kHips, 1.0f);
+        bend(kThighR, kShinR, kFootR, kHips, 1.0f);
+        bend(kUpperArmL, kForeArmL, kHandL, kChest, -1.0f);
+        bend(kUpperArmR, kForeArmR, kHandR, kChest, -1.0f);
+        stopAtGround();
+    }
+}
+
+void Ragdoll::hold(const Stick& stick, float stiffness) {
+    const glm::vec3 between = points_[stick.b] - points_[stick.a];
+    const float length = glm::length(between);
+    const float wanted = std::clamp(length, stick.least, stick.most);
+    if (wanted == length || length < 1e-6f)
+        return;
+    const float lightA = 1.0f / kBody[stick.a].mass, lightB = 1.0f / kBody[stick.b].mass;
+    const glm::vec3 mended = between * (stiffness * (wanted - length) / (length * (lightA + lightB)));
+    points_[stick.a] -= lightA * mended;
+    points_[stick.b] += lightB * mended;
+}
+
+void Ragdoll::bend(Point upper, Point middle, Point lower, Point trunk, float forwards) {
+    const glm::vec3 left = trunk == kHips ? points_[kThighL] - points_[kThighR] : points_[kUpperArmL] - points_[kUpperArmR];
+    const glm::vec3 limb = along(points_[upper], points_[lower]);
+    const glm::vec3 front = glm::cross(left, -limb);
+    if (glm::dot(front, front) < 1e-8f)
+        return;
+    const glm::vec3 ahead = forwards * glm::normalize(front);
+    const float behind = -glm::dot(ahead, points_[middle] - points_[upper]);
+    if (behind <= 0.0f)
+        return;
+    points_[middle] += 0.5f * behind * ahead;
+    points_[lower] -= 0.25f * behind * ahead;
+}
+
+void Ragdoll::stopAtGround() {
+    for (uint32_t i = 0; i < kPoints; ++i) {
+        const float lowest = heightAt(placeOf(points_[i])) + kBody[i].radius;
+        if (points_[i].y >= lowest)
+            continue;
+        points_[i].y = lowest;
+        const glm::vec3 normal = normalAt(placeOf(points_[i])), moved = points_[i] - before_[i];
+        const glm::vec3 along = moved - glm::dot(moved, normal) * normal;
+        before_[i] = points_[i] - (1.0f - kFriction) * along; // it does not bounce
+    }
+}
+
+/// What rounds have left: from the hips outwards every bone gets its length to the bit of a float, so that no limb is
+/// stretched.
+void Ragdoll::keepLengths() {
+    for (uint32_t i = 1; i < kPoints; ++i) {
+        const glm::vec3 above = points_[kBody[i].above];
+        const glm::vec3 kept = above + lengths_[i] * along(above, points_[i]);
+        before_[i] += kept - points_[i];
+        points_[i] = kept;
+    }
+}
+
+/// Points have no rotations: hips and chest have axes by their shoulders, a limb turns by the shortest way from the part
+/// above it.
+void Ragdoll::turn() {
+    const auto frame = [](const BodyPoints& p, Point left, Point right, Point low, Point high) {
+        return frameOf(p[left] - p[right], p[high] - p[low]);
+    };
+    const auto frameTurn = [&](Point left, Point right, Point low, Point high) {
+        return glm::normalize(frame(points_, left, right, low, high) *
+                              glm::conjugate(frame(start_, left, right, low, high)));
+    };
+    const auto limbTurn = [&](const glm::quat& above, Point from, Point to) {
+        return swung(above, along(start_[from], start_[to]), along(points_[from], points_[to]));
+    };
+    turns_[kHips] = frameTurn(kThighL, kThighR, kHips, kSpine);
+    turns_[kChest] = frameTurn(kUpperArmL, kUpperArmR, kChest, kNeck);
+    turns_[kSpine] = limbTurn(glm::slerp(turns_[kHips], turns_[kChest], 0.5f), kSpine, kChest);
+    turns_[kNeck] = limbTurn(turns_[kChest], kNeck, kHead);
+    turns_[kHead] = limbTurn(turns_[kNeck], kHead, kCrown);
+    for (const auto& [trunk, upper, middle, lower] :
+         {std::array{kChest, kUpperArmL, kForeArmL, kHandL}, std::array{kChest, kUpperArmR, kForeArmR, kHandR},
+          std::array{kHips, kThighL, kShinL, kFootL}, std::array{kHips, kThighR, kShinR, kFootR}}) {
+        turns_[upper] = limbTurn(turns_[trunk], upper, middle);
+        turns_[middle] = limbTurn(turns_[upper], middle, lower);
+    }
+    turns_[kFootL] = limbTurn(turns_[kShinL], kFootL, kToesL);
+    turns_[kFootR] = limbTurn(turns_[kShinR], kFootR, kToesR);
+}
+
+bool Ragdoll::lies() const {
+    float fastest = 0.0f;
+    for (uint32_t i = 0; i < kPoints; ++i)
+        fastest = std::max(fastest, glm::distance(points_[i], before_[i]) / kStep);
+    return fastest < kLyingSpeed;
+}
+
+} // namespace play
