@@ -24,7 +24,7 @@ struct Camera {
 
 /// Beside the character, and a little above it.
 [[nodiscard]] inline Camera cameraBeside(glm::vec3 middle, float distance) {
-    constexpr glm::vec3 kFrom{0.36f, 0.3f, 0.88f};
+    constexpr glm::vec3 kFrom{0.40f, 0.27f, 0.88f};
     return {.eye = middle + distance * kFrom, .target = middle};
 }
 

@@ -9,7 +9,7 @@ namespace play {
 
 namespace {
 
-constexpr float kLeastSeconds = 1.4f, kMostSeconds = 2.6f;
+constexpr float kLeastSeconds = 1.2f, kMostSeconds = 2.6f;
 /// From the hips to the feet of someone who sits up or kneels.
 constexpr float kToFeet = 0.22f;
 

@@ -15,12 +15,8 @@ constexpr const char* kClips[] = {"idle", "walk", "run"}; ///< by Gait
 /// A part of the walk's cycle at which one foot passes the other, as in standing.
 constexpr double kPassing = 0.22;
 
-// There is no clip for getting up. The end of the jump, where she lands and straightens, will do.
-constexpr const char* kRiseClip = "jump";
-constexpr double kCrouch = 1.17; ///< seconds of the clip
-constexpr float kRiseSpeed = 0.3f;
-constexpr double kRiseTransition = 1.0, kRiseSeconds = 1.5;
-constexpr double kStandTransition = 0.35;
+constexpr double kStandTransition = 0.5;
+constexpr float kSettleSeconds = 0.1f;
 
 } // namespace
 
@@ -55,11 +51,16 @@ void Game::update(const Input& input, float seconds) {
     pose_ = hero_.pose();
 }
 
+void Game::place() {
+    hero_.setTransform(glm::translate(glm::mat4(1.0f), {0.0f, lift_, 0.0f}) * walker_.transform());
+}
+
 void Game::walk(const Input& input, float seconds) {
     if (input.goal)
         walker_.goTo(*input.goal);
     walker_.update(seconds);
-    hero_.setTransform(walker_.transform());
+    lift_ *= std::exp(-seconds / kSettleSeconds);
+    place();
     if (walker_.gait() != gait_)
         changeGait(walker_.gait());
     stance_.update(hero_, input.lookAt, seconds);
@@ -91,37 +92,30 @@ void Game::fall(const Input&, float seconds) {
         getUp();
 }
 
-/// The order matters: the transition starts from what modifiers make of the pose at the new place, and takes their place.
+/// The order matters: first the character is where it will stand, then the body is handed over there once more, so that
+/// it lies where it lay; the transition starts from that.
 void Game::getUp() {
     const Standing standing = fall_->standing();
     walker_.put(standing.place, standing.heading);
-    hero_.setTransform(walker_.transform());
-    fall_->handOver(hero_); // the body lies where it lay
-    hero_.play(kRiseClip, {.offset = kCrouch,
-                           .speed = kRiseSpeed,
-                           .loops = false,
-                           .transition = kRiseTransition,
-                           .fromModified = true});
-    hero_.setModifiers({});
-    fall_.reset();
-    riseStart_ = hero_.time();
     lift_ = 0.0f;
+    place();
+    fall_->handOver(hero_);
+    rise_.emplace(hero_);
+    fall_.reset();
     state_ = State::rises;
 }
 
-/// Joints go from lying to crouching by themselves. The host lifts the body by what of it would be in the ground.
+/// Joints go from lying to standing by themselves. What of the body is lowest stays on the ground.
 void Game::rise(const Input& input) {
-    const BodyPoints points = pointsOf(hero_.pose());
-    float below = -lift_;
-    for (uint32_t i = 0; i < kPoints; ++i)
-        below = std::max(below, heightAt(placeOf(points[i])) + kBody[i].radius - points[i].y);
-    lift_ += below;
-    hero_.setTransform(glm::translate(glm::mat4(1.0f), {0.0f, lift_, 0.0f}) * walker_.transform());
-    if (hero_.time() - riseStart_ > kRiseSeconds)
+    rise_->update(hero_);
+    lift_ += Rise::toGround(hero_);
+    place();
+    if (rise_->isOver(hero_))
         standUp(input);
 }
 
 void Game::standUp(const Input& input) {
+    rise_.reset();
     hero_.play("idle", {.transition = kStandTransition});
     gait_ = Gait::stand;
     gaitStart_ = hero_.time();

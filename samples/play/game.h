@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fall.h"
+#include "rise.h"
 #include "stance.h"
 #include "walker.h"
 
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] const BodyPose& pose() const { return pose_; }
 
 private:
+    void place();
     void walk(const Input& input, float seconds);
     void changeGait(Gait gait);
     void beHit(const Input& input, float seconds);
@@ -47,10 +49,10 @@ private:
     Walker walker_;
     Stance stance_;
     std::optional<Fall> fall_;
+    std::optional<Rise> rise_;
     Gait gait_ = Gait::stand; ///< whose clip is played
     double gaitStart_ = 0.0, gaitOffset_ = 0.0;
-    double riseStart_ = 0.0;
-    float lift_ = 0.0f; ///< of the character, so that nothing of it is below the ground
+    float lift_ = 0.0f; ///< of the character above where it would stand
     BodyPose pose_{};
 };
 

@@ -81,6 +81,25 @@ Footing footingUnder(glm::vec3 ankle, glm::vec3 toes) {
     return {{ankle.x, atAnkle, ankle.z}, glm::normalize(glm::vec3(-slope.x, 1.0f, -slope.y))};
 }
 
+namespace {
+
+/// What rises all round, a hand's breadth away and an arm's length, hides the sky.
+float openSkyAt(glm::vec2 place) {
+    constexpr uint32_t kDirections = 8;
+    const float height = heightAt(place);
+    float hidden = 0.0f;
+    for (const float reach : {0.07f, 0.25f}) {
+        for (uint32_t i = 0; i < kDirections; ++i) {
+            const float angle = 0.785398f * static_cast<float>(i);
+            const float rise = heightAt(place + reach * glm::vec2(std::cos(angle), std::sin(angle))) - height;
+            hidden += std::max(rise, 0.0f) / std::sqrt(reach * reach + rise * rise);
+        }
+    }
+    return 1.0f - hidden / (2.0f * kDirections);
+}
+
+} // namespace
+
 GroundMesh makeGroundMesh() {
     GroundMesh mesh;
     constexpr uint32_t kSide = kMeshCells + 1;
@@ -88,7 +107,7 @@ GroundMesh makeGroundMesh() {
         for (uint32_t column = 0; column < kSide; ++column) {
             const glm::vec2 part = glm::vec2(column, row) / static_cast<float>(kMeshCells);
             const glm::vec2 place = kMeshReach * (2.0f * part - 1.0f);
-            mesh.vertices.push_back({glm::vec4(onGround(place), 1.0f), glm::vec4(normalAt(place), 0.0f)});
+            mesh.vertices.push_back({glm::vec4(onGround(place), 1.0f), glm::vec4(normalAt(place), openSkyAt(place))});
         }
     }
     for (uint32_t row = 0; row < kMeshCells; ++row) {

@@ -33,7 +33,8 @@ struct Footing {
 /// The ground as triangles.
 struct GroundMesh {
     struct Vertex {
-        glm::vec4 position, normal; ///< w is not used
+        glm::vec4 position; ///< w is not used
+        glm::vec4 normal;   ///< w: the part of the sky that is seen from there
     };
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;

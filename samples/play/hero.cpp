@@ -61,15 +61,16 @@ void Hero::findJoints() {
 }
 
 /// Who is about to be knocked over carries no blade.
-void Hero::undress() const {
+void Hero::undress() {
     SuppleAssetInfo info{};
     must(asset_.info(info), "suppleGetAssetInfo");
     for (uint32_t i = 0; i < info.partCount; ++i) {
         SupplePartInfo part{};
         must(asset_.partInfo(i, part), "suppleGetPartInfo");
         if (std::string_view(part.name) == "sword")
-            must(instance_.setPartVisible(i, false), "suppleSetPartVisible");
+            hidden_ = i;
     }
+    must(instance_.setPartVisible(hidden_, false), "suppleSetPartVisible");
 }
 
 uint32_t Hero::findClip(std::string_view name) const {

@@ -54,19 +54,21 @@ public:
     [[nodiscard]] glm::mat4 jointTransform(Point point) const;
     [[nodiscard]] BodyPose pose() const;
 
+    [[nodiscard]] bool isShown(uint32_t part) const { return part != hidden_; }
     [[nodiscard]] const supple::Asset& asset() const { return asset_; }
     [[nodiscard]] const supple::Group& group() const { return group_; }
 
 private:
     [[nodiscard]] uint32_t findClip(std::string_view name) const;
     void findJoints();
-    void undress() const;
+    void undress();
 
     supple::Context context_;
     supple::Asset asset_;
     supple::Group group_;
     supple::Instance instance_;
     std::array<uint32_t, kJoints> joints_{};
+    uint32_t hidden_ = UINT32_MAX; ///< part
     glm::mat4 transform_{1.0f};
     double time_ = 0.0;
 };

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <memory>
 
 namespace {
@@ -25,6 +24,7 @@ struct Options : PictureOptions {
     bool bare = false;
     uint32_t framesPerSecond = 30;
     std::string strip;
+    std::vector<double> moments = {2.2, 4.05, 5.95, 7.15, 8.4, 9.05, 9.4, 11.0};
 };
 
 Options readOptions(int argc, char** argv) {
@@ -38,6 +38,9 @@ Options readOptions(int argc, char** argv) {
     CLI::Option* const script = app.add_flag("--script", options.script, "a story without a window, always the same");
     app.add_option("-o,--strip", options.strip, "save pictures of the story side by side, as PNG")
         ->type_name("FILE")
+        ->needs(script);
+    app.add_option("--at", options.moments, "seconds of the story at which pictures are taken")
+        ->delimiter(',')
         ->needs(script);
     app.add_option("--fps", options.framesPerSecond, "frames a second of the story")
         ->check(CLI::Range(4u, 120u))
@@ -58,16 +61,14 @@ glm::vec3 middleOf(const Game& game) {
     return onGround(placeOf(hips)) + glm::vec3(0.0f, 0.72f, 0.0f);
 }
 
-/// Moments of the story, in seconds.
-constexpr double kMoments[] = {2.2, 4.05, 5.95, 7.15, 8.4, 9.05, 9.4, 11.0};
-
 std::shared_ptr<const ValidationLog> runStory(const Options& options) {
     const std::unique_ptr<Device> device = mustCreateDevice(false);
     Show show(*device, heroOptions(options));
     show.resize(options.size);
     Frames frames(*device);
     Watch watch(show.game());
-    Picture strip = Picture::blank(options.size.width * static_cast<uint32_t>(std::size(kMoments)), options.size.height);
+    const auto pictureCount = static_cast<uint32_t>(options.moments.size());
+    Picture strip = Picture::blank(options.size.width * pictureCount, options.size.height);
     const double seconds = 1.0 / options.framesPerSecond;
     const auto count = static_cast<uint64_t>(std::ceil(kStorySeconds * options.framesPerSecond));
     uint32_t pictures = 0;
@@ -77,7 +78,7 @@ std::shared_ptr<const ValidationLog> runStory(const Options& options) {
         const double time = seconds * static_cast<double>(frames.frame());
         show.update(frames.frame(), frames.completed(), storyInput(time, seconds), static_cast<float>(seconds));
         const bool isShown =
-            !options.strip.empty() && pictures < std::size(kMoments) && time >= kMoments[pictures] - 1e-9;
+            !options.strip.empty() && pictures < pictureCount && time >= options.moments[pictures] - 1e-9;
         if (isShown) {
             show.draw(frames.slot(), cameraBeside(middleOf(show.game()), 4.3f));
             show.addReading();

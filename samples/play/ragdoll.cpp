@@ -16,7 +16,7 @@ constexpr float kDrag = 0.4f;      ///< part of the speed that a second takes
 constexpr float kFriction = 0.35f; ///< part of the speed along the ground that a touch takes
 constexpr float kToneSeconds = 0.22f;
 constexpr float kTone = 0.12f;
-constexpr float kLyingSpeed = 0.12f;
+constexpr float kLyingSpeed = 0.3f;
 constexpr float kUnbounded = 1e9f;
 
 glm::vec3 along(glm::vec3 from, glm::vec3 to) {
@@ -77,8 +77,8 @@ void Ragdoll::addSkeleton() {
          {std::pair(kSpine, kUpperArmL), std::pair(kSpine, kUpperArmR), std::pair(kThighL, kUpperArmL),
           std::pair(kThighR, kUpperArmR), std::pair(kThighL, kUpperArmR), std::pair(kThighR, kUpperArmL)})
         addStick(a, b, 0.12f);
-    for (const auto& [a, b] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kHandL),
-                               std::pair(kUpperArmR, kHandR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
+    for (const auto& [a, b] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kKnucklesL),
+                               std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
                                std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
                                std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
         const float length = glm::distance(points_[a], points_[b]);
@@ -88,7 +88,7 @@ void Ragdoll::addSkeleton() {
 
 /// How far joints bend: a distance that may not become shorter, or longer.
 void Ragdoll::addLimits() {
-    const float leg = lengths_[kShinL] + lengths_[kFootL], arm = lengths_[kForeArmL] + lengths_[kHandL];
+    const float leg = lengths_[kShinL] + lengths_[kFootL], arm = lengths_[kForeArmL] + lengths_[kKnucklesL];
     const float trunk = lengths_[kSpine] + lengths_[kChest] + lengths_[kNeck];
     for (const auto& [thigh, shin, foot, toes] :
          {std::array{kThighL, kShinL, kFootL, kToesL}, std::array{kThighR, kShinR, kFootR, kToesR}}) {
@@ -97,13 +97,16 @@ void Ragdoll::addLimits() {
         addLimit(shin, toes, 0.92f * lengths_[foot], lengths_[foot] + 0.6f * lengths_[toes]);
     }
     for (const auto& [upper, fore, hand] :
-         {std::array{kUpperArmL, kForeArmL, kHandL}, std::array{kUpperArmR, kForeArmR, kHandR}}) {
+         {std::array{kUpperArmL, kForeArmL, kKnucklesL}, std::array{kUpperArmR, kForeArmR, kKnucklesR}}) {
         addLimit(upper, hand, 0.45f * arm, 0.99f * arm);
         addLimit(kHips, hand, 0.2f, kUnbounded);
         addLimit(kSpine, fore, 0.2f, kUnbounded);
         addLimit(kChest, fore, 0.2f, kUnbounded);
-        addLimit(kHead, hand, 0.2f, kUnbounded);
+        addLimit(kHead, hand, 0.25f, kUnbounded);
+        addLimit(kCrown, hand, 0.3f, kUnbounded);
     }
+    addStick(kCrown, kTail);
+    addLimit(kHead, kTailTip, 0.22f, kUnbounded);
     addLimit(kShinL, kShinR, 0.13f, 0.6f);
     addLimit(kFootL, kFootR, 0.13f, 0.8f);
     addLimit(kHips, kNeck, 0.9f * trunk, kUnbounded);
@@ -136,8 +139,8 @@ void Ragdoll::step(float seconds) {
             hold(stick, stick.stiffness);
         bend(kThighL, kShinL, kFootL, kHips, 1.0f);
         bend(kThighR, kShinR, kFootR, kHips, 1.0f);
-        bend(kUpperArmL, kForeArmL, kHandL, kChest, -1.0f);
-        bend(kUpperArmR, kForeArmR, kHandR, kChest, -1.0f);
+        bend(kUpperArmL, kForeArmL, kKnucklesL, kChest, -1.0f);
+        bend(kUpperArmR, kForeArmR, kKnucklesR, kChest, -1.0f);
         stopAtGround();
     }
 }
@@ -185,10 +188,14 @@ void Ragdoll::stopAtGround() {
 void Ragdoll::keepLengths() {
     for (uint32_t i = 1; i < kPoints; ++i) {
         const glm::vec3 above = points_[kBody[i].above];
-        const glm::vec3 kept = above + lengths_[i] * along(above, points_[i]);
-        before_[i] += kept - points_[i];
-        points_[i] = kept;
+        move(static_cast<Point>(i), above + lengths_[i] * along(above, points_[i]));
     }
+}
+
+/// Its speed stays.
+void Ragdoll::move(Point point, glm::vec3 to) {
+    before_[point] += to - points_[point];
+    points_[point] = to;
 }
 
 /// Points have no rotations: hips and chest have axes by their shoulders, a limb turns by the shortest way from the part
@@ -210,18 +217,23 @@ void Ragdoll::turn() {
     turns_[kNeck] = limbTurn(turns_[kChest], kNeck, kHead);
     turns_[kHead] = limbTurn(turns_[kNeck], kHead, kCrown);
     for (const auto& [trunk, upper, middle, lower] :
-         {std::array{kChest, kUpperArmL, kForeArmL, kHandL}, std::array{kChest, kUpperArmR, kForeArmR, kHandR},
+         {std::array{kChest, kUpperArmL, kForeArmL, kKnucklesL}, std::array{kChest, kUpperArmR, kForeArmR, kKnucklesR},
           std::array{kHips, kThighL, kShinL, kFootL}, std::array{kHips, kThighR, kShinR, kFootR}}) {
         turns_[upper] = limbTurn(turns_[trunk], upper, middle);
         turns_[middle] = limbTurn(turns_[upper], middle, lower);
     }
+    // The ponytail has grown on: it takes all of the head, not only the distance.
+    const glm::vec3 root = points_[kHead] + turns_[kHead] * (start_[kTail] - start_[kHead]);
+    move(kTailTip, root + lengths_[kTailTip] * along(root, points_[kTailTip]));
+    move(kTail, root);
+    turns_[kTail] = limbTurn(turns_[kHead], kTail, kTailTip);
     turns_[kFootL] = limbTurn(turns_[kShinL], kFootL, kToesL);
     turns_[kFootR] = limbTurn(turns_[kShinR], kFootR, kToesR);
 }
 
 bool Ragdoll::lies() const {
     float fastest = 0.0f;
-    for (uint32_t i = 0; i < kPoints; ++i)
+    for (const Point i : {kHips, kChest, kCrown, kKnucklesL, kKnucklesR, kFootL, kFootR})
         fastest = std::max(fastest, glm::distance(points_[i], before_[i]) / kStep);
     return fastest < kLyingSpeed;
 }

@@ -46,6 +46,7 @@ private:
     void bend(Point upper, Point middle, Point lower, Point trunk, float forwards);
     void stopAtGround();
     void keepLengths();
+    void move(Point point, glm::vec3 to);
     void turn();
 
     BodyPoints points_, before_;

@@ -58,9 +58,13 @@ std::vector<glm::vec3> Show::readSurface() const {
     SuppleGridOutput grid{};
     must(hero_.group().gridOutput(grid), "suppleGetGridOutput");
     const std::vector<std::byte> bytes = must(device_.readBuffer(streams.vertices));
-    std::vector<glm::vec3> vertices(grid.vertexCount);
-    for (size_t i = 0; i < vertices.size(); ++i)
-        std::memcpy(&vertices[i], bytes.data() + i * streams.vertices.stride, sizeof vertices[i]);
+    std::vector<glm::vec3> vertices;
+    for (uint32_t i = 0; i < grid.drawRangeCount; ++i) {
+        const SuppleDrawRange& range = grid.drawRanges[i];
+        for (uint32_t v = 0; hero_.isShown(range.part) && v < range.patchCount * range.samplesPerPatch; ++v)
+            std::memcpy(&vertices.emplace_back(), bytes.data() + size_t{range.firstVertex + v} * streams.vertices.stride,
+                        sizeof(glm::vec3));
+    }
     return vertices;
 }
 

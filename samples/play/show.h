@@ -25,7 +25,7 @@ public:
     void finish(uint64_t frame);
 
     [[nodiscard]] Picture readPicture() const;
-    /// The character's vertices in the frame that was executed last; waits for it.
+    /// The vertices of all that is shown of the character in the frame that was executed last; waits for it.
     [[nodiscard]] std::vector<glm::vec3> readSurface() const;
     [[nodiscard]] const Game& game() const { return game_; }
     [[nodiscard]] float aspect() const;

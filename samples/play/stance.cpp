@@ -17,7 +17,7 @@ constexpr Point kToes[] = {kToesL, kToesR};
 constexpr float kTakeHoldSeconds = 0.3f;
 constexpr float kFootingSeconds = 0.04f; ///< ground under a foot may rise at once: the foot does not
 constexpr float kLookSeconds = 0.15f;
-constexpr float kLookLimit = 0.9f; ///< radians
+constexpr float kLookLimit = 0.6f; ///< radians, of head and neck each
 
 /// The part of the way to a target that is gone in some time.
 float eased(float seconds, float constant) {
@@ -49,8 +49,8 @@ void Stance::begin(const Hero& hero, glm::vec3 lookAt) {
     look.kind = SUPPLE_MODIFIER_AIM;
     look.flags = SUPPLE_MODIFIER_WORLD;
     look.joint = hero.joint(kHead);
-    look.chainLength = 3; // head, neck and chest
-    look.share = 0.35f;
+    look.chainLength = 2; // the neck helps
+    look.share = 0.4f;
     look.limit = kLookLimit;
     look.offset[1] = 0.14f; // the eyes
     look.offset[2] = 0.08f;

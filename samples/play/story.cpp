@@ -11,7 +11,7 @@ struct Glance {
     double from;
     glm::vec3 at;
 };
-constexpr Glance kGlances[] = {{0.0, {1.5f, 0.5f, 0.0f}},  {4.6, {3.0f, 2.6f, 2.5f}},  {5.3, {0.6f, 0.4f, 3.0f}},
+constexpr Glance kGlances[] = {{0.0, {3.5f, 1.1f, 0.3f}},  {4.6, {3.0f, 2.6f, 2.5f}},  {5.3, {0.6f, 0.4f, 3.0f}},
                            {6.1, {3.4f, 1.4f, -0.6f}}, {9.0, {1.0f, 1.4f, 4.0f}}, {10.0, {0.6f, 0.3f, 1.5f}}};
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace play {
 
@@ -12,6 +13,12 @@ namespace {
 
 /// The height of an ankle above its sole (samples/assets/README.md: the character stands on y = 0).
 constexpr float kAnkleHeight = 0.095f;
+
+/// No other joint is between it and the point above it, as clavicles and wrists are, so that its length never changes.
+bool isBone(Point point) {
+    constexpr Point kNone[] = {kHips, kUpperArmL, kUpperArmR, kKnucklesL, kKnucklesR, kTailTip};
+    return std::find(std::begin(kNone), std::end(kNone), point) == std::end(kNone);
+}
 
 std::array<float, kPoints> lengthsOf(const BodyPose& pose) {
     std::array<float, kPoints> lengths{};
@@ -49,7 +56,7 @@ void Watch::seeJoints(const Game& game, float seconds) {
     for (uint32_t i = 0; i < kJoints; ++i) {
         const glm::vec3 now(pose[i][3]);
         fastest_ = std::max(fastest_, glm::distance(now, glm::vec3(last_[i][3])) / seconds);
-        if (i != kHips)
+        if (isBone(static_cast<Point>(i)))
             stretch_ = std::max(stretch_, std::abs(lengths[i] / lengths_[i] - 1.0f));
         for (int k = 0; k < 16; ++k) {
             const float number = pose[i][k / 4][k % 4];

@@ -4,7 +4,7 @@
 #include "scene.glsl"
 
 layout(location = 0) in vec3 inPosition;
-layout(location = 1) in vec3 inNormal;
+layout(location = 1) in vec4 inNormal; // w: the part of the sky that is seen
 layout(location = 0) out vec4 outColor;
 
 /// The share of a pixel that thin lines every unit take, filtered.
@@ -21,12 +21,12 @@ float ring(vec3 position) {
 }
 
 void main() {
-    vec3 n = normalize(inNormal);
+    vec3 n = normalize(inNormal.xyz);
     vec2 tile = inPosition.xz / 0.42;
     float odd = fract(sin(dot(floor(tile), vec2(12.9898, 78.233))) * 43758.5453);
-    vec3 albedo = vec3(0.50, 0.455, 0.40) * (0.95 + 0.1 * odd) * (1.0 - 0.3 * lines(tile, 0.012));
+    vec3 albedo = vec3(0.33, 0.30, 0.27) * (0.93 + 0.14 * odd) * (1.0 - 0.4 * lines(tile, 0.012));
     albedo = mix(albedo, vec3(0.80, 0.36, 0.10), 0.9 * ring(inPosition));
-    float open = skyVisibility(inPosition, n);
+    float open = skyVisibility(inPosition, n) * inNormal.w * inNormal.w;
     vec3 color = lit(plainMaterial(albedo, 0.8), inPosition, n, n, open);
     float away = length(inPosition.xz);
     outColor = shown(mix(color, background(gl_FragCoord.xy), smoothstep(3.2, 7.5, away)));

@@ -1,5 +1,5 @@
 // What every pass sees: SceneUniforms of drawing.h; and the light: a low sun with one shadow map, and the sky.
-const uint kPoints = 20u;
+const uint kPoints = 22u;
 layout(set = 0, binding = 0, std140) uniform Scene {
     mat4 viewProjection;
     mat4 sunViewProjection;
@@ -16,7 +16,7 @@ layout(set = 0, binding = 0, std140) uniform Scene {
 layout(set = 0, binding = 1) uniform sampler2DShadow sunMap;
 
 const float kPi = 3.14159265;
-const vec3 kSun = vec3(3.0, 2.55, 1.95); // radiance of a white surface that faces it
+const vec3 kSun = vec3(3.7, 3.1, 2.3); // radiance of a white surface that faces it
 const vec3 kSkyAbove = vec3(0.46, 0.58, 0.80), kSkyBeside = vec3(0.62, 0.60, 0.58), kGroundLight = vec3(0.30, 0.25, 0.20);
 
 /// Interleaved gradient noise (Jimenez, SIGGRAPH 2014).
@@ -57,7 +57,7 @@ vec3 lit(Material material, vec3 position, vec3 n, vec3 surface, float open) {
     float nl = max(dot(n, l), 0.0);
     float sun = nl > 0.0 && dot(surface, l) > 0.0 ? sunVisibility(position, surface) : 0.0;
     vec3 f0 = mirrorColor(material), share = mirroredShare(f0, material.roughness, clamp(dot(n, v), 1e-3, 1.0));
-    vec3 diffuse = 0.42 * kSun * sun * nl + skyLight(n) * (0.72 * open);
+    vec3 diffuse = 0.42 * kSun * sun * nl + skyLight(n) * (0.6 * open);
     vec3 mirrored = 0.42 * kSun * sun * mirroredLight(n, v, l, max(material.roughness, 0.12), f0) +
                     share * skyLight(reflect(-v, n)) * (0.7 * open);
     return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + mirrored;
