@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace play {
 
@@ -15,8 +16,8 @@ constexpr float kRise = 0.11f;
 constexpr float kEdge = 0.03f; ///< half the width over which a step rises
 
 // What a foot reaches beyond its joints.
-constexpr float kHeel = 0.06f, kToeTip = 0.07f;
-/// Ground that differs by more between heel and toes is a step, not a slope.
+constexpr float kHeel = 0.06f, kToeTip = 0.08f, kHalfSole = 0.05f;
+/// Ground that differs by more under a sole is a step, not a slope.
 constexpr float kSlopeMost = 0.07f;
 
 constexpr float kMeshReach = 8.0f;
@@ -63,22 +64,25 @@ std::optional<glm::vec3> meetGround(glm::vec3 from, glm::vec3 direction) {
 Footing footingUnder(glm::vec3 ankle, glm::vec3 toes) {
     const glm::vec2 along = placeOf(toes) - placeOf(ankle);
     const float length = glm::length(along);
-    const glm::vec2 ahead = length > 1e-4f ? along / length : glm::vec2(0.0f, 1.0f);
-    const glm::vec2 heel = placeOf(ankle) - kHeel * ahead, tip = placeOf(toes) + kToeTip * ahead;
-    const float atHeel = heightAt(heel), atTip = heightAt(tip);
-    const float highest = std::max({atHeel, heightAt(placeOf(ankle)), heightAt(placeOf(toes)), atTip});
-    if (std::abs(atTip - atHeel) > kSlopeMost)
-        return {{ankle.x, highest, ankle.z}, {0.0f, 1.0f, 0.0f}};
-    const glm::vec2 aside(-ahead.y, ahead.x);
-    constexpr float kHalfWidth = 0.04f;
-    const glm::vec2 middle = 0.5f * (heel + tip);
-    const float roll = heightAt(middle + kHalfWidth * aside) - heightAt(middle - kHalfWidth * aside);
-    const float forwards = (atTip - atHeel) / glm::length(tip - heel), sideways = roll / (2.0f * kHalfWidth);
+    const glm::vec2 ahead = length > 1e-4f ? along / length : glm::vec2(0.0f, 1.0f), aside(-ahead.y, ahead.x);
+    // The corners of the sole, and its middle, from the ankle.
+    const float front = length + kToeTip;
+    const glm::vec2 sole[] = {{-kHeel, -kHalfSole}, {-kHeel, kHalfSole}, {front, -kHalfSole}, {front, kHalfSole},
+                              {0.5f * (front - kHeel), 0.0f}};
+    float heights[std::size(sole)];
+    for (size_t i = 0; i < std::size(sole); ++i)
+        heights[i] = heightAt(placeOf(ankle) + sole[i].x * ahead + sole[i].y * aside);
+    const auto [lowest, highest] = std::minmax_element(std::begin(heights), std::end(heights));
+    if (*highest - *lowest > kSlopeMost)
+        return {{ankle.x, *highest, ankle.z}, {0.0f, 1.0f, 0.0f}};
+    // The mean slope, as low as the ground lets it be.
+    const float forwards = 0.5f * (heights[2] + heights[3] - heights[0] - heights[1]) / (front + kHeel),
+                sideways = 0.25f * (heights[1] + heights[3] - heights[0] - heights[2]) / kHalfSole;
+    float height = -1e9f;
+    for (size_t i = 0; i < std::size(sole); ++i)
+        height = std::max(height, heights[i] - forwards * sole[i].x - sideways * sole[i].y);
     const glm::vec2 slope = forwards * ahead + sideways * aside;
-    // Through the higher of what is under the ends and the middle, so that no sole dips into a crest.
-    const float crest = std::max(heightAt(middle) - 0.5f * (atHeel + atTip), 0.0f);
-    const float atAnkle = atHeel + forwards * kHeel + crest;
-    return {{ankle.x, atAnkle, ankle.z}, glm::normalize(glm::vec3(-slope.x, 1.0f, -slope.y))};
+    return {{ankle.x, height, ankle.z}, glm::normalize(glm::vec3(-slope.x, 1.0f, -slope.y))};
 }
 
 namespace {

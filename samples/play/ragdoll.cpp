@@ -137,10 +137,8 @@ void Ragdoll::step(float seconds) {
     for (int round = 0; round < kRounds; ++round) {
         for (const Stick& stick : sticks_)
             hold(stick, stick.stiffness);
-        bend(kThighL, kShinL, kFootL, kHips, 1.0f);
-        bend(kThighR, kShinR, kFootR, kHips, 1.0f);
-        bend(kUpperArmL, kForeArmL, kKnucklesL, kChest, -1.0f);
-        bend(kUpperArmR, kForeArmR, kKnucklesR, kChest, -1.0f);
+        bendKnee(kThighL, kShinL, kFootL);
+        bendKnee(kThighR, kShinR, kFootR);
         stopAtGround();
     }
 }
@@ -157,18 +155,17 @@ void Ragdoll::hold(const Stick& stick, float stiffness) {
     points_[stick.b] += lightB * mended;
 }
 
-void Ragdoll::bend(Point upper, Point middle, Point lower, Point trunk, float forwards) {
-    const glm::vec3 left = trunk == kHips ? points_[kThighL] - points_[kThighR] : points_[kUpperArmL] - points_[kUpperArmR];
-    const glm::vec3 limb = along(points_[upper], points_[lower]);
-    const glm::vec3 front = glm::cross(left, -limb);
+void Ragdoll::bendKnee(Point thigh, Point shin, Point foot) {
+    const glm::vec3 left = points_[kThighL] - points_[kThighR];
+    const glm::vec3 front = glm::cross(left, points_[thigh] - points_[foot]);
     if (glm::dot(front, front) < 1e-8f)
         return;
-    const glm::vec3 ahead = forwards * glm::normalize(front);
-    const float behind = -glm::dot(ahead, points_[middle] - points_[upper]);
+    const glm::vec3 ahead = glm::normalize(front);
+    const float behind = -glm::dot(ahead, points_[shin] - points_[thigh]);
     if (behind <= 0.0f)
         return;
-    points_[middle] += 0.5f * behind * ahead;
-    points_[lower] -= 0.25f * behind * ahead;
+    points_[shin] += 0.5f * behind * ahead;
+    points_[foot] -= 0.25f * behind * ahead;
 }
 
 void Ragdoll::stopAtGround() {

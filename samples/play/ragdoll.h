@@ -42,8 +42,8 @@ private:
     void addLimits();
     void step(float seconds);
     void hold(const Stick& stick, float stiffness);
-    /// Knees do not bend forwards, nor elbows backwards.
-    void bend(Point upper, Point middle, Point lower, Point trunk, float forwards);
+    /// Not the wrong way.
+    void bendKnee(Point thigh, Point shin, Point foot);
     void stopAtGround();
     void keepLengths();
     void move(Point point, glm::vec3 to);

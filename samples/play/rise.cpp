@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kClip = "jump";
 constexpr double kCrouch = 1.17; ///< seconds of the clip
 constexpr float kSpeed = 0.3f;
-constexpr double kTransition = 1.1, kSeconds = 1.15;
+constexpr double kTransition = 1.1, kSeconds = 1.0;
 
 /// Bent while the transition is under way: so the body curls up, with the knees before it, instead of rising like a board.
 struct Curl {

@@ -4,15 +4,15 @@ namespace play {
 
 namespace {
 
-constexpr double kSetsOff = 0.25, kIsHit = 6.75, kGoesOn = 10.0;
-constexpr glm::vec2 kUp{1.35f, -0.1f}, kOn{0.6f, 1.5f};
+constexpr double kSetsOff = 0.25, kIsHit = 5.25, kGoesOn = 7.75;
+constexpr glm::vec2 kUp{1.75f, -0.1f}, kOn{0.6f, 1.5f};
 
 struct Glance {
     double from;
     glm::vec3 at;
 };
-constexpr Glance kGlances[] = {{0.0, {3.5f, 1.1f, 0.3f}},  {4.6, {3.0f, 2.6f, 2.5f}},  {5.3, {0.6f, 0.4f, 3.0f}},
-                           {6.1, {3.4f, 1.4f, -0.6f}}, {9.0, {1.0f, 1.4f, 4.0f}}, {10.0, {0.6f, 0.3f, 1.5f}}};
+constexpr Glance kGlances[] = {{0.0, {3.5f, 1.1f, 0.3f}},  {3.5, {2.6f, 2.6f, 2.5f}},  {4.0, {0.9f, 1.1f, 3.0f}},
+                           {4.75, {3.4f, 1.4f, -0.6f}}, {7.0, {1.0f, 1.4f, 4.0f}}, {7.75, {0.6f, 0.6f, 2.5f}}};
 
 } // namespace
 

@@ -5,7 +5,7 @@
 
 namespace play {
 
-inline constexpr double kStorySeconds = 11.0;
+inline constexpr double kStorySeconds = 9.25;
 /// What the player does in the frame that ends at `time` and lasts `seconds`.
 [[nodiscard]] Input storyInput(double time, double seconds);
 

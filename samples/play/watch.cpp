@@ -45,8 +45,12 @@ void Watch::see(const Game& game, std::span<const glm::vec3> vertices, float sec
     seeJoints(game, seconds);
     if (game.state() == Game::State::walks && game.stance().weight() == 1.0f && game.isAtRest())
         seeFeet(game);
-    for (const glm::vec3& vertex : vertices)
-        deepest_ = std::max(deepest_, heightAt(placeOf(vertex)) - vertex.y);
+    for (const glm::vec3& vertex : vertices) {
+        const float depth = heightAt(placeOf(vertex)) - vertex.y;
+        deepest_ = std::max(deepest_, depth);
+        if (game.state() == Game::State::walks && game.stance().weight() == 1.0f)
+            inGround_ = std::max(inGround_, depth);
+    }
     last_ = game.pose();
 }
 
@@ -79,9 +83,9 @@ void Watch::seeFeet(const Game& game) {
 void Watch::print() const {
     std::printf("arrivals %u\nfrom-goal %.4f\nfalls %u\nrises %u\n", arrivals_, static_cast<double>(fromGoal_), falls_,
                 rises_);
-    std::printf("sole %.4f\nstretch %.6f\nfastest %.3f\ndeepest %.4f\nlying %.3f\n", static_cast<double>(sole_),
-                static_cast<double>(stretch_), static_cast<double>(fastest_), static_cast<double>(deepest_),
-                static_cast<double>(lying_));
+    std::printf("sole %.4f\nstretch %.6f\nfastest %.3f\ndeepest %.4f\nin-ground %.4f\nlying %.3f\n",
+                static_cast<double>(sole_), static_cast<double>(stretch_), static_cast<double>(fastest_),
+                static_cast<double>(deepest_), static_cast<double>(inGround_), static_cast<double>(lying_));
     std::printf("finite %d\nwords %016" PRIx64 "\n", finite_ ? 1 : 0, words_);
 }
 

@@ -27,6 +27,7 @@ private:
     float stretch_ = 0.0f;  ///< the most that a bone has changed its length by, as a part of it
     float fastest_ = 0.0f;  ///< joint, in units a second
     float deepest_ = 0.0f;  ///< vertex below the ground
+    float inGround_ = 0.0f; ///< the same while it walks
     float lying_ = 1e9f;    ///< the lowest height of the hips above the ground
     uint64_t words_ = 0;    ///< a hash of all poses
     bool finite_ = true;

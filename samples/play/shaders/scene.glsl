@@ -57,7 +57,7 @@ vec3 lit(Material material, vec3 position, vec3 n, vec3 surface, float open) {
     float nl = max(dot(n, l), 0.0);
     float sun = nl > 0.0 && dot(surface, l) > 0.0 ? sunVisibility(position, surface) : 0.0;
     vec3 f0 = mirrorColor(material), share = mirroredShare(f0, material.roughness, clamp(dot(n, v), 1e-3, 1.0));
-    vec3 diffuse = 0.42 * kSun * sun * nl + skyLight(n) * (0.6 * open);
+    vec3 diffuse = 0.42 * kSun * sun * nl + skyLight(n) * (0.7 * open);
     vec3 mirrored = 0.42 * kSun * sun * mirroredLight(n, v, l, max(material.roughness, 0.12), f0) +
                     share * skyLight(reflect(-v, n)) * (0.7 * open);
     return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + mirrored;
