@@ -4,8 +4,7 @@
 
 namespace supple::host {
 
-Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const std::string& path,
-                                                    uint32_t flags) {
+Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const std::string& path, uint32_t flags) {
     if (isRefusedLink(path)) {
         return Error{ErrorCode::io, path + ": is a symbolic link"};
     }

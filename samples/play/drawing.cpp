@@ -22,7 +22,7 @@ namespace {
 constexpr uint32_t kSunMapSize = 2048;
 constexpr float kSunReach = 2.6f; ///< half the side of what the sun's map shows
 constexpr float kSunDepth = 12.0f;
-const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.62f, 0.85f, 0.28f));
+const glm::vec3 kSunDirection = glm::normalize(glm::vec3(0.50f, 0.80f, 0.50f));
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
 /// SuppleRange of shaders/supple_surface.glsl, and the material.
@@ -80,8 +80,8 @@ void Drawing::createSets(const Hero& hero) {
                                                  {kSurfaceTexture, kImage, kFragment},
                                                  {kNormalTexture, kImage, kFragment}}));
     layout_ = must(createPipelineLayout(device_, {sceneLayout_, heroLayout_, lookLayout_}, sizeof(Push), kBoth));
-    DescriptorPool pool = must(
-        DescriptorPool::create(device_, kFramesInFlight + 1 + static_cast<uint32_t>(looks_.all().size())));
+    DescriptorPool pool =
+        must(DescriptorPool::create(device_, kFramesInFlight + 1 + static_cast<uint32_t>(looks_.all().size())));
     const VkSampler compare = must(createSampler(device_, VK_FILTER_LINEAR, true));
     for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         uniforms_[slot] =
@@ -128,15 +128,14 @@ void Drawing::resize(VkExtent2D extent) {
     const bool multisampled = samples_ != VK_SAMPLE_COUNT_1_BIT;
     constexpr VkImageUsageFlags kDrawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     if (multisampled)
-        color_ = must(
-            device_.createImage({.format = kFormat, .extent = extent, .usage = kDrawn, .samples = samples_}));
+        color_ = must(device_.createImage({.format = kFormat, .extent = extent, .usage = kDrawn, .samples = samples_}));
     depth_ = must(device_.createImage({.format = kDepthFormat,
                                        .extent = extent,
                                        .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                        .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
                                        .samples = samples_}));
-    picture_ = must(device_.createImage(
-        {.format = kFormat, .extent = extent, .usage = kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
+    picture_ = must(
+        device_.createImage({.format = kFormat, .extent = extent, .usage = kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
     if (multisampled)
         graph_.setImage(colorUse_, color_.handle());
     graph_.setImage(depthUse_, depth_.handle());
@@ -223,14 +222,14 @@ void Drawing::drawPicture(VkCommandBuffer commands, uint32_t slot) const {
 }
 
 void Drawing::addToGraph(uint32_t slot, Resource buffers) {
-    graph_.add("sun",
-               {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                               true)},
-               [this, slot](VkCommandBuffer commands) { drawSun(commands, slot); });
-    std::vector<Use> uses = {
-        reads(buffers, kDrawn), reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-        writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
-        writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)};
+    graph_.add(
+        "sun",
+        {reads(buffers, kDrawn), writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
+        [this, slot](VkCommandBuffer commands) { drawSun(commands, slot); });
+    std::vector<Use> uses = {reads(buffers, kDrawn),
+                             reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+                             writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
+                             writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)};
     if (samples_ != VK_SAMPLE_COUNT_1_BIT)
         uses.push_back(writes(colorUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true));
     graph_.add("draw", uses, [this, slot](VkCommandBuffer commands) { drawPicture(commands, slot); });

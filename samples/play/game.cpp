@@ -11,11 +11,13 @@ namespace {
 constexpr glm::vec2 kStartPlace{-2.5f, 0.45f};
 constexpr float kStartHeading = 1.2f;
 
-constexpr const char* kClips[] = {"idle", "walk", "run"}; ///< by Gait
+const char* clipOf(Gait gait) {
+    return gait == Gait::stand ? "idle" : gait == Gait::walk ? "walk" : "run";
+}
 /// A part of the walk's cycle at which one foot passes the other, as in standing.
 constexpr double kPassing = 0.22;
 
-constexpr double kStandTransition = 0.5;
+constexpr double kGaitTransition = 0.3, kStandTransition = 0.5;
 constexpr float kSettleSeconds = 0.1f;
 
 } // namespace
@@ -23,7 +25,7 @@ constexpr float kSettleSeconds = 0.1f;
 Game::Game(Hero& hero) : hero_(hero), walker_(kStartPlace, kStartHeading) {
     hero.setTime(0.0);
     hero.setTransform(walker_.transform());
-    hero.play("idle", {});
+    hero.play(clipOf(gait_), {});
     stance_.begin(hero, onGround(kStartPlace));
     pose_ = hero.pose();
 }
@@ -37,12 +39,14 @@ void Game::update(const Input& input, float seconds) {
     hero_.setTime(hero_.time() + static_cast<double>(seconds));
     if (input.push && state_ != State::falls && seconds > 0.0f)
         beHit(input, seconds);
+    if (input.goal)
+        walker_.goTo(withinRoom(*input.goal));
     switch (state_) {
     case State::walks:
         walk(input, seconds);
         break;
     case State::falls:
-        fall(input, seconds);
+        fall(seconds);
         break;
     case State::rises:
         rise(input);
@@ -56,37 +60,38 @@ void Game::place() {
 }
 
 void Game::walk(const Input& input, float seconds) {
-    if (input.goal)
-        walker_.goTo(*input.goal);
     walker_.update(seconds);
     lift_ *= std::exp(-seconds / kSettleSeconds);
     place();
     if (walker_.gait() != gait_)
-        changeGait(walker_.gait());
+        changeGait(walker_.gait(), kGaitTransition);
     stance_.update(hero_, input.lookAt, seconds);
 }
 
-/// Steps go on where they are: the walk's cycle and the run's begin with the same foot.
-void Game::changeGait(Gait gait) {
-    const double duration = hero_.duration(kClips[static_cast<uint32_t>(gait)]);
-    double part = kPassing;
-    if (gait == Gait::stand)
-        part = 0.0;
-    else if (gait_ != Gait::stand)
-        part = std::fmod(gaitOffset_ + hero_.time() - gaitStart_, hero_.duration(kClips[static_cast<uint32_t>(gait_)])) /
-               hero_.duration(kClips[static_cast<uint32_t>(gait_)]);
-    gait_ = gait;
-    gaitStart_ = hero_.time();
-    gaitOffset_ = part * duration;
-    hero_.play(kClips[static_cast<uint32_t>(gait)], {.offset = gaitOffset_, .transition = kGaitSeconds});
+double Game::cyclePart() const {
+    const double duration = hero_.duration(clipOf(gait_));
+    return std::fmod(gaitOffset_ + hero_.time() - gaitStart_, duration) / duration;
 }
 
+/// Steps go on where they are: the cycles of walk and run begin with the same foot.
+void Game::changeGait(Gait gait, double transition) {
+    const bool walks = gait != Gait::stand, walked = gait_ != Gait::stand;
+    const double part = walks && walked ? cyclePart() : walks ? kPassing : 0.0;
+    gait_ = gait;
+    gaitStart_ = hero_.time();
+    gaitOffset_ = part * hero_.duration(clipOf(gait));
+    hero_.play(clipOf(gait), {.offset = gaitOffset_, .transition = transition});
+}
+
+/// What the ragdoll does not move, as fingers and eyes, comes to rest.
 void Game::beHit(const Input& input, float seconds) {
+    rise_.reset();
     fall_.emplace(hero_, pose_, seconds, *input.push);
+    changeGait(Gait::stand, kGaitTransition);
     state_ = State::falls;
 }
 
-void Game::fall(const Input&, float seconds) {
+void Game::fall(float seconds) {
     fall_->update(hero_, seconds);
     if (fall_->isOver())
         getUp();
@@ -116,9 +121,7 @@ void Game::rise(const Input& input) {
 
 void Game::standUp(const Input& input) {
     rise_.reset();
-    hero_.play("idle", {.transition = kStandTransition});
-    gait_ = Gait::stand;
-    gaitStart_ = hero_.time();
+    changeGait(Gait::stand, kStandTransition);
     stance_.begin(hero_, input.lookAt);
     state_ = State::walks;
 }

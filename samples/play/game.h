@@ -12,8 +12,8 @@ namespace play {
 
 /// Of one frame.
 struct Input {
-    std::optional<glm::vec2> goal;  ///< go there
-    std::optional<glm::vec3> push;  ///< a blow: the speed that it gives
+    std::optional<glm::vec2> goal; ///< go there
+    std::optional<glm::vec3> push; ///< a blow: the speed that it gives
     glm::vec3 lookAt{0.0f};
 };
 
@@ -37,9 +37,11 @@ public:
 private:
     void place();
     void walk(const Input& input, float seconds);
-    void changeGait(Gait gait);
+    void changeGait(Gait gait, double transition);
+    /// Of the steps that are played, from 0 to 1.
+    [[nodiscard]] double cyclePart() const;
     void beHit(const Input& input, float seconds);
-    void fall(const Input& input, float seconds);
+    void fall(float seconds);
     void getUp();
     void rise(const Input& input);
     void standUp(const Input& input);

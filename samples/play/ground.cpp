@@ -20,6 +20,7 @@ constexpr float kHeel = 0.06f, kToeTip = 0.08f, kHalfSole = 0.05f;
 /// Ground that differs by more under a sole is a step, not a slope.
 constexpr float kSlopeMost = 0.07f;
 
+constexpr float kRoomReach = 5.5f;
 constexpr float kMeshReach = 8.0f;
 constexpr uint32_t kMeshCells = 400; ///< along a side
 
@@ -51,6 +52,11 @@ glm::vec3 normalAt(glm::vec2 place) {
     return glm::normalize(glm::vec3(-x, 2.0f * kStep, -z));
 }
 
+glm::vec2 withinRoom(glm::vec2 place) {
+    const float away = glm::length(place);
+    return away > kRoomReach ? place * (kRoomReach / away) : place;
+}
+
 std::optional<glm::vec3> meetGround(glm::vec3 from, glm::vec3 direction) {
     constexpr float kFarthest = 30.0f, kStride = 0.05f;
     for (float away = 0.0f; away < kFarthest; away += kStride) {
@@ -67,7 +73,10 @@ Footing footingUnder(glm::vec3 ankle, glm::vec3 toes) {
     const glm::vec2 ahead = length > 1e-4f ? along / length : glm::vec2(0.0f, 1.0f), aside(-ahead.y, ahead.x);
     // The corners of the sole, and its middle, from the ankle.
     const float front = length + kToeTip;
-    const glm::vec2 sole[] = {{-kHeel, -kHalfSole}, {-kHeel, kHalfSole}, {front, -kHalfSole}, {front, kHalfSole},
+    const glm::vec2 sole[] = {{-kHeel, -kHalfSole},
+                              {-kHeel, kHalfSole},
+                              {front, -kHalfSole},
+                              {front, kHalfSole},
                               {0.5f * (front - kHeel), 0.0f}};
     float heights[std::size(sole)];
     for (size_t i = 0; i < std::size(sole); ++i)

@@ -18,6 +18,9 @@ namespace play {
     return {place.x, heightAt(place), place.y};
 }
 
+/// The nearest place that is in the room.
+[[nodiscard]] glm::vec2 withinRoom(glm::vec2 place);
+
 /// Where a ray comes to the ground, within 30 units.
 [[nodiscard]] std::optional<glm::vec3> meetGround(glm::vec3 from, glm::vec3 direction);
 

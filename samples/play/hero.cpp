@@ -23,8 +23,7 @@ std::vector<char> readFile(const std::string& path) {
 } // namespace
 
 Hero::Hero(Device& device, const HeroOptions& options)
-    : context_(mustCreateContext(device, options.record,
-                                 options.bareRecording ? SUPPLE_RECORDING_WITHOUT_ASSETS : 0)) {
+    : context_(mustCreateContext(device, options.record, options.bareRecording ? SUPPLE_RECORDING_WITHOUT_ASSETS : 0)) {
     const std::vector<char> bytes = readFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + kFile);
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = kFile;

@@ -17,7 +17,7 @@ using namespace supple::host;
 
 struct HeroOptions {
     uint32_t rate = 4;
-    std::string record;        ///< a file for a recording, or empty
+    std::string record;         ///< a file for a recording, or empty
     bool bareRecording = false; ///< which names the character by its hash
 };
 
@@ -26,7 +26,7 @@ struct Start {
     double offset = 0.0; ///< seconds of the clip
     float speed = 1.0f;
     bool loops = true;
-    double transition = 0.0; ///< seconds in which it takes over from what was shown
+    double transition = 0.0;   ///< seconds in which it takes over from what was shown
     bool fromModified = false; ///< from what modifiers have made of that
 };
 

@@ -130,8 +130,8 @@ private:
 
 std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
     const std::unique_ptr<Device> device = mustCreateDevice(true);
-    const std::unique_ptr<Window> window = must(
-        Window::create(*device, "Supple: click to walk, right-click or press the space bar to hit", options.size));
+    const std::unique_ptr<Window> window =
+        must(Window::create(*device, "Supple: click to walk, right-click or press the space bar to hit", options.size));
     Show show(*device, heroOptions(options));
     Player player;
     Camera camera = cameraBeside(middleOf(show.game()), 5.5f);

@@ -68,19 +68,20 @@ void Ragdoll::addLimit(Point a, Point b, float least, float most) {
 void Ragdoll::addSkeleton() {
     for (uint32_t i = 1; i < kPoints; ++i)
         addStick(kBody[i].above, static_cast<Point>(i));
-    for (const auto& [a, b] : {std::pair(kUpperArmL, kUpperArmR), std::pair(kNeck, kUpperArmL),
-                               std::pair(kNeck, kUpperArmR), std::pair(kThighL, kThighR), std::pair(kSpine, kThighL),
-                               std::pair(kSpine, kThighR)})
+    for (const auto& [a, b] :
+         {std::pair(kUpperArmL, kUpperArmR), std::pair(kNeck, kUpperArmL), std::pair(kNeck, kUpperArmR),
+          std::pair(kThighL, kThighR), std::pair(kSpine, kThighL), std::pair(kSpine, kThighR)})
         addStick(a, b);
     // The trunk bends and twists a little.
     for (const auto& [a, b] :
          {std::pair(kSpine, kUpperArmL), std::pair(kSpine, kUpperArmR), std::pair(kThighL, kUpperArmL),
           std::pair(kThighR, kUpperArmR), std::pair(kThighL, kUpperArmR), std::pair(kThighR, kUpperArmL)})
         addStick(a, b, 0.12f);
-    for (const auto& [a, b] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kKnucklesL),
-                               std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
-                               std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
-                               std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
+    for (const auto& [a, b] :
+         {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kKnucklesL),
+          std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
+          std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
+          std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
         const float length = glm::distance(points_[a], points_[b]);
         tone_.push_back({a, b, length, length, kTone});
     }
@@ -128,7 +129,8 @@ void Ragdoll::update(float seconds) {
 void Ragdoll::step(float seconds) {
     for (uint32_t i = 0; i < kPoints; ++i) {
         const glm::vec3 now = points_[i];
-        points_[i] += (1.0f - kDrag * seconds) * (now - before_[i]) - glm::vec3(0.0f, kGravity * seconds * seconds, 0.0f);
+        points_[i] +=
+            (1.0f - kDrag * seconds) * (now - before_[i]) - glm::vec3(0.0f, kGravity * seconds * seconds, 0.0f);
         before_[i] = now;
     }
     const float tone = kTone * std::exp(-age_ / kToneSeconds);
@@ -195,8 +197,8 @@ void Ragdoll::move(Point point, glm::vec3 to) {
     points_[point] = to;
 }
 
-/// Points have no rotations: hips and chest have axes by their shoulders, a limb turns by the shortest way from the part
-/// above it.
+/// Points have no rotations: hips and chest have axes by their shoulders, a limb turns by the shortest way from the
+/// part above it.
 void Ragdoll::turn() {
     const auto frame = [](const BodyPoints& p, Point left, Point right, Point low, Point high) {
         return frameOf(p[left] - p[right], p[high] - p[low]);

@@ -1,5 +1,5 @@
-// A body that goes limp: points that keep their distances (Verlet integration; Jakobsen, Advanced Character Physics, 2001).
-// A game would ask its physics.
+// A body that goes limp: points that keep their distances (Verlet integration; Jakobsen, Advanced Character Physics,
+// 2001). A game would ask its physics.
 #pragma once
 
 #include "body.h"

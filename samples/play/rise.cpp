@@ -17,19 +17,21 @@ constexpr double kCrouch = 1.17; ///< seconds of the clip
 constexpr float kSpeed = 0.3f;
 constexpr double kTransition = 1.1, kSeconds = 1.0;
 
-/// Bent while the transition is under way: so the body curls up, with the knees before it, instead of rising like a board.
+/// Bent while the transition is under way: so the body curls up, with the knees before it, instead of rising like a
+/// board.
 struct Curl {
     Point point;
     float angle; ///< about +X, in radians: positive leans forwards
 };
-constexpr Curl kCurls[] = {{kSpine, 0.45f},   {kChest, 0.35f}, {kNeck, 0.3f},  {kThighL, -1.35f},
+constexpr Curl kCurls[] = {{kSpine, 0.45f},  {kChest, 0.35f}, {kNeck, 0.3f},  {kThighL, -1.35f},
                            {kThighR, -1.1f}, {kShinL, 1.7f},  {kShinR, 1.35f}};
 constexpr double kCurlSeconds = 1.0;
 
 } // namespace
 
 Rise::Rise(const Hero& hero) : start_(hero.time()) {
-    hero.play(kClip, {.offset = kCrouch, .speed = kSpeed, .loops = false, .transition = kTransition, .fromModified = true});
+    hero.play(kClip,
+              {.offset = kCrouch, .speed = kSpeed, .loops = false, .transition = kTransition, .fromModified = true});
     std::array<SuppleModifier, std::size(kCurls)> modifiers{};
     for (uint32_t i = 0; i < modifiers.size(); ++i) {
         modifiers[i].kind = SUPPLE_MODIFIER_ADD;

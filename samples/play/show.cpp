@@ -9,8 +9,8 @@
 namespace play {
 
 Show::Show(Device& device, const HeroOptions& options)
-    : device_(device), graph_(device), buffers_(graph_.addBuffers()), shown_(graph_.addImage()),
-      hero_(device, options), game_(hero_), drawing_(device, graph_, hero_) {}
+    : device_(device), graph_(device), buffers_(graph_.addBuffers()), shown_(graph_.addImage()), hero_(device, options),
+      game_(hero_), drawing_(device, graph_, hero_) {}
 
 void Show::resize(VkExtent2D extent) {
     drawing_.resize(extent);
@@ -62,8 +62,8 @@ std::vector<glm::vec3> Show::readSurface() const {
     for (uint32_t i = 0; i < grid.drawRangeCount; ++i) {
         const SuppleDrawRange& range = grid.drawRanges[i];
         for (uint32_t v = 0; hero_.isShown(range.part) && v < range.patchCount * range.samplesPerPatch; ++v)
-            std::memcpy(&vertices.emplace_back(), bytes.data() + size_t{range.firstVertex + v} * streams.vertices.stride,
-                        sizeof(glm::vec3));
+            std::memcpy(&vertices.emplace_back(),
+                        bytes.data() + size_t{range.firstVertex + v} * streams.vertices.stride, sizeof(glm::vec3));
     }
     return vertices;
 }

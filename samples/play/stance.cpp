@@ -25,7 +25,8 @@ float eased(float seconds, float constant) {
 }
 
 Footing footingOf(const Hero& hero, uint32_t foot) {
-    return footingUnder(glm::vec3(hero.jointTransform(kAnkles[foot])[3]), glm::vec3(hero.jointTransform(kToes[foot])[3]));
+    return footingUnder(glm::vec3(hero.jointTransform(kAnkles[foot])[3]),
+                        glm::vec3(hero.jointTransform(kToes[foot])[3]));
 }
 
 void put(double (&out)[3], glm::vec3 point) {

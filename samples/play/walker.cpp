@@ -12,7 +12,7 @@ namespace play {
 namespace {
 
 constexpr float kStep = 1.0f / 120.0f;
-constexpr float kRunFrom = 2.2f; ///< away from the goal; it walks the rest from half of that
+constexpr float kRunFrom = 2.2f;      ///< away from the goal; it walks the rest from half of that
 constexpr float kAcceleration = 3.0f; ///< a gait is reached about when its clip has come over
 constexpr float kThere = 0.5f * kPaces[1] * kPaces[1] / kAcceleration; ///< what it still goes while it stops
 constexpr float kTurnRate = 2.4f, kTurnGain = 5.0f;
@@ -28,8 +28,8 @@ float shorter(float angle) {
 float standingHeight(glm::vec2 place) {
     constexpr float kReach = 0.15f;
     float sum = 0.0f;
-    for (const glm::vec2 aside : {glm::vec2(kReach, 0.0f), glm::vec2(-kReach, 0.0f), glm::vec2(0.0f, kReach),
-                                  glm::vec2(0.0f, -kReach)})
+    for (const glm::vec2 aside :
+         {glm::vec2(kReach, 0.0f), glm::vec2(-kReach, 0.0f), glm::vec2(0.0f, kReach), glm::vec2(0.0f, -kReach)})
         sum += 0.25f * heightAt(place + aside);
     return sum;
 }
@@ -41,7 +41,6 @@ void Walker::put(glm::vec2 place, float heading) {
     heading_ = heading;
     speed_ = 0.0f;
     gait_ = Gait::stand;
-    goal_.reset();
     settle();
 }
 

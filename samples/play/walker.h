@@ -8,18 +8,16 @@
 namespace play {
 
 enum class Gait : uint8_t { stand, walk, run };
-/// Units a second that the ground passes under the feet of the clips, which walk on the spot (samples/assets/README.md).
-/// Of clips that move their root, suppleGetRootMotion would say it.
+/// Units a second that the ground passes under the feet of the clips, which walk on the spot
+/// (samples/assets/README.md). Of clips that move their root, suppleGetRootMotion would say it.
 inline constexpr float kPaces[] = {0.0f, 0.672f, 1.958f};
-/// In which one gait goes over into another.
-inline constexpr float kGaitSeconds = 0.3f;
 
 class Walker {
 public:
     Walker(glm::vec2 place, float heading) : place_(place), heading_(heading) { settle(); }
 
     void goTo(glm::vec2 goal) { goal_ = goal; }
-    /// Is somewhere else at once, and stands.
+    /// Is somewhere else at once, and stands. The goal stays.
     void put(glm::vec2 place, float heading);
     void update(float seconds);
 
