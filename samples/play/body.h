@@ -42,19 +42,20 @@ struct BodyPoint {
     Point above;       ///< the hips are above themselves
     float radius;      ///< how near it comes to the ground
     float mass;
+    float push; ///< the part of a blow that it takes: a blow comes from above the hips
 };
 inline constexpr std::array<BodyPoint, kPoints> kBody = {
-    {{"hips", kHips, 0.15f, 4.0f},           {"spine", kHips, 0.13f, 3.0f},
-     {"chest", kSpine, 0.14f, 3.0f},         {"neck", kChest, 0.09f, 1.5f},
-     {"head", kNeck, 0.11f, 1.5f},           {"ponytail1", kHead, 0.05f, 0.03f},
-     {"upperArm.L", kChest, 0.07f, 1.5f},    {"upperArm.R", kChest, 0.07f, 1.5f},
-     {"foreArm.L", kUpperArmL, 0.05f, 0.8f}, {"foreArm.R", kUpperArmR, 0.05f, 0.8f},
-     {"thigh.L", kHips, 0.11f, 2.0f},        {"thigh.R", kHips, 0.11f, 2.0f},
-     {"shin.L", kThighL, 0.065f, 1.2f},      {"shin.R", kThighR, 0.065f, 1.2f},
-     {"foot.L", kShinL, 0.06f, 0.8f},        {"foot.R", kShinR, 0.06f, 0.8f},
-     {"middleA.L", kForeArmL, 0.05f, 0.5f},  {"middleA.R", kForeArmR, 0.05f, 0.5f},
-     {"toes.L", kFootL, 0.04f, 0.4f},        {"toes.R", kFootR, 0.04f, 0.4f},
-     {"ponytail3", kTail, 0.05f, 0.01f},     {"", kHead, 0.14f, 1.5f}}};
+    {{"hips", kHips, 0.15f, 4.0f, 0.4f},           {"spine", kHips, 0.13f, 3.0f, 0.7f},
+     {"chest", kSpine, 0.14f, 3.0f, 1.0f},         {"neck", kChest, 0.09f, 1.5f, 1.0f},
+     {"head", kNeck, 0.11f, 1.5f, 1.0f},           {"ponytail1", kHead, 0.05f, 0.03f, 1.0f},
+     {"upperArm.L", kChest, 0.07f, 1.5f, 1.0f},    {"upperArm.R", kChest, 0.07f, 1.5f, 1.0f},
+     {"foreArm.L", kUpperArmL, 0.05f, 0.8f, 1.0f}, {"foreArm.R", kUpperArmR, 0.05f, 0.8f, 1.0f},
+     {"thigh.L", kHips, 0.11f, 2.0f, 0.0f},        {"thigh.R", kHips, 0.11f, 2.0f, 0.0f},
+     {"shin.L", kThighL, 0.065f, 1.2f, 0.0f},      {"shin.R", kThighR, 0.065f, 1.2f, 0.0f},
+     {"foot.L", kShinL, 0.06f, 0.8f, 0.0f},        {"foot.R", kShinR, 0.06f, 0.8f, 0.0f},
+     {"middleA.L", kForeArmL, 0.05f, 0.5f, 1.0f},  {"middleA.R", kForeArmR, 0.05f, 0.5f, 1.0f},
+     {"toes.L", kFootL, 0.04f, 0.4f, 0.0f},        {"toes.R", kFootR, 0.04f, 0.4f, 0.0f},
+     {"ponytail3", kTail, 0.05f, 0.01f, 1.0f},     {"", kHead, 0.14f, 1.5f, 1.0f}}};
 /// The middle of the skull, in the frame of the head.
 inline constexpr glm::vec3 kCrownInHead{0.0f, 0.2f, 0.0f};
 

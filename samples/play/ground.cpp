@@ -16,7 +16,7 @@ constexpr float kRise = 0.11f;
 constexpr float kEdge = 0.03f; ///< half the width over which a step rises
 
 // What a foot reaches beyond its joints.
-constexpr float kHeel = 0.06f, kToeTip = 0.08f, kHalfSole = 0.05f;
+constexpr float kHeel = 0.07f, kToeTip = 0.09f, kHalfSole = 0.06f;
 /// Ground that differs by more under a sole is a step, not a slope.
 constexpr float kSlopeMost = 0.07f;
 

@@ -122,7 +122,7 @@ void Hero::play(std::string_view clip, const Start& start) const {
     playback.layers = &layer;
     playback.layerCount = 1;
     playback.transition = start.transition;
-    playback.transitionKind = SUPPLE_TRANSITION_DEAD_BLENDING;
+    playback.transitionKind = start.kind;
     must(instance_.setPlayback(playback), "suppleSetPlayback");
 }
 

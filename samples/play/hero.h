@@ -26,7 +26,8 @@ struct Start {
     double offset = 0.0; ///< seconds of the clip
     float speed = 1.0f;
     bool loops = true;
-    double transition = 0.0;   ///< seconds in which it takes over from what was shown
+    double transition = 0.0; ///< seconds in which it takes over from what was shown
+    SuppleTransitionKind kind = SUPPLE_TRANSITION_DEAD_BLENDING;
     bool fromModified = false; ///< from what modifiers have made of that
 };
 

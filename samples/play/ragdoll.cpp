@@ -9,10 +9,11 @@ namespace play {
 
 namespace {
 
-constexpr float kStep = 1.0f / 240.0f;
+constexpr float kFallStep = 1.0f / 240.0f;
 constexpr int kRounds = 10; ///< in which sticks are mended, a step
 constexpr float kGravity = 9.81f;
-constexpr float kDrag = 0.4f;      ///< part of the speed that a second takes
+constexpr float kFastest = 7.0f;   ///< a point, in units a second
+constexpr float kDrag = 0.5f;      ///< part of the speed that a second takes
 constexpr float kFriction = 0.35f; ///< part of the speed along the ground that a touch takes
 constexpr float kToneSeconds = 0.22f;
 constexpr float kTone = 0.12f;
@@ -40,11 +41,8 @@ Ragdoll::Ragdoll(const BodyPose& pose, const BodyPose& before, float seconds, gl
     : points_(pointsOf(pose)), start_(points_) {
     const BodyPoints earlier = pointsOf(before);
     for (uint32_t i = 0; i < kPoints; ++i) {
-        const bool isLeg = i == kThighL || i == kThighR || i == kShinL || i == kShinR || i == kFootL || i == kFootR ||
-                           i == kToesL || i == kToesR;
-        const float share = isLeg ? 0.0f : i == kHips ? 0.4f : i == kSpine ? 0.7f : 1.0f;
-        const glm::vec3 speed = (points_[i] - earlier[i]) / seconds + share * push;
-        before_[i] = points_[i] - kStep * speed;
+        const glm::vec3 speed = (points_[i] - earlier[i]) / seconds + kBody[i].push * push;
+        before_[i] = points_[i] - kFallStep * speed;
         lengths_[i] = glm::distance(points_[i], points_[kBody[i].above]);
     }
     for (uint32_t i = 0; i < kMoved; ++i) {
@@ -118,24 +116,25 @@ void Ragdoll::addLimits() {
 }
 
 void Ragdoll::update(float seconds) {
-    const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep)));
-    for (int i = 0; i < steps; ++i)
-        step(seconds / static_cast<float>(steps));
+    for (owed_ += seconds; owed_ >= kFallStep; owed_ -= kFallStep)
+        step();
     keepLengths();
     turn();
     age_ += seconds;
 }
 
-void Ragdoll::step(float seconds) {
+void Ragdoll::step() {
     for (uint32_t i = 0; i < kPoints; ++i) {
-        const glm::vec3 now = points_[i];
-        points_[i] +=
-            (1.0f - kDrag * seconds) * (now - before_[i]) - glm::vec3(0.0f, kGravity * seconds * seconds, 0.0f);
+        const glm::vec3 now = points_[i], moved = now - before_[i];
+        // What is mended in one step would be a speed in the next.
+        const float slower = std::min(1.0f, kFastest * kFallStep / std::max(glm::length(moved), 1e-6f));
+        points_[i] += slower * (1.0f - kDrag * kFallStep) * moved;
+        points_[i].y -= kGravity * kFallStep * kFallStep;
         before_[i] = now;
     }
-    const float tone = kTone * std::exp(-age_ / kToneSeconds);
+    const float left = std::exp(-age_ / kToneSeconds);
     for (const Stick& stick : tone_)
-        hold(stick, tone);
+        hold(stick, left * stick.stiffness);
     for (int round = 0; round < kRounds; ++round) {
         for (const Stick& stick : sticks_)
             hold(stick, stick.stiffness);
@@ -166,19 +165,24 @@ void Ragdoll::bendKnee(Point thigh, Point shin, Point foot) {
     const float behind = -glm::dot(ahead, points_[shin] - points_[thigh]);
     if (behind <= 0.0f)
         return;
-    points_[shin] += 0.5f * behind * ahead;
-    points_[foot] -= 0.25f * behind * ahead;
+    // What the knee gets, its neighbours lose: a push from nowhere would make the body jump.
+    const float part = 0.2f * behind;
+    points_[shin] += part * ahead;
+    points_[thigh] -= 0.5f * part * kBody[shin].mass / kBody[thigh].mass * ahead;
+    points_[foot] -= 0.5f * part * kBody[shin].mass / kBody[foot].mass * ahead;
 }
 
 void Ragdoll::stopAtGround() {
     for (uint32_t i = 0; i < kPoints; ++i) {
-        const float lowest = heightAt(placeOf(points_[i])) + kBody[i].radius;
-        if (points_[i].y >= lowest)
+        const glm::vec2 place = placeOf(points_[i]);
+        const float below = heightAt(place) + kBody[i].radius - points_[i].y;
+        if (below <= 0.0f)
             continue;
-        points_[i].y = lowest;
-        const glm::vec3 normal = normalAt(placeOf(points_[i])), moved = points_[i] - before_[i];
-        const glm::vec3 along = moved - glm::dot(moved, normal) * normal;
-        before_[i] = points_[i] - (1.0f - kFriction) * along; // it does not bounce
+        const glm::vec3 normal = normalAt(place);
+        points_[i] += below * normal.y * normal; // out of a step's side sideways, not up to its edge
+        const glm::vec3 moved = points_[i] - before_[i];
+        const glm::vec3 slid = moved - glm::dot(moved, normal) * normal;
+        before_[i] = points_[i] - (1.0f - kFriction) * slid; // it does not bounce
     }
 }
 
@@ -233,7 +237,7 @@ void Ragdoll::turn() {
 bool Ragdoll::lies() const {
     float fastest = 0.0f;
     for (const Point i : {kHips, kChest, kCrown, kKnucklesL, kKnucklesR, kFootL, kFootR})
-        fastest = std::max(fastest, glm::distance(points_[i], before_[i]) / kStep);
+        fastest = std::max(fastest, glm::distance(points_[i], before_[i]) / kFallStep);
     return fastest < kLyingSpeed;
 }
 

@@ -40,7 +40,7 @@ private:
     void addLimit(Point a, Point b, float least, float most);
     void addSkeleton();
     void addLimits();
-    void step(float seconds);
+    void step();
     void hold(const Stick& stick, float stiffness);
     /// Not the wrong way.
     void bendKnee(Point thigh, Point shin, Point foot);
@@ -57,6 +57,7 @@ private:
     std::vector<Stick> sticks_;
     std::vector<Stick> tone_; ///< muscles that give way in the first moments
     float age_ = 0.0f;
+    float owed_ = 0.0f; ///< seconds that no step has taken yet
 };
 
 } // namespace play

@@ -30,8 +30,13 @@ constexpr double kCurlSeconds = 1.0;
 } // namespace
 
 Rise::Rise(const Hero& hero) : start_(hero.time()) {
-    hero.play(kClip,
-              {.offset = kCrouch, .speed = kSpeed, .loops = false, .transition = kTransition, .fromModified = true});
+    // Arms may have to turn by half a turn: the quintic keeps to one way round.
+    hero.play(kClip, {.offset = kCrouch,
+                      .speed = kSpeed,
+                      .loops = false,
+                      .transition = kTransition,
+                      .kind = SUPPLE_TRANSITION_QUINTIC,
+                      .fromModified = true});
     std::array<SuppleModifier, std::size(kCurls)> modifiers{};
     for (uint32_t i = 0; i < modifiers.size(); ++i) {
         modifiers[i].kind = SUPPLE_MODIFIER_ADD;

@@ -11,7 +11,7 @@ namespace play {
 
 namespace {
 
-constexpr float kStep = 1.0f / 120.0f;
+constexpr float kWalkStep = 1.0f / 120.0f;
 constexpr float kRunFrom = 2.2f;      ///< away from the goal; it walks the rest from half of that
 constexpr float kAcceleration = 3.0f; ///< a gait is reached about when its clip has come over
 constexpr float kThere = 0.5f * kPaces[1] * kPaces[1] / kAcceleration; ///< what it still goes while it stops
@@ -49,7 +49,7 @@ void Walker::settle() {
 }
 
 void Walker::update(float seconds) {
-    const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep)));
+    const int steps = std::max(1, static_cast<int>(std::lround(seconds / kWalkStep)));
     for (int i = 0; i < steps; ++i)
         step(seconds / static_cast<float>(steps));
 }

@@ -37,7 +37,7 @@ def faults_of(facts):
         "sole": 0.01,       # of a standing ankle from its height above the ground
         "stretch": 0.005,   # of a bone, as a part of its length
         "fastest": 8.0,     # joint, a second: the back of a head that falls has 7
-        "deepest": 0.12,    # vertex in the ground: skirt and hair, when it lies on them
+        "deepest": 0.2,     # vertex in the ground: skirt and hair, when it lies on them
         "in-ground": 0.03,  # vertex of a foot, when it walks
         "lying": 0.25,      # the lowest height of the hips
     }
