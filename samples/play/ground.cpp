@@ -59,12 +59,20 @@ glm::vec2 withinRoom(glm::vec2 place) {
 
 std::optional<glm::vec3> meetGround(glm::vec3 from, glm::vec3 direction) {
     constexpr float kFarthest = 30.0f, kStride = 0.05f;
-    for (float away = 0.0f; away < kFarthest; away += kStride) {
+    const auto isBelow = [&](float away) {
         const glm::vec3 point = from + away * direction;
-        if (point.y <= heightAt(placeOf(point)))
-            return onGround(placeOf(point));
+        return point.y <= heightAt(placeOf(point));
+    };
+    float low = 0.0f, high = kStride;
+    for (; !isBelow(high); low = high, high += kStride) {
+        if (high > kFarthest)
+            return std::nullopt;
     }
-    return std::nullopt;
+    for (int i = 0; i < 8; ++i) {
+        const float middle = 0.5f * (low + high);
+        (isBelow(middle) ? high : low) = middle;
+    }
+    return onGround(placeOf(from + high * direction));
 }
 
 Footing footingUnder(glm::vec3 ankle, glm::vec3 toes) {

@@ -41,13 +41,17 @@ Options readOptions(int argc, char** argv) {
         ->needs(script);
     app.add_option("--at", options.moments, "seconds of the story at which pictures are taken")
         ->delimiter(',')
+        ->check(CLI::Range(0.0, kStorySeconds))
         ->needs(script);
     app.add_option("--fps", options.framesPerSecond, "frames a second of the story")
         ->check(CLI::Range(4u, 120u))
         ->needs(script)
         ->capture_default_str();
-    app.add_flag("--bare", options.bare, "the recording has the character's hash instead of the character");
+    app.add_flag("--bare", options.bare, "the recording has the character's hash instead of the character")
+        ->needs(app.get_option("--record"));
+    script->excludes(app.get_option("--frames"));
     parse(app, argc, argv);
+    std::sort(options.moments.begin(), options.moments.end());
     return options;
 }
 
@@ -99,6 +103,8 @@ std::shared_ptr<const ValidationLog> runStory(const Options& options) {
 /// What mouse and keyboard say.
 class Player {
 public:
+    /// Clicks are kept until they are read, however short they are.
+    explicit Player(const Window& window) { glfwSetInputMode(window.handle(), GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE); }
     Input read(Window& window, const Show& show, const Camera& camera) {
         double x = 0.0, y = 0.0;
         int width = 1, height = 1;
@@ -133,7 +139,7 @@ std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
     const std::unique_ptr<Window> window =
         must(Window::create(*device, "Supple: click to walk, right-click or press the space bar to hit", options.size));
     Show show(*device, heroOptions(options));
-    Player player;
+    Player player(*window);
     Camera camera = cameraBeside(middleOf(show.game()), 5.5f);
     using Clock = std::chrono::steady_clock;
     Clock::time_point last = Clock::now();
