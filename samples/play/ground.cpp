@@ -22,7 +22,8 @@ constexpr float kSlopeMost = 0.07f;
 
 constexpr float kRoomReach = 5.5f;
 constexpr float kMeshReach = 8.0f;
-constexpr uint32_t kMeshCells = 400; ///< along a side
+constexpr uint32_t kMeshCells = 220; ///< along a side
+constexpr glm::vec2 kMeshCenter{0.6f, 0.0f};
 
 float bump(glm::vec2 place, glm::vec2 center, float height, float width) {
     const glm::vec2 away = (place - center) / width;
@@ -126,8 +127,9 @@ GroundMesh makeGroundMesh() {
     constexpr uint32_t kSide = kMeshCells + 1;
     for (uint32_t row = 0; row < kSide; ++row) {
         for (uint32_t column = 0; column < kSide; ++column) {
-            const glm::vec2 part = glm::vec2(column, row) / static_cast<float>(kMeshCells);
-            const glm::vec2 place = kMeshReach * (2.0f * part - 1.0f);
+            // Cells are small about the platform, and large far away.
+            const glm::vec2 t = 2.0f * glm::vec2(column, row) / static_cast<float>(kMeshCells) - 1.0f;
+            const glm::vec2 place = kMeshCenter + kMeshReach * t * (0.45f + 0.55f * t * t);
             mesh.vertices.push_back({glm::vec4(onGround(place), 1.0f), glm::vec4(normalAt(place), openSkyAt(place))});
         }
     }
