@@ -74,6 +74,7 @@ void Watch::seeJoints(const Game& game, float seconds) {
 
 void Watch::seeFeet(const Game& game) {
     for (uint32_t foot = 0; foot < 2; ++foot) {
+        ++standing_;
         const Footing& footing = game.stance().footing(foot);
         const glm::vec3 ankle(game.pose()[foot == 0 ? kFootL : kFootR][3]);
         sole_ = std::max(sole_, std::abs(glm::dot(ankle - footing.point, footing.normal) - kAnkleHeight));
@@ -83,8 +84,8 @@ void Watch::seeFeet(const Game& game) {
 void Watch::print() const {
     std::printf("arrivals %u\nfrom-goal %.4f\nfalls %u\nrises %u\n", arrivals_, static_cast<double>(fromGoal_), falls_,
                 rises_);
-    std::printf("sole %.4f\nstretch %.6f\nfastest %.3f\ndeepest %.4f\nin-ground %.4f\nlying %.3f\n",
-                static_cast<double>(sole_), static_cast<double>(stretch_), static_cast<double>(fastest_),
+    std::printf("standing %u\nsole %.4f\nstretch %.6f\nfastest %.3f\ndeepest %.4f\nin-ground %.4f\nlying %.3f\n",
+                standing_, static_cast<double>(sole_), static_cast<double>(stretch_), static_cast<double>(fastest_),
                 static_cast<double>(deepest_), static_cast<double>(inGround_), static_cast<double>(lying_));
     std::printf("finite %d\nwords %016" PRIx64 "\n", finite_ ? 1 : 0, words_);
 }

@@ -22,6 +22,7 @@ private:
     Game::State lastState_ = Game::State::walks;
     std::optional<glm::vec2> goal_;
     uint32_t arrivals_ = 0, falls_ = 0, rises_ = 0;
+    uint32_t standing_ = 0; ///< feet that were looked at
     float fromGoal_ = 0.0f; ///< the farthest from a goal at which it stopped
     float sole_ = 0.0f;     ///< the farthest of a standing ankle from its height above the ground
     float stretch_ = 0.0f;  ///< the most that a bone has changed its length by, as a part of it

@@ -45,6 +45,8 @@ def faults_of(facts):
     for name, wanted in (("arrivals", 1), ("falls", 1), ("rises", 1), ("finite", 1)):
         if number[name] != wanted:
             faults.append(f"{name} {number[name]}, not {wanted}")
+    if number["standing"] == 0:
+        faults.append("no foot was seen standing")
     return faults
 
 
