@@ -35,7 +35,7 @@ std::unique_ptr<Device> mustCreateDevice(bool window) {
     return must(Device::create({.validation = validation, .window = window}));
 }
 
-supple::Context mustCreateContext(Device& device, const std::string& record) {
+supple::Context mustCreateContext(Device& device, const std::string& record, uint32_t recordingFlags) {
     SuppleContextDesc desc = contextDesc(device);
     desc.framesInFlight = kFramesInFlight;
     desc.log = [](SuppleSeverity severity, SuppleMessage message, const char* text, void*) {
@@ -46,7 +46,7 @@ supple::Context mustCreateContext(Device& device, const std::string& record) {
     supple::Context context;
     must(supple::Context::create(desc, context), "suppleCreateContext");
     if (!record.empty()) {
-        std::shared_ptr<Recording> recording = must(Recording::start(context.handle(), record));
+        std::shared_ptr<Recording> recording = must(Recording::start(context.handle(), record, recordingFlags));
         device.atEnd([recording] {});
     }
     return context;

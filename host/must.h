@@ -26,8 +26,9 @@ void must(SuppleResult result, const char* what);
 /// A device as the environment wants it: with SUPPLE_VALIDATION=1 the validation layer runs along.
 [[nodiscard]] std::unique_ptr<Device> mustCreateDevice(bool window);
 /// A context for kFramesInFlight frames, which prints its warnings and errors. `record`: a file for a recording of it,
-/// or empty. It must go before the device.
-[[nodiscard]] supple::Context mustCreateContext(Device& device, const std::string& record = {});
+/// or empty; `recordingFlags`: SuppleRecordingFlags of that, besides its hashes. It must go before the device.
+[[nodiscard]] supple::Context mustCreateContext(Device& device, const std::string& record = {},
+                                                uint32_t recordingFlags = 0);
 /// Ends the process with exit code 1 if the validation layer has said anything. The device must be gone.
 void mustBeSilent(const ValidationLog& validation);
 

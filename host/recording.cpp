@@ -4,7 +4,7 @@
 
 namespace supple::host {
 
-Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const std::string& path) {
+Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const std::string& path, uint32_t flags) {
     if (isRefusedLink(path)) {
         return Error{ErrorCode::io, path + ": is a symbolic link"};
     }
@@ -14,7 +14,7 @@ Result<std::unique_ptr<Recording>> Recording::start(SuppleContext context, const
     }
     SuppleRecordingDesc desc{};
     desc.structSize = sizeof desc;
-    desc.flags = SUPPLE_RECORDING_HASHES;
+    desc.flags = SUPPLE_RECORDING_HASHES | flags;
     desc.write = write;
     desc.user = made.get();
     const SuppleResult result = suppleStartRecording(context, &desc);

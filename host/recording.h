@@ -13,8 +13,9 @@ namespace supple::host {
 class Recording {
 public:
     /// Records all that is done to the context from now on, with hashes. The context must be fresh, and must end, or
-    /// end its recording, before this does.
-    [[nodiscard]] static Result<std::unique_ptr<Recording>> start(SuppleContext context, const std::string& path);
+    /// end its recording, before this does. `flags`: SuppleRecordingFlags besides.
+    [[nodiscard]] static Result<std::unique_ptr<Recording>> start(SuppleContext context, const std::string& path,
+                                                                  uint32_t flags = 0);
 
 private:
     explicit Recording(const std::string& path) : file_(path, std::ios::binary) {}

@@ -115,9 +115,9 @@ int main(int argc, char** argv) {
     Bytes input(kMostBytes);
     for (; !inputs.empty() && secondsSince(begin) < seconds; ++runs) {
         const Bytes& from = inputs[mutationRandom() % inputs.size()];
+        size_t size = std::min(from.size(), kMostBytes); // longer ones are cut, as libFuzzer does
         input.resize(kMostBytes);
-        std::copy(from.begin(), from.end(), input.begin());
-        size_t size = from.size();
+        std::copy_n(from.begin(), size, input.begin());
         for (size_t n = mutationRandom() % 3 + 1; n > 0; --n) {
             size = LLVMFuzzerCustomMutator(input.data(), size, kMostBytes, static_cast<unsigned>(mutationRandom()));
         }

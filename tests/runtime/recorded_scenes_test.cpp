@@ -3,6 +3,8 @@
 //
 //   SUPPLE_WRITE_RECORDINGS=$PWD/tests/data/recordings build/release/tests/runtime/supple_runtime_tests
 //       --gtest_filter='*RecordedScenes.*'
+//   build/release/samples/play/supple_play --script --fps 8 --rate 1 --bare --record
+//   tests/data/recordings/plays.supprec
 #include "tests/support/crowd.h"
 #include "tests/support/played_group.h"
 #include "tests/support/recordings.h"
@@ -251,13 +253,11 @@ void travels(SceneHost& host) {
 struct RecordedScene {
     const char* name;
     const std::string& character;
-    void (*play)(SceneHost&);
+    void (*play)(SceneHost&); ///< null: a sample has recorded it
 };
-const RecordedScene kScenes[] = {{"fades", kPip, fades},
-                                 {"goes_over", kWren, goesOver},
-                                 {"schemes", kPipQuads, schemes},
-                                 {"matrices", kPip, matrices},
-                                 {"travels", kWren, travels}};
+const RecordedScene kScenes[] = {{"fades", kPip, fades},          {"goes_over", kWren, goesOver},
+                                 {"schemes", kPipQuads, schemes}, {"matrices", kPip, matrices},
+                                 {"travels", kWren, travels},     {"plays", kWren, nullptr}};
 
 class RecordedScenes : public testing::TestWithParam<RecordedScene> {
 protected:
@@ -277,7 +277,7 @@ void expectSameWords(const std::vector<std::byte>& recording, const RecordedScen
 
 TEST_P(RecordedScenes, ComeOutWithTheWordsThatArePinned) {
     const RecordedScene& scene = GetParam();
-    const char* const folder = std::getenv("SUPPLE_WRITE_RECORDINGS");
+    const char* const folder = scene.play != nullptr ? std::getenv("SUPPLE_WRITE_RECORDINGS") : nullptr;
     const std::string path = (folder != nullptr ? std::string(folder) : std::string(SUPPLE_TEST_DATA) + "/recordings") +
                              "/" + scene.name + ".supprec";
     if (folder != nullptr) {

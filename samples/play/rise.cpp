@@ -1,0 +1,74 @@
+#include "rise.h"
+
+#include "ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+namespace play {
+
+namespace {
+
+// There is no clip for getting up. The end of the jump, where she lands and straightens, will do.
+constexpr const char* kClip = "jump";
+constexpr double kCrouch = 1.17; ///< seconds of the clip
+constexpr float kSpeed = 0.3f;
+constexpr double kTransition = 1.1, kSeconds = 1.0;
+
+/// Bent while the transition is under way: so the body curls up, with the knees before it, instead of rising like a
+/// board.
+struct Curl {
+    Point point;
+    float angle; ///< about +X, in radians: positive leans forwards
+};
+constexpr Curl kCurls[] = {{kSpine, 0.45f},  {kChest, 0.35f}, {kNeck, 0.3f},  {kThighL, -1.35f},
+                           {kThighR, -1.1f}, {kShinL, 1.7f},  {kShinR, 1.35f}};
+constexpr double kCurlSeconds = 1.0;
+
+} // namespace
+
+Rise::Rise(const Hero& hero) : start_(hero.time()) {
+    // Arms may have to turn by half a turn: the quintic keeps to one way round.
+    hero.play(kClip, {.offset = kCrouch,
+                      .speed = kSpeed,
+                      .loops = false,
+                      .transition = kTransition,
+                      .kind = SUPPLE_TRANSITION_QUINTIC,
+                      .fromModified = true});
+    std::array<SuppleModifier, std::size(kCurls)> modifiers{};
+    for (uint32_t i = 0; i < modifiers.size(); ++i) {
+        modifiers[i].kind = SUPPLE_MODIFIER_ADD;
+        modifiers[i].joint = hero.joint(kCurls[i].point);
+        modifiers[i].rotation[0] = std::sin(0.5f * kCurls[i].angle);
+        modifiers[i].rotation[3] = std::cos(0.5f * kCurls[i].angle);
+    }
+    hero.setModifiers(modifiers);
+}
+
+void Rise::update(const Hero& hero) {
+    const double part = std::clamp((hero.time() - start_) / kCurlSeconds, 0.0, 1.0);
+    const auto swing = static_cast<float>(std::sin(glm::pi<double>() * part));
+    for (uint32_t i = 0; i < std::size(kCurls); ++i) {
+        auto target = supple::sized<SuppleModifierTarget>();
+        target.weight = swing * swing;
+        target.rotation[0] = std::sin(0.5f * kCurls[i].angle);
+        target.rotation[3] = std::cos(0.5f * kCurls[i].angle);
+        hero.setTarget(i, target);
+    }
+}
+
+bool Rise::isOver(const Hero& hero) const {
+    return hero.time() - start_ > kSeconds;
+}
+
+float Rise::toGround(const Hero& hero) {
+    const BodyPoints points = pointsOf(hero.pose());
+    float deepest = std::numeric_limits<float>::lowest();
+    for (uint32_t i = 0; i < kPoints; ++i)
+        deepest = std::max(deepest, heightAt(placeOf(points[i])) + kBody[i].radius - points[i].y);
+    return deepest;
+}
+
+} // namespace play
