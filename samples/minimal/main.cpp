@@ -90,11 +90,35 @@ supple::Asset createAsset(const supple::Context& context, const char* path) {
     return asset;
 }
 
+// All calls from now on, with hashes of what they bring about: supple replay makes them again. The stream must outlive
+// the context.
+void startRecording(const supple::Context& context, std::ofstream& stream) {
+    auto desc = supple::sized<SuppleRecordingDesc>();
+    desc.flags = SUPPLE_RECORDING_HASHES;
+    desc.user = &stream;
+    desc.write = [](const void* bytes, size_t count, void* user) {
+        auto& out = *static_cast<std::ofstream*>(user);
+        return out.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count)) ? 1 : 0;
+    };
+    check(context.startRecording(desc), "startRecording");
+}
+
+// What the command line says.
+struct Options {
+    const char* character = nullptr;
+    const char* recording = nullptr;
+};
+
 // Everything that has to do with Supple. What it owns goes with the scope, before the device does.
-void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer commands, const char* path) {
+void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer commands, const Options& options) {
+    std::ofstream recording;
     supple::Context context;
     check(supple::Context::create(contextDesc, context), "supple::Context::create");
-    const supple::Asset asset = createAsset(context, path);
+    if (options.recording != nullptr) {
+        recording.open(options.recording, std::ios::binary);
+        startRecording(context, recording);
+    }
+    const supple::Asset asset = createAsset(context, options.character);
     auto groupDesc = supple::sized<SuppleGroupDesc>(); // instances of one asset, evaluated together
     groupDesc.asset = asset.handle();
     groupDesc.capacity = 1;
@@ -147,9 +171,16 @@ void run(const SuppleContextDesc& contextDesc, VkQueue queue, VkCommandBuffer co
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
-        std::puts("usage: supple_minimal [CHARACTER.glb]   without a file: a cube");
-        return std::strcmp(argv[1], "--help") == 0 ? 0 : 2;
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--record") == 0 && i + 1 < argc) {
+            options.recording = argv[++i];
+        } else if (options.character == nullptr && argv[i][0] != '-') {
+            options.character = argv[i];
+        } else {
+            std::puts("usage: supple_minimal [--record FILE] [CHARACTER.glb]   without a character: a cube");
+            return std::strcmp(argv[i], "--help") == 0 ? 0 : 2;
+        }
     }
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     const VkInstance instance = createInstance(messenger);
@@ -195,7 +226,7 @@ int main(int argc, char** argv) {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     check(vkAllocateCommandBuffers(contextDesc.device, &commandInfo, &commands), "vkAllocateCommandBuffers");
 
-    run(contextDesc, queue, commands, argc == 2 ? argv[1] : nullptr);
+    run(contextDesc, queue, commands, options);
 
     vkDestroyCommandPool(contextDesc.device, pool, nullptr);
     vkDestroyDevice(contextDesc.device, nullptr);

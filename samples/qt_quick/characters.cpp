@@ -49,7 +49,8 @@ int Characters::errors() {
     return errorCount;
 }
 
-Characters::Characters(const Device& device, uint32_t framesInFlight) {
+Characters::Characters(const Device& device, uint32_t framesInFlight, const QString& recording)
+    : recording_(recording) {
     shown_.character = -1;
     auto desc = supple::sized<SuppleContextDesc>();
     desc.instance = device.instance();
@@ -62,6 +63,21 @@ Characters::Characters(const Device& device, uint32_t framesInFlight) {
     desc.log = onLog;
     desc.logUser = this;
     must(supple::Context::create(desc, context_), "suppleCreateContext");
+    if (!recording.isEmpty())
+        startRecording();
+}
+
+void Characters::startRecording() {
+    if (!recording_.open(QIODevice::WriteOnly))
+        fail(qPrintable(recording_.fileName() + " cannot be written"));
+    auto desc = supple::sized<SuppleRecordingDesc>();
+    desc.flags = SUPPLE_RECORDING_HASHES;
+    desc.user = &recording_;
+    desc.write = [](const void* bytes, size_t count, void* user) {
+        const auto size = static_cast<qint64>(count);
+        return static_cast<QFile*>(user)->write(static_cast<const char*>(bytes), size) == size ? 1 : 0;
+    };
+    must(context_.startRecording(desc), "suppleStartRecording");
 }
 
 bool Characters::choose(const Settings& settings) {

@@ -5,6 +5,7 @@
 #include "device.h"
 #include "settings.h"
 
+#include <QFile>
 #include <QVector3D>
 
 #include <array>
@@ -19,7 +20,8 @@ struct Surface {
 
 class Characters {
 public:
-    Characters(const Device& device, uint32_t framesInFlight);
+    /// `recording`: a file for a recording of all calls (supple replay), or empty.
+    Characters(const Device& device, uint32_t framesInFlight, const QString& recording);
 
     /// Loads what has changed: the file, the surface, the number of instances. True if there is a new group.
     bool choose(const Settings& settings);
@@ -47,11 +49,13 @@ private:
     void load(const QString& path);
     bool makeGroup(SuppleScheme scheme, uint32_t rate);
     void stand(uint32_t count);
+    void startRecording();
     static void onLog(SuppleSeverity severity, SuppleMessage message, const char* text, void* user);
 
     QString lastError_;
     QString refusal_;
     Settings shown_;
+    QFile recording_; ///< the context writes it
     supple::Context context_;
     supple::Asset asset_;
     SuppleAssetInfo assetInfo_{};

@@ -38,6 +38,7 @@ struct Options {
     QString picture;
     bool timings = true;
     QSize size{1280, 720};
+    QString recording;
     QStringList files;
 };
 
@@ -65,13 +66,15 @@ Options parse(const QGuiApplication& application) {
     const QCommandLineOption size("size", "Size of the window.", "WxH", "1280x720");
     const QCommandLineOption set("set", "Sets a property of the stage, at once or after so many frames.",
                                  "[FRAME:]P=V");
-    parser.addOptions({frames, picture, quiet, size, set});
+    const QCommandLineOption record("record", "Write a recording of all calls, for supple replay.", "out.supprec");
+    parser.addOptions({frames, picture, quiet, size, set, record});
     parser.addPositionalArgument("files", "Characters; without any: Pip.", "[CHARACTER.glb ...]");
     parser.process(application);
     Options options;
     options.frames = parser.value(frames).toInt();
     options.picture = parser.value(picture);
     options.timings = !parser.isSet(quiet);
+    options.recording = parser.value(record);
     for (const QString& text : parser.values(set))
         options.changes += parseChange(text);
     const QStringList numbers = parser.value(size).split('x');
@@ -121,7 +124,7 @@ int show(const Options& options) {
     if (view->status() != QQuickView::Ready)
         fail("the QML modules of Qt Quick are not installed");
     auto* stage = view->rootObject()->findChild<Stage*>("stage");
-    stage->open(device, options.files);
+    stage->open(device, options.files, options.recording);
     apply(*stage, options.changes, 0);
     run(*view, *stage, options);
     view->show();

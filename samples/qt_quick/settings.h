@@ -11,6 +11,7 @@ constexpr int kMaxCount = 19; // one in the middle, 6 round it, 12 round these
 
 struct Settings {
     QStringList files;
+    QString recording; ///< where a recording of all calls goes, or empty
     int character = 0; ///< of files
     int clip = 0;
     int scheme = SUPPLE_SCHEME_AUTO;

@@ -13,9 +13,10 @@ Stage::Stage() {
     connect(this, &Stage::changed, this, &QQuickItem::update);
 }
 
-void Stage::open(const Device& device, const QStringList& files) {
+void Stage::open(const Device& device, const QStringList& files, const QString& recording) {
     device_ = &device;
     settings_.files = files;
+    settings_.recording = recording;
     emit opened();
 }
 
@@ -59,7 +60,7 @@ QSGNode* Stage::updatePaintNode(QSGNode* old, UpdatePaintNodeData*) {
         return old;
     auto* node = static_cast<StageNode*>(old);
     if (node == nullptr)
-        node = new StageNode(*window(), *device_);
+        node = new StageNode(*window(), *device_, settings_.recording);
     settings_.clip = std::max(clip_, 0);
     settings_.scheme = scheme_;
     settings_.rate = rate_;

@@ -31,7 +31,7 @@ public:
     Stage();
 
     /// Before the stage is shown. The device must outlive the window.
-    void open(const Device& device, const QStringList& files);
+    void open(const Device& device, const QStringList& files, const QString& recording);
     /// Moves the clip on by so many seconds, at its speed, and asks for a new frame.
     void advance(double seconds);
 

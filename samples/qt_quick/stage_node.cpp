@@ -7,9 +7,9 @@
 
 namespace qt_quick {
 
-StageNode::StageNode(QQuickWindow& window, const Device& device)
+StageNode::StageNode(QQuickWindow& window, const Device& device, const QString& recording)
     : window_(window), gpu_{device.physical(), device.handle()},
-      characters_(device, static_cast<uint32_t>(window.graphicsStateInfo().framesInFlight)), painter_(gpu_),
+      characters_(device, static_cast<uint32_t>(window.graphicsStateInfo().framesInFlight), recording), painter_(gpu_),
       frameOfSlot_(static_cast<size_t>(window.graphicsStateInfo().framesInFlight), 0) {
     QObject::connect(
         &window, &QQuickWindow::beforeRendering, &connection_, [this] { render(); }, Qt::DirectConnection);

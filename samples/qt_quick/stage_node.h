@@ -21,7 +21,7 @@ namespace qt_quick {
 
 class StageNode : public QSGSimpleTextureNode {
 public:
-    StageNode(QQuickWindow& window, const Device& device);
+    StageNode(QQuickWindow& window, const Device& device, const QString& recording);
     ~StageNode() override;
 
     /// From updatePaintNode, while the GUI thread waits.
