@@ -937,7 +937,12 @@ typedef enum SuppleGroupFlags {
     /** With SUPPLE_POSES_PLAYBACK: instances may go over from what they play to something else
      * (SupplePlaybackDesc.transition). Room for it costs 64 bytes per node that moves a joint, and 8 per morph target,
      * for each instance: of device memory, and of staging memory for each frame in flight. */
-    SUPPLE_GROUP_TRANSITIONS = 2048
+    SUPPLE_GROUP_TRANSITIONS = 2048,
+    /** With SUPPLE_POSES_PLAYBACK: instances may be posed at every second, fourth or eighth step of a grid of times only,
+     * and go straight from pose to pose between these (SupplePlaybackDesc.updateInterval). Three poses are kept of each
+     * instance instead of one, so the stride of SuppleGroupInfo.poses is three times as large; the first is what is
+     * shown. The first group of an asset with this flag measures its clips, which takes some milliseconds for each. */
+    SUPPLE_GROUP_UPDATE_RATES = 4096
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
