@@ -49,7 +49,8 @@ uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
 }
 
 BoundBytes InstanceSet::boundBytes(bool windowed) const {
-    const skinning::PoseLayout layout = poseLayoutOf(*desc_.asset, desc_.mode, desc_.room.poseRuns(), windowed ? kPosePadding : 1);
+    const skinning::PoseLayout layout =
+        poseLayoutOf(*desc_.asset, desc_.mode, desc_.room.poseRuns(), windowed ? kPosePadding : 1);
     return {std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes,
                      poseWindowBytes(desc_.source, *desc_.asset, layout, desc_.room)),
             0};

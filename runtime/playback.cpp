@@ -265,9 +265,9 @@ glm::mat4 Playback::jointTransform(uint32_t slot, uint32_t joint) {
         return skinning::placedJoint(glm::dmat4(own.transform()), asset_->jointFrames.bind[joint]);
     }
     evaluate(slot);
-    return evaluatedSpan_.isExact() ? twin_.placedJoint(joint)
-                                    : twin_.placedJointBetween(laterTwin_, evaluatedSpan_.partAt(time_),
-                                                               stateWords(slot), joint);
+    return evaluatedSpan_.isExact()
+               ? twin_.placedJoint(joint)
+               : twin_.placedJointBetween(laterTwin_, evaluatedSpan_.partAt(time_), stateWords(slot), joint);
 }
 
 void Playback::writePose(uint32_t slot, std::span<glm::vec4> pose) {
@@ -640,7 +640,8 @@ UpdateCourse Playback::courseOf(const skinning::PlaybackDesc& desc, uint32_t upd
         for (const skinning::PlaybackLayer& layer : desc.layers) {
             const double speed = std::abs(static_cast<double>(layer.speed));
             const double own = asset_->updates.ofClips[layer.clip].at(speed * UpdateCourse::kIntervals[n]);
-            const double weight = std::max(std::abs(layer.weight), layer.fadeDuration > 0.0f ? std::abs(layer.fadeWeight) : 0.0f);
+            const double weight =
+                std::max(std::abs(layer.weight), layer.fadeDuration > 0.0f ? std::abs(layer.fadeWeight) : 0.0f);
             if (weight > 0.0 && layer.mode == skinning::LayerMode::additive) {
                 added += weight * own;
             } else if (weight > 0.0) {

@@ -31,7 +31,7 @@ struct PoseSpan {
 struct UpdateCourse {
     static constexpr std::array<uint32_t, 3> kIntervals = {2, 4, 8};
 
-    uint32_t asked = 0;             ///< steps of the grid from pose to pose; 0: by the size on the screen
+    uint32_t asked = 0;            ///< steps of the grid from pose to pose; 0: by the size on the screen
     std::array<float, 3> errors{}; ///< of kIntervals, in extents
 };
 

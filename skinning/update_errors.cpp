@@ -69,7 +69,8 @@ private:
         errors.every = {};
         for (size_t i = 0; i <= steps + kSpan; ++i) {
             const double time = static_cast<double>(i) * kStep;
-            const double within = errors.closes && duration > 0.0 ? std::fmod(time, duration) : std::min(time, duration);
+            const double within =
+                errors.closes && duration > 0.0 ? std::fmod(time, duration) : std::min(time, duration);
             place(clip, within, frame(i));
             for (size_t n = 0; n < errors.every.size(); ++n) {
                 const size_t every = size_t{2} << n;

@@ -1,5 +1,5 @@
-// How far off instances are whose poses are made every 2, 4 or 8 steps of a grid of times, and that go straight from one
-// to the next between these.
+// How far off instances are whose poses are made every 2, 4 or 8 steps of a grid of times, and that go straight from
+// one to the next between these.
 #pragma once
 
 #include "cage/character.h"

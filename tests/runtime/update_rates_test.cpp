@@ -1,5 +1,5 @@
-// Update rates: poses at grid times, straight between them, with the bits that the CPU has, whatever the frame rate; and by
-// the size on the screen.
+// Update rates: poses at grid times, straight between them, with the bits that the CPU has, whatever the frame rate;
+// and by the size on the screen.
 #include "runtime/update_rates.h"
 
 #include "shaders/pose/straight.h"
@@ -67,22 +67,17 @@ uint32_t posedBy(CrowdContext& context, const SuppleGroup& group, uint32_t joint
         return all;
     };
     context.beginFrame();
-    EXPECT_TRUE(testDevice()
-                    ->submitAndWait([&](VkCommandBuffer commands) {
-                        EXPECT_EQ(context.LoggedContext::record(commands, {&group, 1}, SUPPLE_RECORD_TIMINGS), SUPPLE_OK);
-                    })
-                    .ok());
-    uint64_t newest = 0, points = 0;
-    for (int frames = 0; frames < 3; ++frames) {
-        context.beginFrame();
-        for (const SuppleTiming& timing : timings()) {
-            if (timing.group.id != group.id || timing.frame < newest) {
-                continue;
-            }
-            points = timing.frame > newest ? 0 : points;
-            newest = timing.frame;
-            points += timing.pass == SUPPLE_PASS_POSE ? timing.points : 0;
-        }
+    EXPECT_TRUE(
+        testDevice()
+            ->submitAndWait([&](VkCommandBuffer commands) {
+                EXPECT_EQ(context.LoggedContext::record(commands, {&group, 1}, SUPPLE_RECORD_TIMINGS), SUPPLE_OK);
+            })
+            .ok());
+    context.beginFrame(); // the frame is complete
+    context.beginFrame();
+    uint64_t points = 0;
+    for (const SuppleTiming& timing : timings()) {
+        points += timing.group.id == group.id && timing.pass == SUPPLE_PASS_POSE ? timing.points : 0;
     }
     return static_cast<uint32_t>(points / joints);
 }
@@ -178,9 +173,8 @@ TEST_F(UpdateRates, GoStraightBetweenPosesOfTheGrid) {
                         const skinning::PoseLayout& layout = exact.group().instances().poseLayout();
                         for (size_t k = 0; k < wanted.size(); ++k) {
                             const bool rotation = dual && k >= 3 && k < layout.morphWeights && (k - 3) % 4 == 3;
-                            wanted[k] = rotation
-                                            ? shared::straightRotation(wanted[k], later[k], span.partAt(time))
-                                            : shared::straight(wanted[k], later[k], span.partAt(time));
+                            wanted[k] = rotation ? shared::straightRotation(wanted[k], later[k], span.partAt(time))
+                                                 : shared::straight(wanted[k], later[k], span.partAt(time));
                         }
                         EXPECT_TRUE(same(shown, wanted)) << i << " at " << time;
                     }
@@ -278,21 +272,24 @@ TEST_F(UpdateRates, DoNotLagAndStayWithinWhatWasMeasured) {
         const cage::Character& character = PlayedGroup(own, playedGroup(own.asset(file), 1, 0)).character();
         const skinning::UpdateFacts facts = skinning::measureUpdates(character);
         const auto clips = static_cast<uint32_t>(character.clips.size());
-        PlayedGroup rated(own, ratedGroup(own.asset(file), 3 * clips)), exact(own, playedGroup(own.asset(file), clips, 0));
+        PlayedGroup rated(own, ratedGroup(own.asset(file), 3 * clips)),
+            exact(own, playedGroup(own.asset(file), clips, 0));
         for (uint32_t i = 0; i < 3 * clips; ++i) {
             rated.play(i, i / 3, 0.0, every(kEvery[1 + i % 3]));
             if (i % 3 == 0) {
                 exact.play(i / 3, i / 3, 0.0);
             }
         }
-        const skinning::DeformTable table = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+        const skinning::DeformTable table =
+            skinning::buildDeformTable(character.cage, character.weights, character.morphs);
         std::vector<glm::vec4> here(character.cage.vertexCount()), there(here);
         std::vector<double> most(3 * clips, 0.0);
         for (double time = 0.0; time < 1.2; time += 1.0 / 97.0) {
             for (uint32_t i = 0; i < 3 * clips; ++i) {
-                skinning::deformLikeTheDevice(table, rated.group().instances().poseLayout(), shownAt(rated, i, time), here);
-                skinning::deformLikeTheDevice(table, exact.group().instances().poseLayout(), shownAt(exact, i / 3, time),
-                                              there);
+                skinning::deformLikeTheDevice(table, rated.group().instances().poseLayout(), shownAt(rated, i, time),
+                                              here);
+                skinning::deformLikeTheDevice(table, exact.group().instances().poseLayout(),
+                                              shownAt(exact, i / 3, time), there);
                 for (size_t v = 0; v < here.size(); ++v) {
                     most[i] = std::max(most[i], static_cast<double>(glm::length(glm::vec3(here[v] - there[v]))));
                 }
@@ -317,8 +314,8 @@ cage::Character jumper() {
     cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3, .morphTargets = 1});
     tube.clips.push_back(clipOf({channel(1, ChannelPath::translation, {0, 0.5f, 1}, {0, 0, 0, 1, 0.25f, 0, 4, 0, 0}),
                                  channel(2, ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, 0, 0.6f, 0, 0.8f})}));
-    tube.clips.push_back(clipOf({channel(2, ChannelPath::rotation, {0, 0.5f, 1},
-                                         {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0, 0, 0, 1})}));
+    tube.clips.push_back(
+        clipOf({channel(2, ChannelPath::rotation, {0, 0.5f, 1}, {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0, 0, 0, 1})}));
     return tube;
 }
 
@@ -347,8 +344,8 @@ TEST_F(UpdateRates, AreExactAtSeams) {
         for (uint32_t i = 0; i < 4; ++i) {
             const std::vector<glm::vec4> a = shownBy(rated, i), b = shownBy(exact, i);
             exactly[i] += same(a, b) ? 1 : 0;
-            for (size_t k = 0; k < a.size(); ++k) {
-                EXPECT_LT(glm::length(a[k] - b[k]), 0.08f) << i << " at " << time << ", element " << k;
+            for (size_t k = 0; i < 2 && k < a.size(); ++k) { // the others have corners there
+                EXPECT_LT(glm::length(a[k] - b[k]), 0.02f) << i << " at " << time << ", element " << k;
             }
         }
     }
@@ -379,6 +376,7 @@ TEST_F(UpdateRates, GoWithAllThatInstancesDo) {
             }
         });
         EXPECT_EQ(rated.run(0.501), 0u);
+        EXPECT_EQ(exact.run(0.501), 0u);
         // Modifiers: posed in every frame.
         both([&](PlayedGroup& stage) {
             SuppleModifier turn{};
@@ -466,17 +464,18 @@ TEST_F(UpdateRates, SocketsStandWhereTheyAreShown) {
 
 TEST_F(UpdateRates, ComeOutAlikeInWindowsAndSharedDispatches) {
     const ValidationGuard guard;
+    constexpr uint32_t kMany = 200;
     WrappedVulkan& wrapped = wrappedVulkan();
     for (const SuppleMapping mapping : kMappings) {
         const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
         ASSERT_NE(device, nullptr);
-        wrapped.maxStorageBufferRange = 1u << 18;
+        wrapped.maxStorageBufferRange = 1u << 20;
         {
             CrowdContext small(*device, mapping);
-            PlayedGroup stage(small, ratedGroup(small.asset(kPip), 40));
+            PlayedGroup stage(small, ratedGroup(small.asset(kPip), kMany));
             ASSERT_TRUE(stage.crowd.valid());
             EXPECT_GT(stage.group().windows().count(), 1u);
-            for (uint32_t i = 0; i < 40; ++i) {
+            for (uint32_t i = 0; i < kMany; ++i) {
                 stage.play(i, 1, 0.05 * i, every(kEvery[i % 4]));
             }
             for (const double time : {0.2, 0.22, 0.3, 0.9}) {
@@ -523,8 +522,8 @@ TEST_F(UpdateRates, FollowTheSizeOnTheScreen) {
         std::memcpy(view.camera.viewProjection, &seen, sizeof seen);
         const auto errors = facts.ofClips[1].every;
         const auto intervalAt = [&](double pixels) { // of all
-            view.camera.pixelsPerUnit = 100.0f;
-            const auto away = static_cast<float>(100.0 * facts.extent / pixels);
+            view.camera.pixelsPerUnit = 1e4f;        // so far off that the box hardly counts
+            const auto away = static_cast<float>(1e4 * facts.extent / pixels);
             for (uint32_t i = 0; i < 6; ++i) {
                 stage.place(i, glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, away}));
             }

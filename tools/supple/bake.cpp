@@ -201,8 +201,12 @@ int runBake(const BakeOptions& options) {
     if (!transition) {
         return fail(kExitBadInput, transition.error().message);
     }
-    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights),
-                    std::move(*modifiers), *transition, options.updateInterval};
+    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip,
+                    options.time,
+                    std::move(*weights),
+                    std::move(*modifiers),
+                    *transition,
+                    options.updateInterval};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {

@@ -227,13 +227,13 @@ typedef struct SupplePlaybackDesc {
  * transition is running, it starts from what that one shows, and replaces it. At a T before its start there is none. It
  * changes local transforms, after layers and root motion and before modifiers, and morph weights unless the host has
  * set some. It ends if the playback is set again without KEEP_TRANSITION. An instance in the bind pose begins at once.
- * With an updateInterval of N, the instance in a slot is posed for the times (k N - slot mod N) / 60 s, ahead of T, and its
- * joint palette goes straight from one to the next: it does not lag, and it depends on T alone. It is posed exactly, in
- * every frame, while it is in a transition, has modifiers, or passes the seam of a loop that does not end as it begins.
- * Errors: the group has another pose source; too many layers; a clip, joint, mode, flag or kind of transition that does
- * not exist; a mask that was not set; a weight, speed, fade, transition or time out of range or not finite; TRAVEL
- * without rootMotion; a transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION; FROM_MODIFIED without a
- * transition; an updateInterval that is none of these, or without SUPPLE_GROUP_UPDATE_RATES. */
+ * With an updateInterval of N, the instance in a slot is posed for the times (k N - slot mod N) / 60 s, ahead of T, and
+ * its joint palette goes straight from one to the next: it does not lag, and it depends on T alone. It is posed
+ * exactly, in every frame, while it is in a transition, has modifiers, or passes the seam of a loop that does not end
+ * as it begins. Errors: the group has another pose source; too many layers; a clip, joint, mode, flag or kind of
+ * transition that does not exist; a mask that was not set; a weight, speed, fade, transition or time out of range or
+ * not finite; TRAVEL without rootMotion; a transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION;
+ * FROM_MODIFIED without a transition; an updateInterval that is none of these, or without SUPPLE_GROUP_UPDATE_RATES. */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
