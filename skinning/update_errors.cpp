@@ -11,14 +11,14 @@
 namespace supple::skinning {
 namespace {
 
-constexpr double kStep = 1.0 / shared::kUpdateSteps;
-constexpr double kLongestClip = 300.0; // seconds
-constexpr size_t kMostSamples = 2'000'000;
+constexpr double kUpdateSeconds = 1.0 / shared::kUpdateSteps;
+constexpr double kLongestMeasured = 300.0; // seconds
+constexpr size_t kMostMeasured = 2'000'000;
 /// A gap of less between the end of a clip and its beginning is none: a tenth of a pixel at a hundred of them.
-constexpr double kClosed = 1e-3;
-constexpr size_t kSpan = shared::kMaxUpdateInterval;
+constexpr double kClosedGap = 1e-3;
+constexpr size_t kLongestInterval = shared::kMaxUpdateInterval;
 
-double distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+double farthestApart(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
     double most = 0.0;
     for (size_t i = 0; i < a.size(); ++i) {
         const glm::dvec3 d = a[i] - b[i];
@@ -29,9 +29,9 @@ double distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
 
 /// Vertices that are skinned linearly by matrices that go straight go straight themselves: so errors are those of the
 /// points between two frames.
-class Measurement {
+class UpdateMeasurement {
 public:
-    explicit Measurement(const cage::Character& character)
+    explicit UpdateMeasurement(const cage::Character& character)
         : character_(character), distance_(character), globals_(character.skeleton.nodes.size()) {}
 
     UpdateFacts take() {
@@ -45,7 +45,7 @@ public:
 
 private:
     /// A ring of points, by the number of the frame.
-    static constexpr size_t kFrames = kSpan + 1;
+    static constexpr size_t kFrames = kLongestInterval + 1;
     std::vector<glm::dvec3>& frame(size_t number) { return frames_[number % kFrames]; }
 
     void place(const cage::Clip& clip, double time, std::vector<glm::dvec3>& points) {
@@ -57,18 +57,19 @@ private:
     UpdateErrors of(const cage::Clip& clip) {
         UpdateErrors errors;
         const double duration = clip.duration;
-        const auto steps = duration <= kLongestClip ? static_cast<size_t>(std::ceil(duration / kStep)) : kMostSamples;
-        const size_t samples = (steps + kSpan + 3) * globals_.size();
+        const auto steps =
+            duration <= kLongestMeasured ? static_cast<size_t>(std::ceil(duration / kUpdateSeconds)) : kMostMeasured;
+        const size_t samples = (steps + kLongestInterval + 3) * globals_.size();
         if (!(distance_.extent() > 0.0) || samples > samplesLeft_) {
             return errors;
         }
         samplesLeft_ -= samples;
         place(clip, 0.0, frame(0));
         place(clip, duration, frame(1));
-        errors.closes = distance(frame(0), frame(1)) <= kClosed * distance_.extent();
+        errors.closes = farthestApart(frame(0), frame(1)) <= kClosedGap * distance_.extent();
         errors.every = {};
-        for (size_t i = 0; i <= steps + kSpan; ++i) {
-            const double time = static_cast<double>(i) * kStep;
+        for (size_t i = 0; i <= steps + kLongestInterval; ++i) {
+            const double time = static_cast<double>(i) * kUpdateSeconds;
             const double within =
                 errors.closes && duration > 0.0 ? std::fmod(time, duration) : std::min(time, duration);
             place(clip, within, frame(i));
@@ -106,7 +107,7 @@ private:
     Pose pose_;
     std::vector<glm::dmat4> globals_;
     std::array<std::vector<glm::dvec3>, kFrames> frames_;
-    size_t samplesLeft_ = kMostSamples;
+    size_t samplesLeft_ = kMostMeasured;
 };
 
 } // namespace
@@ -121,7 +122,7 @@ double UpdateErrors::at(double steps) const {
 }
 
 UpdateFacts measureUpdates(const cage::Character& character) {
-    return Measurement(character).take();
+    return UpdateMeasurement(character).take();
 }
 
 } // namespace supple::skinning

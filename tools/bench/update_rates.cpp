@@ -13,10 +13,10 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
-constexpr double kFrameSeconds = 1.0 / 60.0;
+constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
 /// 0: the group has no update rates.
-constexpr uint32_t kIntervals[] = {0, 1, 2, 4, 8};
+constexpr uint32_t kRatedIntervals[] = {0, 1, 2, 4, 8};
 
 struct RatedGroup {
     uint32_t interval = 0;
@@ -38,7 +38,7 @@ public:
     RatedCrowd& operator=(const RatedCrowd&) = delete;
 
     Status create(SuppleAsset asset) {
-        for (const uint32_t interval : kIntervals) {
+        for (const uint32_t interval : kRatedIntervals) {
             SuppleGroupDesc desc{};
             desc.asset = asset;
             desc.scheme = SUPPLE_SCHEME_CAGE;
@@ -86,7 +86,7 @@ public:
 private:
     /// A frame of one group; its times are known when the next frame begins.
     Status step(RatedGroup& own, uint32_t frame) {
-        workbench_.setTime(own.group, frame * kFrameSeconds);
+        workbench_.setTime(own.group, frame * kRatedFrameSeconds);
         Status recorded = success();
         Status submitted = device_.submitAndWait([&](VkCommandBuffer commands) {
             recorded = workbench_.recordFrame(own.group, commands, SUPPLE_RECORD_TIMINGS);
