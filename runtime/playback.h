@@ -49,8 +49,8 @@ struct TransitionRequest {
     bool keeps = false;        ///< the transition that the instance is in
 };
 
-/// Setting and recording allocate nothing. A frame without anything set uploads nothing and costs the same for any
-/// number of instances.
+/// Setting and recording allocate nothing. Without update rates, a frame without anything set uploads nothing and costs
+/// the same for any number of instances.
 class Playback {
 public:
     struct Desc {

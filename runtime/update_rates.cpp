@@ -16,6 +16,7 @@ PoseSpan gridSpan(double time, uint32_t slot, uint32_t interval) {
 
 void UpdateRates::set(uint32_t slot, const UpdateCourse& course) {
     slots_[slot].course = course;
+    slots_[slot].chosen = 1;
     slots_[slot].isChosen = false;
     forget(slot);
 }

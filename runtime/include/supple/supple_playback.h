@@ -220,7 +220,8 @@ typedef struct SupplePlaybackDesc {
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
  * The array is read during the call. The device then computes poses from the group's time alone. In a frame in which
  * no playback and no new origin is set, none is uploaded, and the CPU's work is the same for any number of instances;
- * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL).
+ * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL), and with update rates for those
+ * whose turn it is.
  * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
  * for rounding (docs/playback.md).
  * A transition is a function of T. It starts at the T that the group has at the call, so set the time first. If another
