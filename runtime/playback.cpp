@@ -635,20 +635,16 @@ void Playback::cancelUpload(uint64_t frame) {
 UpdateCourse Playback::courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const {
     UpdateCourse course;
     course.asked = updateInterval;
-    for (size_t n = 0; n < UpdateCourse::kIntervals.size(); ++n) {
-        double blended = 0.0, added = 0.0;
-        for (const skinning::PlaybackLayer& layer : desc.layers) {
-            const double speed = std::abs(static_cast<double>(layer.speed));
-            const double own = asset_->updates.ofClips[layer.clip].at(speed * UpdateCourse::kIntervals[n]);
-            const double weight =
-                std::max(std::abs(layer.weight), layer.fadeDuration > 0.0f ? std::abs(layer.fadeWeight) : 0.0f);
-            if (weight > 0.0 && layer.mode == skinning::LayerMode::additive) {
-                added += weight * own;
-            } else if (weight > 0.0) {
-                blended = std::max(blended, own);
-            }
+    for (const skinning::PlaybackLayer& layer : desc.layers) { // those that add have no box, and so no size
+        if (layer.weight == 0.0f && !(layer.fadeDuration > 0.0f)) {
+            continue;
         }
-        course.errors[n] = static_cast<float>(blended + added);
+        const skinning::UpdateErrors& errors = asset_->updates.ofClips[layer.clip];
+        const double speed = std::abs(static_cast<double>(layer.speed));
+        for (size_t n = 0; n < UpdateCourse::kIntervals.size(); ++n) {
+            const auto own = static_cast<float>(errors.at(speed * UpdateCourse::kIntervals[n]));
+            course.errors[n] = std::max(course.errors[n], own);
+        }
     }
     return course;
 }
