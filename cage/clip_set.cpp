@@ -31,7 +31,7 @@ public:
         }
         const std::string ofFile = name + "@" + stem_;
         for (uint32_t& number = numbers_[ofFile];;) {
-            const std::string free = ++number == 1 ? ofFile : ofFile + "_" + std::to_string(number);
+            std::string free = ++number == 1 ? ofFile : ofFile + "_" + std::to_string(number);
             if (taken_.insert(free).second) {
                 return free;
             }
