@@ -21,7 +21,7 @@ using cage::kNone;
 
 constexpr double kLongestGap = 1.0 / 23.0; ///< seconds between two keys; longer ones get keys between
 constexpr double kRateBetween = 30.0;      ///< of the keys between
-constexpr double kMostRate = 60.0;         ///< frames a second of clips whose keys are closer than twice that
+constexpr double kEvenRate = 60.0;         ///< frames a second of clips whose keys are closer than twice that
 constexpr float kAnkleSoft = 0.995f;       ///< the part of a leg's length from which on it stretches ever more slowly
 
 constexpr uint64_t kLeastBudget = 250'000, kLargestBudget = 8'000'000; ///< poses of nodes
@@ -85,7 +85,7 @@ KeyTimes keyTimesOf(const cage::Clip& clip, uint64_t most) {
     keys.times = times;
     if (!times.empty() && !keys.isStepped) {
         const double length = times.back() - times.front();
-        const double atMostRate = std::ceil(length * kMostRate) + 1.0;
+        const double atMostRate = std::ceil(length * kEvenRate) + 1.0;
         keys.times = static_cast<double>(times.size()) > 2.0 * atMostRate
                          ? evenTimes(times.front(), times.back(), static_cast<size_t>(atMostRate))
                          : closerTimes(times, kRateBetween, most);

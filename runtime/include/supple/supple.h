@@ -450,9 +450,9 @@ typedef struct SuppleClipFile {
 } SuppleClipFile;
 
 /** What becomes of clips that were made for another skeleton (docs/gltf.md#retargeting). Then joints are told by what
- * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the rest
- * pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of the
- * clip go. A warning says how many joints follow, what is left out, and for which clips the legs are too short. */
+ * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the
+ * rest pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of
+ * the clip go. A warning says how many joints follow, what is left out, and for which clips the legs are too short. */
 typedef enum SuppleRetargeting {
     /** Clip files of which nodes of one role have other names than the asset's, or other bones. Both skeletons must be
      * of bipeds that stand upright: hips above two legs. Else clips move nodes of their names alone, and the warning
@@ -464,14 +464,15 @@ typedef enum SuppleRetargeting {
     SUPPLE_RETARGET_FREE_FEET = 3
 } SuppleRetargeting;
 
-/** Two joints that are the same, one of the clip files and one of the asset, where their names do not tell it. */
+/** Two joints that are the same, one of the clip files and one of the asset, where their names do not tell it: names of
+ * nodes. One of the two may be null if there is a role: that one is then found. A clip file without the node ignores
+ * the pair, and its warning says so: so one list may serve files of several rigs. */
 typedef struct SuppleJointPair {
     /** What both are: "hips", "neck" or "head", or with ".l" or ".r" behind it "thigh", "shin", "foot", "toes",
      * "clavicle", "upperarm", "lowerarm" or "hand". Null: nothing of these; the one turns as the other does. */
     const char* role;
-    /** Names of nodes. One of the two may be null if there is a role: that one is then found. A clip file without the
-     * node ignores the pair, and its warning says so: so one list may serve files of several rigs. */
-    const char *from, *to;
+    const char* from; /**< of the clip file */
+    const char* to;   /**< of the asset */
 } SuppleJointPair;
 
 /** Either a file in memory (`bytes`), or arrays (`cage`, `character`), or what was prepared of one of these
@@ -514,10 +515,10 @@ typedef struct SuppleAssetDesc {
      * have the variant that they were cooked with. Errors: no such variant; the message lists those there are. */
     const char* materialVariant;
     SuppleRetargeting retargeting; /**< of clipFiles; 0: of those whose skeleton is another one */
-    uint32_t jointPairCount;
+    uint32_t jointPairCount;       /**< of jointPairs */
     /** jointPairCount pairs, for all clipFiles: they go before what names and structure say, and clip files are then
-     * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset does
-     * not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
+     * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset
+     * does not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
     const SuppleJointPair* jointPairs;
 } SuppleAssetDesc;
 
@@ -595,8 +596,8 @@ typedef struct SuppleClipInfo {
     const char* name;   /**< lives as long as the asset */
     double duration;    /**< seconds */
     uint64_t byteCount; /**< that it takes on the device, beside key times that it shares with other clips */
-    /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip is
-     * not packed. */
+    /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip
+     * is not packed. */
     double packedError;
 } SuppleClipInfo;
 

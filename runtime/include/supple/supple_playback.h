@@ -118,7 +118,8 @@ SUPPLE_API SuppleResult suppleGetClipSharpness(SuppleContext context, SuppleAsse
  * docs/playback.md says when a foot stands. */
 typedef struct SuppleClipContact {
     uint32_t joint;    /**< of the foot */
-    double begin, end; /**< seconds, within the clip. A contact that spans the end of a loop is two */
+    double begin;      /**< seconds, within the clip. A contact that spans the end of a loop is two */
+    double end;        /**< seconds */
     float position[3]; /**< model space: the ground below the joint at `begin`, without root motion taken out */
     float velocity[3]; /**< a second: how the ground moves, where the character walks in place */
 } SuppleClipContact;
