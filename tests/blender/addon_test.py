@@ -1,4 +1,4 @@
-"""Inside Blender: addon_test.py OUT. What the add-on writes, reads back, says and shows; SUPPLE_COMMAND is the command."""
+"""Inside Blender: addon_test.py OUT SAMPLES. What the add-on writes, reads back, says and shows; SUPPLE_COMMAND is the command."""
 
 import os
 import sys
@@ -15,7 +15,7 @@ from mathutils import Euler, Vector
 import glb
 import support
 
-FOLDER = support.arguments()[0]
+FOLDER, SAMPLES = support.arguments()
 
 
 def path_of(name):
@@ -344,6 +344,15 @@ class Panel(Case):
 
     def test_unsubdivided_meshes_are_polygons(self):
         self.assertEqual(self.reported(add_box()).scheme, "polygons")
+
+    def test_clips_say_when_feet_stand(self):
+        support.import_glb(os.path.join(SAMPLES, "pip.glb"))
+        found = self.reported(support.meshes()[0])
+        walk = [f.text for f in found.findings if f.text.startswith("walk: ")]
+        self.assertEqual(len(walk), 1, [f.text for f in found.findings])
+        self.assertRegex(walk[0], r"^walk: 2\.\d\d s; foot\.L stands 0\.\d\d to .*; foot\.R stands .*; packed \d+\.\d:1 within ")
+        box = add_box()
+        self.assertFalse(any(" stands " in f.text for f in self.reported(box).findings), "no armature, no clips")
 
     def test_a_missing_command_is_said(self):
         box = add_box()

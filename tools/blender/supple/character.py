@@ -19,8 +19,17 @@ def visible_meshes(context):
     return [o for o in context.scene.objects if o.type == "MESH" and o.visible_get() and len(o.data.polygons) > 0]
 
 
-def write(context, blender_objects, path):
-    """In the pose of the current frame, which is the file's rest pose; without clips."""
+def has_clips(blender_object):
+    """Whether an armature that deforms it moves in an action."""
+    for armature in with_armatures([blender_object])[1:]:
+        data = armature.animation_data
+        if data is not None and (data.action is not None or any(track.strips for track in data.nla_tracks)):
+            return True
+    return False
+
+
+def write(context, blender_objects, path, clips=False):
+    """With clips, at rest; else in the pose of the current frame, which is the file's rest pose, without clips."""
     objects = with_armatures(blender_objects)
     selected = list(context.selected_objects)
     active = context.view_layer.objects.active
@@ -40,8 +49,8 @@ def write(context, blender_objects, path):
             if not blender_object.select_get():
                 raise command.CommandError("%s cannot be selected, and so not be exported: its collection is hidden"
                                            % blender_object.name)
-        bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", use_selection=True, export_animations=False,
-                                  export_current_frame=True, export_all_influences=True)
+        bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", use_selection=True, export_animations=clips,
+                                  export_current_frame=not clips, export_all_influences=True)
     finally:
         context.scene.supple.export = wanted
         bpy.ops.object.select_all(action="DESELECT")

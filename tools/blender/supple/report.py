@@ -89,6 +89,29 @@ def make(blender_object, text):
     return Report(part["scheme"], part["schemeReason"], findings)
 
 
+def _clip_text(clip):
+    """A line such as: walk: 2.20 s; foot.L stands 0.00 to 0.43; packed 7.2:1 within 9.9e-05 of the extent."""
+    text = "%s: %.2f s" % (clip["name"], clip["duration"])
+    standing = {}
+    for contact in clip["contacts"]:
+        begin, end = max(contact["begin"], 0.0), min(contact["end"], clip["duration"])
+        if begin < end:
+            standing.setdefault(contact["joint"], []).append("%.2f to %.2f" % (begin, end))
+    for joint, times in sorted(standing.items()):
+        text += "; %s stands %s" % (joint, ", ".join(times))
+    if "packed" in clip:
+        text += "; packed %.1f:1 within %.2g of the extent" % (clip["packed"]["ratio"], clip["packed"]["error"])
+    return text
+
+
+def clips(context, blender_object, folder):
+    """What games do with the clips of its armature: when feet stand, and how small they are once they are cooked."""
+    path = os.path.join(folder, "clips.glb")
+    character.write(context, [blender_object], path, clips=True)
+    text, _ = command.run(["inspect", "--json", "--clip-error", "1e-4", path])
+    return [Finding(_clip_text(clip), icon="ACTION") for clip in json.loads(text)["clips"]]
+
+
 def refused(reason):
     """The file as a whole was refused."""
     return Report("none", "refused", [Finding(line, icon="ERROR") for line in str(reason).splitlines()])
@@ -106,5 +129,7 @@ def inspect(context, blender_object):
             report = refused(reason)
         else:
             report = make(blender_object, text)
+            if character.has_clips(blender_object):
+                report.findings += clips(context, blender_object, folder)
     reports[blender_object.name] = report
     return report
