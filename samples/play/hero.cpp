@@ -3,9 +3,7 @@
 #include "host/must.h"
 
 #include <cstring>
-#include <fstream>
 #include <glm/gtc/type_ptr.hpp>
-#include <iterator>
 
 namespace play {
 
@@ -13,18 +11,11 @@ namespace {
 
 constexpr const char* kFile = "wren.glb";
 
-std::vector<char> readFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail(path + ": cannot be read");
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 } // namespace
 
 Hero::Hero(Device& device, const HeroOptions& options)
     : context_(mustCreateContext(device, options.record, options.bareRecording ? SUPPLE_RECORDING_WITHOUT_ASSETS : 0)) {
-    const std::vector<char> bytes = readFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + kFile);
+    const std::vector<char> bytes = mustReadFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + kFile);
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = kFile;
     assetDesc.bytes = bytes.data();
