@@ -54,7 +54,7 @@ bool Fall::isOver() const {
 Standing Fall::standing() const {
     // Who lies on the back rises towards the feet, who lies on the belly towards the head.
     const glm::vec2 spine = placeOf(ragdoll_.spine());
-    const glm::vec2 ahead = glm::normalize(ragdoll_.facing().y > 0.0f ? -spine : spine);
+    const glm::vec2 ahead = glm::normalize(isOnBack() ? -spine : spine);
     return {placeOf(ragdoll_.place(kHips)) + kToFeet * ahead, std::atan2(ahead.x, ahead.y)};
 }
 

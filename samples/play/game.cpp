@@ -105,7 +105,7 @@ void Game::getUp() {
     lift_ = 0.0f;
     place();
     fall_->handOver(hero_);
-    rise_.emplace(hero_);
+    rise_.emplace(hero_, fall_->isOnBack());
     fall_.reset();
     state_ = State::rises;
 }

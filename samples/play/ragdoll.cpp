@@ -17,6 +17,8 @@ constexpr float kDrag = 0.5f;      ///< part of the speed that a second takes
 constexpr float kFriction = 0.35f; ///< part of the speed along the ground that a touch takes
 constexpr float kToneSeconds = 0.22f;
 constexpr float kTone = 0.12f;
+constexpr float kBuckled = 0.9f;   ///< a leg whose knee gives way, as a part of its length
+constexpr float kBuckling = 0.03f; ///< slower than other muscles, so that feet stay on the ground
 constexpr float kLyingSpeed = 0.3f;
 constexpr float kUnbounded = 1e9f;
 
@@ -76,12 +78,15 @@ void Ragdoll::addSkeleton() {
           std::pair(kThighR, kUpperArmR), std::pair(kThighL, kUpperArmR), std::pair(kThighR, kUpperArmL)})
         addStick(a, b, 0.12f);
     for (const auto& [a, b] :
-         {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kKnucklesL),
-          std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
-          std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
-          std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
+         {std::pair(kUpperArmL, kKnucklesL), std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL),
+          std::pair(kHips, kShinR), std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR),
+          std::pair(kChest, kHead), std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
         const float length = glm::distance(points_[a], points_[b]);
         tone_.push_back({a, b, length, length, kTone});
+    }
+    for (const auto& [thigh, foot] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR)}) {
+        const float length = kBuckled * glm::distance(points_[thigh], points_[foot]);
+        tone_.push_back({thigh, foot, length, length, kBuckling});
     }
 }
 
