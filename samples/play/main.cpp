@@ -24,7 +24,7 @@ struct Options : PictureOptions {
     bool bare = false;
     uint32_t framesPerSecond = 30;
     std::string strip;
-    std::vector<double> moments = {1.5, 2.625, 4.25, 5.5, 6.75, 9.125};
+    std::vector<double> moments = {1.3, 2.3, 4.25, 5.5, 6.75, 9.125};
 };
 
 Options readOptions(int argc, char** argv) {
@@ -59,7 +59,7 @@ HeroOptions heroOptions(const Options& options) {
     return {.rate = options.rate, .record = options.record, .bareRecording = options.bare};
 }
 
-constexpr float kStoryDistance = 3.75f, kWindowDistance = 5.5f; ///< of the camera
+constexpr float kStoryDistance = 3.95f, kWindowDistance = 5.5f; ///< of the camera
 
 /// Between head and feet, whatever they do.
 glm::vec3 middleOf(const Game& game) {
