@@ -37,8 +37,6 @@ bool Game::isAtRest() const {
 
 void Game::update(const Input& input, float seconds) {
     hero_.setTime(hero_.time() + static_cast<double>(seconds));
-    if (input.push && state_ != State::falls && seconds > 0.0f)
-        beHit(input, seconds);
     if (input.goal)
         walker_.goTo(withinRoom(*input.goal));
     switch (state_) {
@@ -52,17 +50,19 @@ void Game::update(const Input& input, float seconds) {
         rise(input);
         break;
     }
+    if (input.push && state_ != State::falls && seconds > 0.0f)
+        beHit(input, seconds);
     pose_ = hero_.pose();
 }
 
-void Game::place() {
+void Game::setTransform() {
     hero_.setTransform(glm::translate(glm::mat4(1.0f), {0.0f, lift_, 0.0f}) * walker_.transform());
 }
 
 void Game::walk(const Input& input, float seconds) {
     walker_.update(seconds);
     lift_ *= std::exp(-seconds / kSettleSeconds);
-    place();
+    setTransform();
     if (walker_.gait() != gait_)
         changeGait(walker_.gait(), kGaitTransition);
     stance_.update(hero_, input.lookAt, seconds);
@@ -101,9 +101,9 @@ void Game::fall(float seconds) {
 /// it lies where it lay; the transition starts from that.
 void Game::getUp() {
     const Standing standing = fall_->standing();
-    walker_.put(standing.place, standing.heading);
+    walker_.teleport(standing.place, standing.heading);
     lift_ = 0.0f;
-    place();
+    setTransform();
     fall_->handOver(hero_);
     rise_.emplace(hero_, fall_->isOnBack());
     fall_.reset();
@@ -114,7 +114,7 @@ void Game::getUp() {
 void Game::rise(const Input& input) {
     rise_->update(hero_);
     lift_ += Rise::toGround(hero_);
-    place();
+    setTransform();
     if (rise_->isOver(hero_))
         standUp(input);
 }

@@ -2,7 +2,7 @@
 
 #include "host/must.h"
 
-#include <cstring>
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace play {
@@ -30,28 +30,25 @@ Hero::Hero(Device& device, const HeroOptions& options)
     desc.poseSource = SUPPLE_POSES_PLAYBACK;
     must(supple::Group::create(context_, desc, group_), "suppleCreateGroup");
     must(supple::Instance::create(group_, instance_), "suppleCreateInstance");
-    findJoints();
-    undress();
+    for (uint32_t point = 0; point < kJoints; ++point)
+        joints_[point] = findJoint(kBody[point].joint);
+    hideSword();
 }
 
-void Hero::findJoints() {
+uint32_t Hero::findJoint(std::string_view name) const {
     SuppleAssetInfo info{};
     must(asset_.info(info), "suppleGetAssetInfo");
-    for (uint32_t point = 0; point < kJoints; ++point) {
-        bool found = false;
-        for (uint32_t i = 0; i < info.jointCount && !found; ++i) {
-            SuppleJointInfo joint{};
-            must(asset_.jointInfo(i, joint), "suppleGetJointInfo");
-            found = std::strcmp(joint.name, kBody[point].joint) == 0;
-            joints_[point] = i;
-        }
-        if (!found)
-            fail(std::string(kFile) + ": has no joint " + kBody[point].joint);
+    for (uint32_t i = 0; i < info.jointCount; ++i) {
+        SuppleJointInfo joint{};
+        must(asset_.jointInfo(i, joint), "suppleGetJointInfo");
+        if (joint.name == name)
+            return i;
     }
+    fail(std::string(kFile) + ": has no joint " + std::string(name));
 }
 
 /// Who is about to be knocked over carries no blade.
-void Hero::undress() {
+void Hero::hideSword() {
     SuppleAssetInfo info{};
     must(asset_.info(info), "suppleGetAssetInfo");
     for (uint32_t i = 0; i < info.partCount; ++i) {
@@ -126,7 +123,11 @@ void Hero::setModifiers(std::span<const SuppleModifier> modifiers) const {
     must(instance_.setModifiers(modifiers), "suppleSetModifiers");
 }
 
-void Hero::setTarget(uint32_t modifier, const SuppleModifierTarget& target) const {
+void Hero::setTarget(uint32_t modifier, float weight, const glm::vec3& point, const glm::quat& rotation) const {
+    auto target = supple::sized<SuppleModifierTarget>();
+    target.weight = weight;
+    std::copy_n(&point[0], 3, target.target);
+    std::copy_n(&rotation[0], 4, target.rotation); // x, y, z, w, as glm has them in memory
     must(instance_.setModifierTarget(modifier, target), "suppleSetModifierTarget");
 }
 

@@ -15,13 +15,13 @@ namespace {
 constexpr const char* kClip = "jump";
 constexpr double kCrouch = 1.17; ///< seconds of the clip
 constexpr float kSpeed = 0.3f;
-constexpr double kTransition = 1.1, kSeconds = 1.0;
+constexpr double kTransition = 1.1;
+constexpr double kSeconds = 1.0; ///< after which she stands
 
 /// Who lies on the back sits up, knees before the body; who lies on the belly draws the knees under it.
 constexpr Bend kSitUp[] = {{kSpine, 0.65f},  {kChest, 0.5f}, {kThighL, -1.35f},
                            {kThighR, -1.1f}, {kShinL, 1.7f}, {kShinR, 1.35f}};
 constexpr Bend kKneel[] = {{kThighL, -1.35f}, {kThighR, -1.1f}, {kShinL, 1.7f}, {kShinR, 1.35f}};
-constexpr double kBendSeconds = 1.0;
 
 } // namespace
 
@@ -44,15 +44,10 @@ Rise::Rise(const Hero& hero, bool isOnBack)
 }
 
 void Rise::update(const Hero& hero) {
-    const double part = std::clamp((hero.time() - start_) / kBendSeconds, 0.0, 1.0);
+    const double part = std::clamp((hero.time() - start_) / kSeconds, 0.0, 1.0);
     const auto swing = static_cast<float>(std::sin(glm::pi<double>() * part));
-    for (uint32_t i = 0; i < bends_.size(); ++i) {
-        auto target = supple::sized<SuppleModifierTarget>();
-        target.weight = swing * swing;
-        target.rotation[0] = std::sin(0.5f * bends_[i].angle);
-        target.rotation[3] = std::cos(0.5f * bends_[i].angle);
-        hero.setTarget(i, target);
-    }
+    for (uint32_t i = 0; i < bends_.size(); ++i)
+        hero.setTarget(i, swing * swing, {}, glm::angleAxis(bends_[i].angle, glm::vec3(1.0f, 0.0f, 0.0f)));
 }
 
 bool Rise::isOver(const Hero& hero) const {

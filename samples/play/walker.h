@@ -10,7 +10,7 @@ namespace play {
 enum class Gait : uint8_t { stand, walk, run };
 /// Units a second that the ground passes under the feet of the clips, which walk on the spot
 /// (samples/assets/README.md). Of clips that move their root, suppleGetRootMotion would say it.
-inline constexpr float kPaces[] = {0.0f, 0.672f, 1.958f};
+inline constexpr float kGaitSpeeds[] = {0.0f, 0.672f, 1.958f};
 
 class Walker {
 public:
@@ -18,7 +18,7 @@ public:
 
     void goTo(glm::vec2 goal) { goal_ = goal; }
     /// Is somewhere else at once, and stands. The goal stays.
-    void put(glm::vec2 place, float heading);
+    void teleport(glm::vec2 place, float heading);
     void update(float seconds);
 
     [[nodiscard]] Gait gait() const { return gait_; }
