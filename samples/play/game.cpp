@@ -8,11 +8,17 @@ namespace play {
 
 namespace {
 
-constexpr glm::vec2 kStartPlace{-2.5f, 0.45f};
+constexpr glm::vec2 kStartPlace{-2.45f, 0.45f};
 constexpr float kStartHeading = 1.2f;
 
 const char* clipOf(Gait gait) {
     return gait == Gait::stand ? "idle" : gait == Gait::walk ? "walk" : "run";
+}
+GaitSpeeds gaitSpeeds(const Hero& hero) {
+    GaitSpeeds speeds{};
+    for (const Gait gait : {Gait::walk, Gait::run})
+        speeds[static_cast<uint32_t>(gait)] = hero.groundSpeed(clipOf(gait));
+    return speeds;
 }
 /// A part of the walk's cycle at which one foot passes the other, as in standing.
 constexpr double kPassing = 0.22;
@@ -22,7 +28,7 @@ constexpr float kSettleSeconds = 0.1f;
 
 } // namespace
 
-Game::Game(Hero& hero) : hero_(hero), walker_(kStartPlace, kStartHeading) {
+Game::Game(Hero& hero) : hero_(hero), walker_(gaitSpeeds(hero), kStartPlace, kStartHeading) {
     hero.setTime(0.0);
     hero.setTransform(walker_.transform());
     hero.play(clipOf(gait_), {});
@@ -83,7 +89,8 @@ void Game::changeGait(Gait gait, double transition) {
     hero_.play(clipOf(gait), {.offset = gaitOffset_, .transition = transition});
 }
 
-/// What the ragdoll does not move, as fingers and eyes, comes to rest.
+/// Behind the walk of the frame: so the poses of two frames have her speed. What the ragdoll does not move, as fingers
+/// and eyes, comes to rest.
 void Game::beHit(const Input& input, float seconds) {
     rise_.reset();
     fall_.emplace(hero_, pose_, seconds, *input.push);

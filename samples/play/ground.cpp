@@ -14,7 +14,7 @@ constexpr glm::vec2 kPlatform{4.0f * kTile, -kTile};
 constexpr float kPlatformReach = 2.0f * kTile; ///< half its side
 constexpr float kTread = kTile;
 constexpr float kRiser = 0.11f;
-constexpr float kEdge = 0.02f; ///< half the width over which a step rises
+constexpr float kEdge = 0.025f; ///< half the width over which a step rises
 
 // What a foot reaches beyond its joints.
 constexpr float kHeel = 0.07f, kToeTip = 0.09f, kHalfSole = 0.06f;

@@ -3,6 +3,7 @@
 #include "host/must.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace play {
@@ -76,6 +77,17 @@ double Hero::duration(std::string_view clip) const {
     SuppleClipInfo info{};
     must(asset_.clipInfo(findClip(clip), info), "suppleGetClipInfo");
     return info.duration;
+}
+
+float Hero::groundSpeed(std::string_view clip) const {
+    uint32_t count = 0;
+    must(asset_.clipContacts(findClip(clip), nullptr, count), "suppleGetClipContacts");
+    std::vector<SuppleClipContact> contacts(count);
+    must(asset_.clipContacts(findClip(clip), contacts.data(), count), "suppleGetClipContacts");
+    float speed = 0.0f;
+    for (const SuppleClipContact& contact : contacts)
+        speed += std::hypot(contact.velocity[0], contact.velocity[2]) / static_cast<float>(count);
+    return speed;
 }
 
 void Hero::beginFrame(uint64_t frame, uint64_t completed) const {

@@ -45,6 +45,8 @@ public:
     [[nodiscard]] double time() const { return time_; }
     void play(std::string_view clip, const Start& start) const;
     [[nodiscard]] double duration(std::string_view clip) const;
+    /// Units a second that the ground goes under the feet of a clip that walks on the spot.
+    [[nodiscard]] float groundSpeed(std::string_view clip) const;
     void setTransform(const glm::mat4& transform);
     [[nodiscard]] const glm::mat4& transform() const { return transform_; }
     void setModifiers(std::span<const SuppleModifier> modifiers) const;

@@ -24,7 +24,7 @@ struct Options : PictureOptions {
     bool bare = false;
     uint32_t framesPerSecond = 30;
     std::string strip;
-    std::vector<double> moments = {1.3, 2.3, 4.25, 5.5, 6.75, 9.125};
+    std::vector<double> moments = {1.3, 2.3, 4.25, 5.5, 7.0, 9.125};
 };
 
 Options readOptions(int argc, char** argv) {
