@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 namespace supple::host {
 
@@ -27,6 +29,13 @@ void must(VkResult result, const char* what) {
 void must(SuppleResult result, const char* what) {
     if (result != SUPPLE_OK)
         fail(std::string(what) + ": " + suppleResultString(result));
+}
+
+std::vector<char> mustReadFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        fail(path + ": cannot be read");
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::unique_ptr<Device> mustCreateDevice(bool window) {

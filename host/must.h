@@ -5,6 +5,7 @@
 #include "host/device.h"
 
 #include <supple/supple.hpp>
+#include <vector>
 
 namespace supple::host {
 
@@ -22,6 +23,9 @@ T must(Result<T> result) {
 }
 void must(VkResult result, const char* what);
 void must(SuppleResult result, const char* what);
+
+/// All bytes of a file, or the end.
+[[nodiscard]] std::vector<char> mustReadFile(const std::string& path);
 
 /// A device as the environment wants it: with SUPPLE_VALIDATION=1 the validation layer runs along.
 [[nodiscard]] std::unique_ptr<Device> mustCreateDevice(bool window);

@@ -189,20 +189,35 @@ Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& de
     return createBetween(device, desc, ends);
 }
 
-Result<VkSampler> createSampler(Device& device, VkFilter filter, bool compare) {
-    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-                                   .magFilter = filter,
-                                   .minFilter = filter,
-                                   .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                   .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                   .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                   .compareEnable = compare ? VK_TRUE : VK_FALSE,
-                                   .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
+namespace {
+
+Result<VkSampler> createSamplerFrom(Device& device, const VkSamplerCreateInfo& info) {
     VkSampler sampler = VK_NULL_HANDLE;
     if (const VkResult result = vkCreateSampler(device.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateSampler");
     device.atEnd([handle = device.handle(), sampler] { vkDestroySampler(handle, sampler, nullptr); });
     return sampler;
+}
+
+} // namespace
+
+Result<VkSampler> createSampler(Device& device, VkFilter filter, bool compare) {
+    return createSamplerFrom(device, {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                      .magFilter = filter,
+                                      .minFilter = filter,
+                                      .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .compareEnable = compare ? VK_TRUE : VK_FALSE,
+                                      .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL});
+}
+
+Result<VkSampler> createTextureSampler(Device& device) {
+    return createSamplerFrom(device, {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                      .magFilter = VK_FILTER_LINEAR,
+                                      .minFilter = VK_FILTER_LINEAR,
+                                      .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                      .maxLod = VK_LOD_CLAMP_NONE});
 }
 
 Write uniformBuffer(uint32_t binding, const Buffer& buffer) {

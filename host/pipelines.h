@@ -57,6 +57,8 @@ struct GraphicsDesc {
 
 /// Clamps to the edge; `compare`: of depths.
 [[nodiscard]] Result<VkSampler> createSampler(Device& device, VkFilter filter, bool compare = false);
+/// Linear, with mip levels; repeats.
+[[nodiscard]] Result<VkSampler> createTextureSampler(Device& device);
 
 /// What a descriptor points at.
 struct Write {

@@ -211,26 +211,30 @@ private:
                                                                     : std::nullopt;
     }
 
-    /// The median of all feet that are low enough to stand. Where many of them rest, the ground does, too: else a step
+    /// The median of all feet that are as low as they get: while a foot rolls over its heel or its toes, its joint goes
+    /// slower than the ground. Where many of those that are low enough to stand rest, the ground does, too: else a step
     /// or a turn on the spot would make it slide.
     [[nodiscard]] glm::dvec2 groundSpeed() const {
         constexpr double kAtRest = 0.1, kEnoughAtRest = 0.3; // legs a second; of all that are low
+        constexpr double kFlat = 0.015;                      // legs above the lowest
         std::vector<double> speeds[2];
-        size_t atRest = 0;
+        size_t atRest = 0, low = 0;
         for (size_t f = 0; f < feet_.size(); ++f) {
             const std::optional<double> height = standingHeight(f);
             for (size_t k = 0; height && k < paths_[f].size(); ++k) {
+                const glm::dvec2 own = speed(f, k);
                 if (paths_[f][k].y < *height) {
-                    const glm::dvec2 own = speed(f, k);
+                    ++low;
+                    atRest += glm::length(own) < kAtRest * feet_[f].leg ? 1 : 0;
+                }
+                if (paths_[f][k].y < *height - (kContactHeight - kFlat) * feet_[f].leg) {
                     speeds[0].push_back(own.x);
                     speeds[1].push_back(own.y);
-                    atRest += glm::length(own) < kAtRest * feet_[f].leg ? 1 : 0;
                 }
             }
         }
         glm::dvec2 median(0.0);
-        for (int axis = 0;
-             axis < 2 && static_cast<double>(atRest) < kEnoughAtRest * static_cast<double>(speeds[0].size()); ++axis) {
+        for (int axis = 0; axis < 2 && static_cast<double>(atRest) < kEnoughAtRest * static_cast<double>(low); ++axis) {
             std::vector<double>& own = speeds[axis];
             const auto middle = own.begin() + static_cast<ptrdiff_t>(own.size() / 2);
             std::nth_element(own.begin(), middle, own.end());

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <random>
@@ -49,10 +47,7 @@ std::array<float, 4> tintOf(size_t kind, uint32_t slot) {
 }
 
 std::vector<char> readGlb(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail(path + ": cannot be read");
-    std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    std::vector<char> bytes = mustReadFile(path);
     if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0)
         fail(path + ": is no GLB (.gltf is not read here)");
     return bytes;

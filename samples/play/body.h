@@ -39,7 +39,7 @@ inline constexpr uint32_t kJoints = kCrown; ///< all but the crown are joints of
 
 struct BodyPoint {
     const char* joint; ///< its name in the file; the crown has none
-    Point above;       ///< the hips are above themselves
+    Point parent;      ///< the hips have themselves
     float radius;      ///< how near it comes to the ground
     float mass;
     float push; ///< the part of a blow that it takes: a blow comes from above the hips

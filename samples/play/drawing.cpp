@@ -22,7 +22,7 @@ namespace {
 constexpr uint32_t kSunMapSize = 2048;
 constexpr float kSunReach = 2.6f; ///< half the side of what the sun's map shows
 constexpr float kSunDepth = 12.0f;
-const glm::vec3 kSunDirection = glm::normalize(glm::vec3(0.50f, 0.80f, 0.50f));
+const glm::vec3 kSunDirection = glm::normalize(glm::vec3(0.58f, 0.78f, 0.32f));
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
 /// SuppleRange of shaders/supple_surface.glsl, and the material.

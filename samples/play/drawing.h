@@ -17,6 +17,7 @@ struct SceneUniforms {
     glm::vec4 body[kPoints]; ///< balls that take the sky from the ground; w: radius
     glm::vec4 mark;          ///< where the player has pointed; w: 0 without
 };
+static_assert(kPoints == 22, "kPoints of shaders/scene.glsl");
 
 class Drawing {
 public:

@@ -2,7 +2,6 @@
 
 #include "ground.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace play {
@@ -37,13 +36,8 @@ void Fall::handOver(const Hero& hero) const {
     // Places are points of the world, rotations are in model space.
     const glm::quat toModel = glm::conjugate(glm::normalize(glm::quat_cast(glm::mat3(hero.transform()))));
     for (uint32_t i = 0; i < kMoved; ++i) {
-        auto target = supple::sized<SuppleModifierTarget>();
-        target.weight = 1.0f;
-        const glm::vec3 place = ragdoll_.place(static_cast<Point>(i));
-        std::copy_n(&place[0], 3, target.target);
-        const glm::quat rotation = toModel * ragdoll_.rotation(static_cast<Point>(i));
-        std::copy_n(&rotation[0], 4, target.rotation);
-        hero.setTarget(i, target);
+        const auto point = static_cast<Point>(i);
+        hero.setTarget(i, 1.0f, ragdoll_.place(point), toModel * ragdoll_.rotation(point));
     }
 }
 
@@ -54,7 +48,7 @@ bool Fall::isOver() const {
 Standing Fall::standing() const {
     // Who lies on the back rises towards the feet, who lies on the belly towards the head.
     const glm::vec2 spine = placeOf(ragdoll_.spine());
-    const glm::vec2 ahead = glm::normalize(ragdoll_.facing().y > 0.0f ? -spine : spine);
+    const glm::vec2 ahead = glm::normalize(isOnBack() ? -spine : spine);
     return {placeOf(ragdoll_.place(kHips)) + kToFeet * ahead, std::atan2(ahead.x, ahead.y)};
 }
 

@@ -19,6 +19,7 @@ public:
     void update(const Hero& hero, float seconds);
 
     [[nodiscard]] bool isOver() const;
+    [[nodiscard]] bool isOnBack() const { return ragdoll_.facing().y > 0.0f; }
     /// Above its feet, about, and the way that these point.
     [[nodiscard]] Standing standing() const;
     /// Hands all joints over, in the character's model space as it is now.

@@ -8,11 +8,17 @@ namespace play {
 
 namespace {
 
-constexpr glm::vec2 kStartPlace{-2.5f, 0.45f};
+constexpr glm::vec2 kStartPlace{-2.45f, 0.45f};
 constexpr float kStartHeading = 1.2f;
 
 const char* clipOf(Gait gait) {
     return gait == Gait::stand ? "idle" : gait == Gait::walk ? "walk" : "run";
+}
+GaitSpeeds gaitSpeeds(const Hero& hero) {
+    GaitSpeeds speeds{};
+    for (const Gait gait : {Gait::walk, Gait::run})
+        speeds[static_cast<uint32_t>(gait)] = hero.groundSpeed(clipOf(gait));
+    return speeds;
 }
 /// A part of the walk's cycle at which one foot passes the other, as in standing.
 constexpr double kPassing = 0.22;
@@ -22,7 +28,7 @@ constexpr float kSettleSeconds = 0.1f;
 
 } // namespace
 
-Game::Game(Hero& hero) : hero_(hero), walker_(kStartPlace, kStartHeading) {
+Game::Game(Hero& hero) : hero_(hero), walker_(gaitSpeeds(hero), kStartPlace, kStartHeading) {
     hero.setTime(0.0);
     hero.setTransform(walker_.transform());
     hero.play(clipOf(gait_), {});
@@ -37,8 +43,6 @@ bool Game::isAtRest() const {
 
 void Game::update(const Input& input, float seconds) {
     hero_.setTime(hero_.time() + static_cast<double>(seconds));
-    if (input.push && state_ != State::falls && seconds > 0.0f)
-        beHit(input, seconds);
     if (input.goal)
         walker_.goTo(withinRoom(*input.goal));
     switch (state_) {
@@ -52,17 +56,19 @@ void Game::update(const Input& input, float seconds) {
         rise(input);
         break;
     }
+    if (input.push && state_ != State::falls && seconds > 0.0f)
+        beHit(input, seconds);
     pose_ = hero_.pose();
 }
 
-void Game::place() {
+void Game::setTransform() {
     hero_.setTransform(glm::translate(glm::mat4(1.0f), {0.0f, lift_, 0.0f}) * walker_.transform());
 }
 
 void Game::walk(const Input& input, float seconds) {
     walker_.update(seconds);
     lift_ *= std::exp(-seconds / kSettleSeconds);
-    place();
+    setTransform();
     if (walker_.gait() != gait_)
         changeGait(walker_.gait(), kGaitTransition);
     stance_.update(hero_, input.lookAt, seconds);
@@ -83,7 +89,8 @@ void Game::changeGait(Gait gait, double transition) {
     hero_.play(clipOf(gait), {.offset = gaitOffset_, .transition = transition});
 }
 
-/// What the ragdoll does not move, as fingers and eyes, comes to rest.
+/// Behind the walk of the frame: so the poses of two frames have her speed. What the ragdoll does not move, as fingers
+/// and eyes, comes to rest.
 void Game::beHit(const Input& input, float seconds) {
     rise_.reset();
     fall_.emplace(hero_, pose_, seconds, *input.push);
@@ -101,11 +108,11 @@ void Game::fall(float seconds) {
 /// it lies where it lay; the transition starts from that.
 void Game::getUp() {
     const Standing standing = fall_->standing();
-    walker_.put(standing.place, standing.heading);
+    walker_.teleport(standing.place, standing.heading);
     lift_ = 0.0f;
-    place();
+    setTransform();
     fall_->handOver(hero_);
-    rise_.emplace(hero_);
+    rise_.emplace(hero_, fall_->isOnBack());
     fall_.reset();
     state_ = State::rises;
 }
@@ -114,7 +121,7 @@ void Game::getUp() {
 void Game::rise(const Input& input) {
     rise_->update(hero_);
     lift_ += Rise::toGround(hero_);
-    place();
+    setTransform();
     if (rise_->isOver(hero_))
         standUp(input);
 }

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const BodyPose& pose() const { return pose_; }
 
 private:
-    void place();
+    void setTransform();
     void walk(const Input& input, float seconds);
     void changeGait(Gait gait, double transition);
     /// Of the steps that are played, from 0 to 1.

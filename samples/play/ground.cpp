@@ -8,12 +8,13 @@ namespace play {
 
 namespace {
 
-// Two steps that lead up to a square platform.
-constexpr glm::vec2 kPlatform{1.55f, -0.25f};
-constexpr float kPlatformReach = 0.75f; ///< half its side
-constexpr float kTread = 0.42f;
-constexpr float kRise = 0.11f;
-constexpr float kEdge = 0.03f; ///< half the width over which a step rises
+// Two steps that lead up to a square platform. Their edges are between the tiles that shaders/ground.frag paints.
+constexpr float kTile = 0.42f;
+constexpr glm::vec2 kPlatform{4.0f * kTile, -kTile};
+constexpr float kPlatformReach = 2.0f * kTile; ///< half its side
+constexpr float kTread = kTile;
+constexpr float kRiser = 0.11f;
+constexpr float kEdge = 0.025f; ///< half the width over which a step rises
 
 // What a foot reaches beyond its joints.
 constexpr float kHeel = 0.07f, kToeTip = 0.09f, kHalfSole = 0.06f;
@@ -22,7 +23,7 @@ constexpr float kSlopeMost = 0.07f;
 
 constexpr float kRoomReach = 5.5f;
 constexpr float kMeshReach = 8.0f;
-constexpr uint32_t kMeshCells = 220; ///< along a side
+constexpr uint32_t kMeshCells = 140; ///< along a side, without those at the edges of the steps
 constexpr glm::vec2 kMeshCenter{0.6f, 0.0f};
 
 float bump(glm::vec2 place, glm::vec2 center, float height, float width) {
@@ -43,7 +44,7 @@ float heightAt(glm::vec2 place) {
                          bump(place, {-2.6f, -1.6f}, 0.3f, 1.0f) +
                          0.018f * std::sin(2.3f * place.x + 0.7f) * std::sin(1.9f * place.y);
     const float lower = within(place, kPlatformReach + kTread), upper = within(place, kPlatformReach);
-    return glm::mix(meadow, kRise, lower) + kRise * upper;
+    return glm::mix(meadow, kRiser, lower) + kRiser * upper;
 }
 
 glm::vec3 normalAt(glm::vec2 place) {
@@ -120,22 +121,37 @@ float openSkyAt(glm::vec2 place) {
     return 1.0f - hidden / (2.0f * kDirections);
 }
 
+/// Where the mesh has lines across one axis: they are close together at the edges of the steps, and far apart far away.
+std::vector<float> meshLines(float center, float platform) {
+    std::vector<float> lines;
+    for (uint32_t i = 0; i <= kMeshCells; ++i) {
+        const float t = 2.0f * static_cast<float>(i) / static_cast<float>(kMeshCells) - 1.0f;
+        lines.push_back(center + kMeshReach * t * (0.45f + 0.55f * t * t));
+    }
+    for (const float edge : {-kPlatformReach - kTread, -kPlatformReach, kPlatformReach, kPlatformReach + kTread}) {
+        for (int i = -4; i <= 4; ++i)
+            lines.push_back(platform + edge + kEdge * static_cast<float>(i) / 2.5f);
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+}
+
 } // namespace
 
 GroundMesh makeGroundMesh() {
     GroundMesh mesh;
-    constexpr uint32_t kSide = kMeshCells + 1;
-    for (uint32_t row = 0; row < kSide; ++row) {
-        for (uint32_t column = 0; column < kSide; ++column) {
-            // Cells are small about the platform, and large far away.
-            const glm::vec2 t = 2.0f * glm::vec2(column, row) / static_cast<float>(kMeshCells) - 1.0f;
-            const glm::vec2 place = kMeshCenter + kMeshReach * t * (0.45f + 0.55f * t * t);
+    const std::vector<float> columns = meshLines(kMeshCenter.x, kPlatform.x),
+                             rows = meshLines(kMeshCenter.y, kPlatform.y);
+    for (const float z : rows) {
+        for (const float x : columns) {
+            const glm::vec2 place(x, z);
             mesh.vertices.push_back({glm::vec4(onGround(place), 1.0f), glm::vec4(normalAt(place), openSkyAt(place))});
         }
     }
-    for (uint32_t row = 0; row < kMeshCells; ++row) {
-        for (uint32_t column = 0; column < kMeshCells; ++column) {
-            const uint32_t a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
+    const auto side = static_cast<uint32_t>(columns.size());
+    for (uint32_t row = 0; row + 1 < rows.size(); ++row) {
+        for (uint32_t column = 0; column + 1 < side; ++column) {
+            const uint32_t a = row * side + column, b = a + 1, c = a + side, d = c + 1;
             mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
         }
     }

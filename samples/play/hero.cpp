@@ -2,10 +2,9 @@
 
 #include "host/must.h"
 
-#include <cstring>
-#include <fstream>
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
-#include <iterator>
 
 namespace play {
 
@@ -13,18 +12,11 @@ namespace {
 
 constexpr const char* kFile = "wren.glb";
 
-std::vector<char> readFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail(path + ": cannot be read");
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 } // namespace
 
 Hero::Hero(Device& device, const HeroOptions& options)
     : context_(mustCreateContext(device, options.record, options.bareRecording ? SUPPLE_RECORDING_WITHOUT_ASSETS : 0)) {
-    const std::vector<char> bytes = readFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + kFile);
+    const std::vector<char> bytes = mustReadFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + kFile);
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = kFile;
     assetDesc.bytes = bytes.data();
@@ -39,28 +31,25 @@ Hero::Hero(Device& device, const HeroOptions& options)
     desc.poseSource = SUPPLE_POSES_PLAYBACK;
     must(supple::Group::create(context_, desc, group_), "suppleCreateGroup");
     must(supple::Instance::create(group_, instance_), "suppleCreateInstance");
-    findJoints();
-    undress();
+    for (uint32_t point = 0; point < kJoints; ++point)
+        joints_[point] = findJoint(kBody[point].joint);
+    hideSword();
 }
 
-void Hero::findJoints() {
+uint32_t Hero::findJoint(std::string_view name) const {
     SuppleAssetInfo info{};
     must(asset_.info(info), "suppleGetAssetInfo");
-    for (uint32_t point = 0; point < kJoints; ++point) {
-        bool found = false;
-        for (uint32_t i = 0; i < info.jointCount && !found; ++i) {
-            SuppleJointInfo joint{};
-            must(asset_.jointInfo(i, joint), "suppleGetJointInfo");
-            found = std::strcmp(joint.name, kBody[point].joint) == 0;
-            joints_[point] = i;
-        }
-        if (!found)
-            fail(std::string(kFile) + ": has no joint " + kBody[point].joint);
+    for (uint32_t i = 0; i < info.jointCount; ++i) {
+        SuppleJointInfo joint{};
+        must(asset_.jointInfo(i, joint), "suppleGetJointInfo");
+        if (joint.name == name)
+            return i;
     }
+    fail(std::string(kFile) + ": has no joint " + std::string(name));
 }
 
 /// Who is about to be knocked over carries no blade.
-void Hero::undress() {
+void Hero::hideSword() {
     SuppleAssetInfo info{};
     must(asset_.info(info), "suppleGetAssetInfo");
     for (uint32_t i = 0; i < info.partCount; ++i) {
@@ -88,6 +77,17 @@ double Hero::duration(std::string_view clip) const {
     SuppleClipInfo info{};
     must(asset_.clipInfo(findClip(clip), info), "suppleGetClipInfo");
     return info.duration;
+}
+
+float Hero::groundSpeed(std::string_view clip) const {
+    uint32_t count = 0;
+    must(asset_.clipContacts(findClip(clip), nullptr, count), "suppleGetClipContacts");
+    std::vector<SuppleClipContact> contacts(count);
+    must(asset_.clipContacts(findClip(clip), contacts.data(), count), "suppleGetClipContacts");
+    float speed = 0.0f;
+    for (const SuppleClipContact& contact : contacts)
+        speed += std::hypot(contact.velocity[0], contact.velocity[2]) / static_cast<float>(count);
+    return speed;
 }
 
 void Hero::beginFrame(uint64_t frame, uint64_t completed) const {
@@ -135,7 +135,11 @@ void Hero::setModifiers(std::span<const SuppleModifier> modifiers) const {
     must(instance_.setModifiers(modifiers), "suppleSetModifiers");
 }
 
-void Hero::setTarget(uint32_t modifier, const SuppleModifierTarget& target) const {
+void Hero::setTarget(uint32_t modifier, float weight, const glm::vec3& point, const glm::quat& rotation) const {
+    auto target = supple::sized<SuppleModifierTarget>();
+    target.weight = weight;
+    std::copy_n(&point[0], 3, target.target);
+    std::copy_n(&rotation[0], 4, target.rotation); // x, y, z, w, as glm has them in memory
     must(instance_.setModifierTarget(modifier, target), "suppleSetModifierTarget");
 }
 

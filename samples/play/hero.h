@@ -5,6 +5,7 @@
 
 #include "host/graph.h"
 
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,10 +45,14 @@ public:
     [[nodiscard]] double time() const { return time_; }
     void play(std::string_view clip, const Start& start) const;
     [[nodiscard]] double duration(std::string_view clip) const;
+    /// Units a second that the ground goes under the feet of a clip that walks on the spot.
+    [[nodiscard]] float groundSpeed(std::string_view clip) const;
     void setTransform(const glm::mat4& transform);
     [[nodiscard]] const glm::mat4& transform() const { return transform_; }
     void setModifiers(std::span<const SuppleModifier> modifiers) const;
-    void setTarget(uint32_t modifier, const SuppleModifierTarget& target) const;
+    /// What a kind of modifier does not need is not looked at.
+    void setTarget(uint32_t modifier, float weight, const glm::vec3& point,
+                   const glm::quat& rotation = glm::quat(1.0f, 0.0f, 0.0f, 0.0f)) const;
 
     /// Of kJoints.
     [[nodiscard]] uint32_t joint(Point point) const { return joints_[point]; }
@@ -61,8 +66,8 @@ public:
 
 private:
     [[nodiscard]] uint32_t findClip(std::string_view name) const;
-    void findJoints();
-    void undress();
+    [[nodiscard]] uint32_t findJoint(std::string_view name) const;
+    void hideSword();
 
     supple::Context context_;
     supple::Asset asset_;

@@ -10,19 +10,6 @@ namespace play {
 
 namespace {
 
-/// Repeats, with mip levels.
-VkSampler createTextureSampler(Device& device) {
-    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-                                   .magFilter = VK_FILTER_LINEAR,
-                                   .minFilter = VK_FILTER_LINEAR,
-                                   .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
-                                   .maxLod = VK_LOD_CLAMP_NONE};
-    VkSampler sampler = VK_NULL_HANDLE;
-    must(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
-    device.atEnd([handle = device.handle(), sampler] { vkDestroySampler(handle, sampler, nullptr); });
-    return sampler;
-}
-
 Image plainTexture(Device& device, std::array<uint8_t, 4> color) {
     Picture picture = Picture::blank(1, 1);
     std::copy(color.begin(), color.end(), picture.rgba.begin());
@@ -33,7 +20,7 @@ constexpr uint32_t kWhite = 0, kFlat = 1;
 
 } // namespace
 
-Looks::Looks(Device& device, const supple::Asset& asset) : sampler_(createTextureSampler(device)) {
+Looks::Looks(Device& device, const supple::Asset& asset) : sampler_(must(createTextureSampler(device))) {
     images_.push_back(plainTexture(device, {255, 255, 255, 255}));
     images_.push_back(plainTexture(device, {128, 128, 255, 255}));
     SuppleAssetInfo info{};

@@ -24,7 +24,7 @@ struct Options : PictureOptions {
     bool bare = false;
     uint32_t framesPerSecond = 30;
     std::string strip;
-    std::vector<double> moments = {1.5, 2.625, 4.25, 5.5, 6.75, 9.125};
+    std::vector<double> moments = {1.3, 2.3, 4.25, 5.5, 7.0, 9.125};
 };
 
 Options readOptions(int argc, char** argv) {
@@ -59,10 +59,17 @@ HeroOptions heroOptions(const Options& options) {
     return {.rate = options.rate, .record = options.record, .bareRecording = options.bare};
 }
 
+constexpr float kStoryDistance = 3.95f, kWindowDistance = 5.5f; ///< of the camera
+
 /// Between head and feet, whatever they do.
 glm::vec3 middleOf(const Game& game) {
     const glm::vec3 hips(game.pose()[kHips][3]);
     return onGround(placeOf(hips)) + glm::vec3(0.0f, 0.72f, 0.0f);
+}
+
+/// What the window shows: her, and some of what there is to walk on.
+glm::vec3 seenMiddle(const Game& game) {
+    return glm::mix(middleOf(game), glm::vec3(1.0f, 0.72f, 0.0f), 0.3f);
 }
 
 std::shared_ptr<const ValidationLog> runStory(const Options& options) {
@@ -84,7 +91,7 @@ std::shared_ptr<const ValidationLog> runStory(const Options& options) {
         const bool isShown =
             !options.strip.empty() && pictures < pictureCount && time >= options.moments[pictures] - 1e-9;
         if (isShown) {
-            show.draw(frames.slot(), cameraBeside(middleOf(show.game()), 4.3f));
+            show.draw(frames.slot(), cameraBeside(middleOf(show.game()), kStoryDistance));
             show.addReading();
         }
         show.execute(commands, frames.slot());
@@ -140,7 +147,7 @@ std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
         must(Window::create(*device, "Supple: click to walk, right-click or press the space bar to hit", options.size));
     Show show(*device, heroOptions(options));
     Player player(*window);
-    Camera camera = cameraBeside(middleOf(show.game()), 5.5f);
+    Camera camera = cameraBeside(seenMiddle(show.game()), kWindowDistance);
     using Clock = std::chrono::steady_clock;
     Clock::time_point last = Clock::now();
     uint64_t number = 0;
@@ -159,8 +166,8 @@ std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
         last = now;
         const float seconds = options.frames != 0 ? 1.0f / 60.0f : std::clamp(passed, 0.001f, 0.1f);
         show.update(++number, window->completedFrame(), player.read(*window, show, camera), seconds);
-        const glm::vec3 middle = glm::mix(camera.target, middleOf(show.game()), 1.0f - std::exp(-2.0f * seconds));
-        camera = cameraBeside(middle, 5.5f);
+        const glm::vec3 middle = glm::mix(camera.target, seenMiddle(show.game()), 1.0f - std::exp(-2.0f * seconds));
+        camera = cameraBeside(middle, kWindowDistance);
         show.draw(frame->slot, camera);
         show.addPresenting(window->swapchain());
         show.execute(frame->commands, frame->slot);

@@ -17,6 +17,8 @@ constexpr float kDrag = 0.5f;      ///< part of the speed that a second takes
 constexpr float kFriction = 0.35f; ///< part of the speed along the ground that a touch takes
 constexpr float kToneSeconds = 0.22f;
 constexpr float kTone = 0.12f;
+constexpr float kBuckled = 0.9f;   ///< a leg whose knee gives way, as a part of its length
+constexpr float kBuckling = 0.03f; ///< slower than other muscles, so that feet stay on the ground
 constexpr float kLyingSpeed = 0.3f;
 constexpr float kUnbounded = 1e9f;
 
@@ -43,7 +45,7 @@ Ragdoll::Ragdoll(const BodyPose& pose, const BodyPose& before, float seconds, gl
     for (uint32_t i = 0; i < kPoints; ++i) {
         const glm::vec3 speed = (points_[i] - earlier[i]) / seconds + kBody[i].push * push;
         before_[i] = points_[i] - kFallStep * speed;
-        lengths_[i] = glm::distance(points_[i], points_[kBody[i].above]);
+        lengths_[i] = glm::distance(points_[i], points_[kBody[i].parent]);
     }
     for (uint32_t i = 0; i < kMoved; ++i) {
         rotations_[i] = glm::normalize(glm::quat_cast(glm::mat3(pose[i])));
@@ -65,7 +67,7 @@ void Ragdoll::addLimit(Point a, Point b, float least, float most) {
 /// Bones, and what keeps shoulders and hips in shape.
 void Ragdoll::addSkeleton() {
     for (uint32_t i = 1; i < kPoints; ++i)
-        addStick(kBody[i].above, static_cast<Point>(i));
+        addStick(kBody[i].parent, static_cast<Point>(i));
     for (const auto& [a, b] :
          {std::pair(kUpperArmL, kUpperArmR), std::pair(kNeck, kUpperArmL), std::pair(kNeck, kUpperArmR),
           std::pair(kThighL, kThighR), std::pair(kSpine, kThighL), std::pair(kSpine, kThighR)})
@@ -76,12 +78,15 @@ void Ragdoll::addSkeleton() {
           std::pair(kThighR, kUpperArmR), std::pair(kThighL, kUpperArmR), std::pair(kThighR, kUpperArmL)})
         addStick(a, b, 0.12f);
     for (const auto& [a, b] :
-         {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR), std::pair(kUpperArmL, kKnucklesL),
-          std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL), std::pair(kHips, kShinR),
-          std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR), std::pair(kChest, kHead),
-          std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
+         {std::pair(kUpperArmL, kKnucklesL), std::pair(kUpperArmR, kKnucklesR), std::pair(kHips, kShinL),
+          std::pair(kHips, kShinR), std::pair(kChest, kForeArmL), std::pair(kChest, kForeArmR),
+          std::pair(kChest, kHead), std::pair(kChest, kShinL), std::pair(kChest, kShinR)}) {
         const float length = glm::distance(points_[a], points_[b]);
         tone_.push_back({a, b, length, length, kTone});
+    }
+    for (const auto& [thigh, foot] : {std::pair(kThighL, kFootL), std::pair(kThighR, kFootR)}) {
+        const float length = kBuckled * glm::distance(points_[thigh], points_[foot]);
+        tone_.push_back({thigh, foot, length, length, kBuckling});
     }
 }
 
@@ -134,17 +139,17 @@ void Ragdoll::step() {
     }
     const float left = std::exp(-age_ / kToneSeconds);
     for (const Stick& stick : tone_)
-        hold(stick, left * stick.stiffness);
+        satisfy(stick, left * stick.stiffness);
     for (int round = 0; round < kRounds; ++round) {
         for (const Stick& stick : sticks_)
-            hold(stick, stick.stiffness);
+            satisfy(stick, stick.stiffness);
         bendKnee(kThighL, kShinL, kFootL);
         bendKnee(kThighR, kShinR, kFootR);
         stopAtGround();
     }
 }
 
-void Ragdoll::hold(const Stick& stick, float stiffness) {
+void Ragdoll::satisfy(const Stick& stick, float stiffness) {
     const glm::vec3 between = points_[stick.b] - points_[stick.a];
     const float length = glm::length(between);
     const float wanted = std::clamp(length, stick.least, stick.most);
@@ -190,8 +195,8 @@ void Ragdoll::stopAtGround() {
 /// stretched.
 void Ragdoll::keepLengths() {
     for (uint32_t i = 1; i < kPoints; ++i) {
-        const glm::vec3 above = points_[kBody[i].above];
-        move(static_cast<Point>(i), above + lengths_[i] * along(above, points_[i]));
+        const glm::vec3 parent = points_[kBody[i].parent];
+        move(static_cast<Point>(i), parent + lengths_[i] * along(parent, points_[i]));
     }
 }
 
@@ -202,7 +207,7 @@ void Ragdoll::move(Point point, glm::vec3 to) {
 }
 
 /// Points have no rotations: hips and chest have axes by their shoulders, a limb turns by the shortest way from the
-/// part above it.
+/// part that it hangs on.
 void Ragdoll::turn() {
     const auto frame = [](const BodyPoints& p, Point left, Point right, Point low, Point high) {
         return frameOf(p[left] - p[right], p[high] - p[low]);
@@ -211,8 +216,8 @@ void Ragdoll::turn() {
         return glm::normalize(frame(points_, left, right, low, high) *
                               glm::conjugate(frame(start_, left, right, low, high)));
     };
-    const auto limbTurn = [&](const glm::quat& above, Point from, Point to) {
-        return swung(above, along(start_[from], start_[to]), along(points_[from], points_[to]));
+    const auto limbTurn = [&](const glm::quat& parent, Point from, Point to) {
+        return swung(parent, along(start_[from], start_[to]), along(points_[from], points_[to]));
     };
     turns_[kHips] = frameTurn(kThighL, kThighR, kHips, kSpine);
     turns_[kChest] = frameTurn(kUpperArmL, kUpperArmR, kChest, kNeck);

@@ -41,7 +41,7 @@ private:
     void addSkeleton();
     void addLimits();
     void step();
-    void hold(const Stick& stick, float stiffness);
+    void satisfy(const Stick& stick, float stiffness);
     /// Not the wrong way.
     void bendKnee(Point thigh, Point shin, Point foot);
     void stopAtGround();
@@ -53,7 +53,7 @@ private:
     BodyPoints start_;
     std::array<glm::quat, kMoved> rotations_; ///< at the start
     std::array<glm::quat, kMoved> turns_;     ///< since then
-    std::array<float, kPoints> lengths_{};    ///< from the point above
+    std::array<float, kPoints> lengths_{};    ///< from the parent
     std::vector<Stick> sticks_;
     std::vector<Stick> tone_; ///< muscles that give way in the first moments
     float age_ = 0.0f;

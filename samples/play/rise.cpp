@@ -15,21 +15,18 @@ namespace {
 constexpr const char* kClip = "jump";
 constexpr double kCrouch = 1.17; ///< seconds of the clip
 constexpr float kSpeed = 0.3f;
-constexpr double kTransition = 1.1, kSeconds = 1.0;
+constexpr double kTransition = 1.1;
+constexpr double kSeconds = 1.0; ///< after which she stands
 
-/// Bent while the transition is under way: so the body curls up, with the knees before it, instead of rising like a
-/// board.
-struct Curl {
-    Point point;
-    float angle; ///< about +X, in radians: positive leans forwards
-};
-constexpr Curl kCurls[] = {{kSpine, 0.45f},  {kChest, 0.35f}, {kNeck, 0.3f},  {kThighL, -1.35f},
-                           {kThighR, -1.1f}, {kShinL, 1.7f},  {kShinR, 1.35f}};
-constexpr double kCurlSeconds = 1.0;
+/// Who lies on the back sits up, knees before the body; who lies on the belly draws the knees under it.
+constexpr Bend kSitUp[] = {{kSpine, 0.65f},  {kChest, 0.5f}, {kThighL, -1.35f},
+                           {kThighR, -1.1f}, {kShinL, 1.7f}, {kShinR, 1.35f}};
+constexpr Bend kKneel[] = {{kThighL, -1.35f}, {kThighR, -1.1f}, {kShinL, 1.7f}, {kShinR, 1.35f}};
 
 } // namespace
 
-Rise::Rise(const Hero& hero) : start_(hero.time()) {
+Rise::Rise(const Hero& hero, bool isOnBack)
+    : bends_(isOnBack ? std::span<const Bend>(kSitUp) : std::span<const Bend>(kKneel)), start_(hero.time()) {
     // Arms may have to turn by half a turn: the quintic keeps to one way round.
     hero.play(kClip, {.offset = kCrouch,
                       .speed = kSpeed,
@@ -37,26 +34,20 @@ Rise::Rise(const Hero& hero) : start_(hero.time()) {
                       .transition = kTransition,
                       .kind = SUPPLE_TRANSITION_QUINTIC,
                       .fromModified = true});
-    std::array<SuppleModifier, std::size(kCurls)> modifiers{};
-    for (uint32_t i = 0; i < modifiers.size(); ++i) {
+    std::vector<SuppleModifier> modifiers(bends_.size());
+    for (size_t i = 0; i < bends_.size(); ++i) {
         modifiers[i].kind = SUPPLE_MODIFIER_ADD;
-        modifiers[i].joint = hero.joint(kCurls[i].point);
-        modifiers[i].rotation[0] = std::sin(0.5f * kCurls[i].angle);
-        modifiers[i].rotation[3] = std::cos(0.5f * kCurls[i].angle);
+        modifiers[i].joint = hero.joint(bends_[i].point);
+        modifiers[i].rotation[3] = 1.0f;
     }
     hero.setModifiers(modifiers);
 }
 
 void Rise::update(const Hero& hero) {
-    const double part = std::clamp((hero.time() - start_) / kCurlSeconds, 0.0, 1.0);
+    const double part = std::clamp((hero.time() - start_) / kSeconds, 0.0, 1.0);
     const auto swing = static_cast<float>(std::sin(glm::pi<double>() * part));
-    for (uint32_t i = 0; i < std::size(kCurls); ++i) {
-        auto target = supple::sized<SuppleModifierTarget>();
-        target.weight = swing * swing;
-        target.rotation[0] = std::sin(0.5f * kCurls[i].angle);
-        target.rotation[3] = std::cos(0.5f * kCurls[i].angle);
-        hero.setTarget(i, target);
-    }
+    for (uint32_t i = 0; i < bends_.size(); ++i)
+        hero.setTarget(i, swing * swing, {}, glm::angleAxis(bends_[i].angle, glm::vec3(1.0f, 0.0f, 0.0f)));
 }
 
 bool Rise::isOver(const Hero& hero) const {

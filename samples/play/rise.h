@@ -5,10 +5,16 @@
 
 namespace play {
 
+/// Of a joint, while the transition is under way: the body curls up with it, instead of rising like a board.
+struct Bend {
+    Point point;
+    float angle; ///< about +X, in radians: positive leans forwards
+};
+
 class Rise {
 public:
     /// The transition starts from what the modifiers have made of the pose, and takes their place.
-    explicit Rise(const Hero& hero);
+    Rise(const Hero& hero, bool isOnBack);
     void update(const Hero& hero);
 
     [[nodiscard]] bool isOver(const Hero& hero) const;
@@ -16,6 +22,7 @@ public:
     [[nodiscard]] static float toGround(const Hero& hero);
 
 private:
+    std::span<const Bend> bends_;
     double start_;
 };
 

@@ -14,7 +14,7 @@ enum : uint32_t { kLower, kPlantL, kPlantR, kLook, kModifiers };
 constexpr Point kAnkles[] = {kFootL, kFootR};
 constexpr Point kToes[] = {kToesL, kToesR};
 
-constexpr float kTakeHoldSeconds = 0.3f;
+constexpr float kBlendInSeconds = 0.3f;
 constexpr float kFootingSeconds = 0.04f; ///< ground under a foot may rise at once: the foot does not
 constexpr float kLookSeconds = 0.15f;
 constexpr float kLookLimit = 0.6f; ///< radians, of head and neck each
@@ -27,10 +27,6 @@ float eased(float seconds, float constant) {
 Footing footingOf(const Hero& hero, uint32_t foot) {
     return footingUnder(glm::vec3(hero.jointTransform(kAnkles[foot])[3]),
                         glm::vec3(hero.jointTransform(kToes[foot])[3]));
-}
-
-void put(double (&out)[3], glm::vec3 point) {
-    std::copy_n(&point[0], 3, out);
 }
 
 } // namespace
@@ -58,7 +54,7 @@ void Stance::begin(const Hero& hero, glm::vec3 lookAt) {
     hero.setModifiers(modifiers);
     lookAt_ = lookAt;
     weight_ = 0.0f;
-    tell(hero);
+    setTargets(hero);
 }
 
 void Stance::update(const Hero& hero, glm::vec3 lookAt, float seconds) {
@@ -70,24 +66,17 @@ void Stance::update(const Hero& hero, glm::vec3 lookAt, float seconds) {
         footing.normal = glm::normalize(glm::mix(footing.normal, under.normal, part));
     }
     lookAt_ = glm::mix(lookAt_, lookAt, eased(seconds, kLookSeconds));
-    weight_ = std::min(weight_ + seconds / kTakeHoldSeconds, 1.0f);
-    tell(hero);
+    weight_ = std::min(weight_ + seconds / kBlendInSeconds, 1.0f);
+    setTargets(hero);
 }
 
-void Stance::tell(const Hero& hero) const {
-    auto target = supple::sized<SuppleModifierTarget>();
-    target.weight = weight_ * weight_ * (3.0f - 2.0f * weight_);
-    hero.setTarget(kLower, target);
-    for (uint32_t foot = 0; foot < 2; ++foot) {
-        put(target.target, footings_[foot].point);
-        const glm::quat tilt = glm::quat(glm::vec3(0.0f, 1.0f, 0.0f), footings_[foot].normal);
-        std::copy_n(&tilt[0], 4, target.rotation); // x, y, z, w, as glm has them in memory
-        hero.setTarget(kPlantL + foot, target);
-    }
-    auto look = supple::sized<SuppleModifierTarget>();
-    look.weight = target.weight;
-    put(look.target, lookAt_);
-    hero.setTarget(kLook, look);
+void Stance::setTargets(const Hero& hero) const {
+    const float weight = weight_ * weight_ * (3.0f - 2.0f * weight_);
+    hero.setTarget(kLower, weight, {});
+    for (uint32_t foot = 0; foot < 2; ++foot)
+        hero.setTarget(kPlantL + foot, weight, footings_[foot].point,
+                       glm::quat(glm::vec3(0.0f, 1.0f, 0.0f), footings_[foot].normal));
+    hero.setTarget(kLook, weight, lookAt_);
 }
 
 } // namespace play

@@ -10,7 +10,7 @@ class Stance {
 public:
     /// Sets the modifiers. They take hold bit by bit.
     void begin(const Hero& hero, glm::vec3 lookAt);
-    /// Tells them where the ground is under the feet, and where to look.
+    /// Their targets: the ground under the feet, and where to look.
     void update(const Hero& hero, glm::vec3 lookAt, float seconds);
 
     [[nodiscard]] float weight() const { return weight_; }
@@ -18,7 +18,7 @@ public:
     [[nodiscard]] const Footing& footing(uint32_t foot) const { return footings_[foot]; }
 
 private:
-    void tell(const Hero& hero) const;
+    void setTargets(const Hero& hero) const;
 
     std::array<Footing, 2> footings_;
     glm::vec3 lookAt_{0.0f};

@@ -14,7 +14,6 @@ namespace {
 constexpr float kWalkStep = 1.0f / 120.0f;
 constexpr float kRunFrom = 2.2f;      ///< away from the goal; it walks the rest from half of that
 constexpr float kAcceleration = 3.0f; ///< a gait is reached about when its clip has come over
-constexpr float kThere = 0.5f * kPaces[1] * kPaces[1] / kAcceleration; ///< what it still goes while it stops
 constexpr float kTurnRate = 2.4f, kTurnGain = 5.0f;
 constexpr float kNearTurnRate = 5.0f; ///< beside the goal, so that it does not circle round it
 constexpr float kHeightSeconds = 0.12f;
@@ -36,7 +35,7 @@ float standingHeight(glm::vec2 place) {
 
 } // namespace
 
-void Walker::put(glm::vec2 place, float heading) {
+void Walker::teleport(glm::vec2 place, float heading) {
     place_ = place;
     heading_ = heading;
     speed_ = 0.0f;
@@ -56,7 +55,8 @@ void Walker::update(float seconds) {
 
 void Walker::chooseGait() {
     const float away = goal_ ? glm::distance(*goal_, place_) : 0.0f;
-    if (away < kThere)
+    const float walk = speeds_[static_cast<uint32_t>(Gait::walk)];
+    if (away < 0.5f * walk * walk / kAcceleration) // what she still goes while she stops
         goal_.reset();
     if (!goal_)
         gait_ = Gait::stand;
@@ -74,7 +74,7 @@ void Walker::step(float seconds) {
         const float rate = glm::length(way) < 0.7f ? kNearTurnRate : kTurnRate;
         heading_ = shorter(heading_ + seconds * std::clamp(kTurnGain * off, -rate, rate));
     }
-    const float wanted = kPaces[static_cast<uint32_t>(gait_)], most = kAcceleration * seconds;
+    const float wanted = speeds_[static_cast<uint32_t>(gait_)], most = kAcceleration * seconds;
     speed_ += std::clamp(wanted - speed_, -most, most);
     place_ += seconds * speed_ * glm::vec2(std::sin(heading_), std::cos(heading_));
     height_ += (standingHeight(place_) - height_) * (1.0f - std::exp(-seconds / kHeightSeconds));

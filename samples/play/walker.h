@@ -1,6 +1,7 @@
 // The controller: where the character stands, and how it comes to where it is sent.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -8,17 +9,19 @@
 namespace play {
 
 enum class Gait : uint8_t { stand, walk, run };
-/// Units a second that the ground passes under the feet of the clips, which walk on the spot
-/// (samples/assets/README.md). Of clips that move their root, suppleGetRootMotion would say it.
-inline constexpr float kPaces[] = {0.0f, 0.672f, 1.958f};
+/// Units a second, of each gait.
+using GaitSpeeds = std::array<float, 3>;
 
 class Walker {
 public:
-    Walker(glm::vec2 place, float heading) : place_(place), heading_(heading) { settle(); }
+    Walker(const GaitSpeeds& speeds, glm::vec2 place, float heading)
+        : speeds_(speeds), place_(place), heading_(heading) {
+        settle();
+    }
 
     void goTo(glm::vec2 goal) { goal_ = goal; }
     /// Is somewhere else at once, and stands. The goal stays.
-    void put(glm::vec2 place, float heading);
+    void teleport(glm::vec2 place, float heading);
     void update(float seconds);
 
     [[nodiscard]] Gait gait() const { return gait_; }
@@ -35,6 +38,7 @@ private:
     /// At the height of the ground.
     void settle();
 
+    GaitSpeeds speeds_;
     glm::vec2 place_;
     float heading_; ///< radians from +Z towards +X
     float height_ = 0.0f;

@@ -14,7 +14,7 @@ namespace {
 /// The height of an ankle above its sole (samples/assets/README.md: the character stands on y = 0).
 constexpr float kAnkleHeight = 0.095f;
 
-/// No other joint is between it and the point above it, as clavicles and wrists are, so that its length never changes.
+/// No other joint is between it and its parent, as clavicles and wrists are, so that its length never changes.
 bool isBone(Point point) {
     constexpr Point kNone[] = {kHips, kUpperArmL, kUpperArmR, kKnucklesL, kKnucklesR, kTailTip};
     return std::find(std::begin(kNone), std::end(kNone), point) == std::end(kNone);
@@ -23,7 +23,7 @@ bool isBone(Point point) {
 std::array<float, kPoints> lengthsOf(const BodyPose& pose) {
     std::array<float, kPoints> lengths{};
     for (uint32_t i = 0; i < kJoints; ++i)
-        lengths[i] = glm::distance(glm::vec3(pose[i][3]), glm::vec3(pose[kBody[i].above][3]));
+        lengths[i] = glm::distance(glm::vec3(pose[i][3]), glm::vec3(pose[kBody[i].parent][3]));
     return lengths;
 }
 

@@ -18,7 +18,7 @@ private:
     void seeFeet(const Game& game);
 
     BodyPose last_;
-    std::array<float, kPoints> lengths_{}; ///< of the bones above the points, at first
+    std::array<float, kPoints> lengths_{}; ///< from the parents, at first
     Game::State lastState_ = Game::State::walks;
     std::optional<glm::vec2> goal_;
     uint32_t arrivals_ = 0, falls_ = 0, rises_ = 0;

@@ -25,19 +25,6 @@ Tint tintOf(std::string_view material, Kind kind) {
     return material == "face" || material == "skin" ? Tint::skin : Tint::none;
 }
 
-/// Repeats, with mip levels.
-VkSampler createTextureSampler(Device& device) {
-    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-                                   .magFilter = VK_FILTER_LINEAR,
-                                   .minFilter = VK_FILTER_LINEAR,
-                                   .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
-                                   .maxLod = VK_LOD_CLAMP_NONE};
-    VkSampler sampler = VK_NULL_HANDLE;
-    must(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
-    device.atEnd([handle = device.handle(), sampler] { vkDestroySampler(handle, sampler, nullptr); });
-    return sampler;
-}
-
 Image whiteTexture(Device& device) {
     Picture white = Picture::blank(1, 1);
     std::fill(white.rgba.begin(), white.rgba.end(), uint8_t{255});
@@ -46,7 +33,7 @@ Image whiteTexture(Device& device) {
 
 } // namespace
 
-Looks::Looks(Device& device, const Market& market) : sampler_(createTextureSampler(device)) {
+Looks::Looks(Device& device, const Market& market) : sampler_(must(createTextureSampler(device))) {
     textures_.push_back(whiteTexture(device));
     std::array<std::optional<Look>, kKinds> ofKinds;
     for (size_t i = 0; i < market.cast().size(); ++i) {

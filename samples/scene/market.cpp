@@ -6,8 +6,6 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string_view>
 
@@ -16,11 +14,7 @@ namespace market {
 namespace {
 
 Source readSource(const char* name, SuppleScheme scheme) {
-    const std::string path = std::string(SUPPLE_SAMPLE_ASSETS) + "/" + name + ".glb";
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail(path + ": cannot be read");
-    return {name, {std::istreambuf_iterator<char>(file), {}}, scheme};
+    return {name, mustReadFile(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + name + ".glb"), scheme};
 }
 
 /// In the order of Kind.

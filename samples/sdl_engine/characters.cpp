@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <span>
 
 namespace engine {
@@ -64,10 +62,7 @@ void play(const supple::Instance& instance, std::span<const SuppleClipLayer> lay
 Characters::Characters(Device& device, const std::string& path, uint32_t rate, const std::string& record) {
     context_ = mustCreateContext(device, record);
 
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream)
-        fail(path + " cannot be read");
-    const std::vector<char> file(std::istreambuf_iterator<char>(stream), {});
+    const std::vector<char> file = mustReadFile(path);
     auto assetDesc = supple::sized<SuppleAssetDesc>();
     assetDesc.name = path.c_str();
     assetDesc.bytes = file.data();

@@ -118,6 +118,26 @@ TEST(Contacts, StandOnTheGroundThatAWalkPasses) {
     }
 }
 
+/// While a foot rolls over its toes, its joint goes slower than the ground, which must not count.
+TEST(Contacts, DriftAsFastAsTheGround) {
+    struct Gait {
+        const std::string& file;
+        const char* clip;
+        double speed; ///< samples/assets/README.md
+    };
+    for (const Gait& gait :
+         {Gait{test::kWren, "walk", 0.672}, {test::kWren, "run", 1.958}, {test::kPip, "walk", 0.406}}) {
+        const cage::Character character = test::readCharacter(gait.file);
+        const Contacts contacts = findContacts(character);
+        for (size_t f = 0; f < 2; ++f) {
+            for (const Contact& contact : contacts.of(test::clipNumber(character, gait.clip), f)) {
+                EXPECT_NEAR(contact.drift.x, 0.0, 0.02) << gait.file << " " << gait.clip;
+                EXPECT_NEAR(contact.drift.y, -gait.speed, 0.07 * gait.speed) << gait.file << " " << gait.clip;
+            }
+        }
+    }
+}
+
 TEST(Contacts, GoOnOverTheEndOfALoopWhereTheRootHasGone) {
     // It jumps forward and turns in the air.
     cage::Character wren = test::readCharacter(test::kWren);

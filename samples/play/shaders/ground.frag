@@ -22,12 +22,13 @@ float ring(vec3 position) {
 
 void main() {
     vec3 n = normalize(inNormal.xyz);
-    vec2 tile = inPosition.xz / 0.42;
+    vec2 tile = inPosition.xz / 0.42; // kTile of ground.cpp
+    float level = smoothstep(0.7, 0.95, n.y); // a step's side is of one piece
     float odd = fract(sin(dot(floor(tile), vec2(12.9898, 78.233))) * 43758.5453);
-    vec3 albedo = vec3(0.33, 0.30, 0.27) * (0.93 + 0.14 * odd) * (1.0 - 0.4 * lines(tile, 0.012));
+    vec3 albedo = vec3(0.33, 0.30, 0.27) * (0.93 + 0.14 * odd) * (1.0 - 0.4 * level * lines(tile, 0.012));
     albedo = mix(albedo, vec3(0.80, 0.36, 0.10), 0.9 * ring(inPosition));
     float open = skyVisibility(inPosition, n) * inNormal.w;
     vec3 color = lit(plainMaterial(albedo, 0.8), inPosition, n, n, open);
     float away = length(inPosition.xz);
-    outColor = shown(mix(color, background(gl_FragCoord.xy), smoothstep(3.2, 7.5, away)));
+    outColor = shown(mix(color, background(gl_FragCoord.xy), smoothstep(3.8, 7.2, away)));
 }

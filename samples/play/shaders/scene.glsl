@@ -66,7 +66,7 @@ vec3 lit(Material material, vec3 position, vec3 n, vec3 surface, float open) {
 /// The air far away, which has no horizon.
 vec3 background(vec2 pixel) {
     vec2 off = (pixel * scene.viewport.zw - vec2(0.5, 0.38)) * vec2(0.9, 1.0);
-    return mix(vec3(0.30, 0.34, 0.42), vec3(0.66, 0.66, 0.66), exp(-2.6 * dot(off, off)));
+    return mix(vec3(0.24, 0.33, 0.46), vec3(0.72, 0.70, 0.67), exp(-2.6 * dot(off, off)));
 }
 
 /// Linear to what the picture holds.
