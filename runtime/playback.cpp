@@ -42,6 +42,12 @@ uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) 
                   (room.modifiers ? table.footCount : 0));
 }
 
+/// From one end of an instance to the next. Both together are a multiple of kPadding.
+uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
+    constexpr uint32_t kMultiple = kPadding / kPoseEnds;
+    return room.updateRates ? (layout.elements() + kMultiple - 1) / kMultiple * kMultiple : 0;
+}
+
 /// Poses of an instance that may be made in one frame.
 uint32_t posesInFrame(const StateRoom& room) {
     return room.updateRates ? 2 : 1;
@@ -65,7 +71,7 @@ PosePush constantsOf(const Playback::Desc& desc) {
     push.scratchStride = scratchStride(table, desc.room);
     push.contacts = table.contacts;
     push.poseStride = desc.layout.stride;
-    push.runStride = desc.layout.runStride;
+    push.endStride = endStride(desc.layout, desc.room);
     push.morphWeights = desc.layout.morphWeights;
     return push;
 }
@@ -80,7 +86,8 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
-    return std::max(stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room)) *
+    return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
+                     kPoseEnds * endStride(layout, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -121,7 +128,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.regions_.reserve(inParts ? 2 * size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
     if (desc.room.transitions) {
         playback.transitionDue_.resize(desc.capacity, false);
-        for (auto* const poses : {&playback.ends_.shown, &playback.ends_.played}) {
+        for (auto* const poses : {&playback.startsFrom_.shown, &playback.startsFrom_.played}) {
             for (skinning::SampledPose& pose : *poses) {
                 pose.assign(playback.twin_.locals(), playback.twin_.weights());
             }
@@ -149,6 +156,7 @@ Status Playback::createBuffers(const Desc& desc) {
     requests[kScratch] = {"supple node matrices",
                           capacity_ * posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes,
                           kStorage | kTexels, gpu::MemoryPurpose::scratch};
+    requests[kEnds] = {"supple ends", capacity_ * endBytes(), kStorage | kTexels, gpu::MemoryPurpose::poses};
     const VkDeviceSize ofList = takesUpdateRates() ? listBytes() : 0;
     requests[kList] = {"supple list of poses", ofList, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
@@ -186,6 +194,9 @@ Status Playback::createSets(const Desc& desc) {
     const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listed, "supple instances");
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
                        scratchBytes = posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes;
+    // Without update rates nobody touches what is bound as ends.
+    const VkBuffer ends = takesUpdateRates() ? buffers_.buffer(kEnds) : desc.poses;
+    const VkDeviceSize bytesOfEnds = takesUpdateRates() ? endBytes() : poseBytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
@@ -207,10 +218,8 @@ Status Playback::createSets(const Desc& desc) {
              {},
              view(scratch, gpu::kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
             {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
-            {kEndsBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
-            {kEndsTexelBinding,
-             {},
-             view(desc.poses, gpu::kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
+            {kEndsBinding, range(ends, bytesOfEnds), VK_NULL_HANDLE},
+            {kEndsTexelBinding, {}, view(ends, gpu::kFloat4, first * bytesOfEnds, count * bytesOfEnds, "supple ends")},
             {kInstanceBinding, {list, 0, listed}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, listView},
         };
@@ -321,9 +330,9 @@ void Playback::sampleShown(uint32_t slot, const TransitionRequest& request) {
     // Before a transition began, something else was shown.
     const bool justBegun =
         state(slot).isInTransition() && skinning::transitionStart(transitionWords(slot)) > time_ - kStep;
-    ends_.now = justBegun ? 0 : 1;
-    double time = time_ - ends_.now * kStep;
-    for (skinning::SampledPose& pose : ends_.shown) {
+    startsFrom_.now = justBegun ? 0 : 1;
+    double time = time_ - startsFrom_.now * kStep;
+    for (skinning::SampledPose& pose : startsFrom_.shown) {
         sample(slot, time, request.fromModified, pose);
         time += kStep;
     }
@@ -332,12 +341,12 @@ void Playback::sampleShown(uint32_t slot, const TransitionRequest& request) {
 void Playback::startTransition(uint32_t slot, const TransitionRequest& request) {
     if (request.kind == skinning::TransitionKind::quintic) {
         double time = time_;
-        for (skinning::SampledPose& pose : ends_.played) {
+        for (skinning::SampledPose& pose : startsFrom_.played) {
             sample(slot, time, false, pose);
             time += static_cast<double>(kTransitionStep);
         }
     }
-    skinning::writeTransition({request.kind, time_, request.seconds}, ends_, transitionWords(slot));
+    skinning::writeTransition({request.kind, time_, request.seconds}, startsFrom_, transitionWords(slot));
     state(slot).setInTransition(true);
     transitionDue_[slot] = true;
     const double end = time_ + static_cast<double>(request.seconds);
@@ -701,7 +710,7 @@ void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
     }
     const UpdateRates::Ends ends = rates_.take(slot, span);
     for (uint32_t i = 0; i < ends.dueCount; ++i) {
-        list_.addPose(slotInWindow, ends.due[i].run, ends.due[i].time);
+        list_.addPose(slotInWindow, ends.due[i].end, ends.due[i].time);
     }
     list_.addMix(slotInWindow, ends.earlier, span.partAt(time_));
 }

@@ -36,9 +36,6 @@ struct StateRoom {
     // Of instances that play on the device:
     bool transitions = false;
     bool updateRates = false;
-
-    /// How many poses of an instance the device keeps (shaders/shared/pose.h).
-    [[nodiscard]] uint32_t poseRuns() const { return updateRates ? shared::kPoseRuns : 1; }
 };
 
 /// What suppleSetPlayback says beside the layers.
@@ -168,7 +165,7 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
 private:
-    enum BufferIndex : size_t { kStates, kMasks, kScratch, kList, kBufferCount };
+    enum BufferIndex : size_t { kStates, kMasks, kScratch, kEnds, kList, kBufferCount };
     enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
 
     Status createBuffers(const Desc& desc);
@@ -194,6 +191,10 @@ private:
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
+    /// Of an instance's two ends.
+    [[nodiscard]] VkDeviceSize endBytes() const {
+        return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
+    }
     [[nodiscard]] VkDeviceSize listBytes() const { return capacity_ * PoseList::kWordsOfInstance * sizeof(uint32_t); }
     [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
@@ -238,7 +239,7 @@ private:
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
 
-    skinning::TransitionEnds ends_;       ///< memory of set
+    skinning::TransitionEnds startsFrom_; ///< memory of set
     std::vector<bool> transitionDue_;     ///< by slot: its words are not on the device yet
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order

@@ -64,9 +64,9 @@ public:
     [[nodiscard]] bool holds(uint32_t slot, const PoseSpan& span) const;
     /// The ends that the device lacks, which it has from now on.
     struct Ends {
-        uint32_t earlier = 1; ///< run of the span's begin, of shared::kPoseRuns
+        uint32_t earlier = 1; ///< number of the span's begin, 1 or 2
         struct Due {
-            uint32_t run = 0;
+            uint32_t end = 0; ///< its number
             double time = 0.0;
         };
         std::array<Due, 2> due;
@@ -84,7 +84,7 @@ private:
         UpdateCourse course;
         uint32_t chosen = 1;
         bool isChosen = false;
-        std::array<double, 2> ends = kNone; ///< times of the poses in runs 1 and 2
+        std::array<double, 2> ends = kNone; ///< times of the poses of number 1 and 2
     };
     std::vector<Slot> slots_;
 };

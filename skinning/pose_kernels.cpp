@@ -32,7 +32,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
         gpu::storage(kScratchPoseBinding),
         gpu::narrowTexels(kScratchPoseTexelBinding),
         gpu::storage(kPosedBinding),
-        gpu::wideStorage(kEndsBinding),
+        gpu::storage(kEndsBinding),
         gpu::narrowTexels(kEndsTexelBinding),
         gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),

@@ -40,7 +40,7 @@ std::vector<glm::vec4> shownAt(const PlayedGroup& stage, uint32_t i, double time
     const skinning::PoseLayout& layout = stage.group().instances().poseLayout();
     std::vector<glm::vec4> pose(layout.stride);
     stage.group().poses().playback()->writePose(stage.instances[i].slot, pose);
-    pose.resize(layout.runStride);
+    pose.resize(layout.elements());
     return pose;
 }
 
@@ -51,7 +51,7 @@ bool same(std::span<const glm::vec4> a, std::span<const glm::vec4> b) {
 /// What an instance showed in the last frame, by the device.
 std::vector<glm::vec4> shownBy(const PlayedGroup& stage, uint32_t i) {
     const skinning::PoseLayout& layout = stage.group().instances().poseLayout();
-    std::vector<glm::vec4> pose(layout.runStride);
+    std::vector<glm::vec4> pose(layout.elements());
     std::memcpy(pose.data(), stage.poses.data() + size_t{4} * stage.instances[i].slot * layout.stride,
                 pose.size() * sizeof(glm::vec4));
     return pose;
@@ -113,7 +113,7 @@ TEST(UpdateGrid, PosesThatBothSpansHaveStay) {
     const runtime::UpdateRates::Ends later = rates.take(0, {2.0, 3.0}), back = rates.take(0, {1.0, 2.0});
     ASSERT_EQ(later.dueCount, 1u);
     EXPECT_EQ(later.due[0].time, 3.0);
-    EXPECT_EQ(later.due[0].run, 1u) << "in the place of what is over";
+    EXPECT_EQ(later.due[0].end, 1u) << "in the place of what is over";
     EXPECT_EQ(later.earlier, 2u);
     ASSERT_EQ(back.dueCount, 1u);
     EXPECT_EQ(back.due[0].time, 1.0);
