@@ -76,6 +76,18 @@ PosePush constantsOf(const Playback::Desc& desc) {
     return push;
 }
 
+/// How much longer a matrix makes a vector, at most; exactly, if its columns are orthogonal: by the sums of the rows of
+/// its columns' products.
+float largestScale(const glm::mat3& linear) {
+    const glm::mat3 products = glm::transpose(linear) * linear;
+    float most = 0.0f;
+    for (int column = 0; column < 3; ++column) {
+        const glm::vec3 row = glm::abs(products[column]);
+        most = std::max(most, row.x + row.y + row.z);
+    }
+    return std::sqrt(most);
+}
+
 /// A node's place in the table of another version of the asset, or kNone.
 uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::ClipTable& table) {
     const uint32_t moved = match.nodes[node];
@@ -254,6 +266,18 @@ void Playback::forgetEnds(uint32_t slot) {
     }
 }
 
+void Playback::forgetEndsWith(uint32_t mask) {
+    skinning::PlaybackState::Layers memory;
+    for (uint32_t slot = 0; takesUpdateRates() && slot < capacity_; ++slot) {
+        const skinning::PlaybackState own = state(slot);
+        const skinning::PlaybackDesc desc =
+            own.inBindPose() ? skinning::PlaybackDesc{} : own.read(*asset_->clipTable, memory);
+        if (std::ranges::any_of(desc.layers, [&](const auto& layer) { return layer.mask == mask; })) {
+            rates_.forget(slot);
+        }
+    }
+}
+
 void Playback::evaluate(uint32_t slot) {
     if (evaluated_ == slot) {
         return;
@@ -303,7 +327,7 @@ void Playback::reset(uint32_t slot) {
     own.setBindPose();
     bounds_.setBindPose(slot);
     if (takesUpdateRates()) {
-        rates_.set(slot, {});
+        rates_.reset(slot);
     }
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
@@ -458,8 +482,11 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     forget(slot);
-    forgetEnds(slot);
-    state(slot).setMorphWeights(weights, push_.morphCount);
+    skinning::PlaybackState own = state(slot);
+    if (weights == nullptr && own.morphWeights() != nullptr) { // ends that were posed meanwhile have the host's
+        forgetEnds(slot);
+    }
+    own.setMorphWeights(weights, push_.morphCount);
     markChanged(slot);
 }
 
@@ -473,7 +500,7 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
         std::copy(joints.begin(), joints.end(), own.begin());
     }
     evaluated_ = kNoSlot;
-    rates_.forgetAll();
+    forgetEndsWith(mask);
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }
@@ -557,6 +584,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         std::copy_n(other.states_.begin(), words, states_.begin());
         bounds_.takeOver(other.bounds_, count);
         rates_.takeOver(other.rates_, count);
+        steps_ = other.steps_;
     } else {
         takeOverMasks(other, match);
     }
@@ -659,17 +687,17 @@ UpdateCourse Playback::courseOf(const skinning::PlaybackDesc& desc, uint32_t upd
 }
 
 void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
-    const glm::mat3 linear(transforms_[slot]);
-    const float scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
     const uint32_t before = rates_.interval(slot);
-    rates_.choose(slot, pixelsPerUnit * scale * static_cast<float>(asset_->updates.extent));
+    const float scale = largestScale(glm::mat3(transforms_[slot]));
+    rates_.choose(slot, pixelsPerUnit * scale * static_cast<float>(asset_->updates.extent), steps_.leastInterval());
     if (rates_.interval(slot) != before) {
         forget(slot);
     }
 }
 
-bool Playback::crossesSeam(uint32_t slot, const PoseSpan& span) {
+bool Playback::hasCorner(uint32_t slot, const PoseSpan& span) {
     constexpr double kSlack = 1e-5; // as finely as the device tells times apart
+    const double first = span.begin - kSlack, last = span.end + kSlack;
     const skinning::PlaybackState own = state(slot);
     if (own.inBindPose()) {
         return false;
@@ -677,12 +705,14 @@ bool Playback::crossesSeam(uint32_t slot, const PoseSpan& span) {
     skinning::PlaybackState::Layers memory;
     const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, memory);
     for (const skinning::PlaybackLayer& layer : desc.layers) {
-        const bool travels = desc.travels && &layer == desc.layers.data();
-        if (asset_->updates.ofClips[layer.clip].closes && !travels) {
-            continue;
+        const double fadeEnd = layer.fadeStart + static_cast<double>(layer.fadeDuration);
+        const bool fades = layer.fadeDuration > 0.0f && last > layer.fadeStart && first < fadeEnd;
+        if (fades || skinning::clampsBetween(asset_->character, layer, first, last)) {
+            return true;
         }
-        if (skinning::loopsAt(asset_->character, layer, span.begin - kSlack) !=
-            skinning::loopsAt(asset_->character, layer, span.end + kSlack)) {
+        const bool travels = desc.travels && &layer == desc.layers.data();
+        if ((travels || !asset_->updates.closes(layer.clip, desc.root)) &&
+            skinning::loopsAt(asset_->character, layer, first) != skinning::loopsAt(asset_->character, layer, last)) {
             return true;
         }
     }
@@ -698,7 +728,7 @@ PoseSpan Playback::spanOf(uint32_t slot) {
     if (rates_.holds(slot, span)) { // then it was found to be one
         return span;
     }
-    const bool broken = bounds_.transition(slot).meets(span.begin, span.end) || crossesSeam(slot, span);
+    const bool broken = bounds_.transition(slot).meets(span.begin, span.end) || hasCorner(slot, span);
     return broken ? exactSpan(time_) : span;
 }
 

@@ -127,6 +127,7 @@ public:
 
     // With update rates, in each frame, before its parts of the pass. The interval of an instance whose size on the
     // screen decides is chosen with setSize(); until then it is posed in every frame.
+    void takeStep() { steps_.take(time_); } ///< a recording begins
     /// Whether setSize() is waited for.
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.course(slot).asked == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
@@ -198,10 +199,12 @@ private:
     [[nodiscard]] VkDeviceSize listBytes() const { return capacity_ * PoseList::kWordsOfInstance * sizeof(uint32_t); }
     [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
-    [[nodiscard]] bool crossesSeam(uint32_t slot, const PoseSpan& span);
+    /// What plays jumps or turns at once within a span: at seams, where clips begin and end, while weights fade.
+    [[nodiscard]] bool hasCorner(uint32_t slot, const PoseSpan& span);
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot);     ///< what plays there, or where it stands, has changed
     void forgetEnds(uint32_t slot); ///< what plays there has changed
+    void forgetEndsWith(uint32_t mask);
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
@@ -233,6 +236,7 @@ private:
     PoseSpan evaluatedSpan_;
 
     UpdateRates rates_;
+    TimeSteps steps_;
     PoseList list_;
     uint64_t listFrame_ = 0; ///< the last that poses of the list are recorded in
 
