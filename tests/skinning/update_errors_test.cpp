@@ -112,10 +112,14 @@ TEST(UpdateErrors, OfVeryLongClipsAreNotKnown) {
 }
 
 TEST(UpdateErrors, AreThoseOfTheOracle) {
-    // Largest of all clips: animation_oracle.py, part D, which looks at fewer vertices.
+    // Largest of all clips: animation_oracle.py, part D, which looks at fewer vertices and at no morph targets.
     std::vector<double> largest(3, 0.0);
     for (const std::string& file : {test::kPip, test::kWren}) {
-        for (const UpdateErrors& errors : measureUpdates(test::readCharacter(file)).ofClips) {
+        cage::Character character = test::readCharacter(file);
+        for (cage::Clip& clip : character.clips) {
+            std::erase_if(clip.channels, [](const auto& channel) { return channel.path == ChannelPath::weights; });
+        }
+        for (const UpdateErrors& errors : measureUpdates(character).ofClips) {
             for (size_t n = 0; n < 3; ++n) {
                 largest[n] = std::max(largest[n], errors.every[n]);
             }
