@@ -278,7 +278,7 @@ TEST_F(UpdateRates, TakeTurns) {
     const ValidationGuard guard;
     CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
     constexpr uint32_t kCount = 16;
-    PlayedGroup stage(own, ratedGroup(own.asset(kPip), kCount));
+    PlayedGroup stage(own, ratedGroup(own.asset(kWren), kCount));
     const auto joints = static_cast<uint32_t>(stage.character().skin.joints.size());
     for (const uint32_t interval : kEvery) {
         const double start = 0.1; // in the clip's middle, far from the seam
