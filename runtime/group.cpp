@@ -136,11 +136,14 @@ Status Group::createListing(const GroupShared& shared) {
     const gpu::Device& device = *shared.device;
     const uint32_t capacity = desc_.capacity;
     const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
-    if (!device.mapping.wide && uint64_t{lists} * capacity > device.limits.maxTexelBufferElements) {
+    // Texels of an instance, in the lists of instances and in that of poses.
+    const uint32_t texels =
+        (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0 ? std::max(lists, PoseList::kWordsOfInstance) : lists;
+    if (!device.mapping.wide && uint64_t{texels} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "
                                            "capacity is " +
-                                           std::to_string(device.limits.maxTexelBufferElements / lists)};
+                                           std::to_string(device.limits.maxTexelBufferElements / texels)};
     }
     const BoundBytes bound = surfaces_.boundBytes().with(stages_.boundBytes());
     Result<InstanceWindows> windows =
@@ -162,7 +165,8 @@ Status Group::createListing(const GroupShared& shared) {
         outOfSight_ = OutOfSight(capacity);
         listing_.leaveOut(&outOfSight_);
     }
-    const bool chooses = view_ != nullptr && (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
+    // Who is moved beyond reach is posed in every frame: nobody knows its size.
+    const bool chooses = view_ != nullptr && (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0 && stages_.keepReach();
     if (outOfSight_.isAskedFor() || chooses) {
         boxes_ = InstanceBoxes(asset_->reach(), boundsMargin(), capacity);
     }
@@ -452,7 +456,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
-    if (boxes_.areAskedFor()) {
+    if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them
         boxes_.find(slots(), poses());
     }
     changed = findUnseen() || changed;
@@ -484,6 +488,7 @@ PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (playback == nullptr || !playback->takesUpdateRates()) {
         return {};
     }
+    playback->takeStep();
     const shared::LodCamera camera = boxes_.areAskedFor() ? view_->cullView().camera : shared::LodCamera{};
     const bool unknown = drawnElsewhere(); // in views that may look from nearer by
     for (uint32_t slot = 0; boxes_.areAskedFor() && slot < slots().end(); ++slot) {

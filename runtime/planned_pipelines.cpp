@@ -96,7 +96,8 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.pieces = pieces;
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
-        if (Status made = pose ? (*pose)->make(planned.skinning) : pose.error(); !made) {
+        const bool mixes = (group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
+        if (Status made = pose ? (*pose)->make(planned.skinning, mixes) : pose.error(); !made) {
             return made;
         }
     }

@@ -42,6 +42,12 @@ uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) 
                   (room.modifiers ? table.footCount : 0));
 }
 
+/// From one end of an instance to the next. Both together are a multiple of kPadding.
+uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
+    constexpr uint32_t kMultiple = kPadding / kPoseEnds;
+    return room.updateRates ? (layout.elements() + kMultiple - 1) / kMultiple * kMultiple : 0;
+}
+
 /// Poses of an instance that may be made in one frame.
 uint32_t posesInFrame(const StateRoom& room) {
     return room.updateRates ? 2 : 1;
@@ -65,9 +71,21 @@ PosePush constantsOf(const Playback::Desc& desc) {
     push.scratchStride = scratchStride(table, desc.room);
     push.contacts = table.contacts;
     push.poseStride = desc.layout.stride;
-    push.runStride = desc.layout.runStride;
+    push.endStride = endStride(desc.layout, desc.room);
     push.morphWeights = desc.layout.morphWeights;
     return push;
+}
+
+/// How much longer a matrix makes a vector, at most; exactly, if its columns are orthogonal: by the sums of the rows of
+/// its columns' products.
+float largestScale(const glm::mat3& linear) {
+    const glm::mat3 products = glm::transpose(linear) * linear;
+    float most = 0.0f;
+    for (int column = 0; column < 3; ++column) {
+        const glm::vec3 row = glm::abs(products[column]);
+        most = std::max(most, row.x + row.y + row.z);
+    }
+    return std::sqrt(most);
 }
 
 /// A node's place in the table of another version of the asset, or kNone.
@@ -80,7 +98,8 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
-    return std::max(stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room)) *
+    return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
+                     kPoseEnds * endStride(layout, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -121,7 +140,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.regions_.reserve(inParts ? 2 * size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
     if (desc.room.transitions) {
         playback.transitionDue_.resize(desc.capacity, false);
-        for (auto* const poses : {&playback.ends_.shown, &playback.ends_.played}) {
+        for (auto* const poses : {&playback.startsFrom_.shown, &playback.startsFrom_.played}) {
             for (skinning::SampledPose& pose : *poses) {
                 pose.assign(playback.twin_.locals(), playback.twin_.weights());
             }
@@ -149,6 +168,7 @@ Status Playback::createBuffers(const Desc& desc) {
     requests[kScratch] = {"supple node matrices",
                           capacity_ * posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes,
                           kStorage | kTexels, gpu::MemoryPurpose::scratch};
+    requests[kEnds] = {"supple ends", capacity_ * endBytes(), kStorage | kTexels, gpu::MemoryPurpose::poses};
     const VkDeviceSize ofList = takesUpdateRates() ? listBytes() : 0;
     requests[kList] = {"supple list of poses", ofList, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
@@ -186,6 +206,9 @@ Status Playback::createSets(const Desc& desc) {
     const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listed, "supple instances");
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
                        scratchBytes = posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes;
+    // Without update rates nobody touches what is bound as ends.
+    const VkBuffer ends = takesUpdateRates() ? buffers_.buffer(kEnds) : desc.poses;
+    const VkDeviceSize bytesOfEnds = takesUpdateRates() ? endBytes() : poseBytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
@@ -207,10 +230,8 @@ Status Playback::createSets(const Desc& desc) {
              {},
              view(scratch, gpu::kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
             {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
-            {kEndsBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
-            {kEndsTexelBinding,
-             {},
-             view(desc.poses, gpu::kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
+            {kEndsBinding, range(ends, bytesOfEnds), VK_NULL_HANDLE},
+            {kEndsTexelBinding, {}, view(ends, gpu::kFloat4, first * bytesOfEnds, count * bytesOfEnds, "supple ends")},
             {kInstanceBinding, {list, 0, listed}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, listView},
         };
@@ -242,6 +263,18 @@ void Playback::forget(uint32_t slot) {
 void Playback::forgetEnds(uint32_t slot) {
     if (takesUpdateRates()) {
         rates_.forget(slot);
+    }
+}
+
+void Playback::forgetEndsWith(uint32_t mask) {
+    skinning::PlaybackState::Layers memory;
+    for (uint32_t slot = 0; takesUpdateRates() && slot < capacity_; ++slot) {
+        const skinning::PlaybackState own = state(slot);
+        const skinning::PlaybackDesc desc =
+            own.inBindPose() ? skinning::PlaybackDesc{} : own.read(*asset_->clipTable, memory);
+        if (std::ranges::any_of(desc.layers, [&](const auto& layer) { return layer.mask == mask; })) {
+            rates_.forget(slot);
+        }
     }
 }
 
@@ -294,7 +327,7 @@ void Playback::reset(uint32_t slot) {
     own.setBindPose();
     bounds_.setBindPose(slot);
     if (takesUpdateRates()) {
-        rates_.set(slot, {});
+        rates_.reset(slot);
     }
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
@@ -321,9 +354,9 @@ void Playback::sampleShown(uint32_t slot, const TransitionRequest& request) {
     // Before a transition began, something else was shown.
     const bool justBegun =
         state(slot).isInTransition() && skinning::transitionStart(transitionWords(slot)) > time_ - kStep;
-    ends_.now = justBegun ? 0 : 1;
-    double time = time_ - ends_.now * kStep;
-    for (skinning::SampledPose& pose : ends_.shown) {
+    startsFrom_.now = justBegun ? 0 : 1;
+    double time = time_ - startsFrom_.now * kStep;
+    for (skinning::SampledPose& pose : startsFrom_.shown) {
         sample(slot, time, request.fromModified, pose);
         time += kStep;
     }
@@ -332,12 +365,12 @@ void Playback::sampleShown(uint32_t slot, const TransitionRequest& request) {
 void Playback::startTransition(uint32_t slot, const TransitionRequest& request) {
     if (request.kind == skinning::TransitionKind::quintic) {
         double time = time_;
-        for (skinning::SampledPose& pose : ends_.played) {
+        for (skinning::SampledPose& pose : startsFrom_.played) {
             sample(slot, time, false, pose);
             time += static_cast<double>(kTransitionStep);
         }
     }
-    skinning::writeTransition({request.kind, time_, request.seconds}, ends_, transitionWords(slot));
+    skinning::writeTransition({request.kind, time_, request.seconds}, startsFrom_, transitionWords(slot));
     state(slot).setInTransition(true);
     transitionDue_[slot] = true;
     const double end = time_ + static_cast<double>(request.seconds);
@@ -449,8 +482,11 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     forget(slot);
-    forgetEnds(slot);
-    state(slot).setMorphWeights(weights, push_.morphCount);
+    skinning::PlaybackState own = state(slot);
+    if (weights == nullptr && own.morphWeights() != nullptr) { // ends that were posed meanwhile have the host's
+        forgetEnds(slot);
+    }
+    own.setMorphWeights(weights, push_.morphCount);
     markChanged(slot);
 }
 
@@ -464,7 +500,7 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
         std::copy(joints.begin(), joints.end(), own.begin());
     }
     evaluated_ = kNoSlot;
-    rates_.forgetAll();
+    forgetEndsWith(mask);
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }
@@ -548,6 +584,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         std::copy_n(other.states_.begin(), words, states_.begin());
         bounds_.takeOver(other.bounds_, count);
         rates_.takeOver(other.rates_, count);
+        steps_ = other.steps_;
     } else {
         takeOverMasks(other, match);
     }
@@ -650,17 +687,17 @@ UpdateCourse Playback::courseOf(const skinning::PlaybackDesc& desc, uint32_t upd
 }
 
 void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
-    const glm::mat3 linear(transforms_[slot]);
-    const float scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
     const uint32_t before = rates_.interval(slot);
-    rates_.choose(slot, pixelsPerUnit * scale * static_cast<float>(asset_->updates.extent));
+    const float scale = largestScale(glm::mat3(transforms_[slot]));
+    rates_.choose(slot, pixelsPerUnit * scale * static_cast<float>(asset_->updates.extent), steps_.leastInterval());
     if (rates_.interval(slot) != before) {
         forget(slot);
     }
 }
 
-bool Playback::crossesSeam(uint32_t slot, const PoseSpan& span) {
+bool Playback::hasCorner(uint32_t slot, const PoseSpan& span) {
     constexpr double kSlack = 1e-5; // as finely as the device tells times apart
+    const double first = span.begin - kSlack, last = span.end + kSlack;
     const skinning::PlaybackState own = state(slot);
     if (own.inBindPose()) {
         return false;
@@ -668,12 +705,14 @@ bool Playback::crossesSeam(uint32_t slot, const PoseSpan& span) {
     skinning::PlaybackState::Layers memory;
     const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, memory);
     for (const skinning::PlaybackLayer& layer : desc.layers) {
-        const bool travels = desc.travels && &layer == desc.layers.data();
-        if (asset_->updates.ofClips[layer.clip].closes && !travels) {
-            continue;
+        const double fadeEnd = layer.fadeStart + static_cast<double>(layer.fadeDuration);
+        const bool fades = layer.fadeDuration > 0.0f && last > layer.fadeStart && first < fadeEnd;
+        if (fades || skinning::clampsBetween(asset_->character, layer, first, last)) {
+            return true;
         }
-        if (skinning::loopsAt(asset_->character, layer, span.begin - kSlack) !=
-            skinning::loopsAt(asset_->character, layer, span.end + kSlack)) {
+        const bool travels = desc.travels && &layer == desc.layers.data();
+        if ((travels || !asset_->updates.closes(layer.clip, desc.root)) &&
+            skinning::loopsAt(asset_->character, layer, first) != skinning::loopsAt(asset_->character, layer, last)) {
             return true;
         }
     }
@@ -689,7 +728,7 @@ PoseSpan Playback::spanOf(uint32_t slot) {
     if (rates_.holds(slot, span)) { // then it was found to be one
         return span;
     }
-    const bool broken = bounds_.transition(slot).meets(span.begin, span.end) || crossesSeam(slot, span);
+    const bool broken = bounds_.transition(slot).meets(span.begin, span.end) || hasCorner(slot, span);
     return broken ? exactSpan(time_) : span;
 }
 
@@ -701,7 +740,7 @@ void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
     }
     const UpdateRates::Ends ends = rates_.take(slot, span);
     for (uint32_t i = 0; i < ends.dueCount; ++i) {
-        list_.addPose(slotInWindow, ends.due[i].run, ends.due[i].time);
+        list_.addPose(slotInWindow, ends.due[i].end, ends.due[i].time);
     }
     list_.addMix(slotInWindow, ends.earlier, span.partAt(time_));
 }

@@ -36,9 +36,6 @@ struct StateRoom {
     // Of instances that play on the device:
     bool transitions = false;
     bool updateRates = false;
-
-    /// How many poses of an instance the device keeps (shaders/shared/pose.h).
-    [[nodiscard]] uint32_t poseRuns() const { return updateRates ? shared::kPoseRuns : 1; }
 };
 
 /// What suppleSetPlayback says beside the layers.
@@ -130,6 +127,7 @@ public:
 
     // With update rates, in each frame, before its parts of the pass. The interval of an instance whose size on the
     // screen decides is chosen with setSize(); until then it is posed in every frame.
+    void takeStep() { steps_.take(time_); } ///< a recording begins
     /// Whether setSize() is waited for.
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.course(slot).asked == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
@@ -168,7 +166,7 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
 private:
-    enum BufferIndex : size_t { kStates, kMasks, kScratch, kList, kBufferCount };
+    enum BufferIndex : size_t { kStates, kMasks, kScratch, kEnds, kList, kBufferCount };
     enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
 
     Status createBuffers(const Desc& desc);
@@ -194,13 +192,19 @@ private:
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
+    /// Of an instance's two ends.
+    [[nodiscard]] VkDeviceSize endBytes() const {
+        return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
+    }
     [[nodiscard]] VkDeviceSize listBytes() const { return capacity_ * PoseList::kWordsOfInstance * sizeof(uint32_t); }
     [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
-    [[nodiscard]] bool crossesSeam(uint32_t slot, const PoseSpan& span);
+    /// What plays jumps or turns at once within a span: at seams, where clips begin and end, while weights fade.
+    [[nodiscard]] bool hasCorner(uint32_t slot, const PoseSpan& span);
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot);     ///< what plays there, or where it stands, has changed
     void forgetEnds(uint32_t slot); ///< what plays there has changed
+    void forgetEndsWith(uint32_t mask);
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
@@ -232,13 +236,14 @@ private:
     PoseSpan evaluatedSpan_;
 
     UpdateRates rates_;
+    TimeSteps steps_;
     PoseList list_;
     uint64_t listFrame_ = 0; ///< the last that poses of the list are recorded in
 
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
 
-    skinning::TransitionEnds ends_;       ///< memory of set
+    skinning::TransitionEnds startsFrom_; ///< memory of set
     std::vector<bool> transitionDue_;     ///< by slot: its words are not on the device yet
     std::vector<bool> changed_;           ///< by slot
     std::vector<uint32_t> changedSlots_;  ///< those, in any order

@@ -30,14 +30,15 @@ public:
         poses_ = mixed_ = 0;
     }
     // Of one window after the other; slots count within it. endWindow() is called for each.
-    void addPose(uint32_t slot, uint32_t run, double time) {
+    /// `end`: its number; 0: what is shown.
+    void addPose(uint32_t slot, uint32_t end, double time) {
         const skinning::SplitTime split = skinning::splitTime(time);
-        words_.push_back(slot | run << shared::kPosedRunShift);
+        words_.push_back(slot | end << shared::kPosedEndShift);
         times_.push_back(std::bit_cast<uint32_t>(split.high));
         times_.push_back(std::bit_cast<uint32_t>(split.low));
     }
-    void addMix(uint32_t slot, uint32_t earlierRun, float part) {
-        mixes_.push_back(slot | earlierRun << shared::kPosedRunShift);
+    void addMix(uint32_t slot, uint32_t earlierEnd, float part) {
+        mixes_.push_back(slot | earlierEnd << shared::kPosedEndShift);
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
     void endWindow(uint32_t window) {

@@ -129,7 +129,7 @@ public:
         }
         const skinning::PoseLayout& layout = desc_.layout;
         const uint64_t poses = playback_.poseCount(windows);
-        return {layout.jointCount * poses, layout.runStride * 16 * poses};
+        return {layout.jointCount * poses, uint64_t{layout.elements()} * 16 * poses};
     }
 
 private:

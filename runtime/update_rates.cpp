@@ -15,9 +15,10 @@ PoseSpan gridSpan(double time, uint32_t slot, uint32_t interval) {
 }
 
 void UpdateRates::set(uint32_t slot, const UpdateCourse& course) {
-    slots_[slot].course = course;
-    slots_[slot].chosen = 1;
-    slots_[slot].isChosen = false;
+    if (slots_[slot].course != course) {
+        reset(slot);
+        slots_[slot].course = course;
+    }
     forget(slot);
 }
 
@@ -33,14 +34,14 @@ void UpdateRates::forgetChoices() {
     }
 }
 
-void UpdateRates::choose(uint32_t slot, float pixels) {
+void UpdateRates::choose(uint32_t slot, float pixels, double least) {
     Slot& own = slots_[slot];
     uint32_t best = 1;
     for (size_t n = 0; n < UpdateCourse::kIntervals.size(); ++n) {
         const uint32_t interval = UpdateCourse::kIntervals[n];
         const float most = own.isChosen && interval > own.chosen ? 1.0f / kHysteresis : 1.0f;
         const float error = own.course.errors[n];
-        if (error == 0.0f || error * pixels <= most) {
+        if (interval >= least && (error == 0.0f || error * pixels <= most)) {
             best = interval;
         }
     }

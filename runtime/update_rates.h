@@ -4,7 +4,9 @@
 #include "shaders/shared/pose.h"
 #include "skinning/update_errors.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -27,12 +29,33 @@ struct PoseSpan {
 /// instances of neighboring slots come to them in turns.
 [[nodiscard]] PoseSpan gridSpan(double time, uint32_t slot, uint32_t interval);
 
+/// How far T goes from one recording to the next.
+class TimeSteps {
+public:
+    void take(double time) {
+        last_ = {last_[1], std::isnan(recorded_) ? 0.0 : std::abs(time - recorded_)};
+        recorded_ = time;
+    }
+    /// In steps of the grid: intervals below it pose nearly as often as every frame does, and go straight besides.
+    [[nodiscard]] double leastInterval() const {
+        constexpr double kFrames = 1.75; // two, of frames that do not come quite evenly
+        // A single jump is no frame rate.
+        return kFrames * shared::kUpdateSteps * std::min(last_[0], last_[1]);
+    }
+
+private:
+    double recorded_ = std::numeric_limits<double>::quiet_NaN();
+    std::array<double, 2> last_{}; ///< seconds
+};
+
 /// What an instance is posed by: how often, or what that depends on.
 struct UpdateCourse {
     static constexpr std::array<uint32_t, 3> kIntervals = {2, 4, 8};
 
     uint32_t asked = 0;            ///< steps of the grid from pose to pose; 0: by the size on the screen
     std::array<float, 3> errors{}; ///< of kIntervals, in extents
+
+    friend bool operator==(const UpdateCourse&, const UpdateCourse&) = default;
 };
 
 /// Asking and choosing allocate nothing.
@@ -43,7 +66,9 @@ public:
     /// False: all instances are posed at the group's time, ever.
     [[nodiscard]] bool areTaken() const { return !slots_.empty(); }
 
-    /// What the slot plays has changed.
+    /// A new instance has the slot.
+    void reset(uint32_t slot) { slots_[slot] = {}; }
+    /// What the slot plays has changed. What was chosen for a course stays while the course does.
     void set(uint32_t slot, const UpdateCourse& course);
     [[nodiscard]] const UpdateCourse& course(uint32_t slot) const { return slots_[slot].course; }
     /// Its ends are no longer what it plays.
@@ -52,8 +77,9 @@ public:
 
     /// Where course().asked is 0: the coarsest interval whose error is at most a pixel. It gets coarser only once the
     /// error is less by kHysteresis.
-    /// `pixels`: what the character's extent is on the screen, at most.
-    void choose(uint32_t slot, float pixels);
+    /// `pixels`: what the character's extent is on the screen, at most. `least`: in steps; shorter intervals save
+    /// nothing, and are not chosen.
+    void choose(uint32_t slot, float pixels, double least = 0.0);
     static constexpr float kHysteresis = 1.5f;
     /// The next choices do not depend on what was chosen before.
     void forgetChoices();
@@ -64,9 +90,9 @@ public:
     [[nodiscard]] bool holds(uint32_t slot, const PoseSpan& span) const;
     /// The ends that the device lacks, which it has from now on.
     struct Ends {
-        uint32_t earlier = 1; ///< run of the span's begin, of shared::kPoseRuns
+        uint32_t earlier = 1; ///< number of the span's begin, 1 or 2
         struct Due {
-            uint32_t run = 0;
+            uint32_t end = 0; ///< its number
             double time = 0.0;
         };
         std::array<Due, 2> due;
@@ -84,7 +110,7 @@ private:
         UpdateCourse course;
         uint32_t chosen = 1;
         bool isChosen = false;
-        std::array<double, 2> ends = kNone; ///< times of the poses in runs 1 and 2
+        std::array<double, 2> ends = kNone; ///< times of the poses of number 1 and 2
     };
     std::vector<Slot> slots_;
 };

@@ -60,6 +60,15 @@ double loopsAt(const cage::Character& character, const PlaybackLayer& layer, dou
     return layer.loop && duration > 0.0 ? loopTime(clipTimeAt(layer, time), duration).loops : 0.0;
 }
 
+bool clampsBetween(const cage::Character& character, const PlaybackLayer& layer, double first, double last) {
+    const double duration = character.clips[layer.clip].duration;
+    const auto sideOf = [&](double time) {
+        const double at = clipTimeAt(layer, time);
+        return at < 0.0 ? -1 : at > duration ? 1 : 0;
+    };
+    return !layer.loop && sideOf(first) != sideOf(last);
+}
+
 RootMotion traveledToLoop(const cage::Character& character, const PlaybackLayer& layer, const RootSelection& root,
                           double loops) {
     const cage::Clip& clip = character.clips[layer.clip];

@@ -25,6 +25,9 @@ void poseNodes(const cage::Character& character, const Rig& rig, const PlaybackD
 [[nodiscard]] RootMotion traveledBy(const cage::Character& character, const PlaybackDesc& desc, double time);
 /// How many whole loops of a layer's clip lie before a time; 0 if it does not loop.
 [[nodiscard]] double loopsAt(const cage::Character& character, const PlaybackLayer& layer, double time);
+/// Whether a layer that does not loop comes to the beginning or the end of its clip between two times.
+[[nodiscard]] bool clampsBetween(const cage::Character& character, const PlaybackLayer& layer, double first,
+                                 double last);
 /// The part of traveledBy() up to the beginning of that loop.
 [[nodiscard]] RootMotion traveledToLoop(const cage::Character& character, const PlaybackLayer& layer,
                                         const RootSelection& root, double loops);

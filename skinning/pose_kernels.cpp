@@ -32,7 +32,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
         gpu::storage(kScratchPoseBinding),
         gpu::narrowTexels(kScratchPoseTexelBinding),
         gpu::storage(kPosedBinding),
-        gpu::wideStorage(kEndsBinding),
+        gpu::storage(kEndsBinding),
         gpu::narrowTexels(kEndsTexelBinding),
         gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
@@ -48,7 +48,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
     return made;
 }
 
-Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
+Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool mixes) const {
     const bool dual = mode == SkinningMode::dualQuaternion;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
@@ -64,19 +64,21 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     found.palette = batch.get(layout_, pose_palette_comp, constants,
                               dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
     const gpu::Constant layout[] = {{kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
-    found.mix = batch.get(layout_, pose_mix_comp, layout,
-                          dual ? "supple pose, between dual quaternions" : "supple pose, between palettes");
+    if (mixes) {
+        found.mix = batch.get(layout_, pose_mix_comp, layout,
+                              dual ? "supple pose, between dual quaternions" : "supple pose, between palettes");
+    }
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
 }
 
-Status PoseKernels::make(SkinningMode mode) const {
-    const Result<Kernels> made = kernels(mode);
+Status PoseKernels::make(SkinningMode mode, bool mixes) const {
+    const Result<Kernels> made = kernels(mode, mixes);
     return made ? success() : made.error();
 }
 
-Status PoseKernels::prepare(SkinningMode mode) {
-    const Result<Kernels> made = kernels(mode);
+Status PoseKernels::prepare(SkinningMode mode, bool mixes) {
+    const Result<Kernels> made = kernels(mode, mixes);
     if (!made) {
         return made.error();
     }
@@ -84,7 +86,9 @@ Status PoseKernels::prepare(SkinningMode mode) {
     roots_ = made->roots;
     modifiers_ = made->modifiers;
     palette_[static_cast<size_t>(mode)] = made->palette;
-    mix_[static_cast<size_t>(mode)] = made->mix;
+    if (mixes) {
+        mix_[static_cast<size_t>(mode)] = made->mix;
+    }
     return success();
 }
 

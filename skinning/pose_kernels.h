@@ -14,9 +14,10 @@ public:
     /// Both must outlive the pass.
     [[nodiscard]] static Result<PoseKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording.
-    [[nodiscard]] Status make(SkinningMode mode) const;
+    /// `mixes`: also what groups with update rates need.
+    [[nodiscard]] Status make(SkinningMode mode, bool mixes) const;
     /// The same for what is to be recorded.
-    [[nodiscard]] Status prepare(SkinningMode mode);
+    [[nodiscard]] Status prepare(SkinningMode mode, bool mixes);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// What locals can do: the second if some instance has an additive layer, the third if one is in a transition. Code
@@ -41,7 +42,7 @@ private:
         gpu::Kernel locals[kLocals];
         gpu::Kernel roots, modifiers, palette, mix;
     };
-    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
+    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode, bool mixes) const;
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
                 const gpu::Kernel& kernel, uint64_t groups) const;
 

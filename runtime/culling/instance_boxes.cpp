@@ -28,6 +28,9 @@ void BoxRuns::setUnknown(size_t index) {
 }
 
 float pixelsPerUnit(const shared::LodCamera& camera, const BoxRuns& boxes, size_t index) {
+    if (std::isinf(boxes.half[0][index])) { // unknown: what is shown may have any size
+        return std::numeric_limits<float>::infinity();
+    }
     if (camera.orthographic != 0) {
         return camera.focal;
     }

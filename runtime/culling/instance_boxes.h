@@ -21,7 +21,8 @@ struct BoxRuns {
     void setUnknown(size_t index);
 };
 
-/// How many pixels a unit has at most within a box; infinity if the camera may stand in it.
+/// How many pixels a unit has at most within a box; infinity if the camera may stand in it, or
+/// if nobody knows it.
 [[nodiscard]] float pixelsPerUnit(const shared::LodCamera& camera, const BoxRuns& boxes, size_t index);
 
 /// Finding allocates nothing.

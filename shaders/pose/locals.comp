@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/affine.h"
+#include "shaders/pose/posed.glsl"
 #include "shaders/pose/time.h"
 
 // Additive layers and transitions, which some instance of the group has or none: lavapipe steps through what no lane takes,
@@ -42,6 +43,6 @@ void main() {
     } else {
         uint quad = item - push.nodeCount - 1u;
         precise vec4 weights = shownWeights(first, quad, morphWeights(first, quad));
-        posed.at[posedPose() + push.morphWeights + quad] = weights;
+        storePosed(push.morphWeights + quad, weights);
     }
 }

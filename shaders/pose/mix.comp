@@ -8,6 +8,7 @@
 
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
 
+BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
 LOADED_BUFFER(vec4, end, Ends, kEndsBinding, samplerBuffer, kEndsTexelBinding, xyzw)
 
 Affine endRows(uint i) { return rowsOf(end(i), end(i + 1u), end(i + 2u)); }
@@ -30,8 +31,8 @@ void main() {
     uint item = kWide ? id % items : id / push.instanceCount;
     uint entry = instanceEntry(n), instance = slotOf(entry), first = instance * push.stateStride;
     float part = uintBitsToFloat(instanceWord(push.times + n));
-    uint shown = instance * push.poseStride, earlier = SUPPLE_POSED_RUN(entry);
-    uint a = shown + earlier * push.runStride, b = shown + (kPoseRuns - earlier) * push.runStride;
+    uint shown = instance * push.poseStride, earlier = SUPPLE_POSED_END(entry);
+    uint a = firstOfEnd(instance, earlier), b = firstOfEnd(instance, kPoseEnds + 1u - earlier);
     if (item < matrices) {
         bool isJoint = item < push.jointCount;
         uint at = kLinearElements * item;

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/affine.h"
+#include "shaders/pose/posed.glsl"
 #include "shaders/pose/nodes.h"
 
 layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
@@ -63,14 +64,7 @@ Affine globalOf(uint matrices, uint node) {
     return global;
 }
 
-void storePosed(uint i, Affine m) {
-    precise Affine placed = m;
-    posed.at[i] = placed.x;
-    posed.at[i + 1u] = placed.y;
-    posed.at[i + 2u] = placed.z;
-}
-
-void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine place) {
+void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {
     precise Affine own = identity();
     if (!bindPose) {
         uint first = push.joints + kJointElements * joint;
@@ -79,12 +73,12 @@ void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine plac
         own = combined(globalAt(matrices, node), inverseBind);
     }
     if (kDualQuaternions) {
-        uint i = pose + kDualQuaternionTransform + kDualQuaternionElements * joint;
+        uint i = kDualQuaternionTransform + kDualQuaternionElements * joint;
         storePosed(i, own);
         precise vec4 rotation = rotationOf(own);
-        posed.at[i + 3u] = rotation;
+        storePosed(i + 3u, rotation);
     } else {
-        storePosed(pose + kLinearElements * joint, combined(place, own));
+        storePosed(kLinearElements * joint, combined(place, own));
     }
 }
 
@@ -93,7 +87,7 @@ void main() {
     bool within = id < push.instanceCount;
     uint entry = min(id, push.instanceCount - 1u);
     beginEntry(entry);
-    uint matrices = entry * push.scratchStride, pose = posedPose();
+    uint matrices = entry * push.scratchStride;
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     bool bindPose = (state(posedSlot() * push.stateStride).y & kStateBindPose) != 0u;
     Affine place = placeAt(matrices + kAffineElements * push.nodeCount);
@@ -116,9 +110,9 @@ void main() {
         }
     }
     if (within) {
-        if (kDualQuaternions && lane == 0u) storePosed(pose, place);
+        if (kDualQuaternions && lane == 0u) storePosed(0u, place);
         for (uint joint = lane; joint < push.jointCount; joint += lanes) {
-            storeJoint(joint, bindPose, matrices, pose, place);
+            storeJoint(joint, bindPose, matrices, place);
         }
     }
 }

@@ -8,8 +8,6 @@
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
-BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
-
 LOADED_BUFFER(uvec4, table, Table, kClipTableBinding, usamplerBuffer, kClipTableTexelBinding, xyzw)
 LOADED_BUFFER(uvec4, state, States, kStateBinding, usamplerBuffer, kStateTexelBinding, xyzw)
 LOADED_BUFFER(vec4, maskValues, Masks, kMaskBinding, samplerBuffer, kMaskTexelBinding, xyzw)
@@ -17,7 +15,7 @@ vec4 tableFloats(uint i) { return uintBitsToFloat(table(i)); }
 vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 
 // What is posed: an entry of the group's list of instances, at the group's time; in groups with update rates one of a list of
-// their own, which says for which run of the instance's pose, and at which time.
+// their own, which says for which of the instance's ends, and at which time.
 uint posedWord = 0u;
 vec2 posedSeconds = vec2(0.0);
 void beginEntry(uint n) {
@@ -29,10 +27,10 @@ void beginEntry(uint n) {
     }
 }
 uint posedSlot() { return slotOf(posedWord); }
-uint posedRun() { return push.times != 0u ? SUPPLE_POSED_RUN(posedWord) : 0u; }
-uint posedPose() { return posedSlot() * push.poseStride + posedRun() * push.runStride; }
+uint posedEnd() { return push.times != 0u ? SUPPLE_POSED_END(posedWord) : 0u; } // 0: what is shown
+uint firstOfEnd(uint slot, uint end) { return (slot * kPoseEnds + end - 1u) * push.endStride; }
 // Of an end, where the instance stands is left to mix.comp: the host may move it while the end stays.
-bool isPlaced() { return posedRun() == 0u; }
+bool isPlaced() { return posedEnd() == 0u; }
 vec2 posedTime() { return posedSeconds; }
 
 float component(vec4 v, uint k) {

@@ -61,13 +61,15 @@
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
 //
-// Pose (vec4 elements, one run of `poseStride` an instance): what the deform pass reads (shaders/shared/deform.h). In groups with
-// update rates it has kPoseRuns such runs, `runStride` apart: what is shown, then two *ends*, the poses at the two grid times that
-// a time lies between. Ends stand in model space, or where the instance has travelled to from there: the transform is left out.
+// Pose (vec4 elements, one run of `poseStride` an instance): what the deform pass reads (shaders/shared/deform.h).
+//
+// Ends (vec4 elements, in groups with update rates): two poses an instance, `endStride` apart, at the two grid times that a time
+// lies between; of number 1 and 2. They stand in model space, or where the instance has travelled to from there: the transform is
+// left out. They serve later frames, so they have a buffer that stays on this queue.
 //
 // List of what is posed (words), in groups with update rates, made anew for every frame. For each window of instances: an entry for
-// every pose that is due, slot | run << kPosedRunShift; from `times` on two words for each of these, its time as a high and a
-// low float; an entry for every instance that is shown between its ends, slot | run of the earlier one << kPosedRunShift;
+// every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
+// low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
 //
 // Scratch (vec4 elements, one run of `scratchStride` an entry of the list): three a node, its local translation, rotation (x, y, z, w;
@@ -92,7 +94,7 @@ SUPPLE_SHARED_CONST kMaskTexelBinding = 5u;
 SUPPLE_SHARED_CONST kScratchPoseBinding = 6u;
 SUPPLE_SHARED_CONST kScratchPoseTexelBinding = 7u;
 SUPPLE_SHARED_CONST kPosedBinding = 8u; // what the deform pass reads
-SUPPLE_SHARED_CONST kEndsBinding = 9u;  // the same, read
+SUPPLE_SHARED_CONST kEndsBinding = 9u;
 SUPPLE_SHARED_CONST kEndsTexelBinding = 10u;
 
 SUPPLE_SHARED_CONST kNoNode = 0xFFFFFFFFu;
@@ -147,9 +149,9 @@ SUPPLE_SHARED_FLOAT kTransitionDecay = 13.888889f;  // 1 / kTransitionReach
 SUPPLE_SHARED_FLOAT kTransitionStep = 0.0083333338f; // seconds over which speeds are found
 
 // Update rates.
-SUPPLE_SHARED_CONST kPoseRuns = 3u;
-SUPPLE_SHARED_CONST kPosedRunShift = 28u; // two bits
-#define SUPPLE_POSED_RUN(entry) (((entry) >> kPosedRunShift) & 3u)
+SUPPLE_SHARED_CONST kPoseEnds = 2u;
+SUPPLE_SHARED_CONST kPosedEndShift = 28u; // two bits
+#define SUPPLE_POSED_END(entry) (((entry) >> kPosedEndShift) & 3u)
 SUPPLE_SHARED_CONST kMaxUpdateInterval = 8u; // steps of the grid
 SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 
@@ -195,7 +197,7 @@ struct PosePush {
     uint transition;   // first element of the transition in an instance's state
     uint contacts;     // section of the clip table
     uint footCount;    // 0: none is planted
-    uint runStride;    // from one run of an instance's pose to the next
+    uint endStride;    // from one end of an instance to the next
     uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
 };
 

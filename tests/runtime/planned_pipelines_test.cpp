@@ -35,6 +35,7 @@ const PlannedCase kPlannedCases[] = {
     {"blend", {.scheme = SUPPLE_SCHEME_BLEND, .rate = 4, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}},
     {"polygons", {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_POLYGONS}},
     {"playing", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
+    {"rated", {.flags = SUPPLE_GROUP_UPDATE_RATES, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}},
     {"cages", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_CAGE_BUFFER}},
     {"cage", {.scheme = SUPPLE_SCHEME_CAGE}},
     {"levels",
@@ -119,6 +120,10 @@ TEST_P(PlannedPipelines, AreAllThatTheGroupNeeds) {
         const size_t made = watch.pipelines().size();
         const bool none = desc.scheme == SUPPLE_SCHEME_CAGE && desc.poseSource == SUPPLE_POSES_CAGE_BUFFER;
         EXPECT_EQ(made > 0, !none);
+        const bool mixes = std::ranges::any_of(watch.pipelines(), [](const bench::WatchedPipeline& pipeline) {
+            return pipeline.name.find("pose, between") != std::string::npos;
+        });
+        EXPECT_EQ(mixes, (desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0);
         // Nor does it, where tables were not prepared, make others.
         EXPECT_EQ(suppleMakePipelines(context.handle(), bare, &planned, 1), SUPPLE_OK);
         EXPECT_EQ(watch.pipelines().size(), made);

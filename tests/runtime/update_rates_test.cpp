@@ -40,7 +40,7 @@ std::vector<glm::vec4> shownAt(const PlayedGroup& stage, uint32_t i, double time
     const skinning::PoseLayout& layout = stage.group().instances().poseLayout();
     std::vector<glm::vec4> pose(layout.stride);
     stage.group().poses().playback()->writePose(stage.instances[i].slot, pose);
-    pose.resize(layout.runStride);
+    pose.resize(layout.elements());
     return pose;
 }
 
@@ -51,7 +51,7 @@ bool same(std::span<const glm::vec4> a, std::span<const glm::vec4> b) {
 /// What an instance showed in the last frame, by the device.
 std::vector<glm::vec4> shownBy(const PlayedGroup& stage, uint32_t i) {
     const skinning::PoseLayout& layout = stage.group().instances().poseLayout();
-    std::vector<glm::vec4> pose(layout.runStride);
+    std::vector<glm::vec4> pose(layout.elements());
     std::memcpy(pose.data(), stage.poses.data() + size_t{4} * stage.instances[i].slot * layout.stride,
                 pose.size() * sizeof(glm::vec4));
     return pose;
@@ -113,7 +113,7 @@ TEST(UpdateGrid, PosesThatBothSpansHaveStay) {
     const runtime::UpdateRates::Ends later = rates.take(0, {2.0, 3.0}), back = rates.take(0, {1.0, 2.0});
     ASSERT_EQ(later.dueCount, 1u);
     EXPECT_EQ(later.due[0].time, 3.0);
-    EXPECT_EQ(later.due[0].run, 1u) << "in the place of what is over";
+    EXPECT_EQ(later.due[0].end, 1u) << "in the place of what is over";
     EXPECT_EQ(later.earlier, 2u);
     ASSERT_EQ(back.dueCount, 1u);
     EXPECT_EQ(back.due[0].time, 1.0);
@@ -140,6 +140,45 @@ TEST(UpdateGrid, SizesChooseWithHysteresis) {
     EXPECT_EQ(at(80.0f), 1u);
     EXPECT_EQ(at(66.0f), 2u);
     EXPECT_EQ(at(std::numeric_limits<float>::infinity()), 1u);
+}
+
+TEST(UpdateGrid, IntervalsThatSaveNothingAreNotChosen) {
+    runtime::UpdateRates rates(1);
+    rates.set(0, {0, {0.01f, 0.01f, 0.1f}});
+    const auto at = [&](double least) {
+        rates.choose(0, 50.0f, least);
+        return rates.interval(0);
+    };
+    EXPECT_EQ(at(1.75), 4u);
+    EXPECT_EQ(at(4.0), 4u);
+    EXPECT_EQ(at(4.375), 1u) << "8 is too coarse, 4 is posed more often than every other frame";
+    runtime::TimeSteps steps;
+    for (const double time : {3.0, 3.04, 3.08}) {
+        steps.take(time);
+    }
+    EXPECT_NEAR(steps.leastInterval(), 1.75 * 2.4, 1e-9);
+    steps.take(100.0);
+    EXPECT_NEAR(steps.leastInterval(), 1.75 * 2.4, 1e-9) << "a seek";
+    steps.take(100.0);
+    EXPECT_EQ(steps.leastInterval(), 0.0) << "paused";
+}
+
+TEST(UpdateGrid, WhatWasChosenStaysWhileItIsChosenBy) {
+    runtime::UpdateRates rates(1);
+    const runtime::UpdateCourse walk{0, {0.01f, 0.04f, 0.1f}};
+    rates.set(0, walk);
+    rates.choose(0, 11.0f);
+    EXPECT_EQ(rates.interval(0), 4u);
+    rates.set(0, walk); // at another time, or with another weight
+    EXPECT_EQ(rates.interval(0), 4u);
+    rates.choose(0, 9.0f);
+    EXPECT_EQ(rates.interval(0), 4u) << "hysteresis";
+    rates.set(0, {0, {0.02f, 0.04f, 0.1f}});
+    EXPECT_EQ(rates.interval(0), 1u);
+    rates.choose(0, 9.0f);
+    EXPECT_EQ(rates.interval(0), 8u) << "at once";
+    rates.reset(0);
+    EXPECT_EQ(rates.interval(0), 1u);
 }
 
 TEST_F(UpdateRates, GoStraightBetweenPosesOfTheGrid) {
@@ -239,7 +278,7 @@ TEST_F(UpdateRates, TakeTurns) {
     const ValidationGuard guard;
     CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
     constexpr uint32_t kCount = 16;
-    PlayedGroup stage(own, ratedGroup(own.asset(kPip), kCount));
+    PlayedGroup stage(own, ratedGroup(own.asset(kWren), kCount));
     const auto joints = static_cast<uint32_t>(stage.character().skin.joints.size());
     for (const uint32_t interval : kEvery) {
         const double start = 0.1; // in the clip's middle, far from the seam
@@ -258,6 +297,37 @@ TEST_F(UpdateRates, TakeTurns) {
         stage.place(3, glm::translate(glm::mat4(1.0f), {1.0f, 2.0f, 3.0f}));
         EXPECT_EQ(posedAt(start + 8.1 / 60.0), interval == 1 ? kCount : 0) << interval;
         EXPECT_EQ(stage.run(start + 8.2 / 60.0), 0u);
+        // Nor by the host's weights, whatever they are, until the clips' own are back.
+        const auto targets = static_cast<uint32_t>(stage.character().morphs.targets.size());
+        std::vector<float> weights(targets, 0.25f);
+        for (const float weight : {0.25f, 0.5f}) {
+            std::fill(weights.begin(), weights.end(), weight);
+            EXPECT_EQ(suppleSetMorphWeights(own.handle(), stage.instances[5], weights.data(), targets), SUPPLE_OK);
+            EXPECT_EQ(posedAt(start + 8.15 / 60.0), interval == 1 ? kCount : 0) << interval;
+        }
+        for (const uint32_t posed : {2u, 0u}) {
+            EXPECT_EQ(suppleSetMorphWeights(own.handle(), stage.instances[5], nullptr, 0), SUPPLE_OK);
+            EXPECT_EQ(posedAt(start + 8.15 / 60.0), interval == 1 ? kCount : posed) << interval;
+        }
+        // A mask: whose layers name it.
+        const std::vector<float> half(joints, 0.5f);
+        SuppleMaskDesc mask{};
+        mask.structSize = sizeof mask;
+        mask.jointMask = half.data();
+        mask.jointMaskCount = joints;
+        for (const uint32_t number : {1u, 2u}) {
+            mask.mask = number;
+            EXPECT_EQ(suppleSetMask(own.handle(), stage.crowd.group(), &mask), SUPPLE_OK);
+        }
+        SupplePlaybackLayer masked = PlayedGroup::loops(1, 0.3);
+        masked.mask = 2;
+        stage.play(6, {&masked, 1}, every(interval));
+        EXPECT_EQ(posedAt(start + 8.16 / 60.0), interval == 1 ? kCount : 2) << interval;
+        for (const uint32_t number : {1u, 2u}) {
+            mask.mask = number;
+            EXPECT_EQ(suppleSetMask(own.handle(), stage.crowd.group(), &mask), SUPPLE_OK);
+            EXPECT_EQ(posedAt(start + 8.17 / 60.0), interval == 1 ? kCount : 2 * (number - 1)) << interval;
+        }
         // What plays changes at once.
         stage.play(3, 2, 0.0, every(interval));
         EXPECT_EQ(posedAt(start + 8.3 / 60.0), interval == 1 ? kCount : 2) << interval;
@@ -337,23 +407,166 @@ TEST_F(UpdateRates, AreExactAtSeams) {
         once.flags = 0;
         stage->play(3, {&once, 1}, desc);
     }
-    uint32_t exactly[4] = {}, frames = 0;
-    for (double time = 0.7; time < 1.4; time += 1.0 / 50.0, ++frames) {
+    uint32_t straight[4] = {}, atSeams = 0;
+    for (double time = 0.7; time < 1.4; time += 1.0 / 50.0) {
         EXPECT_EQ(rated.run(time), 0u) << time;
         EXPECT_EQ(exact.run(time), 0u);
         for (uint32_t i = 0; i < 4; ++i) {
             const std::vector<glm::vec4> a = shownBy(rated, i), b = shownBy(exact, i);
-            exactly[i] += same(a, b) ? 1 : 0;
-            for (size_t k = 0; i < 2 && k < a.size(); ++k) { // the others have corners there
+            const runtime::PoseSpan span = runtime::gridSpan(time, i, 8);
+            const bool meets = i != 2 && span.begin < 1.0 && span.end > 1.0;
+            atSeams += meets ? 1 : 0;
+            EXPECT_TRUE(!meets || same(a, b)) << i << " at " << time;
+            straight[i] += same(a, b) ? 0 : 1;
+            for (size_t k = 0; i < 2 && k < a.size(); ++k) { // the others have corners within
                 EXPECT_LT(glm::length(a[k] - b[k]), 0.02f) << i << " at " << time << ", element " << k;
             }
         }
     }
-    EXPECT_GE(exactly[0], 6u);
-    EXPECT_GE(exactly[1], 6u);
-    EXPECT_LE(exactly[0], frames / 2);
-    EXPECT_LE(exactly[1], frames / 2);
-    EXPECT_LE(exactly[2], 2u);
+    EXPECT_GE(atSeams, 15u);
+    EXPECT_GE(straight[0], 20u);
+    EXPECT_GE(straight[1], 20u);
+    EXPECT_GE(straight[2], 30u);
+    EXPECT_GE(straight[3], 8u) << "before its end";
+}
+
+TEST_F(UpdateRates, AreExactWhileWeightsFadeAndWhereClipsBegin) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    PlayedGroup rated(own, ratedGroup(own.asset(kWren), 2)), exact(own, playedGroup(own.asset(kWren), 2, 0));
+    for (PlayedGroup* stage : {&rated, &exact}) {
+        const SupplePlaybackDesc desc = every(stage == &rated ? 8 : 0);
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.1), PlayedGroup::loops(2, 0.0)};
+        layers[1].weight = 0.0f;
+        layers[1].fadeWeight = 1.0f;
+        layers[1].fadeStart = 0.3;
+        layers[1].fadeDuration = 0.05f;
+        stage->play(0, layers, desc);
+        SupplePlaybackLayer once = PlayedGroup::loops(1, 0.0);
+        once.flags = 0;
+        once.startTime = 0.3;
+        stage->play(1, {&once, 1}, desc);
+    }
+    const double ends[] = {0.35, 0.3};
+    uint32_t met[2] = {}, straight[2] = {};
+    for (double time = 0.05; time < 0.75; time += 1.0 / 97.0) {
+        EXPECT_EQ(rated.run(time), 0u) << time;
+        EXPECT_EQ(exact.run(time), 0u);
+        for (uint32_t i = 0; i < 2; ++i) {
+            const runtime::PoseSpan span = runtime::gridSpan(time, i, 8);
+            const bool meets = span.begin < ends[i] + 1e-5 && span.end > 0.3 - 1e-5;
+            const bool equal = same(shownBy(rated, i), shownBy(exact, i));
+            met[i] += meets ? 1 : 0;
+            EXPECT_TRUE(!meets || equal) << i << " at " << time;
+            straight[i] += equal ? 0 : 1;
+        }
+    }
+    EXPECT_GE(met[0], 12u);
+    EXPECT_GE(met[1], 12u);
+    EXPECT_GE(straight[0], 20u);
+    EXPECT_GE(straight[1], 20u);
+}
+
+/// It runs along x, and moves one joint about as it does: what is left without the root's movement has no seam.
+cage::Character runner() {
+    cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3});
+    tube.clips.push_back(
+        clipOf({channel(1, ChannelPath::translation, {0, 1}, {0, 0, 0, 4, 0, 0}),
+                channel(2, ChannelPath::rotation, {0, 0.5f, 1}, {0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0, 0, 0, 1})}));
+    return tube;
+}
+
+TEST_F(UpdateRates, HaveNoSeamWhereTheRootIsTakenOut) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(runner());
+    PlayedGroup rated(own, ratedGroup(asset, 3)), exact(own, playedGroup(asset, 3, 0));
+    const uint32_t taken[] = {SUPPLE_ROOT_MOTION_GROUND, 0, SUPPLE_ROOT_MOTION_YAW};
+    for (PlayedGroup* stage : {&rated, &exact}) {
+        for (uint32_t i = 0; i < 3; ++i) {
+            SupplePlaybackDesc desc = every(stage == &rated ? 8 : 0);
+            desc.rootMotion = taken[i];
+            stage->play(i, 0, 0.0, desc);
+        }
+    }
+    for (const double time : {0.95, 0.97, 1.01, 1.03}) {
+        EXPECT_EQ(rated.run(time), 0u) << time;
+        EXPECT_EQ(exact.run(time), 0u);
+        for (uint32_t i = 0; i < 3; ++i) {
+            const runtime::PoseSpan span = runtime::gridSpan(time, i, 8);
+            const bool seam = i != 0 && span.begin < 1.0 && span.end > 1.0;
+            EXPECT_EQ(same(shownBy(rated, i), shownBy(exact, i)), seam) << i << " at " << time;
+        }
+    }
+}
+
+/// The draws' queue family gets the poses of every frame, and nothing comes back: whatever stands there afterwards, the
+/// ends of earlier frames still serve.
+TEST_F(UpdateRates, KeepTheirEndsWhereNobodyElseGetsThem) {
+    const ValidationGuard guard;
+    for (const uint32_t flags : {0u, uint32_t{SUPPLE_CONTEXT_ASYNC_COMPUTE}}) {
+        for (const SuppleMapping mapping : kMappings) {
+            CrowdContext own(*testDevice(), mapping, 2, flags);
+            PlayedGroup stage(own, ratedGroup(own.asset(kPip), 8)), exact(own, playedGroup(own.asset(kPip), 8, 0));
+            ASSERT_TRUE(stage.crowd.valid() && exact.crowd.valid());
+            const SuppleBufferRange poses = stage.crowd.output().info.poses;
+            EXPECT_EQ(poses.stride, exact.crowd.output().info.poses.stride) << "one pose an instance";
+            for (uint32_t i = 0; i < 8; ++i) {
+                stage.play(i, 1, 0.1 * i, every(8));
+            }
+            for (uint32_t frame = 0; frame < 12; ++frame) {
+                const auto overwrite = [&](VkCommandBuffer commands) {
+                    vkCmdFillBuffer(commands, poses.buffer, 0, VK_WHOLE_SIZE, 0xCDCDCDCDu);
+                };
+                EXPECT_EQ(stage.run(0.1 + frame / 60.0, overwrite), 0u) << frame;
+                if (flags != 0) {
+                    std::vector<VkBufferMemoryBarrier2> barriers(64);
+                    auto count = static_cast<uint32_t>(barriers.size());
+                    const SuppleGroup group = stage.crowd.group();
+                    EXPECT_EQ(suppleGetAcquireBarriers(own.handle(), &group, 1, kAnyUse, barriers.data(), &count),
+                              SUPPLE_OK);
+                    barriers.resize(count);
+                    EXPECT_EQ(std::ranges::count(barriers, poses.buffer, &VkBufferMemoryBarrier2::buffer), 1);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(UpdateRates, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
+    WrappedVulkan& wrapped = wrappedVulkan();
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfInstance;
+    wrapped.maxTexelBufferElements = kTexels;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext own(*device, mapping);
+        const SuppleAsset asset = own.createAsset(jumper());
+        const auto created = [&](uint32_t capacity, uint32_t flags) {
+            SuppleGroupDesc desc = playedGroup(asset, capacity, flags);
+            desc.structSize = sizeof desc;
+            SuppleGroup group{};
+            const SuppleResult result = suppleCreateGroup(own.handle(), &desc, &group);
+            if (result == SUPPLE_OK) {
+                EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
+            }
+            return result;
+        };
+        const bool narrow = mapping == SUPPLE_MAPPING_NARROW;
+        EXPECT_EQ(created(kMost + 1, 0), SUPPLE_OK);
+        EXPECT_EQ(created(kMost + 1, SUPPLE_GROUP_UPDATE_RATES), narrow ? SUPPLE_ERROR_LIMIT : SUPPLE_OK);
+        if (narrow) {
+            EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_LIMIT);
+        }
+        PlayedGroup stage(own, ratedGroup(asset, kMost));
+        ASSERT_TRUE(stage.crowd.valid());
+        for (uint32_t i = 0; i < kMost; ++i) {
+            stage.play(i, 1, 0.01 * i, every(2)); // all ends in one frame
+        }
+        EXPECT_EQ(stage.run(0.3), 0u);
+    }
+    EXPECT_EQ(device->validation()->messageCount(), 0u);
+    wrapped.maxTexelBufferElements = 0;
 }
 
 TEST_F(UpdateRates, GoWithAllThatInstancesDo) {
@@ -498,6 +711,127 @@ TEST_F(UpdateRates, ComeOutAlikeInWindowsAndSharedDispatches) {
         EXPECT_EQ(first.run(time), 0u);
         EXPECT_EQ(second.run(time), 0u);
     }
+}
+
+/// One instance in a view, whose interval follows from its size on the screen.
+class RatedInView {
+public:
+    RatedInView(CrowdContext& context, SuppleAsset asset, uint32_t viewFlags = 0)
+        : view_(context, 300'000, viewFlags), stage(context, inView(asset, view_.handle())),
+          extent(skinning::measureUpdates(stage.character()).extent) {
+        const glm::mat4 seen = glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 1e6f) *
+                               glm::lookAt(glm::vec3(0.0f), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0));
+        std::memcpy(view_.camera.viewProjection, &seen, sizeof seen);
+    }
+    /// The interval once it has that many pixels and the group this time. `shape`: its transform but for the place.
+    uint32_t intervalAt(double pixels, double time = 0.2, const glm::mat3& shape = glm::mat3(1.0f)) {
+        constexpr double kAway = 1e5; // so far off that the box hardly counts
+        const bool orthographic = (view_.camera.flags & SUPPLE_CAMERA_ORTHOGRAPHIC) != 0;
+        view_.camera.pixelsPerUnit = static_cast<float>(pixels / extent * (orthographic ? 1.0 : kAway));
+        glm::mat4 placed(shape);
+        placed[3] = glm::vec4(0.0f, 0.0f, static_cast<float>(kAway), 1.0f);
+        stage.place(0, placed);
+        view_.look({0, 0, 0});
+        EXPECT_EQ(suppleSetTime(stage.handle(), stage.crowd.group(), time), SUPPLE_OK);
+        stage.crowd.context().run(stage.crowd.group());
+        return interval();
+    }
+    [[nodiscard]] uint32_t interval() const {
+        return stage.group().poses().playback()->updateIntervalOf(stage.instances[0].slot);
+    }
+    void makeOrthographic() { view_.camera.flags = SUPPLE_CAMERA_ORTHOGRAPHIC; }
+
+private:
+    static SuppleGroupDesc inView(SuppleAsset asset, SuppleView view) {
+        SuppleGroupDesc desc = ratedGroup(asset, 1);
+        desc.scheme = SUPPLE_SCHEME_PM;
+        desc.view = view;
+        return desc;
+    }
+
+    TestView view_;
+
+public:
+    PlayedGroup stage;
+    double extent = 0.0;
+};
+
+TEST_F(UpdateRates, OfWhoHasNoBoxAreThoseOfEveryFrame) {
+    const ValidationGuard guard;
+    for (const bool orthographic : {false, true}) {
+        CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+        RatedInView rated(own, own.asset(kPip));
+        if (orthographic) {
+            rated.makeOrthographic();
+        }
+        rated.stage.play(0, 1, 0.3);
+        EXPECT_EQ(rated.intervalAt(0.5), 8u) << orthographic;
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.3), PlayedGroup::loops(0, 0.0)};
+        layers[1].mode = SUPPLE_LAYER_ADDITIVE;
+        rated.stage.play(0, layers);
+        EXPECT_EQ(rated.intervalAt(0.5), 1u) << orthographic;
+    }
+}
+
+TEST_F(UpdateRates, ByTheSizeAreNotShorterThanFramesAskFor) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    RatedInView rated(own, own.asset(kPip));
+    const auto errors = skinning::measureUpdates(rated.stage.character()).ofClips[1].every;
+    const auto settledAt = [&](double pixels, double step) {
+        rated.stage.play(0, 1, 0.3);
+        for (int frame = 0; frame < 3; ++frame) {
+            rated.intervalAt(pixels, 0.2 + frame * step);
+        }
+        return rated.interval();
+    };
+    EXPECT_EQ(settledAt(0.5 / errors[2], 1.0 / 60), 8u);
+    EXPECT_EQ(settledAt(0.6 / errors[1], 1.0 / 60), 4u);
+    EXPECT_EQ(settledAt(0.6 / errors[0], 1.0 / 60), 2u);
+    EXPECT_EQ(settledAt(0.5 / errors[2], 1.0 / 24), 8u);
+    EXPECT_EQ(settledAt(0.6 / errors[1], 1.0 / 24), 1u);
+    EXPECT_EQ(settledAt(0.6 / errors[0], 1.0 / 30), 1u);
+    EXPECT_EQ(settledAt(0.5 / errors[2], 0.1), 1u);
+}
+
+TEST_F(UpdateRates, ByTheSizeStayWhereTheSameIsPlayedAnew) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    RatedInView rated(own, own.asset(kPip));
+    const auto errors = skinning::measureUpdates(rated.stage.character()).ofClips[1].every;
+    rated.stage.play(0, 1, 0.3);
+    EXPECT_EQ(rated.intervalAt(1.05 / errors[2]), 4u);
+    rated.stage.play(0, 1, 0.4);
+    EXPECT_EQ(rated.interval(), 4u) << "as getters see it before the next recording";
+    EXPECT_EQ(rated.intervalAt(0.75 / errors[2]), 4u) << "hysteresis";
+}
+
+TEST_F(UpdateRates, ByTheSizeCountHowLongShearsMakeIt) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    RatedInView rated(own, own.asset(kPip));
+    const auto errors = skinning::measureUpdates(rated.stage.character()).ofClips[1].every;
+    rated.stage.play(0, 1, 0.3);
+    const glm::mat3 turned(glm::rotate(glm::mat4(1.0f), 0.7f, glm::normalize(glm::vec3(1, 2, 3))));
+    EXPECT_EQ(rated.intervalAt(0.95 / errors[2], 0.2, turned), 8u) << "as large as it is";
+    EXPECT_EQ(rated.intervalAt(0.32 / errors[2], 0.2, 3.0f * turned), 8u);
+    // Columns of length 1 that nearly fall together: along their middle it is longer by the root of two.
+    const glm::mat3 sheared(glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 0.05f, 0)), glm::vec3(0, 0, 1));
+    EXPECT_EQ(rated.intervalAt(0.69 / errors[2], 0.2, sheared), 8u);
+    EXPECT_EQ(rated.intervalAt(0.73 / errors[2], 0.2, sheared), 4u);
+}
+
+/// Weights are all that the clip has.
+TEST_F(UpdateRates, ByTheSizeCountMorphTargets) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    cage::Character tube = riggedTube({.segments = 6, .sides = 6, .joints = 3, .morphTargets = 1});
+    cage::Channel weights = channel(0, ChannelPath::weights, {0, 0.1f, 0.2f, 1.0f}, {0, 1, 0, 0});
+    tube.clips.push_back(clipOf({std::move(weights)}));
+    RatedInView rated(own, own.createAsset(tube));
+    rated.stage.play(0, 0, 0.3);
+    EXPECT_EQ(rated.intervalAt(0.1), 8u);
+    EXPECT_EQ(rated.intervalAt(1000.0), 1u);
 }
 
 /// Instances at rising distances from a camera.

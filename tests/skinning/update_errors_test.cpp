@@ -41,12 +41,46 @@ TEST(UpdateErrors, OfAConstantAccelerationGrowWithTheSquareOfTheInterval) {
     }
 }
 
-TEST(UpdateErrors, StraightMovementsHaveNoneUntilTheyEnd) {
+TEST(UpdateErrors, StraightMovementsHaveNone) {
     const UpdateErrors errors = measureUpdates(going(2.0, [](double t) { return t; })).ofClips.back();
-    const double extent = PoseDistance(going(2.0, [](double t) { return t; })).extent();
-    for (size_t n = 0; n < 3; ++n) { // at the corner, in the middle of an interval
-        EXPECT_NEAR(errors.every[n] * extent, 0.5 * static_cast<double>(size_t{1} << n) / shared::kUpdateSteps, 1e-5);
+    for (const double error : errors.every) { // at their ends, they are posed exactly
+        EXPECT_NEAR(error, 0.0, 1e-6);
     }
+    const UpdateErrors brief = measureUpdates(going(0.1, [](double t) { return t; })).ofClips.back();
+    EXPECT_NEAR(brief.every[1], 0.0, 1e-6);
+    EXPECT_EQ(brief.every[2], UpdateErrors::kUnknown);
+    const UpdateErrors still = measureUpdates(going(0.1, [](double) { return 1.0; })).ofClips.back();
+    EXPECT_TRUE(still.closes);
+    EXPECT_EQ(still.every[2], 0.0);
+}
+
+TEST(UpdateErrors, MorphTargetsCount) {
+    cage::Character tube = test::riggedTube({.segments = 6, .sides = 6, .joints = 3, .morphTargets = 1});
+    tube.clips.push_back(test::clipOf({test::channel(0, ChannelPath::weights, {0, 0.5f, 1}, {0, 1, 0})}));
+    tube.clips.push_back(test::clipOf({test::channel(0, ChannelPath::weights, {0, 1}, {0, 1})}));
+    const PoseDistance distance(tube);
+    const UpdateFacts facts = measureUpdates(tube);
+    EXPECT_GT(distance.targetReach(0), 0.0);
+    EXPECT_TRUE(facts.ofClips[0].closes);
+    EXPECT_FALSE(facts.ofClips[1].closes) << "it jumps back";
+    for (size_t n = 0; n < 3; ++n) {
+        // At a turn of 4 a second, in the middle of an interval: half of it on either side.
+        const double half = static_cast<double>(size_t{1} << n) / shared::kUpdateSteps;
+        EXPECT_NEAR(facts.ofClips[0].every[n] * facts.extent, 2.0 * half * distance.targetReach(0), 1e-6) << n;
+        EXPECT_NEAR(facts.ofClips[1].every[n], 0.0, 1e-6);
+    }
+}
+
+TEST(UpdateErrors, ClipsMayCloseWithoutTheRoot) {
+    const UpdateFacts facts = measureUpdates(going(1.0, [](double t) { return t + 0.1 * t * t; }));
+    const auto clip = static_cast<uint32_t>(facts.ofClips.size()) - 1;
+    EXPECT_FALSE(facts.ofClips[clip].closes);
+    EXPECT_EQ(facts.root, 1u);
+    EXPECT_FALSE(facts.closes(clip, {}));
+    EXPECT_TRUE(facts.closes(clip, {1, kRootGround}));
+    EXPECT_TRUE(facts.closes(clip, {1, kRootGround | kRootYaw}));
+    EXPECT_FALSE(facts.closes(clip, {1, kRootHeight | kRootYaw})) << "it goes along x";
+    EXPECT_FALSE(facts.closes(clip, {2, kRootGround}));
 }
 
 TEST(UpdateErrors, ClipsThatCloseAreLooped) {
@@ -78,10 +112,14 @@ TEST(UpdateErrors, OfVeryLongClipsAreNotKnown) {
 }
 
 TEST(UpdateErrors, AreThoseOfTheOracle) {
-    // Largest of all clips: animation_oracle.py, part D, which looks at fewer vertices.
+    // Largest of all clips: animation_oracle.py, part D, which looks at fewer vertices and at no morph targets.
     std::vector<double> largest(3, 0.0);
     for (const std::string& file : {test::kPip, test::kWren}) {
-        for (const UpdateErrors& errors : measureUpdates(test::readCharacter(file)).ofClips) {
+        cage::Character character = test::readCharacter(file);
+        for (cage::Clip& clip : character.clips) {
+            std::erase_if(clip.channels, [](const auto& channel) { return channel.path == ChannelPath::weights; });
+        }
+        for (const UpdateErrors& errors : measureUpdates(character).ofClips) {
             for (size_t n = 0; n < 3; ++n) {
                 largest[n] = std::max(largest[n], errors.every[n]);
             }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
@@ -105,9 +106,10 @@ public:
         EXPECT_EQ(suppleSetTransform(handle(), instances[i], glm::value_ptr(transform)), SUPPLE_OK);
     }
     /// A frame at a time; how many words of poses and cages are others than the CPU's.
-    uint64_t run(double time) {
+    /// `first`: what the host records ahead of Supple.
+    uint64_t run(double time, const std::function<void(VkCommandBuffer)>& first = {}) {
         EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
-        crowd.context().run(crowd.group());
+        crowd.context().run(crowd.group(), first);
         runtime::Group& own = group();
         const skinning::PoseLayout& layout = own.instances().poseLayout();
         const skinning::DeformTable table =

@@ -127,6 +127,9 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceP
     if (state.maxStorageBufferRange != 0) {
         limits.maxStorageBufferRange = state.maxStorageBufferRange;
     }
+    if (state.maxTexelBufferElements != 0) {
+        limits.maxTexelBufferElements = state.maxTexelBufferElements;
+    }
     if (state.maxComputeWorkGroupCountX != 0) {
         limits.maxComputeWorkGroupCount[0] = state.maxComputeWorkGroupCountX;
     }

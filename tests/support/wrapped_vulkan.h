@@ -29,6 +29,7 @@ struct WrappedVulkan {
     uint64_t buffers = 0;
     bool hideSynchronization2 = false;
     uint32_t maxStorageBufferRange = 0;     ///< when not 0: what the device says
+    uint32_t maxTexelBufferElements = 0;    ///< the same
     uint32_t maxComputeWorkGroupCountX = 0; ///< the same
     /// When another: what the device says.
     VkPhysicalDeviceType deviceType = VK_PHYSICAL_DEVICE_TYPE_MAX_ENUM;

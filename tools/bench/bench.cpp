@@ -250,7 +250,10 @@ Status Run::updateRates() {
         return success();
     }
     UpdateRatesDesc desc;
-    desc.characters = options_.quick ? std::vector<uint32_t>{kQuickCpuCrowd} : std::vector<uint32_t>{100, 1000};
+    desc.characters = {100, 1000};
+    if (options_.crowd || options_.quick) {
+        desc.characters = {options_.crowd.value_or(kQuickCpuCrowd)};
+    }
     desc.frames = 8 * (options_.quick ? 1 : options_.rounds);
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rupdate rates: %s   ", what.c_str()); };
     Result<Json> measured = measureUpdateRates(device_, *workbench_, desc);

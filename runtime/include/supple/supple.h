@@ -976,10 +976,10 @@ typedef enum SuppleGroupFlags {
      * for each instance: of device memory, and of staging memory for each frame in flight. */
     SUPPLE_GROUP_TRANSITIONS = 2048,
     /** With SUPPLE_POSES_PLAYBACK: instances may be posed at every second, fourth or eighth step of a grid of times
-     * only, and go straight from pose to pose between these (SupplePlaybackDesc.updateInterval). Three poses are kept
-     * of each instance instead of one, so the stride of SuppleGroupInfo.poses is three times as large; the first is
-     * what is shown. The first group of an asset with this flag measures its clips, which takes some milliseconds for
-     * each. */
+     * only, and go straight from pose to pose between these (SupplePlaybackDesc.updateInterval). Two poses more are
+     * kept of each instance: 96 bytes of device memory per joint, 128 with dual quaternions, 8 per morph target, and 48
+     * per node. SuppleGroupInfo.poses has what is shown, as ever. The first group of an asset with this flag measures
+     * its clips, which takes some milliseconds for each. */
     SUPPLE_GROUP_UPDATE_RATES = 4096
 } SuppleGroupFlags;
 

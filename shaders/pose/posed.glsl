@@ -1,0 +1,21 @@
+// Where poses go: what is shown to the deform pass, an end to mix.comp.
+
+BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
+BUFFER(writeonly, PosedEnds, kEndsBinding, std430, vec4, posedEnds)
+
+// `i`: within the pose.
+void storePosed(uint i, vec4 value) {
+    precise vec4 element = value;
+    uint end = posedEnd();
+    if (end == 0u) {
+        posed.at[posedSlot() * push.poseStride + i] = element;
+    } else {
+        posedEnds.at[firstOfEnd(posedSlot(), end) + i] = element;
+    }
+}
+void storePosed(uint i, Affine m) {
+    precise Affine rows = m;
+    storePosed(i, rows.x);
+    storePosed(i + 1u, rows.y);
+    storePosed(i + 2u, rows.z);
+}
