@@ -46,10 +46,10 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
 }
 
 Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
-    const bool dual = mode == SkinningMode::dualQuaternion;
+    const bool rotations = skinningRow(mode).rotations;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
-        {kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
+        {kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
     gpu::Pipelines::Batch batch(*pipelines_);
     Kernels found;
     found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
@@ -59,7 +59,7 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
     found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
     found.palette = batch.get(layout_, pose_palette_comp, constants,
-                              dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
+                              rotations ? "supple pose, palette with rotations" : "supple pose, palette");
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
 }
@@ -77,7 +77,7 @@ Status PoseKernels::prepare(SkinningMode mode) {
     std::copy(std::begin(made->locals), std::end(made->locals), locals_);
     roots_ = made->roots;
     modifiers_ = made->modifiers;
-    palette_[static_cast<size_t>(mode)] = made->palette;
+    palette_[skinningRow(mode).rotations ? 1 : 0] = made->palette;
     return success();
 }
 
@@ -106,7 +106,7 @@ void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundS
 void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                                 const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(dispatches, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, palette_[skinningRow(mode).rotations ? 1 : 0], (push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

@@ -208,14 +208,14 @@ void PoseTwin::write(std::span<glm::vec4> pose) const {
         pose[at + 1] = m.y;
         pose[at + 2] = m.z;
     };
-    const bool dual = layout_.mode == SkinningMode::dualQuaternion;
-    if (dual) {
+    const bool rotations = layout_.hasRotations();
+    if (rotations) {
         put(0, place_);
     }
     for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
         const shared::Affine own = bindPose_ ? identity() : skinned(joint);
-        if (dual) {
-            const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
+        if (rotations) {
+            const size_t at = kRotationTransform + kRotationElements * size_t{joint};
             put(at, own);
             pose[at + 3] = rotationOf(own);
         } else {

@@ -6,7 +6,7 @@
 #include "shaders/pose/affine.h"
 #include "shaders/pose/nodes.h"
 
-layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
+layout(constant_id = kRotationsConstant) const bool kRotations = false; // the pose has some
 layout(constant_id = kWorkgroupRowsConstant) const uint kLocalRows = 1u; // 3 * kWorkgroupNodes with the wide mapping
 
 BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
@@ -78,8 +78,8 @@ void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine plac
         Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
         own = combined(globalAt(matrices, node), inverseBind);
     }
-    if (kDualQuaternions) {
-        uint i = pose + kDualQuaternionTransform + kDualQuaternionElements * joint;
+    if (kRotations) {
+        uint i = pose + kRotationTransform + kRotationElements * joint;
         storePosed(i, own);
         precise vec4 rotation = rotationOf(own);
         posed.at[i + 3u] = rotation;
@@ -115,7 +115,7 @@ void main() {
         }
     }
     if (within) {
-        if (kDualQuaternions && lane == 0u) storePosed(pose, place);
+        if (kRotations && lane == 0u) storePosed(pose, place);
         for (uint joint = lane; joint < push.jointCount; joint += lanes) {
             storeJoint(joint, bindPose, matrices, pose, place);
         }

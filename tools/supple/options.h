@@ -50,7 +50,7 @@ struct SurfaceFlags {
     float sharpThreshold = 1.0f;
     std::string rules = "catmull-clark"; ///< of fragments
     std::string uvMode = "file";
-    std::string skinning = "linear";
+    std::string skinning = "file";
     host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
@@ -80,8 +80,9 @@ struct SchemeOptions {
 [[nodiscard]] SuppleFragmentRules rulesOf(const std::string& name);
 /// --uv-mode: "file", or a name of OpenSubdiv's.
 [[nodiscard]] SuppleUvInterpolation uvInterpolationOf(const std::string& name);
-/// --skinning: "linear" or "dual-quaternion".
+/// --skinning: "linear", "dual-quaternion", "centers" or "file".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
+[[nodiscard]] const char* skinningName(SuppleSkinning skinning);
 
 /// --rate alone.
 void bindRate(CLI::App& command, uint32_t& rate);
