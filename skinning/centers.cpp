@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSigma = 0.1;
 /// Weights of two joints fall into cells, so many a side; triangles of one cell count as one with their mean weights.
-constexpr uint32_t kCells = 32;
+constexpr uint32_t kCells = 64;
 
 /// Lists of numbers by joint.
 struct JointLists {

@@ -98,6 +98,14 @@ std::vector<std::optional<glm::dvec3>> centersOneByOne(const cage::Character& ch
     return centers;
 }
 
+std::vector<std::optional<glm::dvec3>> centersOf(const skinning::Centers& centers) {
+    std::vector<std::optional<glm::dvec3>> result;
+    for (const glm::vec4& point : centers.points) {
+        result.push_back(point.w != 0.0f ? std::optional(glm::dvec3(point)) : std::nullopt);
+    }
+    return result;
+}
+
 std::vector<glm::dvec3> skinAboutCenters(std::span<const glm::dvec3> positions,
                                          std::span<const std::optional<glm::dvec3>> centers,
                                          const cage::SkinWeights& weights, std::span<const skinning::Affine> palette,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "skinning/centers.h"
 #include "skinning/pose.h"
 
 #include <glm/glm.hpp>
@@ -15,6 +16,9 @@ namespace supple::test {
 /// Le and Hodgins 2016, formula (1), triangle by triangle: fans of the faces, cut `cuts` times at the middles of their
 /// edges. Nothing for a vertex without a pair of joints.
 [[nodiscard]] std::vector<std::optional<glm::dvec3>> centersOneByOne(const cage::Character& character, int cuts);
+
+/// The library's, for skinAboutCenters().
+[[nodiscard]] std::vector<std::optional<glm::dvec3>> centersOf(const skinning::Centers& centers);
 
 /// Joint matrices are split into their polar factors. The center goes where linear skinning takes it; the rotations'
 /// quaternions are blended on the side of the heaviest joint's, and turn the way from the center to the vertex, which
