@@ -103,28 +103,30 @@ vec3 turned(vec4 q, float twice, vec3 v) {
     return r;
 }
 
-// What a joint adds to a vertex that turns about a center: its rotation, where it takes the center, and how it stretches
-// the way from the center to the vertex, as seen in the rest pose.
+// What a joint adds to a vertex that turns about a center: its rotation, by what it moves the center, and by what it
+// changes the way from the center to the vertex but for the rotation.
 struct Turn {
     vec4 rotation;
-    vec3 center;
-    vec3 way;
+    vec3 moved;
+    vec3 stretched;
 };
 Turn turn(uint joint, float weight, vec3 center, vec3 way, vec4 hemisphere) {
     vec4 a = pose(joint), b = pose(joint + 1u), c = pose(joint + 2u), rotation = pose(joint + 3u);
     SUPPLE_PRECISE vec4 aligned = rotation * hemisphere;
     SUPPLE_PRECISE float signedWeight = sum4(aligned) < 0.0f ? -weight : weight;
-    SUPPLE_PRECISE vec3 moved = vec3(dot3(vec3(a), way), dot3(vec3(b), way), dot3(vec3(c), way));
+    SUPPLE_PRECISE vec3 posed = vec3(dot3(vec3(a), way), dot3(vec3(b), way), dot3(vec3(c), way));
+    SUPPLE_PRECISE vec3 back = turned(vec4(-vec3(rotation), rotation.w), 2.0f, posed);
     SUPPLE_PRECISE Turn result;
     result.rotation = rotation * signedWeight;
-    result.center = applied(a, b, c, center) * weight;
-    result.way = turned(vec4(-vec3(rotation), rotation.w), 2.0f, moved) * weight; // back by the rotation
+    result.moved = (applied(a, b, c, center) - center) * weight;
+    result.stretched = (back - way) * weight;
     return result;
 }
 
 // Centers of rotation (Le, Hodgins: Real-time Skeletal Skinning with Optimized Centers of Rotation, ACM TOG 35(4), 2016):
 // the center is blended linearly, and the vertex turns about it by the blend of the joints' rotations. Where joints scale
-// or mirror, what is left of their matrices without the rotations is blended linearly, and acts before the turn.
+// or mirror, what is left of their matrices without the rotations is blended linearly, and acts before the turn. All is
+// seen from the vertex, so that the bind pose is the cage.
 vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joints) {
     SUPPLE_PRECISE vec3 way = rest - center;
     vec4 hemisphere = pose(joints + kRotationElements * table(first).x + 3u);
@@ -136,12 +138,13 @@ vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joint
         SUPPLE_PRECISE Turn a = turn(joints + kRotationElements * pair.x, uintBitsToFloat(pair.y), center, way, hemisphere);
         SUPPLE_PRECISE Turn b = turn(joints + kRotationElements * pair.z, uintBitsToFloat(pair.w), center, way, hemisphere);
         q = q + (a.rotation + b.rotation);
-        moved = moved + (a.center + b.center);
-        stretched = stretched + (a.way + b.way);
+        moved = moved + (a.moved + b.moved);
+        stretched = stretched + (a.stretched + b.stretched);
     }
     SUPPLE_PRECISE vec4 squares = q * q;
     SUPPLE_PRECISE float twice = 2.0f * wideRecip(sum4(squares));
-    SUPPLE_PRECISE vec3 p = moved + turned(q, twice, stretched);
+    SUPPLE_PRECISE vec3 change = turned(q, twice, way + stretched) - way;
+    SUPPLE_PRECISE vec3 p = rest + (moved + change);
     return p;
 }
 

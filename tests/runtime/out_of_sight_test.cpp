@@ -47,7 +47,7 @@ TEST(PlayedBounds, HoldWhatPlays) {
     ASSERT_EQ(reach.anchor, 1u);
     const skinning::Rig rig = skinning::makeRig(tube);
     skinning::PoseMemory memory(tube);
-    runtime::PlayedBounds bounds(tube, false, false, 1);
+    runtime::PlayedBounds bounds(tube, {}, false, 1);
     Noise noise(7);
     size_t held = 0, unbounded = 0;
     for (uint32_t run = 0; run < 400; ++run) {

@@ -130,10 +130,14 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
     bindSettings(command, "--part-scheme", partSchemes, host::parsePartScheme,
                  "The scheme of a part, by name or index, instead of --scheme. May be given again", "PART=SCHEME");
     bindRate(command, rate);
+    bindSkinning(command, skinning);
+    bindReading(command, reading);
+}
+
+void bindSkinning(CLI::App& command, std::string& skinning) {
     command.add_option("--skinning", skinning, "How joints move the cage; file: as the file says, or linearly")
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(kSkinnings), std::end(kSkinnings))))
         ->capture_default_str();
-    bindReading(command, reading);
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {

@@ -57,6 +57,8 @@ struct SurfaceFlags {
 void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartScheme>& partSchemes, uint32_t& rate,
                 std::string& skinning, host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
+/// --skinning alone.
+void bindSkinning(CLI::App& command, std::string& skinning);
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
 /// --rules.
