@@ -103,48 +103,60 @@ vec3 turned(vec4 q, float twice, vec3 v) {
     return r;
 }
 
-// What a joint adds to a vertex that turns about a center: its rotation, by what it moves the center, and by what it
-// changes the way from the center to the vertex but for the rotation.
+// What a joint makes of a vertex that turns about a center: where it takes the center, its rotation, and what it makes of
+// the way from the center to the vertex but for the rotation.
 struct Turn {
     vec4 rotation;
-    vec3 moved;
-    vec3 stretched;
+    vec3 center;
+    vec3 way;
 };
-Turn turn(uint joint, float weight, vec3 center, vec3 way, vec4 hemisphere) {
+Turn turn(uint joint, vec3 center, vec3 way) {
     vec4 a = pose(joint), b = pose(joint + 1u), c = pose(joint + 2u), rotation = pose(joint + 3u);
-    SUPPLE_PRECISE vec4 aligned = rotation * hemisphere;
-    SUPPLE_PRECISE float signedWeight = sum4(aligned) < 0.0f ? -weight : weight;
     SUPPLE_PRECISE vec3 posed = vec3(dot3(vec3(a), way), dot3(vec3(b), way), dot3(vec3(c), way));
-    SUPPLE_PRECISE vec3 back = turned(vec4(-vec3(rotation), rotation.w), 2.0f, posed);
     SUPPLE_PRECISE Turn result;
-    result.rotation = rotation * signedWeight;
-    result.moved = (applied(a, b, c, center) - center) * weight;
-    result.stretched = (back - way) * weight;
+    result.rotation = rotation;
+    result.center = applied(a, b, c, center);
+    result.way = turned(vec4(-vec3(rotation), rotation.w), 2.0f, posed); // back
+    return result;
+}
+
+// By what it differs from another joint's, which has most weight.
+Turn apart(Turn own, Turn base, float weight) {
+    SUPPLE_PRECISE vec4 aligned = own.rotation * base.rotation;
+    SUPPLE_PRECISE float signedWeight = sum4(aligned) < 0.0f ? -weight : weight;
+    SUPPLE_PRECISE Turn result;
+    result.rotation = own.rotation * signedWeight;
+    result.center = (own.center - base.center) * weight;
+    result.way = (own.way - base.way) * weight;
     return result;
 }
 
 // Centers of rotation (Le, Hodgins: Real-time Skeletal Skinning with Optimized Centers of Rotation, ACM TOG 35(4), 2016):
 // the center is blended linearly, and the vertex turns about it by the blend of the joints' rotations. Where joints scale
 // or mirror, what is left of their matrices without the rotations is blended linearly, and acts before the turn. All is
-// seen from the vertex, so that the bind pose is the cage.
+// seen from where the heaviest joint alone takes it: so the bind pose is the cage, to the bit.
 vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joints) {
+    uint heaviest = joints + kRotationElements * table(first).x;
     SUPPLE_PRECISE vec3 way = rest - center;
-    vec4 hemisphere = pose(joints + kRotationElements * table(first).x + 3u);
+    SUPPLE_PRECISE Turn base = turn(heaviest, center, way);
+    SUPPLE_PRECISE vec3 anchor = transformed(heaviest, rest);
     SUPPLE_PRECISE vec4 q = vec4(0.0f);
     SUPPLE_PRECISE vec3 moved = vec3(0.0f);
     SUPPLE_PRECISE vec3 stretched = vec3(0.0f);
     for (uint element = first; element < end; ++element) {
         uvec4 pair = table(element);
-        SUPPLE_PRECISE Turn a = turn(joints + kRotationElements * pair.x, uintBitsToFloat(pair.y), center, way, hemisphere);
-        SUPPLE_PRECISE Turn b = turn(joints + kRotationElements * pair.z, uintBitsToFloat(pair.w), center, way, hemisphere);
+        SUPPLE_PRECISE Turn a =
+            apart(turn(joints + kRotationElements * pair.x, center, way), base, uintBitsToFloat(pair.y));
+        SUPPLE_PRECISE Turn b =
+            apart(turn(joints + kRotationElements * pair.z, center, way), base, uintBitsToFloat(pair.w));
         q = q + (a.rotation + b.rotation);
-        moved = moved + (a.moved + b.moved);
-        stretched = stretched + (a.stretched + b.stretched);
+        moved = moved + (a.center + b.center);
+        stretched = stretched + (a.way + b.way);
     }
     SUPPLE_PRECISE vec4 squares = q * q;
     SUPPLE_PRECISE float twice = 2.0f * wideRecip(sum4(squares));
-    SUPPLE_PRECISE vec3 change = turned(q, twice, way + stretched) - way;
-    SUPPLE_PRECISE vec3 p = rest + (moved + change);
+    SUPPLE_PRECISE vec3 change = turned(q, twice, base.way + stretched) - (anchor - base.center);
+    SUPPLE_PRECISE vec3 p = anchor + (moved + change);
     return p;
 }
 

@@ -571,7 +571,7 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
 TEST(DeformShader, EveryHelperMustBePrecise) {
     // What makes the mappings agree: the static check must see `precise` go from any helper on the way to the position.
     for (const char* helper : {"transformed", "weighted", "morphed", "blendedLinearly", "sum4", "crossed", "influence",
-                               "blendedAsDualQuaternions", "applied", "turned", "turn", "blendedAboutCenter"}) {
+                               "blendedAsDualQuaternions", "applied", "turned", "apart", "blendedAboutCenter"}) {
         const std::vector<uint32_t> spirv = compileShader("deform/deform.comp", helper);
         ASSERT_FALSE(spirv.empty());
         uint32_t checked = 0;
