@@ -3,6 +3,7 @@
 #include "cage/gltf/reader.h"
 #include "skinning/layers.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/crowd.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/posed_group.h"
@@ -491,6 +492,39 @@ TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
     EXPECT_NE(refusal(suppleCreateGroup(handle(), &groupDesc, &none)).find("skinning or poseSource"),
               std::string::npos);
     EXPECT_TRUE(cages() == before);
+}
+
+TEST(PoseSkinning, TheFileMayNameIt) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_AUTO);
+    Result<cage::Character> character = cage::readGltfFile(kPip);
+    ASSERT_TRUE(character.ok());
+    const auto groupOf = [&](SuppleAsset asset, SuppleSkinning skinning) {
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = SUPPLE_SCHEME_CAGE;
+        desc.skinning = skinning;
+        return std::make_unique<Crowd>(own, desc);
+    };
+    const auto cageOf = [&](Crowd& crowd) {
+        crowd.pose(crowd.spawn(), 1, 0.4, glm::mat4(1.0f));
+        crowd.run();
+        return crowd.slotBytes(crowd.output().info.deformedCage, 0);
+    };
+    const SuppleAsset silent = own.createAsset(*character);
+    const auto plain = groupOf(silent, SUPPLE_SKINNING_FROM_FILE);
+    EXPECT_EQ(plain->output().info.skinning, SUPPLE_SKINNING_LINEAR);
+    character->parts.back().skinning = cage::SkinningMode::centersOfRotation;
+    const SuppleAsset naming = own.createAsset(*character); // through a file
+    const auto fromFile = groupOf(naming, SUPPLE_SKINNING_FROM_FILE);
+    EXPECT_EQ(fromFile->output().info.skinning, SUPPLE_SKINNING_CENTERS_OF_ROTATION);
+    const auto linear = groupOf(naming, SUPPLE_SKINNING_LINEAR);
+    EXPECT_EQ(linear->output().info.skinning, SUPPLE_SKINNING_LINEAR) << "hosts that say nothing get what they got";
+    const auto named = groupOf(naming, SUPPLE_SKINNING_CENTERS_OF_ROTATION);
+    const auto cage = cageOf(*fromFile);
+    EXPECT_EQ(cage, cageOf(*named));
+    EXPECT_NE(cage, cageOf(*linear));
 }
 
 TEST_F(PoseApi, PosingAllocatesNothing) {
