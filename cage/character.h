@@ -395,8 +395,8 @@ struct Part {
     uint32_t targetCount = 0;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;
-    std::optional<UvMode> uvMode;   ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
-    std::optional<MadeFor> madeFor; ///< what the file says (SUPPLE_mesh_cage: scheme)
+    std::optional<UvMode> uvMode;         ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<MadeFor> madeFor;       ///< what the file says (SUPPLE_mesh_cage: scheme)
     std::optional<SkinningMode> skinning; ///< what the file says (SUPPLE_deformers: skinning)
 };
 

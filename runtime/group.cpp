@@ -116,8 +116,7 @@ Status Group::createInstances(const GroupShared& shared) {
     }
     Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
         {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(asset_->character, desc_.skinning),
-         desc_.capacity,
-         shared.firstGeneration, shared.framesInFlight,
+         desc_.capacity, shared.firstGeneration, shared.framesInFlight,
          StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0},
          shared.handsOver});
     if (!instances) {

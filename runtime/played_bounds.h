@@ -21,9 +21,9 @@ class PlayedBounds {
 public:
     PlayedBounds() = default;
     /// The character must outlive this, and what `skinned` points to.
-    PlayedBounds(const cage::Character& character, const skinning::SkinnedBounds& skinned, bool modifiers, uint32_t capacity)
-        : character_(&character), skinned_(skinned), played_(capacity),
-          turned_(modifiers ? capacity : 0) {}
+    PlayedBounds(const cage::Character& character, const skinning::SkinnedBounds& skinned, bool modifiers,
+                 uint32_t capacity)
+        : character_(&character), skinned_(skinned), played_(capacity), turned_(modifiers ? capacity : 0) {}
 
     void setBindPose(uint32_t slot) { played_[slot] = {}; }
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);

@@ -26,8 +26,8 @@ struct Centers {
 ///     c_i = sum_t s(i, t) a_t x_t / sum_t s(i, t) a_t
 ///     s(i, t) = sum_{j<k} 2 w_ij w_ik v_tj v_tk exp(-((w_ij v_tk - w_ik v_tj) / sigma)^2)
 ///
-/// over the triangles of all faces, cut once at the middles of their edges; v_t: mean weights of a triangle. A vertex of
-/// one joint has no center. Triangles of like weights are taken together, so that a cage takes no longer than its
+/// over the triangles of all faces, cut once at the middles of their edges; v_t: mean weights of a triangle. A vertex
+/// of one joint has no center. Triangles of like weights are taken together, so that a cage takes no longer than its
 /// vertices times some hundreds. Sums are in double, in one order.
 [[nodiscard]] Centers findCenters(const cage::Character& character);
 

@@ -179,7 +179,7 @@ private:
                 moved_.push_back({at, weight, of.joint});
             }
         });
-        error += moved_.size() < 2                                          ? 0.0
+        error += moved_.size() < 2                                   ? 0.0
                  : desc_.skinning == SkinningMode::centersOfRotation ? centerError(vertex)
                                                                      : dualQuaternionError();
         take(ends, error, box);

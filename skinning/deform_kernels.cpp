@@ -110,8 +110,8 @@ DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& we
 
 PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount) {
     PoseLayout layout{mode, jointCount, morphCount, 0, 0};
-    layout.morphWeights = layout.hasRotations() ? kRotationTransform + kRotationElements * jointCount
-                                                : kLinearElements * jointCount;
+    layout.morphWeights =
+        layout.hasRotations() ? kRotationTransform + kRotationElements * jointCount : kLinearElements * jointCount;
     layout.stride = layout.morphWeights + (morphCount + 3) / 4;
     return layout;
 }

@@ -44,8 +44,8 @@ struct InstancePose {
     std::span<const float> morphWeights;
     glm::mat4 transform{1.0f};
 };
-/// Writes layout.stride elements. Linear blending takes the transform into the matrices; where rotations are blended the
-/// pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
+/// Writes layout.stride elements. Linear blending takes the transform into the matrices; where rotations are blended
+/// the pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
 void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target);
 
 /// The pipelines of the pass, each made when it is first needed. Output: float4 (x, y, z, 1) a cage vertex,

@@ -106,7 +106,8 @@ void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundS
 void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                                 const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(dispatches, set, push, palette_[skinningRow(mode).rotations ? 1 : 0], (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, palette_[skinningRow(mode).rotations ? 1 : 0],
+           (push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

@@ -6,8 +6,8 @@
 
 namespace supple::skinning {
 
-/// About a center c, a vertex u is at sum_j w_j M_j c + R sum_j w_j U_j (u - c), where M_j = R_j U_j; linearly skinned at
-/// sum_j w_j M_j u. They are sum_j w_j (R - R_j) U_j (u - c) apart: no farther than twice the largest |M_j| |u - c|.
+/// About a center c, a vertex u is at sum_j w_j M_j c + R sum_j w_j U_j (u - c), where M_j = R_j U_j; linearly skinned
+/// at sum_j w_j M_j u. They are sum_j w_j (R - R_j) U_j (u - c) apart: no farther than twice the largest |M_j| |u - c|.
 template <class F>
 Box SkinnedBounds::grown(const Reach& reach, const Box& linear, F&& sizeOf) const {
     switch (mode_) {

@@ -156,8 +156,8 @@ TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
                     EXPECT_TRUE(sameBits(gpu.cage(i), narrow[i])) << "mappings differ, instance " << i;
                 }
             }
-            std::printf("%s, mapping %d: morphs and skin within %.1e of the extent\n",
-                        skinningName(skinning), mapping, worst);
+            std::printf("%s, mapping %d: morphs and skin within %.1e of the extent\n", skinningName(skinning), mapping,
+                        worst);
             EXPECT_LT(worst, 1e-6);
         }
     }
@@ -409,8 +409,7 @@ TEST_F(DeformOnGpu, ATwistKeepsItsGirthWhereRotationsAreBlended) {
                     degrees, ratio[0].radius, ratio[0].volume, ratio[1].radius, ratio[1].volume);
         const double collapse = std::abs(std::cos(0.5 * glm::radians(static_cast<double>(degrees))));
         EXPECT_NEAR(ratio[0].radius, collapse, 1e-4) << "the half way ring of linear blending";
-        for (const SuppleSkinning skinning :
-             {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
             EXPECT_NEAR(ratio[skinning].radius, 1.0, 1e-6) << skinningName(skinning);
             EXPECT_NEAR(ratio[skinning].volume, 1.0, 1e-6) << skinningName(skinning);
         }

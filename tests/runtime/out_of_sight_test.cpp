@@ -76,10 +76,10 @@ TEST(PlayedBounds, HoldWhatPlays) {
         const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
         const std::vector<glm::dvec3> morphed = skinning::morphOnCpu(tube.cage, tube.morphs, weights);
         const glm::dmat4 place = skinning::toMatrix(skinning::traveledBy(tube, desc, time));
+        EXPECT_TRUE(holds(*box, boxAround(moved(skinning::deformOnCpu(morphed, tube.weights, palette), place))));
         EXPECT_TRUE(
-            holds(*box, boxAround(moved(skinning::deformOnCpu(morphed, tube.weights, palette), place))));
-        EXPECT_TRUE(holds(*about.of(0, time, reach, {}),
-                          boxAround(moved(skinAboutCenters(morphed, centersOf(centers), tube.weights, palette), place))));
+            holds(*about.of(0, time, reach, {}),
+                  boxAround(moved(skinAboutCenters(morphed, centersOf(centers), tube.weights, palette), place))));
         EXPECT_LT(glm::length(box->high - box->low), 150.0) << "it travels along, whatever the time";
         ++held;
     }

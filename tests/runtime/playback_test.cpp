@@ -460,8 +460,7 @@ TEST_F(PlaybackOnGpu, PosesTheDemoCharacterAsCallsDo) {
                 duet.run(time);
                 worst.add(duet.difference());
             }
-            worst.print(mappingName(mapping) +
-                        ", " + std::string(skinningName(skinning)));
+            worst.print(mappingName(mapping) + ", " + std::string(skinningName(skinning)));
             EXPECT_TRUE(worst.within());
         }
     }
@@ -498,8 +497,8 @@ TEST_F(PlaybackOnGpu, PlaysEveryKindOfKeys) {
                     duet.run(time);
                     worst.add(duet.difference());
                 }
-                worst.print(mappingName(mapping) + ", " + std::to_string(targets) + " targets" +
-                            ", " + std::string(skinningName(skinning)));
+                worst.print(mappingName(mapping) + ", " + std::to_string(targets) + " targets" + ", " +
+                            std::string(skinningName(skinning)));
                 EXPECT_TRUE(worst.within());
             }
         }
@@ -570,8 +569,7 @@ TEST_F(PlaybackOnGpu, LayersClipsAsCallsDo) {
             }
             duet.run(1.2);
             worst.add(duet.difference());
-            worst.print(mappingName(mapping) +
-                        ", " + std::string(skinningName(skinning)));
+            worst.print(mappingName(mapping) + ", " + std::string(skinningName(skinning)));
             EXPECT_TRUE(worst.within());
         }
     }

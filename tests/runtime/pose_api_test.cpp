@@ -643,8 +643,7 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
                 EXPECT_EQ(counts.maps + counts.updates + counts.fills + counts.invalidates, 0u);
                 EXPECT_LE(counts.flushes, 1u);
             }
-            std::printf("%s, %u morph targets: %llu bytes a pose of 3 joints\n",
-                        skinningName(c.skinning), c.targets,
+            std::printf("%s, %u morph targets: %llu bytes a pose of 3 joints\n", skinningName(c.skinning), c.targets,
                         static_cast<unsigned long long>(c.bytes));
         }
     }

@@ -54,9 +54,8 @@ std::vector<Affine> noisyPalette(const Character& character, uint32_t seed) {
 /// Triangle by triangle, and with those of like weights taken together: cages are a few times nearer to each other than
 /// to those of triangles cut once more, which are 4e-5 to 1e-3 of the extent away.
 TEST(Centers, AgreeWithTheFormula) {
-    for (const std::string& path :
-         test::sharedAssets({"characters/mh_female1605.glb", "characters/man_casual_quads.glb",
-                             "characters/horse.glb"})) {
+    for (const std::string& path : test::sharedAssets(
+             {"characters/mh_female1605.glb", "characters/man_casual_quads.glb", "characters/horse.glb"})) {
         const Result<Character> character = cage::readGltfFile(path);
         ASSERT_TRUE(character.ok()) << character.error().message;
         Centers found;
@@ -74,10 +73,11 @@ TEST(Centers, AgreeWithTheFormula) {
         }
         const double size = test::extent(rest);
         const Apart ofCenters = apart(centers, size), ofVertices = apart(vertices, size);
-        std::printf("%-24s %5zu vertices, %6.1f ms: centers at most %.1e of the extent off (99 %%: %.1e), vertices %.1e "
-                    "(%.1e)\n",
-                    std::filesystem::path(path).filename().c_str(), rest.size(), milliseconds, ofCenters.most,
-                    ofCenters.usual, ofVertices.most, ofVertices.usual);
+        std::printf(
+            "%-24s %5zu vertices, %6.1f ms: centers at most %.1e of the extent off (99 %%: %.1e), vertices %.1e "
+            "(%.1e)\n",
+            std::filesystem::path(path).filename().c_str(), rest.size(), milliseconds, ofCenters.most, ofCenters.usual,
+            ofVertices.most, ofVertices.usual);
         EXPECT_LT(ofCenters.usual, 2e-3);
         EXPECT_LT(ofVertices.usual, 1e-4);
     }
@@ -105,8 +105,8 @@ Character specTube() {
             tube.weights.starts.push_back(static_cast<uint32_t>(tube.weights.influences.size()));
             if (ring + 1 < kRings) {
                 const uint32_t next = (side + 1) % kSides;
-                for (const uint32_t corner : {ring * kSides + side, ring * kSides + next,
-                                              (ring + 1) * kSides + next, (ring + 1) * kSides + side}) {
+                for (const uint32_t corner : {ring * kSides + side, ring * kSides + next, (ring + 1) * kSides + next,
+                                              (ring + 1) * kSides + side}) {
                     tube.cage.faceVertices.push_back(corner);
                 }
                 tube.cage.faceStarts.push_back(static_cast<uint32_t>(tube.cage.faceVertices.size()));
@@ -150,19 +150,20 @@ TEST(Centers, KeepTheVolumeOfATube) {
         float degrees;
         double linear, dual, centers; ///< per cent
     };
-    for (const Case& c : {Case{"bend 60", {1, 0, 0}, 60, 98.3, 99.9, 99.8}, Case{"bend 120", {1, 0, 0}, 120, 94.8, 99.5, 99.0},
-                          Case{"twist 90", {0, 0, 1}, 90, 93.1, 99.4, 99.4},
-                          Case{"twist 180", {0, 0, 1}, 179.99f, 86.8, 98.3, 98.3}}) {
+    for (const Case& c :
+         {Case{"bend 60", {1, 0, 0}, 60, 98.3, 99.9, 99.8}, Case{"bend 120", {1, 0, 0}, 120, 94.8, 99.5, 99.0},
+          Case{"twist 90", {0, 0, 1}, 90, 93.1, 99.4, 99.4}, Case{"twist 180", {0, 0, 1}, 179.99f, 86.8, 98.3, 98.3}}) {
         const std::vector<Affine> palette{
-            toAffine(glm::mat4(1.0f)), toAffine(glm::mat4(glm::mat3_cast(glm::angleAxis(glm::radians(c.degrees), c.axis))))};
+            toAffine(glm::mat4(1.0f)),
+            toAffine(glm::mat4(glm::mat3_cast(glm::angleAxis(glm::radians(c.degrees), c.axis))))};
         const auto kept = [&](const std::vector<glm::dvec3>& skinned) {
             return 100.0 * tubeVolume(skinned) / tubeVolume(rest);
         };
         const double linear = kept(deformOnCpu(rest, tube.weights, palette));
         const double dual = kept(test::skinWithDualQuaternions(rest, tube.weights, palette));
         const double about = kept(test::skinAboutCenters(rest, centers, tube.weights, palette));
-        std::printf("tube, %-10s linear %.1f %%, dual quaternions %.1f %%, centers of rotation %.1f %%\n", c.name, linear,
-                    dual, about);
+        std::printf("tube, %-10s linear %.1f %%, dual quaternions %.1f %%, centers of rotation %.1f %%\n", c.name,
+                    linear, dual, about);
         EXPECT_NEAR(linear, c.linear, 0.051) << c.name;
         EXPECT_NEAR(dual, c.dual, 0.051) << c.name;
         EXPECT_NEAR(about, c.centers, 0.051) << c.name;
@@ -183,26 +184,111 @@ struct RigCase {
 using About = test::Turn::About;
 const glm::dvec3 kUp(0, 1, 0);
 
-/// Found by the same formulas in another language, with numpy: centers of cages cut once, of body 13k uncut. Half a turn
-/// goes either way: a hair less or more says which.
+/// Found by the same formulas in another language, with numpy: centers of cages cut once, of body 13k uncut. Half a
+/// turn goes either way: a hair less or more says which.
 const RigCase kRigs[] = {
-    {"mh_female1605", "elbow 120", {"lowerarm_l", 120, About::hinge, {}, .05}, {42, {.13, 1.01}, 2}, {53, {.13, 1.08}, 2}, {36, {.26, 1.09}, 4}},
-    {"mh_female1605", "shoulder 120", {"upperarm_l", 120, About::given, kUp, .07}, {44, {.45, 1.02}, 6}, {86, {.53, 1.37}, 4}, {64, {.46, 1.17}, 7}},
-    {"mh_female1605", "knee 120", {"calf_l", 120, About::hinge, {}, .07}, {41, {.26, 1.00}, 5}, {62, {.29, 1.32}, 5}, {46, {.26, 1.23}, 7}},
-    {"mh_female1605", "wrist twist 180", {"hand_l", 179.99, About::bone, {}, .05}, {85, {.18, 1.00}, 1}, {94, {1.0, 1.00}, 1}, {94, {.84, 1.03}, 1}},
-    {"mh_female1605", "upper arm twist 180", {"upperarm_l", 179.99, About::bone, {}, .07}, {30, {.18, .91}, 11}, {53, {.49, 1.04}, 7}, {38, {.44, 1.08}, 10}},
-    {"mh_body_13k_infl8", "elbow 120", {"lowerarm01.L", 120, About::hinge, {}, .05}, {67, {.33, 1.01}, 35}, {74, {.31, 1.16}, 49}, {72, {.44, 1.08}, 56}},
-    {"mh_body_13k_infl8", "shoulder 120", {"upperarm01.L", 120, About::given, kUp, .07}, {63, {.35, 1.28}, 32}, {99, {.57, 1.64}, 33}, {69, {.58, 1.37}, 50}},
-    {"mh_body_13k_infl8", "knee 120", {"lowerleg01.L", 120, About::hinge, {}, .07}, {75, {.39, 1.01}, 18}, {92, {.42, 1.20}, 15}, {90, {.43, 1.16}, 25}},
-    {"mh_body_13k_infl8", "wrist twist 180", {"wrist.L", 179.99, About::bone, {}, .05}, {78, {.14, 1.00}, 30}, {96, {.97, 1.02}, 10}, {97, {.86, 1.08}, 13}},
-    {"mh_body_13k_infl8", "upper arm twist 180", {"upperarm01.L", 179.99, About::bone, {}, .07}, {46, {.13, 1.00}, 53}, {91, {.50, 1.09}, 40}, {61, {.58, 1.30}, 67}},
-    {"man_casual_quads", "elbow 120", {"LowerArm.L", 120, About::hinge, {}, .06}, {54, {.30, 1.08}, 0}, {84, {.32, 1.41}, 0}, {70, {.36, 1.23}, 9}},
-    {"man_casual_quads", "shoulder 120", {"UpperArm.L", 120, About::given, kUp, .08}, {63, {.35, 1.00}, 23}, {91, {.41, 1.15}, 16}, {87, {.44, 1.17}, 29}},
-    {"man_casual_quads", "knee 120", {"LowerLeg.L", 120, About::hinge, {}, .08}, {49, {.27, 1.05}, 20}, {55, {.25, 1.46}, 18}, {57, {.27, 1.49}, 21}},
-    {"man_casual_quads", "wrist twist 180", {"Palm.L", 179.99, About::bone, {}, .06}, {80, {.18, 1.00}, 13}, {107, {.42, 1.28}, 6}, {97, {.40, 1.29}, 19}},
-    {"man_casual_quads", "upper arm twist 180", {"UpperArm.L", 179.99, About::bone, {}, .08}, {41, {.10, 1.00}, 52}, {97, {.62, 1.02}, 30}, {81, {.73, 1.14}, 36}},
-    {"horse", "knee 120", {"FrontLowLeg.L", 120, About::hinge, {}, .08}, {33, {.42, 1.04}, 4}, {38, {.43, 1.17}, 2}, {38, {.49, 1.32}, 5}},
-    {"horse", "neck twist 180", {"Neck", 179.99, About::bone, {}, .14}, {8, {.04, .91}, 10}, {106, {.98, 1.01}, 3}, {99, {.86, 1.03}, 4}},
+    {"mh_female1605",
+     "elbow 120",
+     {"lowerarm_l", 120, About::hinge, {}, .05},
+     {42, {.13, 1.01}, 2},
+     {53, {.13, 1.08}, 2},
+     {36, {.26, 1.09}, 4}},
+    {"mh_female1605",
+     "shoulder 120",
+     {"upperarm_l", 120, About::given, kUp, .07},
+     {44, {.45, 1.02}, 6},
+     {86, {.53, 1.37}, 4},
+     {64, {.46, 1.17}, 7}},
+    {"mh_female1605",
+     "knee 120",
+     {"calf_l", 120, About::hinge, {}, .07},
+     {41, {.26, 1.00}, 5},
+     {62, {.29, 1.32}, 5},
+     {46, {.26, 1.23}, 7}},
+    {"mh_female1605",
+     "wrist twist 180",
+     {"hand_l", 179.99, About::bone, {}, .05},
+     {85, {.18, 1.00}, 1},
+     {94, {1.0, 1.00}, 1},
+     {94, {.84, 1.03}, 1}},
+    {"mh_female1605",
+     "upper arm twist 180",
+     {"upperarm_l", 179.99, About::bone, {}, .07},
+     {30, {.18, .91}, 11},
+     {53, {.49, 1.04}, 7},
+     {38, {.44, 1.08}, 10}},
+    {"mh_body_13k_infl8",
+     "elbow 120",
+     {"lowerarm01.L", 120, About::hinge, {}, .05},
+     {67, {.33, 1.01}, 35},
+     {74, {.31, 1.16}, 49},
+     {72, {.44, 1.08}, 56}},
+    {"mh_body_13k_infl8",
+     "shoulder 120",
+     {"upperarm01.L", 120, About::given, kUp, .07},
+     {63, {.35, 1.28}, 32},
+     {99, {.57, 1.64}, 33},
+     {69, {.58, 1.37}, 50}},
+    {"mh_body_13k_infl8",
+     "knee 120",
+     {"lowerleg01.L", 120, About::hinge, {}, .07},
+     {75, {.39, 1.01}, 18},
+     {92, {.42, 1.20}, 15},
+     {90, {.43, 1.16}, 25}},
+    {"mh_body_13k_infl8",
+     "wrist twist 180",
+     {"wrist.L", 179.99, About::bone, {}, .05},
+     {78, {.14, 1.00}, 30},
+     {96, {.97, 1.02}, 10},
+     {97, {.86, 1.08}, 13}},
+    {"mh_body_13k_infl8",
+     "upper arm twist 180",
+     {"upperarm01.L", 179.99, About::bone, {}, .07},
+     {46, {.13, 1.00}, 53},
+     {91, {.50, 1.09}, 40},
+     {61, {.58, 1.30}, 67}},
+    {"man_casual_quads",
+     "elbow 120",
+     {"LowerArm.L", 120, About::hinge, {}, .06},
+     {54, {.30, 1.08}, 0},
+     {84, {.32, 1.41}, 0},
+     {70, {.36, 1.23}, 9}},
+    {"man_casual_quads",
+     "shoulder 120",
+     {"UpperArm.L", 120, About::given, kUp, .08},
+     {63, {.35, 1.00}, 23},
+     {91, {.41, 1.15}, 16},
+     {87, {.44, 1.17}, 29}},
+    {"man_casual_quads",
+     "knee 120",
+     {"LowerLeg.L", 120, About::hinge, {}, .08},
+     {49, {.27, 1.05}, 20},
+     {55, {.25, 1.46}, 18},
+     {57, {.27, 1.49}, 21}},
+    {"man_casual_quads",
+     "wrist twist 180",
+     {"Palm.L", 179.99, About::bone, {}, .06},
+     {80, {.18, 1.00}, 13},
+     {107, {.42, 1.28}, 6},
+     {97, {.40, 1.29}, 19}},
+    {"man_casual_quads",
+     "upper arm twist 180",
+     {"UpperArm.L", 179.99, About::bone, {}, .08},
+     {41, {.10, 1.00}, 52},
+     {97, {.62, 1.02}, 30},
+     {81, {.73, 1.14}, 36}},
+    {"horse",
+     "knee 120",
+     {"FrontLowLeg.L", 120, About::hinge, {}, .08},
+     {33, {.42, 1.04}, 4},
+     {38, {.43, 1.17}, 2},
+     {38, {.49, 1.32}, 5}},
+    {"horse",
+     "neck twist 180",
+     {"Neck", 179.99, About::bone, {}, .14},
+     {8, {.04, .91}, 10},
+     {106, {.98, 1.01}, 3},
+     {99, {.86, 1.03}, 4}},
 };
 
 Measured measured(const test::Bend& bend, const std::vector<glm::dvec3>& skinned) {
@@ -301,8 +387,8 @@ TEST(Centers, CagesLieWithinTheirBounds) {
             joint[3] = glm::vec4(3.0f * noise.vector(), 1.0f);
             palette.push_back(toAffine(joint));
         }
-        const Box own = test::boxAround(test::skinAboutCenters(test::doublePositions(tube.cage), test::centersOf(centers),
-                                                               tube.weights, palette));
+        const Box own = test::boxAround(
+            test::skinAboutCenters(test::doublePositions(tube.cage), test::centersOf(centers), tube.weights, palette));
         const Box linear = paletteBounds(reach, palette, {});
         const Box held = bounds.posed(reach, palette, linear);
         EXPECT_TRUE(test::holds(held, own)) << run;

@@ -119,8 +119,7 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
                 if (!linear && (vertices > 3000 || c > 0)) {
                     continue; // the references are slow
                 }
-                const double ratio =
-                    checkedRatio(*character, clip, linear ? samples : 20, Skinned(*character, mode));
+                const double ratio = checkedRatio(*character, clip, linear ? samples : 20, Skinned(*character, mode));
                 Worst& most = worst[static_cast<size_t>(mode)];
                 most.sum += ratio;
                 ++most.count;
@@ -134,8 +133,8 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
     for (const SkinningMode mode : kModes) {
         const Worst& most = worst[static_cast<size_t>(mode)];
         std::printf("%s: %zu clips, diagonals are %.4f of the sampled ones on average, at most %.4f (%s)\n",
-                    cage::skinningModeName(mode), most.count,
-                    most.sum / static_cast<double>(most.count), most.ratio, most.of.c_str());
+                    cage::skinningModeName(mode), most.count, most.sum / static_cast<double>(most.count), most.ratio,
+                    most.of.c_str());
     }
     std::printf("slowest: %.1f ms (%s)\n", slowest, slowestOf.c_str());
     EXPECT_GT(worst[0].count, 3u);

@@ -74,10 +74,9 @@ TEST(Reach, HoldsEveryMixOfClips) {
             ASSERT_TRUE(holds(paletteBounds(reach, palette, weights), own)) << path;
             if (k == 0 && small) {
                 const std::vector<glm::dvec3> morphed = morphOnCpu(character->cage, character->morphs, weights);
-                const Box turned =
-                    boxAround(test::skinWithDualQuaternions(morphed, character->weights, palette));
-                const Box centered = boxAround(
-                    test::skinAboutCenters(morphed, test::centersOf(centers), character->weights, palette));
+                const Box turned = boxAround(test::skinWithDualQuaternions(morphed, character->weights, palette));
+                const Box centered =
+                    boxAround(test::skinAboutCenters(morphed, test::centersOf(centers), character->weights, palette));
                 ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered)) << path;
                 ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, reach.blended), turned)) << path;
@@ -149,9 +148,8 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
             posePalette(tube, memory.pose, memory.nodes, palette);
             const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
             ASSERT_TRUE(holds(paletteBounds(reach, palette, weights), own));
-            const Box centered =
-                boxAround(test::skinAboutCenters(morphOnCpu(tube.cage, tube.morphs, weights),
-                                                 test::centersOf(centers), tube.weights, palette));
+            const Box centered = boxAround(test::skinAboutCenters(morphOnCpu(tube.cage, tube.morphs, weights),
+                                                                  test::centersOf(centers), tube.weights, palette));
             ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered));
             ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
         }

@@ -19,7 +19,7 @@ struct Turn {
     double degrees = 0.0;
     About about = About::hinge; ///< hinge: across the bones above and below; bone: along the one below
     glm::dvec3 axis{0.0};       ///< if it is given
-    double reach = 0.0;         ///< faces so near to the joint are measured, in parts of the largest extent along an axis
+    double reach = 0.0; ///< faces so near to the joint are measured, in parts of the largest extent along an axis
 };
 
 class Bend {

@@ -148,8 +148,7 @@ void printHashes(std::span<const std::byte> palette, const Evaluation& baked, bo
 
 /// Reads what only the hashes need, and prints them.
 Status writeHashes(Session& session, SuppleAsset asset, const BakeOptions& options, const Evaluation& baked) {
-    const Result<std::vector<std::byte>> palette =
-        readPalette(session, asset, baked.surfaces.front().output.info);
+    const Result<std::vector<std::byte>> palette = readPalette(session, asset, baked.surfaces.front().output.info);
     if (!palette) {
         return palette.error();
     }
