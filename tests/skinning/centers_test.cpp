@@ -33,7 +33,7 @@ double millisecondsOf(const Character& character, Centers& centers) {
 struct Apart {
     double most = 0.0, usual = 0.0;
 };
-Apart apart(std::vector<double> distances, double extent) {
+Apart apartOf(std::vector<double> distances, double extent) {
     std::sort(distances.begin(), distances.end());
     return {distances.back() / extent, distances[distances.size() * 99 / 100] / extent};
 }
@@ -72,7 +72,7 @@ TEST(Centers, AgreeWithTheFormula) {
             vertices.push_back(glm::distance(here[v], there[v]));
         }
         const double size = test::extent(rest);
-        const Apart ofCenters = apart(centers, size), ofVertices = apart(vertices, size);
+        const Apart ofCenters = apartOf(centers, size), ofVertices = apartOf(vertices, size);
         std::printf(
             "%-24s %5zu vertices, %6.1f ms: centers at most %.1e of the extent off (99 %%: %.1e), vertices %.1e "
             "(%.1e)\n",
