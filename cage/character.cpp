@@ -45,6 +45,11 @@ const char* uvModeName(UvMode mode) {
     return kNames[static_cast<size_t>(mode)];
 }
 
+const char* skinningModeName(SkinningMode mode) {
+    constexpr const char* kNames[] = {"linear", "dualQuaternion", "centersOfRotation"};
+    return kNames[static_cast<size_t>(mode)];
+}
+
 const char* madeForName(MadeFor scheme) {
     constexpr const char* kNames[] = {"catmullClark", "loop", "bilinear", "none"};
     return kNames[static_cast<size_t>(scheme)];

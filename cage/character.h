@@ -376,6 +376,10 @@ enum class WeldSource {
 enum class UvMode : uint8_t { none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
 [[nodiscard]] const char* uvModeName(UvMode mode);
 
+/// How several joints move one vertex. The names are those of the extension SUPPLE_deformers (docs/skinning.md).
+enum class SkinningMode : uint8_t { linear, dualQuaternion, centersOfRotation };
+[[nodiscard]] const char* skinningModeName(SkinningMode mode);
+
 /// The subdivision surface that a cage was made for: `scheme` of SUPPLE_mesh_cage. `none`: it is drawn as it is.
 enum class MadeFor : uint8_t { catmullClark, loop, bilinear, none };
 [[nodiscard]] const char* madeForName(MadeFor scheme);
@@ -391,8 +395,9 @@ struct Part {
     uint32_t targetCount = 0;
     PolygonSource polygonSource = PolygonSource::arrays;
     WeldSource weldSource = WeldSource::given;
-    std::optional<UvMode> uvMode;   ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
-    std::optional<MadeFor> madeFor; ///< what the file says (SUPPLE_mesh_cage: scheme)
+    std::optional<UvMode> uvMode;         ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
+    std::optional<MadeFor> madeFor;       ///< what the file says (SUPPLE_mesh_cage: scheme)
+    std::optional<SkinningMode> skinning; ///< what the file says (SUPPLE_deformers: skinning)
 };
 
 /// One kind of damage of a cage that its reader has repaired.

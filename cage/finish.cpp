@@ -10,6 +10,23 @@
 
 namespace supple::cage {
 
+namespace {
+
+/// A group has one way of skinning: the first that is named.
+void reportSkinnings(Character& character) {
+    const Part* first = nullptr;
+    for (const Part& part : character.parts) {
+        first = first == nullptr && part.skinning ? &part : first;
+        if (part.skinning && part.skinning != first->skinning) {
+            warn(character.warnings, "part " + quoted(part.name),
+                 "its skinning is " + quoted(skinningModeName(*part.skinning)) + "; part " + quoted(first->name) +
+                     " comes first, so that all are skinned by " + quoted(skinningModeName(*first->skinning)));
+        }
+    }
+}
+
+} // namespace
+
 void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, Character& character) {
     std::vector<float> gridSteps;
     for (const PartCage& part : parts) {
@@ -30,6 +47,7 @@ void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, 
     } else if (options.normalCreases == NormalCreases::wherePartly) {
         creasePartlySplitNormals(character);
     }
+    reportSkinnings(character);
     reportDamages(character, options.strict);
     character.warnings = readableLines(character.warnings);
 }

@@ -72,6 +72,35 @@ Status Asset::makeSkin(const gpu::Device& device, const std::shared_ptr<const st
     return success();
 }
 
+const skinning::Centers* Asset::centers() const {
+    if (prepared->centers) {
+        return &*prepared->centers;
+    }
+    return ownCenters ? &*ownCenters : nullptr;
+}
+
+Status Asset::makeSkinning(const gpu::Device& device, skinning::SkinningMode mode) {
+    if (!skinning::skinningRow(mode).centers || !centered.empty()) {
+        return success();
+    }
+    if (centers() == nullptr) {
+        ownCenters = skinning::findCenters(character);
+        if (!ownsPrepared) {
+            builtLate.emplace_back("the centers of rotation");
+        }
+    }
+    skinning::DeformTable table =
+        skinning::buildDeformTable(character.cage, character.weights, character.morphs, centers()->points);
+    firstCenter = table.firstCenter;
+    Result<gpu::StaticBuffers> made =
+        upload(device, character.name + ": ", "skin tables with centers", takenFrom(table.words));
+    if (!made) {
+        return made.error();
+    }
+    centered = std::move(*made);
+    return success();
+}
+
 const skinning::Reach& Asset::reach() {
     if (!prepared->reach && !ownReach) {
         ownReach = skinning::reachOf(character);
@@ -173,6 +202,7 @@ void Asset::measureUpdates() {
 
 gpu::MemoryUse Asset::memoryUse() const {
     gpu::MemoryUse use = buffers.use();
+    use += centered.use();
     use += clips.use();
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {
         use += piece->vertices.use();

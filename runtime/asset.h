@@ -6,6 +6,7 @@
 #include "runtime/clip_bounds.h"
 #include "runtime/prepared.h"
 #include "skinning/contacts.h"
+#include "skinning/skinned_bounds.h"
 #include "skinning/update_errors.h"
 #include "supple/supple.h"
 
@@ -41,15 +42,18 @@ struct Asset {
     const skinning::Rig& rig;
     const skinning::JointFrames& jointFrames;
 
-    gpu::StaticBuffers buffers;                         ///< 0: the deform table
-    uint32_t firstInfluences = 0;                       ///< skinning::DeformTable
-    mutable ClipBounds clipBounds;                      ///< what has been asked for
+    gpu::StaticBuffers buffers;    ///< 0: the deform table
+    gpu::StaticBuffers centered;   ///< 0: that with centers, made for the first group that is skinned about them
+    uint32_t firstInfluences = 0;  ///< skinning::DeformTable, of both
+    uint32_t firstCenter = 0;      ///< of `centered`
+    mutable ClipBounds clipBounds; ///< what has been asked for
     mutable std::optional<skinning::Contacts> contacts; ///< once they have been asked for
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
-    std::optional<skinning::Reach> ownReach; ///< made for the first group of a view, if it was not prepared
-    skinning::UpdateFacts updates;           ///< made for the first group with update rates
+    std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
+    std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
+    skinning::UpdateFacts updates;               ///< made for the first group with update rates
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -78,6 +82,15 @@ struct Asset {
     [[nodiscard]] Status makeClips(const gpu::Device& device);
     /// Sees to it that `updates` is there.
     void measureUpdates();
+    /// Sees to it that what a way of skinning needs is there.
+    [[nodiscard]] Status makeSkinning(const gpu::Device& device, skinning::SkinningMode mode);
+    /// The deform table that a way of skinning reads.
+    [[nodiscard]] const gpu::StaticBuffers& deformTable(skinning::SkinningMode mode) const {
+        return skinning::skinningRow(mode).centers ? centered : buffers;
+    }
+    /// Null as long as no group has needed them.
+    [[nodiscard]] const skinning::Centers* centers() const;
+    [[nodiscard]] skinning::SkinnedBounds skinnedBounds(skinning::SkinningMode mode) const { return {mode, centers()}; }
     /// How far the character reaches in any pose of its clips.
     [[nodiscard]] const skinning::Reach& reach();
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
@@ -85,6 +98,7 @@ struct Asset {
     template <class F>
     void forStatics(F&& visit) {
         visit(buffers);
+        visit(centered);
         visit(clips);
         for (const std::shared_ptr<AssetPiece>& piece : pieces) {
             visit(piece->vertices);

@@ -19,7 +19,7 @@ public:
                                                  const skinning::ClipBoundsDesc& desc);
 
 private:
-    using Key = std::tuple<uint32_t, bool, double>;
+    using Key = std::tuple<uint32_t, skinning::SkinningMode, double>;
     std::map<Key, SuppleBounds> found_;
 };
 

@@ -1,6 +1,7 @@
 #include "runtime/group.h"
 
 #include "cage/limits.h"
+#include "runtime/skinning_choice.h"
 #include "surface/grid.h"
 
 #include <algorithm>
@@ -38,11 +39,6 @@ static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
 static_assert(SUPPLE_MAX_CREASE_SETS == kMaxCreaseSets && SUPPLE_MAX_CREASE_SETS == cage::kMaxCreaseSets);
 static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
 static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
-
-skinning::SkinningMode skinningOf(const SuppleGroupDesc& desc) {
-    return desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
-                                                            : skinning::SkinningMode::linear;
-}
 
 } // namespace
 
@@ -120,8 +116,8 @@ Status Group::createInstances(const GroupShared& shared) {
         return success();
     }
     Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
-        {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
-         shared.firstGeneration, shared.framesInFlight,
+        {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(asset_->character, desc_.skinning),
+         desc_.capacity, shared.firstGeneration, shared.framesInFlight,
          StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0,
                    (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0},
          shared.handsOver});
@@ -281,6 +277,7 @@ void Group::recordHashes(StageHashes::Recording& recording, bool withSurfaces) c
 void Group::addMembers(const GroupShared& shared) {
     addMember(*shared.pairs);
     addMember(asset_->buffers);
+    addMember(asset_->centered);
     addMember(asset_->clips);
     if (!follows()) {
         addMember(*instances_);

@@ -18,12 +18,12 @@ skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mod
 }
 
 HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers)
-    : asset_(&asset), layout_(layout) {
+    : asset_(&asset), layout_(layout), skinned_(asset.skinnedBounds(layout.mode)) {
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
     palettes_.resize(size_t{instanceCount} * layout.jointCount);
     joints_.resize(palettes_.size());
-    if (layout.mode == skinning::SkinningMode::dualQuaternion) {
+    if (layout.hasRotations()) {
         rotations_.resize(palettes_.size());
     }
     poseWeights_.resize(instanceCount * targetCount_);
@@ -312,11 +312,10 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
 
 skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
     const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
-    const skinning::Box box = skinning::paletteBounds(
-        reach, std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount),
-        std::span(weights).subspan(instance * targetCount_, targetCount_));
-    return skinning::movedBy(glm::dmat4(placement(instance)),
-                             rotations_.empty() ? box : skinning::dualQuaternionBounds(reach, box));
+    const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
+    const skinning::Box linear =
+        skinning::paletteBounds(reach, own, std::span(weights).subspan(instance * targetCount_, targetCount_));
+    return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
 }
 
 void HostPoses::write(uint32_t count, std::byte* target) const {

@@ -8,6 +8,7 @@
 #include "skinning/layers.h"
 #include "skinning/pose_twin.h"
 #include "skinning/reach.h"
+#include "skinning/skinned_bounds.h"
 #include "supple/supple.h"
 
 #include <cstddef>
@@ -112,11 +113,12 @@ private:
 
     const Asset* asset_ = nullptr;
     skinning::PoseLayout layout_;
+    skinning::SkinnedBounds skinned_;
     size_t targetCount_ = 0;
     // One run an instance.
     std::vector<skinning::Affine> palettes_;
     std::vector<glm::mat4> joints_;    ///< palettes_ before the inverse binds: of a singular one nothing leads back
-    std::vector<glm::vec4> rotations_; ///< dual quaternions only
+    std::vector<glm::vec4> rotations_; ///< where the layout has some
     std::vector<float> poseWeights_;   ///< morph weights of the pose
     std::vector<float> hostWeights_;   ///< and what the host set instead
     std::vector<bool> hostWeighted_;

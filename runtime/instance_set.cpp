@@ -31,6 +31,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers)) {
         status = desc.asset->makeClips(*desc.device);
     }
+    if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {
+        status = desc.asset->makeSkinning(*desc.device, desc.mode);
+    }
     if (!status) {
         return status.error();
     }
@@ -129,6 +132,7 @@ void InstanceSet::fill(SuppleGroupInfo& output) const {
         return SuppleBufferRange{buffer.buffer(), 0, buffer.size(), stride};
     };
     output.capacity = desc_.capacity;
+    output.skinning = static_cast<SuppleSkinning>(desc_.mode);
     output.cageVertexCount = desc_.asset->character.cage.vertexCount();
     output.cageVerticesPerInstance = cageStride_;
     output.deformedCage = whole(cages_, 16);

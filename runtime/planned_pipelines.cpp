@@ -1,5 +1,6 @@
 #include "runtime/planned_pipelines.h"
 
+#include "runtime/skinning_choice.h"
 #include "runtime/surface_outputs.h"
 #include "runtime/surface_recipe.h"
 
@@ -89,8 +90,7 @@ Status makeCulling(const PipelineMakers& makers, const PlannedGroup& group) {
 
 Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const PlannedGroup& group, bool pieces) {
     PlannedStages planned;
-    planned.skinning = group.desc.skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? skinning::SkinningMode::dualQuaternion
-                                                                              : skinning::SkinningMode::linear;
+    planned.skinning = skinningOf(prepared.character, group.desc.skinning);
     planned.morphs = prepared.deform.firstInfluences != 0;
     planned.deforms = group.desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
     planned.pieces = pieces;

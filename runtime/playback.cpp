@@ -129,7 +129,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     }
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
-    playback.bounds_ = PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion,
+    playback.bounds_ = PlayedBounds(desc.asset->character, desc.asset->skinnedBounds(desc.layout.mode),
                                     desc.room.modifiers, desc.capacity);
     playback.versions_.resize(desc.capacity, 1);
     playback.changed_.resize(desc.capacity, false);

@@ -65,9 +65,7 @@ std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const 
     skinning::Box box = skinning::grownBy(reach.blended, skinning::reachedBy(hostWeights, reach.targets));
     // What follows a modifier that lowers a joint may turn the way.
     box = skinning::grownBy(box, turned_.empty() ? 0.0 : turned_[slot].lowered);
-    if (dualQuaternions_) {
-        box = skinning::dualQuaternionBounds(reach, box);
-    }
+    box = skinned_.reached(reach, box);
     if (!own.travels) {
         return box; // the root stays where the clip begins: at one of the anchor's places
     }

@@ -4,6 +4,7 @@
 #include "cage/character.h"
 #include "skinning/playback.h"
 #include "skinning/reach.h"
+#include "skinning/skinned_bounds.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,10 +20,10 @@ namespace supple::runtime {
 class PlayedBounds {
 public:
     PlayedBounds() = default;
-    /// The character must outlive this.
-    PlayedBounds(const cage::Character& character, bool dualQuaternions, bool modifiers, uint32_t capacity)
-        : character_(&character), dualQuaternions_(dualQuaternions), played_(capacity),
-          turned_(modifiers ? capacity : 0) {}
+    /// The character must outlive this, and what `skinned` points to.
+    PlayedBounds(const cage::Character& character, const skinning::SkinnedBounds& skinned, bool modifiers,
+                 uint32_t capacity)
+        : character_(&character), skinned_(skinned), played_(capacity), turned_(modifiers ? capacity : 0) {}
 
     void setBindPose(uint32_t slot) { played_[slot] = {}; }
     void set(uint32_t slot, const skinning::PlaybackDesc& desc);
@@ -86,7 +87,7 @@ private:
     };
     [[nodiscard]] bool leavesReach(uint32_t slot, const skinning::Reach& reach) const;
 
-    bool dualQuaternions_ = false;
+    skinning::SkinnedBounds skinned_;
     std::vector<Played> played_; ///< by slot
     std::vector<Turned> turned_; ///< by slot, where instances may have modifiers
 };

@@ -1,5 +1,6 @@
 #include "runtime/prepare.h"
 
+#include "runtime/skinning_choice.h"
 #include "runtime/surface_recipe.h"
 
 #include <algorithm>
@@ -90,6 +91,10 @@ Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGro
 Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK && !prepared.clips) {
         prepared.clips = skinning::buildClipTable(prepared.character);
+    }
+    if (const skinning::SkinningMode mode = skinningOf(prepared.character, group.desc.skinning);
+        skinning::skinningRow(mode).centers && !prepared.centers) {
+        prepared.centers = skinning::findCenters(prepared.character);
     }
     if (group.viewFlags && !prepared.reach) {
         prepared.reach = skinning::reachOf(prepared.character);

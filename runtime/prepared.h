@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "cage/piece.h"
+#include "skinning/centers.h"
 #include "skinning/clip_table.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/joints.h"
@@ -50,6 +51,7 @@ struct Prepared {
     skinning::JointFrames jointFrames;
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::optional<skinning::Reach> reach;     ///< if a group is to be of a view
+    std::optional<skinning::Centers> centers; ///< if a group is to be skinned about them
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
     /// How the level of an instance is measured, if a group of a view is to have the tables.

@@ -52,7 +52,7 @@ public:
         takeJoints();
         morph();
         Box box = emptyBox();
-        if (desc_.dualQuaternions || morphs_) {
+        if (turns() || morphs_) {
             for (size_t v = 0; v < positions_.size(); ++v) {
                 addVertex(v, box);
             }
@@ -92,6 +92,9 @@ private:
         }
     }
 
+    /// Vertices of several joints turn by their rotations.
+    [[nodiscard]] bool turns() const { return desc_.skinning != SkinningMode::linear; }
+
     [[nodiscard]] double worstError() const {
         double worst = 0.0;
         for (size_t j = 0; j < reach_.size(); ++j) {
@@ -112,7 +115,7 @@ private:
             const glm::dvec3 bind(inverseBinds_[j][3]);
             products_ = std::max({products_, glm::length(t.ends[0]), glm::length(t.ends[1]),
                                   joint.place.linear.size * (glm::length(bind) + std::max(reach_[j], 0.0))});
-            if (!desc_.dualQuaternions) {
+            if (!turns()) {
                 continue;
             }
             const glm::dmat3 linear(inverseBinds_[j]);
@@ -172,11 +175,13 @@ private:
             ends[0] += weight * at.ends[0];
             ends[1] += weight * at.ends[1];
             error += weight * at.error;
-            if (desc_.dualQuaternions) {
+            if (turns()) {
                 moved_.push_back({at, weight, of.joint});
             }
         });
-        error += moved_.size() > 1 ? dualQuaternionError() : 0.0;
+        error += moved_.size() < 2                                   ? 0.0
+                 : desc_.skinning == SkinningMode::centersOfRotation ? centerError(vertex)
+                                                                     : dualQuaternionError();
         take(ends, error, box);
     }
 
@@ -224,6 +229,52 @@ private:
         return most + (a.rotation.error + b.rotation.error) / 2.0 + 1e-3; // scales are uniform but for rounding
     }
 
+    /// The most that half the angle between the rotations of two joints of moved_ can have as its sine, if a blend of
+    /// their quaternions lies between them; 1 if it may not. Quaternions are turned to the side of the heaviest
+    /// joint's; two of them are then on one side if both are within 45 degrees of it.
+    [[nodiscard]] double sineOfBlend() const {
+        const size_t heaviest = heaviestMoved();
+        double sine = 0.0, toBase = 0.0;
+        for (size_t k = 0; k < moved_.size(); ++k) {
+            for (size_t l = 0; l < k; ++l) {
+                const double between = sineBetween(joints_[moved_[k].joint], joints_[moved_[l].joint]);
+                sine = std::max(sine, between);
+                toBase = k == heaviest || l == heaviest ? std::max(toBase, between) : toBase;
+            }
+        }
+        return sine < 0.985 && (moved_.size() == 2 || toBase < 0.7) ? sine : 1.0;
+    }
+
+    [[nodiscard]] size_t heaviestMoved() const {
+        size_t heaviest = 0;
+        for (size_t k = 1; k < moved_.size(); ++k) {
+            heaviest = moved_[k].weight > moved_[heaviest].weight ? k : heaviest;
+        }
+        return heaviest;
+    }
+
+    /// How far a vertex that turns about its center may be from where linear skinning takes it: see
+    /// SkinnedBounds::grown(). Rotations differ by twice the sine of half their angle, and a blend of quaternions is no
+    /// farther from one of them than the others are.
+    [[nodiscard]] double centerError(size_t vertex) const {
+        const glm::vec4& center = desc_.centers->points[vertex];
+        if (center.w == 0.0f) {
+            return 0.0;
+        }
+        double arm = 0.0;
+        for (int end = 0; end < 2; ++end) {
+            const glm::dvec3& rest = morphs_ ? morphed_[end][vertex] : positions_[vertex];
+            arm = std::max(arm, glm::distance(rest, glm::dvec3(center)));
+        }
+        arm += morphs_ ? morphErrors_[vertex] : 0.0;
+        double size = 0.0;
+        for (const Moved& own : moved_) {
+            const ChordMatrix& linear = joints_[own.joint].place.linear;
+            size += own.weight * (linear.size + linear.error) * normOf(glm::dmat3(inverseBinds_[own.joint]));
+        }
+        return 2.0 * sineOfBlend() * size * arm;
+    }
+
     /// How far a vertex that dual quaternions blend may be from where linear skinning takes it (shaders/deform).
     ///
     /// Let joint j take it to y_j, with the weight w_j and the unit quaternion q_j, q = sum w_j q_j, and let d_j = y_j
@@ -233,22 +284,9 @@ private:
     /// has w_j instead of a_j. Quaternions that are further apart have |a_j| <= w_j / |q| and |q| >= w_0, because all
     /// lie on the side of q_0.
     [[nodiscard]] double dualQuaternionError() const {
-        size_t heaviest = 0;
-        for (size_t k = 1; k < moved_.size(); ++k) {
-            heaviest = moved_[k].weight > moved_[heaviest].weight ? k : heaviest;
-        }
-        const Moved& base = moved_[heaviest];
-        double sine = 0.0, toBase = 0.0;
-        for (size_t k = 0; k < moved_.size(); ++k) {
-            for (size_t l = 0; l < k; ++l) {
-                const double between = sineBetween(joints_[moved_[k].joint], joints_[moved_[l].joint]);
-                sine = std::max(sine, between);
-                toBase = k == heaviest || l == heaviest ? std::max(toBase, between) : toBase;
-            }
-        }
-        // Quaternions are turned to the side of the heaviest joint's; two of them are then on one side if both are
-        // within 45 degrees of it.
-        const bool together = sine < 0.985 && (moved_.size() == 2 || toBase < 0.7);
+        const Moved& base = moved_[heaviestMoved()];
+        const double sine = sineOfBlend();
+        const bool together = sine < 1.0;
         const double cosine = together ? std::sqrt(1.0 - sine * sine) : 0.0;
         double error = 0.0;
         for (const Moved& other : moved_) {

@@ -3,12 +3,15 @@
 
 #include "cage/character.h"
 #include "skinning/box.h"
+#include "skinning/centers.h"
+#include "skinning/skinning_mode.h"
 
 namespace supple::skinning {
 
 /// What a box is to hold.
 struct ClipBoundsDesc {
-    bool dualQuaternions = false; ///< cages skinned by dual quaternions; else linearly
+    SkinningMode skinning = SkinningMode::linear;
+    const Centers* centers = nullptr; ///< of centers of rotation
     /// How far a surface may lie outside the box that its cage has at a time, as a part of that box's size.
     double margin = 0.0;
     /// Intervals with larger errors are halved, as a part of the character's extent. Whatever it is, the box holds.
@@ -27,7 +30,7 @@ struct ClipBoundsDesc {
 ///     its own: (1-s) A0 B0 + s A1 B1 differs from the product of the chords by s (1-s) dA dB. d is the difference of
 ///     the ends, and norms are the larger of those at the ends: on a chord they are not larger.
 ///   - a skinned vertex: a mean of products, with constant weights: within the mean of their errors. Dual quaternions
-///     add what they may differ from linear skinning, see dualQuaternionError().
+///     and centers of rotation add what they may differ from linear skinning, see dualQuaternionError(), centerError().
 ///
 /// So the box of both ends, larger by the error, holds the vertex between them. Errors shrink with the square of the
 /// time between t0 and t1, which is halved until they are a small part of the character's extent.

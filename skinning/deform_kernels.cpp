@@ -63,7 +63,8 @@ Affine placed(const glm::mat4& transform, const Affine& joint) {
 
 } // namespace
 
-DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights, const cage::Morphs& morphs) {
+DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights, const cage::Morphs& morphs,
+                             std::span<const glm::vec4> centers) {
     const uint32_t vertexCount = cage.vertexCount();
     const Displacements displacements = displacementsOf(vertexCount, morphs);
     std::vector<uint32_t> vertices, runs, firstInfluences;
@@ -98,14 +99,19 @@ DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& we
         table.words.insert(table.words.end(), firstInfluences.begin(), firstInfluences.end());
         table.words.resize((table.words.size() + 3) / 4 * 4, 0u);
     }
+    if (!centers.empty()) {
+        table.firstCenter = static_cast<uint32_t>(table.words.size() / 4);
+        for (const glm::vec4& center : centers) {
+            table.words.insert(table.words.end(), {bits(center.x), bits(center.y), bits(center.z), bits(center.w)});
+        }
+    }
     return table;
 }
 
 PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount) {
     PoseLayout layout{mode, jointCount, morphCount, 0, 0};
-    layout.morphWeights = mode == SkinningMode::linear
-                              ? kLinearElements * jointCount
-                              : kDualQuaternionTransform + kDualQuaternionElements * jointCount;
+    layout.morphWeights =
+        layout.hasRotations() ? kRotationTransform + kRotationElements * jointCount : kLinearElements * jointCount;
     layout.stride = layout.elements();
     return layout;
 }
@@ -117,7 +123,7 @@ void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* ta
         }
         target += bytes;
     };
-    if (layout.mode == SkinningMode::dualQuaternion) {
+    if (layout.hasRotations()) {
         const Affine transform = toAffine(pose.transform);
         put(&transform, sizeof(transform));
         for (size_t j = 0; j < pose.palette.size(); ++j) {
@@ -156,12 +162,9 @@ Result<DeformKernels> DeformKernels::create(const gpu::Device& device, gpu::Pipe
 }
 
 Result<gpu::Kernel> DeformKernels::make(SkinningMode mode, bool morphs) const {
-    constexpr const char* kNames[2][2] = {
-        {"supple deform", "supple deform, morphs"},
-        {"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"}};
-    const auto m = static_cast<uint32_t>(mode), t = uint32_t{morphs};
-    const gpu::Constant constants[] = {{kMorphsConstant, t}, {kDualQuaternionsConstant, m}};
-    return pipelines_->get(layout_, deform_deform_comp, constants, kNames[m][t]);
+    const uint32_t t = uint32_t{morphs};
+    const gpu::Constant constants[] = {{kMorphsConstant, t}, {kSkinningConstant, static_cast<uint32_t>(mode)}};
+    return pipelines_->get(layout_, deform_deform_comp, constants, skinningRow(mode).kernels[t]);
 }
 
 Result<gpu::Kernel> DeformKernels::makeGather() const {

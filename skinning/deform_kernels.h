@@ -1,5 +1,5 @@
-// The deform pass: morph targets, then linear blend or dual quaternion skinning of the control cage in compute, with
-// any number of targets and of influences a vertex.
+// The deform pass: morph targets, then skinning of the control cage in compute, with any number of targets and of
+// influences a vertex: linear, by dual quaternions, or about centers of rotation.
 #pragma once
 
 #include "cage/character.h"
@@ -7,6 +7,7 @@
 #include "gpu/pipelines.h"
 #include "shaders/shared/deform.h"
 #include "skinning/pose.h"
+#include "skinning/skinning_mode.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,15 +16,15 @@
 
 namespace supple::skinning {
 
-enum class SkinningMode { linear, dualQuaternion };
-
 /// Rest positions, displacements and influences in the layout of shaders/shared/deform.h.
 struct DeformTable {
     std::vector<uint32_t> words;  ///< four an element
     uint32_t firstInfluences = 0; ///< element where the first influences are listed; 0: no target moves a vertex
+    uint32_t firstCenter = 0;     ///< element where the centers are listed; 0: there are none
 };
+/// `centers`: Centers::points; empty: none.
 [[nodiscard]] DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights,
-                                           const cage::Morphs& morphs);
+                                           const cage::Morphs& morphs, std::span<const glm::vec4> centers = {});
 
 /// Where things lie in an instance's pose, in vec4 elements (shaders/shared/deform.h).
 struct PoseLayout {
@@ -32,6 +33,7 @@ struct PoseLayout {
     uint32_t morphCount = 0; ///< weights that the device needs
     uint32_t morphWeights = 0;
     uint32_t stride = 0; ///< from one instance to the next
+    [[nodiscard]] bool hasRotations() const { return skinningRow(mode).rotations; }
     [[nodiscard]] uint32_t elements() const { return morphWeights + (morphCount + 3) / 4; } ///< of a pose
     [[nodiscard]] static PoseLayout of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount);
 };
@@ -39,12 +41,12 @@ struct PoseLayout {
 /// One instance's pose before it is placed.
 struct InstancePose {
     std::span<const Affine> palette;
-    std::span<const glm::vec4> rotations; ///< jointRotations(palette); dual quaternions only
+    std::span<const glm::vec4> rotations; ///< jointRotations(palette), where the layout has some
     std::span<const float> morphWeights;
     glm::mat4 transform{1.0f};
 };
-/// Writes layout.stride elements. Linear blending takes the transform into the matrices; after dual quaternions the
-/// pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
+/// Writes layout.stride elements. Linear blending takes the transform into the matrices; where rotations are blended
+/// the pass applies it to the blended vertex, for a blend followed by uneven scale is no blend of scaled joints.
 void writePose(const PoseLayout& layout, const InstancePose& pose, std::byte* target);
 
 /// The pipelines of the pass, each made when it is first needed. Output: float4 (x, y, z, 1) a cage vertex,
@@ -66,7 +68,7 @@ public:
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// Records one dispatch over a window of instances; `set` binds the window's buffers. `push.firstInfluences` as the
-    /// table has it. What it needs must have been prepared.
+    /// table has it, and `push.firstCenter`. What it needs must have been prepared.
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                 const shared::DeformPush& push) const;
     /// Copies the vertices of a piece out of the whole deformed cage (shaders/deform/gather.comp).
@@ -79,7 +81,7 @@ private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::Kernel kernels_[2][2]; ///< by mode, and whether there are morph targets
+    gpu::Kernel kernels_[kSkinningModes][2]; ///< by mode, and whether there are morph targets
     gpu::Kernel gather_;
 };
 

@@ -14,7 +14,8 @@ struct DeformCode {
     const uint32_t* tableWords = nullptr;
     const glm::vec4* poseElements = nullptr;
     DeformPush push;
-    bool kMorphs = false, kDualQuaternions = false;
+    bool kMorphs = false;
+    uint kSkinning = kLinearSkinning;
 
     [[nodiscard]] uvec4 table(uint i) const {
         const uint32_t* const w = tableWords + 4 * size_t{i};
@@ -32,7 +33,8 @@ namespace supple::skinning {
 void deformLikeTheDevice(const DeformTable& table, const PoseLayout& layout, std::span<const glm::vec4> pose,
                          std::span<glm::vec4> cage) {
     twin::DeformCode code{
-        table.words.data(), pose.data(), {}, table.firstInfluences != 0, layout.mode == SkinningMode::dualQuaternion};
+        table.words.data(), pose.data(), {}, table.firstInfluences != 0, static_cast<uint32_t>(layout.mode)};
+    code.push.firstCenter = table.firstCenter;
     code.push.morphWeights = layout.morphWeights;
     code.push.firstInfluences = table.firstInfluences;
     for (uint32_t vertex = 0; vertex < cage.size(); ++vertex) {

@@ -19,6 +19,11 @@ using namespace shared;
 
 static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
+/// Poses of rows, and of rows and rotations.
+size_t kindOf(SkinningMode mode) {
+    return skinningRow(mode).rotations ? 1 : 0;
+}
+
 } // namespace
 
 Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
@@ -49,10 +54,10 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
 }
 
 Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool mixes) const {
-    const bool dual = mode == SkinningMode::dualQuaternion;
+    const bool rotations = skinningRow(mode).rotations;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
-        {kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
+        {kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
     gpu::Pipelines::Batch batch(*pipelines_);
     Kernels found;
     found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
@@ -62,11 +67,12 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool mixes)
     found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
     found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
     found.palette = batch.get(layout_, pose_palette_comp, constants,
-                              dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
-    const gpu::Constant layout[] = {{kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
+                              rotations ? "supple pose, palette with rotations" : "supple pose, palette");
+    const gpu::Constant layout[] = {{kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
     if (mixes) {
-        found.mix = batch.get(layout_, pose_mix_comp, layout,
-                              dual ? "supple pose, between dual quaternions" : "supple pose, between palettes");
+        found.mix =
+            batch.get(layout_, pose_mix_comp, layout,
+                      rotations ? "supple pose, between palettes with rotations" : "supple pose, between palettes");
     }
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
@@ -85,9 +91,10 @@ Status PoseKernels::prepare(SkinningMode mode, bool mixes) {
     std::copy(std::begin(made->locals), std::end(made->locals), locals_);
     roots_ = made->roots;
     modifiers_ = made->modifiers;
-    palette_[static_cast<size_t>(mode)] = made->palette;
+    const size_t kind = kindOf(mode);
+    palette_[kind] = made->palette;
     if (mixes) {
-        mix_[static_cast<size_t>(mode)] = made->mix;
+        mix_[kind] = made->mix;
     }
     return success();
 }
@@ -117,15 +124,15 @@ void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundS
 void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                                 const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(dispatches, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, palette_[kindOf(mode)], (push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordMix(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                             const PosePush& push) const {
-    const uint64_t place = mode == SkinningMode::dualQuaternion ? 1 : 0;
+    const uint64_t place = skinningRow(mode).rotations ? 1 : 0; // the transform
     const uint64_t items = push.jointCount + place + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, mix_[static_cast<size_t>(mode)], (items * push.instanceCount + local - 1) / local);
+    record(dispatches, set, push, mix_[kindOf(mode)], (items * push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

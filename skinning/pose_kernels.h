@@ -52,7 +52,7 @@ private:
     gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
-    gpu::Kernel palette_[2], mix_[2]; ///< by SkinningMode
+    gpu::Kernel palette_[2], mix_[2]; ///< by whether poses have rotations
 };
 
 } // namespace supple::skinning

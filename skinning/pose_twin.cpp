@@ -216,14 +216,14 @@ void PoseTwin::writeBetween(const PoseTwin& later, float part, std::span<const u
                             std::span<glm::vec4> pose) const {
     twin::PoseCode<false> code{{table_->words.data(), state.data(), nullptr, push_}};
     const shared::Affine transform = code.transformOf(0);
-    const bool dual = layout_.mode == SkinningMode::dualQuaternion;
-    if (dual) {
+    const bool rotations = layout_.hasRotations();
+    if (rotations) {
         put(combined(transform, straight(place_, later.place_, part)), pose, 0);
     }
     for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
         const shared::Affine a = own(joint), b = later.own(joint);
-        if (dual) {
-            const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
+        if (rotations) {
+            const size_t at = kRotationTransform + kRotationElements * size_t{joint};
             put(straight(a, b, part), pose, at);
             pose[at + 3] = straightRotation(rotationOf(a), rotationOf(b), part);
         } else {
@@ -249,14 +249,14 @@ shared::Affine PoseTwin::own(uint32_t joint) const {
 }
 
 void PoseTwin::write(std::span<glm::vec4> pose) const {
-    const bool dual = layout_.mode == SkinningMode::dualQuaternion;
-    if (dual) {
+    const bool rotations = layout_.hasRotations();
+    if (rotations) {
         put(place_, pose, 0);
     }
     for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
         const shared::Affine m = own(joint);
-        if (dual) {
-            const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
+        if (rotations) {
+            const size_t at = kRotationTransform + kRotationElements * size_t{joint};
             put(m, pose, at);
             pose[at + 3] = rotationOf(m);
         } else {

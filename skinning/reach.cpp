@@ -182,9 +182,9 @@ private:
         const cage::Skin& skin = character_.skin;
         reach_.joints.assign(skin.joints.size(), emptyBox());
         reach_.blended = emptyBox();
-        std::vector<double> sizes(skin.joints.size()); // of the joints' matrices with their inverse binds, at most
-        for (size_t j = 0; j < sizes.size(); ++j) {
-            sizes[j] = places_[skin.joints[j]].scale * normOf(glm::dmat3(glm::dmat4(skin.inverseBinds[j])));
+        reach_.sizes.resize(skin.joints.size());
+        for (size_t j = 0; j < reach_.sizes.size(); ++j) {
+            reach_.sizes[j] = places_[skin.joints[j]].scale * normOf(glm::dmat3(glm::dmat4(skin.inverseBinds[j])));
         }
         double stretch = 0.0;
         for (size_t v = 0; v < character_.cage.positions.size(); ++v) {
@@ -194,7 +194,7 @@ private:
                 const cage::Influence& influence = character_.weights.influences[i];
                 const glm::dmat4 bind(skin.inverseBinds[influence.joint]);
                 const Place& place = places_[skin.joints[influence.joint]];
-                const double size = sizes[influence.joint];
+                const double size = reach_.sizes[influence.joint];
                 stretch = std::max(stretch, size);
                 extend(reach_.joints[influence.joint], position);
                 extend(reach_.blended, boxAt(place, glm::dvec3(bind * glm::dvec4(position, 1.0)), size * morphed_[v]));

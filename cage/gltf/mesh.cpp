@@ -2,6 +2,7 @@
 
 #include "cage/gltf/accessors.h"
 #include "cage/gltf/cage_extension.h"
+#include "cage/gltf/deformers.h"
 #include "cage/gltf/extras_creases.h"
 #include "cage/gltf/manifold.h"
 #include "cage/gltf/morphs.h"
@@ -97,6 +98,8 @@ public:
             document_.leniency->leaveOut(
                 [&] { out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_); });
         }
+        document_.leniency->leaveOut(
+            [&] { out_.skinning = readSkinningMode(document_.meshes[meshIndex], out_.element, warnings_); });
         readExtrasCreases(document_.meshes[meshIndex], isCounted_, out_, warnings_);
         out_.weights.report(out_.element + " WEIGHTS", warnings_);
         return std::move(out_);

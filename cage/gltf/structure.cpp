@@ -38,8 +38,9 @@ void checkAsset(const Json& root) {
 
 /// Extensions a file may require, besides kLookExtensions and kVrmExtensions. (Of the two that allow restart values,
 /// lines and strips alone make use.)
-constexpr std::array<std::string_view, 13> kUnderstood{
+constexpr std::array<std::string_view, 14> kUnderstood{
     "SUPPLE_mesh_cage",
+    "SUPPLE_deformers",
     "EXT_mesh_polygon",
     "FB_ngon_encoding",
     "EXT_mesh_primitive_edge_visibility",

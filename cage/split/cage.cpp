@@ -412,6 +412,7 @@ void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Leniency& lenie
 
     out.part.polygonSource = faces.source;
     out.part.weldSource = welded.source;
+    out.part.skinning = mesh.skinning;
     for (const Primitive& primitive : mesh.primitives) { // the first that says anything
         out.part.uvMode = out.part.uvMode ? out.part.uvMode : primitive.uvMode;
         out.part.madeFor = out.part.madeFor ? out.part.madeFor : primitive.madeFor;

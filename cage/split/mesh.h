@@ -85,6 +85,7 @@ struct Mesh {
     std::optional<std::vector<std::pair<uint32_t, uint32_t>>> merges;
     std::vector<Primitive> primitives; ///< at least one
     std::optional<LooseSharpList> creases, corners;
+    std::optional<SkinningMode> skinning;
 };
 
 } // namespace supple::cage::split

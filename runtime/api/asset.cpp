@@ -294,9 +294,9 @@ SuppleResult suppleGetGroupClipBounds(SuppleContext handle, SuppleGroup group, u
         if (found.instances().source() == SUPPLE_POSES_CAGE_BUFFER) {
             return refuse(context, ErrorCode::argument, kHere, "the host deforms the cages of the group");
         }
-        const bool dualQuaternions = found.instances().skinning() == skinning::SkinningMode::dualQuaternion;
-        return clipBounds(context, kHere, found.asset(), clip,
-                          {dualQuaternions, static_cast<double>(found.boundsMargin())}, out);
+        return clipBounds(
+            context, kHere, found.asset(), clip,
+            {found.instances().skinning(), found.asset().centers(), static_cast<double>(found.boundsMargin())}, out);
     });
 }
 

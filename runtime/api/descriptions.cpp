@@ -214,7 +214,7 @@ std::optional<Error> faultOfValues(const SuppleGroupDesc& desc) {
         runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
         return Error{ErrorCode::range, "no such scheme"};
     }
-    if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_DUAL_QUATERNION) ||
+    if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_FROM_FILE) ||
         !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
         return Error{ErrorCode::range, "no such vertexFormat, skinning or poseSource"};
     }

@@ -28,6 +28,8 @@ inline constexpr auto kLast<cage::UvMode> = cage::UvMode::all;
 template <>
 inline constexpr auto kLast<cage::MadeFor> = cage::MadeFor::none;
 template <>
+inline constexpr auto kLast<cage::SkinningMode> = cage::SkinningMode::centersOfRotation;
+template <>
 inline constexpr auto kLast<cage::ExpressionKind> = cage::ExpressionKind::mouth;
 template <>
 inline constexpr auto kLast<cage::ExpressionHold> = cage::ExpressionHold::block;
@@ -125,7 +127,7 @@ void fields(A& a, T& material) {
 template <class A, Is<Part> T>
 void fields(A& a, T& part) {
     a(part.name, part.node, part.rigid, part.joints, part.firstFace, part.firstTarget, part.targetCount,
-      part.polygonSource, part.weldSource, part.uvMode, part.madeFor);
+      part.polygonSource, part.weldSource, part.uvMode, part.madeFor, part.skinning);
 }
 template <class A, Is<Damage> T>
 void fields(A& a, T& damage) {

@@ -7,6 +7,7 @@
 #include "surface/table_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -16,7 +17,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 8;
+constexpr uint32_t kVersion = 9;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -72,6 +73,7 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
     constexpr std::array<std::byte, sizeof(Header)> kRoom{};
     writer.put(std::span<const std::byte>(kRoom));
     writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
+    writer(prepared.centers ? std::optional(prepared.centers->points) : std::nullopt);
     writer(static_cast<uint32_t>(prepared.pieces.size()));
     for (const auto& piece : prepared.pieces) {
         writer(piece->parts, piece->of);
@@ -130,6 +132,23 @@ Status readBeginning(std::span<const std::byte> bytes, const std::string& name, 
         return refused("no scheme is chosen for some part");
     }
     return success();
+}
+
+void readCenters(Reader& reader, Prepared& prepared) {
+    std::optional<std::vector<glm::vec4>> points;
+    reader(points);
+    if (reader.fault() || !points) {
+        return;
+    }
+    const bool sound = points->size() == prepared.character.cage.positions.size() &&
+                       std::all_of(points->begin(), points->end(), [](const glm::vec4& point) {
+                           return std::isfinite(point.x + point.y + point.z) && (point.w == 0.0f || point.w == 1.0f);
+                       });
+    if (!sound) {
+        reader.refuse("centers of rotation that are none");
+        return;
+    }
+    prepared.centers = skinning::Centers::of(prepared.character, std::move(*points));
 }
 
 void readPieces(Reader& reader, Prepared& prepared) {
@@ -235,6 +254,7 @@ Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, c
     if (plays) {
         prepared->clips = skinning::buildClipTable(prepared->character);
     }
+    readCenters(reader, *prepared);
     readPieces(reader, *prepared);
     readTables(reader, *prepared);
     if (!reader.fault() && reader.bytesLeft() > 0) {

@@ -14,12 +14,13 @@ public:
 
     [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
+        const gpu::StaticBuffers& table = asset_->deformTable(instances_->skinning());
         stride_ = buffers.stride;
         return sets_.create({device_,
                              &kernels_->layout(),
                              &buffers.listing->windows(),
-                             asset_->buffers.buffer(0),
-                             asset_->buffers.size(0),
+                             table.buffer(0),
+                             table.size(0),
                              {instances_->palettes().buffer(), layout.stride},
                              {buffers.to, stride_},
                              buffers.listing->buffer().buffer(),
@@ -31,6 +32,7 @@ public:
         dispatches->computeBarrier();
         shared::DeformPush push{}; // of no instances
         push.firstInfluences = asset_->firstInfluences;
+        push.firstCenter = asset_->firstCenter;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
 
@@ -40,7 +42,7 @@ public:
         frame.windows.forEach([&](uint32_t w) {
             kernels_->record(frame.dispatches, sets_[w], layout.mode,
                              {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride,
-                              stride_, layout.morphWeights, asset_->firstInfluences});
+                              stride_, layout.morphWeights, asset_->firstInfluences, asset_->firstCenter});
         });
         const uint64_t points = uint64_t{vertices} * frame.windows.visible;
         return {points, points * gpu::kVec4Bytes};

@@ -7,7 +7,7 @@
 #include "shaders/shared/vectors.h"
 
 layout(constant_id = kMorphsConstant) const bool kMorphs = false;
-layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // else linear blending
+layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
 
 BUFFER(writeonly, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 

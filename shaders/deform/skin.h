@@ -1,16 +1,17 @@
 // What a vertex of the cage becomes: morph targets, then skinning. Needs table(), pose(), `push`, and `bool kMorphs`,
-// `kDualQuaternions`: GLSL has them from deform.comp; in C++ this is the inside of a class (skinning/deform_twin.cpp).
+// `uint kSkinning`: GLSL has them from deform.comp; in C++ this is the inside of a class (skinning/deform_twin.cpp).
 // Whatever feeds the position is `precise`: both mappings and the CPU must give the same cage, bit for bit.
 
 vec3 placeOf(uint x, uint y, uint z) { return vec3(uintBitsToFloat(x), uintBitsToFloat(y), uintBitsToFloat(z)); }
 
-// The affine matrix whose rows begin at pose element `i`, applied to a point.
-vec3 transformed(uint i, vec3 p) {
-    vec4 a = pose(i), b = pose(i + 1u), c = pose(i + 2u);
+// The affine matrix with these rows, applied to a point.
+vec3 applied(vec4 a, vec4 b, vec4 c, vec3 p) {
     SUPPLE_PRECISE vec3 q = vec3((a.x * p.x + a.y * p.y) + (a.z * p.z + a.w), (b.x * p.x + b.y * p.y) + (b.z * p.z + b.w),
                           (c.x * p.x + c.y * p.y) + (c.z * p.z + c.w));
     return q;
 }
+// That whose rows begin at pose element `i`.
+vec3 transformed(uint i, vec3 p) { return applied(pose(i), pose(i + 1u), pose(i + 2u), p); }
 
 vec3 weighted(uint i, float weight, vec3 p) {
     SUPPLE_PRECISE vec3 q = transformed(i, p);
@@ -73,7 +74,7 @@ Influence influence(uint joint, float weight, vec3 rest, vec3 anchor, vec4 hemis
 // 100373); scaled about any other point, neighbors of different scale and rotation pull the vertices between them away.
 // Points are taken from an anchor, the heaviest joint's y: one joint alone gives its matrix times the vertex.
 vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
-    uint heaviest = joints + kDualQuaternionElements * table(first).x;
+    uint heaviest = joints + kRotationElements * table(first).x;
     SUPPLE_PRECISE vec3 anchor = transformed(heaviest, rest);
     vec4 hemisphere = pose(heaviest + 3u);
     SUPPLE_PRECISE vec4 q = vec4(0.0f);
@@ -81,9 +82,9 @@ vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
     for (uint element = first; element < end; ++element) {
         uvec4 pair = table(element);
         SUPPLE_PRECISE Influence a =
-            influence(joints + kDualQuaternionElements * pair.x, uintBitsToFloat(pair.y), rest, anchor, hemisphere);
+            influence(joints + kRotationElements * pair.x, uintBitsToFloat(pair.y), rest, anchor, hemisphere);
         SUPPLE_PRECISE Influence b =
-            influence(joints + kDualQuaternionElements * pair.z, uintBitsToFloat(pair.w), rest, anchor, hemisphere);
+            influence(joints + kRotationElements * pair.z, uintBitsToFloat(pair.w), rest, anchor, hemisphere);
         q = q + (a.rotation + b.rotation);
         moved = moved + (a.moved + b.moved);
     }
@@ -91,6 +92,71 @@ vec3 blendedAsDualQuaternions(vec3 rest, uint first, uint end, uint joints) {
     SUPPLE_PRECISE vec3 turned = (vec3(moved) * q.w - vec3(q) * moved.w) + across;
     SUPPLE_PRECISE vec4 squares = q * q;
     SUPPLE_PRECISE vec3 p = anchor + turned * wideRecip(sum4(squares));
+    return p;
+}
+
+// A vector, turned by a quaternion (x, y, z, w) and `twice`: 2 over its squared length.
+vec3 turned(vec4 q, float twice, vec3 v) {
+    SUPPLE_PRECISE vec3 once = crossed(vec3(q), v);
+    SUPPLE_PRECISE vec3 change = once * q.w + crossed(vec3(q), once);
+    SUPPLE_PRECISE vec3 r = v + change * twice;
+    return r;
+}
+
+// What a joint makes of a vertex that turns about a center: where it takes the center, its rotation, and what it makes of
+// the way from the center to the vertex but for the rotation.
+struct Turn {
+    vec4 rotation;
+    vec3 center;
+    vec3 way;
+};
+Turn turn(uint joint, vec3 center, vec3 way) {
+    vec4 a = pose(joint), b = pose(joint + 1u), c = pose(joint + 2u), rotation = pose(joint + 3u);
+    SUPPLE_PRECISE vec3 posed = vec3(dot3(vec3(a), way), dot3(vec3(b), way), dot3(vec3(c), way));
+    SUPPLE_PRECISE Turn result;
+    result.rotation = rotation;
+    result.center = applied(a, b, c, center);
+    result.way = turned(vec4(-vec3(rotation), rotation.w), 2.0f, posed); // back
+    return result;
+}
+
+// By what it differs from another joint's, which has most weight.
+Turn apart(Turn own, Turn base, float weight) {
+    SUPPLE_PRECISE vec4 aligned = own.rotation * base.rotation;
+    SUPPLE_PRECISE float signedWeight = sum4(aligned) < 0.0f ? -weight : weight;
+    SUPPLE_PRECISE Turn result;
+    result.rotation = own.rotation * signedWeight;
+    result.center = (own.center - base.center) * weight;
+    result.way = (own.way - base.way) * weight;
+    return result;
+}
+
+// Centers of rotation (Le, Hodgins: Real-time Skeletal Skinning with Optimized Centers of Rotation, ACM TOG 35(4), 2016):
+// the center is blended linearly, and the vertex turns about it by the blend of the joints' rotations. Where joints scale
+// or mirror, what is left of their matrices without the rotations is blended linearly, and acts before the turn. All is
+// seen from where the heaviest joint alone takes it: so the bind pose is the cage, to the bit.
+vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joints) {
+    uint heaviest = joints + kRotationElements * table(first).x;
+    SUPPLE_PRECISE vec3 way = rest - center;
+    SUPPLE_PRECISE Turn base = turn(heaviest, center, way);
+    SUPPLE_PRECISE vec3 anchor = transformed(heaviest, rest);
+    SUPPLE_PRECISE vec4 q = vec4(0.0f);
+    SUPPLE_PRECISE vec3 moved = vec3(0.0f);
+    SUPPLE_PRECISE vec3 stretched = vec3(0.0f);
+    for (uint element = first; element < end; ++element) {
+        uvec4 pair = table(element);
+        SUPPLE_PRECISE Turn a =
+            apart(turn(joints + kRotationElements * pair.x, center, way), base, uintBitsToFloat(pair.y));
+        SUPPLE_PRECISE Turn b =
+            apart(turn(joints + kRotationElements * pair.z, center, way), base, uintBitsToFloat(pair.w));
+        q = q + (a.rotation + b.rotation);
+        moved = moved + (a.center + b.center);
+        stretched = stretched + (a.way + b.way);
+    }
+    SUPPLE_PRECISE vec4 squares = q * q;
+    SUPPLE_PRECISE float twice = 2.0f * wideRecip(sum4(squares));
+    SUPPLE_PRECISE vec3 change = turned(q, twice, base.way + stretched) - (anchor - base.center);
+    SUPPLE_PRECISE vec3 p = anchor + (moved + change);
     return p;
 }
 
@@ -120,13 +186,20 @@ vec4 deformedVertex(uint index, uint joints) {
     uint heaviest = table(first).x;
     SUPPLE_PRECISE vec3 p;
     float side;
-    if (kDualQuaternions) {
-        side = sideOf(joints) * sideOf(joints + kDualQuaternionTransform + kDualQuaternionElements * heaviest);
-        p = blendedAsDualQuaternions(rest, first, end, joints + kDualQuaternionTransform);
-        p = transformed(joints, p);
-    } else {
+    if (kSkinning == kLinearSkinning) {
         side = sideOf(joints + kLinearElements * heaviest);
         p = blendedLinearly(rest, first, end, joints);
+    } else {
+        side = sideOf(joints) * sideOf(joints + kRotationTransform + kRotationElements * heaviest);
+        if (kSkinning == kDualQuaternionSkinning) {
+            p = blendedAsDualQuaternions(rest, first, end, joints + kRotationTransform);
+        } else {
+            // Without a center the way is 0: what is left is linear.
+            uvec4 center = table(push.firstCenter + index);
+            p = blendedAboutCenter(center.w == 0u ? rest : placeOf(center.x, center.y, center.z), rest, first, end,
+                                   joints + kRotationTransform);
+        }
+        p = transformed(joints, p);
     }
     return vec4(p, side);
 }

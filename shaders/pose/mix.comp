@@ -6,7 +6,7 @@
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/straight.h"
 
-layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
+layout(constant_id = kRotationsConstant) const bool kRotations = false; // the pose has their layout
 
 BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
 LOADED_BUFFER(vec4, end, Ends, kEndsBinding, samplerBuffer, kEndsTexelBinding, xyzw)
@@ -24,7 +24,7 @@ void storeRows(uint i, Affine m) {
 }
 
 void main() {
-    uint matrices = push.jointCount + (kDualQuaternions ? 1u : 0u);
+    uint matrices = push.jointCount + (kRotations ? 1u : 0u);
     uint items = matrices + (push.morphCount + 3u) / 4u;
     uint id = min(invocationIndex(), items * push.instanceCount - 1u);
     uint n = kWide ? id / items : id % push.instanceCount;
@@ -36,12 +36,12 @@ void main() {
     if (item < matrices) {
         bool isJoint = item < push.jointCount;
         uint at = kLinearElements * item;
-        if (kDualQuaternions) at = isJoint ? kDualQuaternionTransform + kDualQuaternionElements * item : 0u;
+        if (kRotations) at = isJoint ? kRotationTransform + kRotationElements * item : 0u;
         precise Affine m = straight(endRows(a + at), endRows(b + at), part);
         // Behind dual quaternions, the transform places what they have blended.
-        if (!kDualQuaternions || !isJoint) m = combined(transformOf(first), m);
+        if (!kRotations || !isJoint) m = combined(transformOf(first), m);
         storeRows(shown + at, m);
-        if (kDualQuaternions && isJoint) {
+        if (kRotations && isJoint) {
             precise vec4 rotation = straightRotation(end(a + at + 3u), end(b + at + 3u), part);
             posed.at[shown + at + 3u] = rotation;
         }

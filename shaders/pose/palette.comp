@@ -7,7 +7,7 @@
 #include "shaders/pose/posed.glsl"
 #include "shaders/pose/nodes.h"
 
-layout(constant_id = kDualQuaternionsConstant) const bool kDualQuaternions = false; // the pose has their layout
+layout(constant_id = kRotationsConstant) const bool kRotations = false; // the pose has some
 layout(constant_id = kWorkgroupRowsConstant) const uint kLocalRows = 1u; // 3 * kWorkgroupNodes with the wide mapping
 
 BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
@@ -72,8 +72,8 @@ void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {
         Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
         own = combined(globalAt(matrices, node), inverseBind);
     }
-    if (kDualQuaternions) {
-        uint i = kDualQuaternionTransform + kDualQuaternionElements * joint;
+    if (kRotations) {
+        uint i = kRotationTransform + kRotationElements * joint;
         storePosed(i, own);
         precise vec4 rotation = rotationOf(own);
         storePosed(i + 3u, rotation);
@@ -110,7 +110,7 @@ void main() {
         }
     }
     if (within) {
-        if (kDualQuaternions && lane == 0u) storePosed(0u, place);
+        if (kRotations && lane == 0u) storePosed(0u, place);
         for (uint joint = lane; joint < push.jointCount; joint += lanes) {
             storeJoint(joint, bindPose, matrices, place);
         }

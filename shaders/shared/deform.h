@@ -1,15 +1,17 @@
 // The deform pass: push constants, the layout of its static table and of an instance's pose.
 //
 // Table (uvec4 elements): one record a cage vertex and one more, then every vertex's run of elements; where the cage
-// has morph targets, four words an element with the first influence of every vertex follow.
+// has morph targets, four words an element with the first influence of every vertex follow; where it is skinned by
+// centers of rotation, an element a vertex with its center follows.
 //   vertex     (x, y, z as float bits; first element of its run); a run ends where the next vertex's begins
 //   run        displacements, one an element: (morph target, x, y, z as float bits); then
 //              influences, two an element: (joint, weight bits, joint, weight bits), the heaviest first; an odd list is
 //              filled up with weight 0
+//   center     (x, y, z, 1 as float bits), or zeros: the vertex has none and is skinned linearly
 //
 // Pose (vec4 elements, one run of `poseStride` an instance), uploaded every frame:
-//   linear blending    three rows a joint, of its matrix with the instance's transform before it
-//   dual quaternions   three rows of the instance's transform; then four elements a joint: the rows of its matrix, and
+//   rows               three rows a joint, of its matrix with the instance's transform before it
+//   rows, rotations    three rows of the instance's transform; then four elements a joint: the rows of its matrix, and
 //                      its rotation as a unit quaternion (x, y, z, w)
 //   then, where the cage has morph targets, their weights, four an element
 #ifndef SUPPLE_SHARED_DEFORM_H
@@ -27,9 +29,14 @@ SUPPLE_SHARED_CONST kPoseBinding = 2u;
 SUPPLE_SHARED_CONST kPoseTexelBinding = 3u;
 SUPPLE_SHARED_CONST kDeformedCageBinding = 4u;
 
-SUPPLE_SHARED_CONST kLinearElements = 3u;          // pose elements a joint
-SUPPLE_SHARED_CONST kDualQuaternionElements = 4u;  // and with dual quaternions,
-SUPPLE_SHARED_CONST kDualQuaternionTransform = 3u; // behind the instance's transform
+SUPPLE_SHARED_CONST kLinearElements = 3u;    // pose elements a joint
+SUPPLE_SHARED_CONST kRotationElements = 4u;  // and with rotations,
+SUPPLE_SHARED_CONST kRotationTransform = 3u; // behind the instance's transform
+
+// How joints move vertices: skinning::SkinningMode.
+SUPPLE_SHARED_CONST kLinearSkinning = 0u;         // poses of rows
+SUPPLE_SHARED_CONST kDualQuaternionSkinning = 1u; // poses of rows and rotations
+SUPPLE_SHARED_CONST kCenterSkinning = 2u;         // the same, and the table has centers
 
 struct DeformPush {
     uint vertexCount;
@@ -39,6 +46,7 @@ struct DeformPush {
     uint cageStride;      // vertices an instance in the deformed cage
     uint morphWeights;    // first element of the weights in an instance's pose
     uint firstInfluences; // table element of the vertices' first influences
+    uint firstCenter;     // table element of the first vertex' center
 };
 
 SUPPLE_SHARED_END

@@ -2,6 +2,7 @@
 // and the next pose brings the surface back.
 #include "tests/support/logged_context.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/skinnings.h"
 #include "tools/gltf/writer.h"
 
 #include <cmath>
@@ -86,7 +87,7 @@ TEST_F(AbsurdPoses, OtherInstancesDoNotSeeThem) {
     for (const SuppleScheme scheme :
          {SUPPLE_SCHEME_CAGE, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_LOOP,
           SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS}) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             const bool hasMotion = scheme != SUPPLE_SCHEME_CAGE;
             const SmallGroup group = createGroup(handle(), asset_,
                                                  {.flags = hasMotion ? uint32_t{SUPPLE_GROUP_MOTION} : 0u,

@@ -192,7 +192,7 @@ private:
         if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
             desc.flags |= choose_.below(8) * SUPPLE_GROUP_MODIFIERS; // transitions, and update rates
         }
-        desc.skinning = static_cast<SuppleSkinning>(choose_.below(2));
+        desc.skinning = static_cast<SuppleSkinning>(choose_.below(4));
         uint32_t family = families_;
         if (!groups_.empty() && choose_.below(8) == 1) {
             const Group& followed = choose_.of(groups_);

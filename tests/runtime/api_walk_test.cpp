@@ -1359,7 +1359,6 @@ void groups(Rows& r) {
         range("vertexFormat" + n, [=](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(value); });
         prep("tangentMode" + n, {kPrepSize, static_cast<SuppleTangentMode>(value), SUPPLE_CORNERS_SHARP});
         prep("cornerRule" + n, {kPrepSize, SUPPLE_TANGENTS_DEFAULT, static_cast<SuppleCornerRule>(value)});
-        range("skinning" + n, [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
         blend("creaseMode" + n, SUPPLE_ERROR_ARGUMENT, SUPPLE_MESSAGE_OUT_OF_RANGE,
               {kBlendSize, static_cast<SuppleCreaseMode>(value), 0.0f});
     }
@@ -1368,6 +1367,7 @@ void groups(Rows& r) {
               [=](Desc& d) { d.uvInterpolation = static_cast<SuppleUvInterpolation>(value); });
     }
     for (const int value : {4, -1}) {
+        range("skinning " + std::to_string(value), [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
         range("poseSource " + std::to_string(value),
               [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
     }

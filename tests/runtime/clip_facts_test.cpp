@@ -6,6 +6,7 @@
 #include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/skinnings.h"
 #include "tests/support/walkers.h"
 #include "tools/gltf/writer.h"
 
@@ -146,7 +147,7 @@ TEST_F(ClipFacts, BoundsHoldTheSurface) {
     const SuppleAsset pip = own->asset(kPip);
     for (const SuppleAsset asset : {tube, pip}) {
         for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_BLEND}) {
-            for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+            for (const SuppleSkinning skinning : kSkinnings) {
                 SuppleGroupDesc desc{};
                 desc.asset = asset;
                 desc.capacity = 16;

@@ -96,6 +96,37 @@ TEST(Cooked, FilesKeepWhatWasPrepared) {
     }
 }
 
+TEST(Cooked, FilesKeepCenters) {
+    Result<cage::Character> character = cage::readGltfFile(test::kPip);
+    ASSERT_TRUE(character.ok());
+    character->parts[0].skinning = cage::SkinningMode::centersOfRotation;
+    const std::shared_ptr<Prepared> prepared = Prepared::of(*character);
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    ASSERT_TRUE(prepareFor(*prepared, {desc, std::nullopt}, false).ok());
+    EXPECT_FALSE(prepared->centers.has_value()) << "the group is linear";
+    desc.skinning = SUPPLE_SKINNING_FROM_FILE;
+    ASSERT_TRUE(prepareFor(*prepared, {desc, std::nullopt}, false).ok());
+    ASSERT_TRUE(prepared->centers.has_value());
+    const std::vector<std::byte> file = writeCooked(*prepared, "supple cook");
+    const Result<std::shared_ptr<Prepared>> read = readCooked(file, prepared->character.name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    ASSERT_TRUE((*read)->centers.has_value());
+    EXPECT_EQ((*read)->centers->points, prepared->centers->points);
+    EXPECT_EQ((*read)->centers->arms, prepared->centers->arms);
+    EXPECT_EQ((*read)->character.parts[0].skinning, cage::SkinningMode::centersOfRotation);
+
+    for (const glm::vec4& wrong : {glm::vec4(0, 0, std::numeric_limits<float>::infinity(), 1), glm::vec4(0, 0, 0, 2)}) {
+        Prepared spoiled = *prepared;
+        spoiled.centers->points[7] = wrong;
+        EXPECT_NE(refusalOf(writeCooked(spoiled, "")).find("centers of rotation that are none"), std::string::npos);
+    }
+    Prepared few = *prepared;
+    few.centers->points.pop_back();
+    EXPECT_NE(refusalOf(writeCooked(few, "")).find("centers of rotation that are none"), std::string::npos);
+}
+
 TEST(Cooked, FilesKeepCreaseSetsAndTheirCurves) {
     Result<cage::Character> character = cage::readGltfFile(test::kPip);
     ASSERT_TRUE(character.ok());

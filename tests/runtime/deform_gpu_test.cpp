@@ -1,12 +1,14 @@
-// Morph targets and both ways of skinning on the device, against double precision on the CPU.
+// Morph targets and all ways of skinning on the device, against double precision on the CPU.
 #include "cage/gltf/reader.h"
 #include "skinning/rotation.h"
+#include "tests/support/centers_reference.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/skinnings.h"
 #include "tests/support/spirv_precise.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -105,10 +107,25 @@ uint32_t flippedInfluences(const cage::Character& character, const std::vector<g
     return flips;
 }
 
+/// In double.
+std::vector<glm::dvec3> skinnedOnCpu(SuppleSkinning skinning, const cage::Character& character,
+                                     std::span<const glm::dvec3> morphed, std::span<const skinning::Affine> palette,
+                                     const glm::dmat4& transform = glm::dmat4(1.0)) {
+    switch (skinning) {
+    case SUPPLE_SKINNING_DUAL_QUATERNION:
+        return skinWithDualQuaternions(morphed, character.weights, palette, transform);
+    case SUPPLE_SKINNING_CENTERS_OF_ROTATION:
+        return skinAboutCenters(morphed, centersOf(skinning::findCenters(character)), character.weights, palette,
+                                transform);
+    default:
+        return skinning::deformOnCpu(morphed, character.weights, palette);
+    }
+}
+
 TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
     const ValidationGuard guard;
     constexpr uint32_t kInstances = 5;
-    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+    for (const SuppleSkinning skinning : kSkinnings) {
         std::vector<std::vector<glm::vec3>> narrow;
         for (const SuppleMapping mapping : kMappings) {
             PosedGroup gpu(context(mapping), riggedTube({.segments = 21, .joints = 4, .morphTargets = 7}),
@@ -127,9 +144,7 @@ TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
                 gpu.poses().setMorphWeights(i, weights.data());
                 const auto morphed = skinning::morphOnCpu(character.cage, character.morphs, weights);
                 const auto palette = paletteOf(character, joints);
-                wanted.push_back(skinning == SUPPLE_SKINNING_LINEAR
-                                     ? skinning::deformOnCpu(morphed, character.weights, palette)
-                                     : skinWithDualQuaternions(morphed, character.weights, palette));
+                wanted.push_back(skinnedOnCpu(skinning, character, morphed, palette));
             }
             gpu.deform();
             double worst = 0.0;
@@ -141,8 +156,8 @@ TEST_F(DeformOnGpu, MorphsAgreeWithTheCpuAndBetweenMappings) {
                     EXPECT_TRUE(sameBits(gpu.cage(i), narrow[i])) << "mappings differ, instance " << i;
                 }
             }
-            std::printf("%s, mapping %d: morphs and skin within %.1e of the extent\n",
-                        skinning == SUPPLE_SKINNING_LINEAR ? "linear" : "dual quaternions", mapping, worst);
+            std::printf("%s, mapping %d: morphs and skin within %.1e of the extent\n", skinningName(skinning), mapping,
+                        worst);
             EXPECT_LT(worst, 1e-6);
         }
     }
@@ -165,7 +180,7 @@ TEST_F(DeformOnGpu, VerticesSayWhetherThePoseMirrorsThem) {
     const ValidationGuard guard;
     constexpr uint32_t kLimb = 2;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             PosedGroup gpu(context(mapping), riggedTube({.segments = 9, .joints = 4}), {skinning, 4});
             ASSERT_TRUE(gpu.valid());
             const cage::Character& character = gpu.character();
@@ -194,7 +209,7 @@ TEST_F(DeformOnGpu, VerticesSayWhetherThePoseMirrorsThem) {
 TEST_F(DeformOnGpu, WeightsOfZeroLeaveTheBits) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             PosedGroup with(context(mapping), riggedTube({.morphTargets = 4}), {skinning, 2});
             PosedGroup without(context(mapping), riggedTube(), {skinning, 2});
             ASSERT_TRUE(with.valid() && without.valid());
@@ -240,7 +255,11 @@ TEST_F(DeformOnGpu, ClipsAnimateMorphWeights) {
     }
 }
 
-TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
+class RotationsBlended : public DeformOnGpu, public testing::WithParamInterface<SuppleSkinning> {};
+INSTANTIATE_TEST_SUITE_P(Skinnings, RotationsBlended,
+                         testing::Values(SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION));
+
+TEST_P(RotationsBlended, AgreeWithThePapers) {
     const ValidationGuard guard;
     struct Case {
         const char* name;
@@ -280,7 +299,7 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
                         character.weights.starts.push_back(static_cast<uint32_t>(character.weights.influences.size()));
                     }
                 }
-                PosedGroup gpu(context(mapping), std::move(character), {SUPPLE_SKINNING_DUAL_QUATERNION, 1});
+                PosedGroup gpu(context(mapping), std::move(character), {GetParam(), 1});
                 ASSERT_TRUE(gpu.valid());
                 const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 21, c.noise);
                 gpu.poses().setMatrixPose(0, glm::value_ptr(joints[0]));
@@ -288,8 +307,8 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
                 gpu.deform();
                 flips += flippedInfluences(gpu.character(), joints);
                 const std::vector<glm::dvec3> wanted =
-                    skinWithDualQuaternions(doublePositions(gpu.character().cage), gpu.character().weights,
-                                            paletteOf(gpu.character(), joints), glm::dmat4(c.transform));
+                    skinnedOnCpu(GetParam(), gpu.character(), doublePositions(gpu.character().cage),
+                                 paletteOf(gpu.character(), joints), glm::dmat4(c.transform));
                 const double worst = worstError(gpu.cage(0), wanted);
                 std::printf("%-36s mapping %d, %s influences: within %.1e of the extent\n", c.name, mapping,
                             many ? "up to five" : "one or two", worst);
@@ -306,11 +325,11 @@ TEST_F(DeformOnGpu, DualQuaternionsAgreeWithThePapers) {
     EXPECT_GT(flips, 500u);
 }
 
-TEST_F(DeformOnGpu, VerticesOfOneJointMoveAlikeWithBothSkinnings) {
+TEST_P(RotationsBlended, MoveVerticesOfOneJointAsLinearOnes) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
         PosedGroup linear(context(mapping), riggedTube(), {SUPPLE_SKINNING_LINEAR, 1});
-        PosedGroup dual(context(mapping), riggedTube(), {SUPPLE_SKINNING_DUAL_QUATERNION, 1});
+        PosedGroup dual(context(mapping), riggedTube(), {GetParam(), 1});
         ASSERT_TRUE(linear.valid() && dual.valid());
         const std::vector<glm::mat4> joints = noisyJoints(linear.character(), 5, {.stretch = 1.0f});
         for (PosedGroup* gpu : {&linear, &dual}) {
@@ -368,13 +387,13 @@ TubeMeasure measured(const std::vector<glm::vec3>& cage, uint32_t segments, uint
     return result;
 }
 
-TEST_F(DeformOnGpu, ATwistKeepsItsGirthWithDualQuaternions) {
+TEST_F(DeformOnGpu, ATwistKeepsItsGirthWhereRotationsAreBlended) {
     const ValidationGuard guard;
     constexpr uint32_t kSegments = 32, kSides = 24;
     const TubeOptions options{.segments = kSegments, .sides = kSides, .joints = 2};
     for (const float degrees : {90.0f, 170.0f, 250.0f}) {
-        TubeMeasure ratio[2];
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        TubeMeasure ratio[std::size(kSkinnings)];
+        for (const SuppleSkinning skinning : kSkinnings) {
             PosedGroup gpu(context(SUPPLE_MAPPING_AUTO), riggedTube(options), {skinning, 2});
             ASSERT_TRUE(gpu.valid());
             glm::mat4 joints[2] = {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), {4, 0, 0})};
@@ -390,12 +409,14 @@ TEST_F(DeformOnGpu, ATwistKeepsItsGirthWithDualQuaternions) {
                     degrees, ratio[0].radius, ratio[0].volume, ratio[1].radius, ratio[1].volume);
         const double collapse = std::abs(std::cos(0.5 * glm::radians(static_cast<double>(degrees))));
         EXPECT_NEAR(ratio[0].radius, collapse, 1e-4) << "the half way ring of linear blending";
-        EXPECT_NEAR(ratio[1].radius, 1.0, 1e-6);
-        EXPECT_NEAR(ratio[1].volume, 1.0, 1e-6);
+        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+            EXPECT_NEAR(ratio[skinning].radius, 1.0, 1e-6) << skinningName(skinning);
+            EXPECT_NEAR(ratio[skinning].volume, 1.0, 1e-6) << skinningName(skinning);
+        }
     }
 }
 
-TEST_F(DeformOnGpu, ScaledJointsDoNotDependOnTheOrigin) {
+TEST_P(RotationsBlended, ScaledJointsDoNotDependOnTheOrigin) {
     // A joint that bends and doubles in size, in a tube that stands at the origin or far from it: the same shape, and
     // the place of the joint itself stays where both joints put it.
     const ValidationGuard guard;
@@ -403,7 +424,7 @@ TEST_F(DeformOnGpu, ScaledJointsDoNotDependOnTheOrigin) {
     const glm::vec3 origins[2] = {glm::vec3(0.0f), glm::vec3(100.0f, -50.0f, 70.0f)};
     for (int far = 0; far < 2; ++far) {
         PosedGroup gpu(context(SUPPLE_MAPPING_AUTO), riggedTube({.joints = 2, .origin = origins[far]}),
-                       {SUPPLE_SKINNING_DUAL_QUATERNION, 1});
+                       {GetParam(), 1});
         ASSERT_TRUE(gpu.valid());
         glm::mat4 joints[2] = {glm::translate(glm::mat4(1.0f), origins[far]),
                                glm::translate(glm::mat4(1.0f), origins[far] + glm::vec3(4, 0, 0))};
@@ -426,10 +447,10 @@ TEST_F(DeformOnGpu, ScaledJointsDoNotDependOnTheOrigin) {
     EXPECT_LT(worst, 1e-4) << "132 units away, single precision leaves 1e-5";
 }
 
-TEST_F(DeformOnGpu, EvenScaleOfTheWholeScalesTheShape) {
+TEST_P(RotationsBlended, EvenScaleOfTheWholeScalesTheShape) {
     // Skeletons in other units than their mesh, and roots that scale or mirror everything.
     const ValidationGuard guard;
-    PosedGroup gpu(context(SUPPLE_MAPPING_AUTO), riggedTube({.joints = 4}), {SUPPLE_SKINNING_DUAL_QUATERNION, 3});
+    PosedGroup gpu(context(SUPPLE_MAPPING_AUTO), riggedTube({.joints = 4}), {GetParam(), 3});
     ASSERT_TRUE(gpu.valid());
     const std::vector<glm::mat4> joints = noisyJoints(gpu.character(), 31, {});
     const glm::mat4 whole[3] = {glm::mat4(1.0f), glm::scale(glm::mat4(1.0f), glm::vec3(0.01f)),
@@ -549,7 +570,7 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
 TEST(DeformShader, EveryHelperMustBePrecise) {
     // What makes the mappings agree: the static check must see `precise` go from any helper on the way to the position.
     for (const char* helper : {"transformed", "weighted", "morphed", "blendedLinearly", "sum4", "crossed", "influence",
-                               "blendedAsDualQuaternions"}) {
+                               "blendedAsDualQuaternions", "applied", "turned", "apart", "blendedAboutCenter"}) {
         const std::vector<uint32_t> spirv = compileShader("deform/deform.comp", helper);
         ASSERT_FALSE(spirv.empty());
         uint32_t checked = 0;

@@ -5,6 +5,7 @@
 #include "tests/support/played_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/skinnings.h"
 
 #include <cmath>
 #include <cstring>
@@ -76,7 +77,7 @@ glm::dvec3 towardsTheRoot(const PlayedGroup& group, uint32_t i, uint32_t end, do
 TEST_F(Modifiers, BringJointsWhereTheyShallBe) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             for (const std::string& file : {kPip, kWren}) {
                 CrowdContext& own = context(mapping);
                 ASSERT_TRUE(own.valid());
@@ -225,7 +226,7 @@ TEST_F(Modifiers, ChangePosesThatAreSetAsThoseThatArePlayed) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+    for (const SuppleSkinning skinning : kSkinnings) {
         const SuppleAsset asset = own.asset(kWren);
         PlayedGroup played(own, modifiedGroup(asset, 1, skinning));
         SuppleGroupDesc desc = modifiedGroup(asset, 2, skinning);

@@ -5,6 +5,7 @@
 #include "skinning/joints.h"
 #include "skinning/played_pose.h"
 #include "tests/support/boxes.h"
+#include "tests/support/centers_reference.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
@@ -47,7 +48,9 @@ TEST(PlayedBounds, HoldWhatPlays) {
     ASSERT_EQ(reach.anchor, 1u);
     const skinning::Rig rig = skinning::makeRig(tube);
     skinning::PoseMemory memory(tube);
-    runtime::PlayedBounds bounds(tube, false, false, 1);
+    const skinning::Centers centers = skinning::findCenters(tube);
+    runtime::PlayedBounds bounds(tube, {}, false, 1);
+    runtime::PlayedBounds about(tube, {skinning::SkinningMode::centersOfRotation, &centers}, false, 1);
     Noise noise(7);
     size_t held = 0, unbounded = 0;
     for (uint32_t run = 0; run < 400; ++run) {
@@ -58,6 +61,7 @@ TEST(PlayedBounds, HoldWhatPlays) {
         const uint32_t axes = run % 8; // all mixes of ground, height and yaw
         const skinning::PlaybackDesc desc{std::span(layers).first(1 + run % 2), {1, axes}, run % 3 != 0};
         bounds.set(0, desc);
+        about.set(0, desc);
         const double time = 20.0 * static_cast<double>(noise());
         const auto box = bounds.of(0, time, reach, {});
         if (axes == skinning::kRootYaw || axes == (skinning::kRootYaw | skinning::kRootHeight)) {
@@ -70,10 +74,12 @@ TEST(PlayedBounds, HoldWhatPlays) {
         std::vector<skinning::Affine> palette(tube.skin.joints.size());
         skinning::jointPalette(tube.skin, memory.nodes, glm::mat4(1.0f), palette);
         const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
-        const skinning::Box own = boxAround(
-            moved(skinning::deformOnCpu(skinning::morphOnCpu(tube.cage, tube.morphs, weights), tube.weights, palette),
-                  skinning::toMatrix(skinning::traveledBy(tube, desc, time))));
-        EXPECT_TRUE(holds(*box, own));
+        const std::vector<glm::dvec3> morphed = skinning::morphOnCpu(tube.cage, tube.morphs, weights);
+        const glm::dmat4 place = skinning::toMatrix(skinning::traveledBy(tube, desc, time));
+        EXPECT_TRUE(holds(*box, boxAround(moved(skinning::deformOnCpu(morphed, tube.weights, palette), place))));
+        EXPECT_TRUE(
+            holds(*about.of(0, time, reach, {}),
+                  boxAround(moved(skinAboutCenters(morphed, centersOf(centers), tube.weights, palette), place))));
         EXPECT_LT(glm::length(box->high - box->low), 150.0) << "it travels along, whatever the time";
         ++held;
     }

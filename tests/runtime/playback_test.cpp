@@ -6,6 +6,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/skinnings.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <algorithm>
@@ -287,8 +288,7 @@ private:
         runtime::Group& group = *context_.handle()->context->groups.find(plays_.group().id);
         const skinning::PoseLayout& layout = group.instances().poseLayout();
         const cage::Character& character = group.asset().character;
-        const skinning::DeformTable table =
-            skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+        const skinning::DeformTable table = deformTableOf(group);
         const size_t elements = layout.morphWeights + (layout.morphCount + 3) / 4;
         std::vector<glm::vec4> pose(layout.stride), cage(character.cage.vertexCount());
         uint64_t off = 0;
@@ -440,7 +440,7 @@ cage::Character noisyTube(uint32_t joints, uint32_t targets) {
 TEST_F(PlaybackOnGpu, PosesTheDemoCharacterAsCallsDo) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
             constexpr uint32_t kInstances = 12;
@@ -460,8 +460,7 @@ TEST_F(PlaybackOnGpu, PosesTheDemoCharacterAsCallsDo) {
                 duet.run(time);
                 worst.add(duet.difference());
             }
-            worst.print(mappingName(mapping) +
-                        (skinning == SUPPLE_SKINNING_LINEAR ? ", linear" : ", dual quaternions"));
+            worst.print(mappingName(mapping) + ", " + std::string(skinningName(skinning)));
             EXPECT_TRUE(worst.within());
         }
     }
@@ -471,7 +470,7 @@ TEST_F(PlaybackOnGpu, PlaysEveryKindOfKeys) {
     const ValidationGuard guard;
     for (const uint32_t targets : {0u, 5u}) {
         for (const SuppleMapping mapping : kMappings) {
-            for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+            for (const SuppleSkinning skinning : kSkinnings) {
                 CrowdContext& own = context(mapping);
                 ASSERT_TRUE(own.valid());
                 const cage::Character tube = noisyTube(5, targets);
@@ -498,8 +497,8 @@ TEST_F(PlaybackOnGpu, PlaysEveryKindOfKeys) {
                     duet.run(time);
                     worst.add(duet.difference());
                 }
-                worst.print(mappingName(mapping) + ", " + std::to_string(targets) + " targets" +
-                            (skinning == SUPPLE_SKINNING_LINEAR ? "" : ", dual quaternions"));
+                worst.print(mappingName(mapping) + ", " + std::to_string(targets) + " targets" + ", " +
+                            std::string(skinningName(skinning)));
                 EXPECT_TRUE(worst.within());
             }
         }
@@ -527,7 +526,7 @@ SupplePlaybackLayer masked(SupplePlaybackLayer layer, uint32_t mask) {
 TEST_F(PlaybackOnGpu, LayersClipsAsCallsDo) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        for (const SuppleSkinning skinning : kSkinnings) {
             CrowdContext& own = context(mapping);
             ASSERT_TRUE(own.valid());
             Duet duet(own, cageGroup(own.createAsset(noisyTube(5, 5)), 9, skinning));
@@ -570,8 +569,7 @@ TEST_F(PlaybackOnGpu, LayersClipsAsCallsDo) {
             }
             duet.run(1.2);
             worst.add(duet.difference());
-            worst.print(mappingName(mapping) +
-                        (skinning == SUPPLE_SKINNING_LINEAR ? ", linear" : ", dual quaternions"));
+            worst.print(mappingName(mapping) + ", " + std::string(skinningName(skinning)));
             EXPECT_TRUE(worst.within());
         }
     }
@@ -875,7 +873,7 @@ TEST_F(PlaybackOnGpu, NewInstancesAreInTheBindPose) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     ASSERT_TRUE(own.valid());
-    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+    for (const SuppleSkinning skinning : kSkinnings) {
         SuppleGroupDesc desc = cageGroup(own.createAsset(noisyTube(3, 3)), 2, skinning);
         Crowd told(own, desc);
         desc.poseSource = SUPPLE_POSES_PLAYBACK;

@@ -3,11 +3,13 @@
 #include "cage/gltf/reader.h"
 #include "skinning/layers.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/crowd.h"
 #include "tests/support/gpu_surface.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/skinnings.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/gltf/writer.h"
 
@@ -227,20 +229,25 @@ TEST_F(PoseApi, LayersAreThoseOfTheSkinningFloor) {
     EXPECT_LT(worstDistance(cages()[1], deformed), 1e-5);
 }
 
-TEST_F(PoseApi, DualQuaternionsAreASwitchOfTheGroup) {
+TEST_F(PoseApi, SkinningIsASwitchOfTheGroup) {
     const ValidationGuard guard;
     ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
     const auto linear = cages();
-    ASSERT_EQ(suppleDestroyGroup(handle(), group), SUPPLE_OK);
-    group = makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION);
-    instances = instancesOf(group);
-    ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
-    const auto dual = cages();
-    for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
-        ASSERT_EQ(std::memcmp(dual[0].data() + 16 * size_t{v}, &character.cage.positions[v], 12), 0)
-            << "the bind pose is the cage, whatever the weights add up to";
+    auto before = linear;
+    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+        ASSERT_EQ(suppleDestroyGroup(handle(), group), SUPPLE_OK);
+        group = makeGroup(skinning);
+        instances = instancesOf(group);
+        ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
+        const auto own = cages();
+        for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
+            ASSERT_EQ(std::memcmp(own[0].data() + 16 * size_t{v}, &character.cage.positions[v], 12), 0)
+                << "the bind pose is the cage, whatever the weights add up to";
+        }
+        EXPECT_FALSE(linear[1] == own[1]);
+        EXPECT_FALSE(before[1] == own[1]);
+        before = own;
     }
-    EXPECT_FALSE(linear[1] == dual[1]);
 }
 
 TEST_F(PoseApi, RootMotionIsReported) {
@@ -480,11 +487,44 @@ TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
     auto groupDesc = sized<SuppleGroupDesc>();
     groupDesc.asset = asset;
     groupDesc.capacity = 1;
-    groupDesc.skinning = static_cast<SuppleSkinning>(2);
+    groupDesc.skinning = static_cast<SuppleSkinning>(4);
     SuppleGroup none{};
     EXPECT_NE(refusal(suppleCreateGroup(handle(), &groupDesc, &none)).find("skinning or poseSource"),
               std::string::npos);
     EXPECT_TRUE(cages() == before);
+}
+
+TEST(PoseSkinning, TheFileMayNameIt) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_AUTO);
+    Result<cage::Character> character = cage::readGltfFile(kPip);
+    ASSERT_TRUE(character.ok());
+    const auto groupOf = [&](SuppleAsset asset, SuppleSkinning skinning) {
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = 1;
+        desc.scheme = SUPPLE_SCHEME_CAGE;
+        desc.skinning = skinning;
+        return std::make_unique<Crowd>(own, desc);
+    };
+    const auto cageOf = [&](Crowd& crowd) {
+        crowd.pose(crowd.spawn(), 1, 0.4, glm::mat4(1.0f));
+        crowd.run();
+        return crowd.slotBytes(crowd.output().info.deformedCage, 0);
+    };
+    const SuppleAsset silent = own.createAsset(*character);
+    const auto plain = groupOf(silent, SUPPLE_SKINNING_FROM_FILE);
+    EXPECT_EQ(plain->output().info.skinning, SUPPLE_SKINNING_LINEAR);
+    character->parts.back().skinning = cage::SkinningMode::centersOfRotation;
+    const SuppleAsset naming = own.createAsset(*character); // through a file
+    const auto fromFile = groupOf(naming, SUPPLE_SKINNING_FROM_FILE);
+    EXPECT_EQ(fromFile->output().info.skinning, SUPPLE_SKINNING_CENTERS_OF_ROTATION);
+    const auto linear = groupOf(naming, SUPPLE_SKINNING_LINEAR);
+    EXPECT_EQ(linear->output().info.skinning, SUPPLE_SKINNING_LINEAR) << "hosts that say nothing get what they got";
+    const auto named = groupOf(naming, SUPPLE_SKINNING_CENTERS_OF_ROTATION);
+    const auto cage = cageOf(*fromFile);
+    EXPECT_EQ(cage, cageOf(*named));
+    EXPECT_NE(cage, cageOf(*linear));
 }
 
 TEST_F(PoseApi, PosingAllocatesNothing) {
@@ -497,7 +537,8 @@ TEST_F(PoseApi, PosingAllocatesNothing) {
     SupplePoseDesc pose = poseOf(layers);
     pose.rootMotion = SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW;
     auto motion = sized<SuppleRootMotion>();
-    const std::vector<SuppleInstance> groups[] = {instances, instancesOf(makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION))};
+    const std::vector<SuppleInstance> groups[] = {instances, instancesOf(makeGroup(SUPPLE_SKINNING_DUAL_QUATERNION)),
+                                                  instancesOf(makeGroup(SUPPLE_SKINNING_CENTERS_OF_ROTATION))};
     bool good = true;
     const uint64_t before = allocationsCounted();
     for (int i = 0; i < 100; ++i) {
@@ -575,7 +616,8 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
     const Case cases[] = {{SUPPLE_SKINNING_LINEAR, 0, 3 * 48},
                           {SUPPLE_SKINNING_LINEAR, 6, 3 * 48 + 2 * 16},
                           {SUPPLE_SKINNING_DUAL_QUATERNION, 0, 48 + 3 * 64},
-                          {SUPPLE_SKINNING_DUAL_QUATERNION, 4, 48 + 3 * 64 + 16}};
+                          {SUPPLE_SKINNING_DUAL_QUATERNION, 4, 48 + 3 * 64 + 16},
+                          {SUPPLE_SKINNING_CENTERS_OF_ROTATION, 4, 48 + 3 * 64 + 16}};
     wrappedVulkan();
     host::DeviceOptions deviceOptions;
     deviceOptions.validation = true;
@@ -601,8 +643,7 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
                 EXPECT_EQ(counts.maps + counts.updates + counts.fills + counts.invalidates, 0u);
                 EXPECT_LE(counts.flushes, 1u);
             }
-            std::printf("%s, %u morph targets: %llu bytes a pose of 3 joints\n",
-                        c.skinning == SUPPLE_SKINNING_LINEAR ? "linear" : "dual quaternions", c.targets,
+            std::printf("%s, %u morph targets: %llu bytes a pose of 3 joints\n", skinningName(c.skinning), c.targets,
                         static_cast<unsigned long long>(c.bytes));
         }
     }

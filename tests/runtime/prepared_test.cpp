@@ -52,6 +52,7 @@ const std::vector<Plan>& plans() {
         {"playing",
          {.capacity = 2, .scheme = SUPPLE_SCHEME_CATMULL_CLARK, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
         {"cage", {.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE}},
+        {"centers", {.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE, .skinning = SUPPLE_SKINNING_CENTERS_OF_ROTATION}},
         {"levels", {.capacity = 2, .scheme = SUPPLE_SCHEME_CATMULL_CLARK}, true},
         {"rates", {.capacity = 2, .scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 4}, true}};
     return kPlans;

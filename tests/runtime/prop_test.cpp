@@ -185,7 +185,8 @@ TEST_F(Prop, CoversWhatASkinnedPartCovers) {
     for (const uint32_t corner : part.corners) {
         prop.emplace_back(glm::inverse(bind) * glm::vec4(character->cage.positions[corner], 1.0f));
     }
-    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+    for (const SuppleSkinning skinning :
+         {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
         for (const SupplePoseSource source : {SUPPLE_POSES_SET, SUPPLE_POSES_PLAYBACK}) {
             SuppleGroupDesc desc{};
             desc.asset = asset;

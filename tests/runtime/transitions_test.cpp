@@ -3,6 +3,7 @@
 #include "tests/support/played_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/skinnings.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -79,7 +80,7 @@ TEST_F(Transitions, BeginAsWhatWasShownMovesAndEndAsWhatIsPlayed) {
         CrowdContext& own = context(mapping);
         ASSERT_TRUE(own.valid());
         for (const std::string& file : {kPip, kWren}) {
-            for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+            for (const SuppleSkinning skinning : kSkinnings) {
                 // One of each kind, one that changes at once, one that has played the new clip all the time, and one
                 // that plays both for a while.
                 PlayedGroup stage(own, transitingGroup(own.asset(file), 5, skinning));

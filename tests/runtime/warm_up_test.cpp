@@ -49,7 +49,10 @@ public:
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
                 tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_BLEND}, tube);
-            add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES}, .scheme = SUPPLE_SCHEME_CATMULL_CLARK}, tube);
+            add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES},
+                 .scheme = SUPPLE_SCHEME_CATMULL_CLARK,
+                 .skinning = SUPPLE_SKINNING_CENTERS_OF_ROTATION},
+                tube);
             add({.flags = flags & ~uint32_t{SUPPLE_GROUP_PATCHES},
                  .scheme = SUPPLE_SCHEME_POLYGONS,
                  .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,

@@ -5,6 +5,7 @@
 #include "skinning/chord.h"
 #include "skinning/pose.h"
 #include "tests/support/boxes.h"
+#include "tests/support/centers_reference.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
@@ -28,20 +29,35 @@ using test::boxAround;
 using test::diagonal;
 using test::holds;
 
-std::vector<glm::dvec3> posed(const Character& character, const Pose& pose, bool dualQuaternions) {
-    if (!dualQuaternions) {
+/// A way of skinning, of a character.
+struct Skinned {
+    SkinningMode mode = SkinningMode::linear;
+    Centers centers;
+
+    Skinned(const Character& character, SkinningMode own)
+        : mode(own), centers(skinningRow(own).centers ? findCenters(character) : Centers()) {}
+    [[nodiscard]] ClipBoundsDesc bounds(double tolerance = ClipBoundsDesc{}.tolerance) const {
+        return {mode, &centers, 0.0, tolerance};
+    }
+};
+constexpr SkinningMode kModes[] = {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation};
+
+std::vector<glm::dvec3> posed(const Character& character, const Pose& pose, const Skinned& skinned) {
+    if (skinned.mode == SkinningMode::linear) {
         return deformOnCpu(character, pose);
     }
     std::vector<glm::mat4> nodes(character.skeleton.nodes.size());
     std::vector<Affine> palette(character.skin.joints.size());
     posePalette(character, pose, nodes, palette);
     const std::vector<float> weights(pose.morphWeights.begin(), pose.morphWeights.end());
-    return test::skinWithDualQuaternions(morphOnCpu(character.cage, character.morphs, weights), character.weights,
-                                         palette);
+    const std::vector<glm::dvec3> morphed = morphOnCpu(character.cage, character.morphs, weights);
+    return skinned.mode == SkinningMode::dualQuaternion
+               ? test::skinWithDualQuaternions(morphed, character.weights, palette)
+               : test::skinAboutCenters(morphed, test::centersOf(skinned.centers), character.weights, palette);
 }
 
 /// The box of what the clip shows at `count` times and at its keys.
-Box sampledBox(const Character& character, const Clip& clip, size_t count, bool dualQuaternions) {
+Box sampledBox(const Character& character, const Clip& clip, size_t count, const Skinned& skinned) {
     std::vector<double> times;
     for (size_t k = 0; k <= count; ++k) {
         times.push_back(clip.duration * static_cast<double>(k) / static_cast<double>(count));
@@ -59,16 +75,16 @@ Box sampledBox(const Character& character, const Clip& clip, size_t count, bool 
     Pose pose;
     for (size_t k = 0; k < times.size(); ++k) {
         sampleClip(character, clip, times[k], pose);
-        const Box own = boxAround(posed(character, pose, dualQuaternions));
+        const Box own = boxAround(posed(character, pose, skinned));
         box = k == 0 ? own : Box{glm::min(box.low, own.low), glm::max(box.high, own.high)};
     }
     return box;
 }
 
 /// Checks the box of a clip against samples; the ratio of the diagonals.
-double checkedRatio(const Character& character, const Clip& clip, size_t samples, bool dualQuaternions) {
-    const Box bound = clipBounds(character, &clip, {dualQuaternions, 0.0});
-    const Box seen = sampledBox(character, clip, samples, dualQuaternions);
+double checkedRatio(const Character& character, const Clip& clip, size_t samples, const Skinned& skinned) {
+    const Box bound = clipBounds(character, &clip, skinned.bounds());
+    const Box seen = sampledBox(character, clip, samples, skinned);
     EXPECT_TRUE(holds(bound, seen)) << character.name << ", " << clip.name;
     return diagonal(bound) / diagonal(seen);
 }
@@ -78,7 +94,7 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
         double ratio = 0.0, sum = 0.0;
         std::string of;
         size_t count = 0;
-    } worst[2];
+    } worst[std::size(kModes)];
     double slowest = 0.0;
     std::string slowestOf;
     for (const std::string& path : test::allCharacters()) {
@@ -98,12 +114,13 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
                             std::to_string(clip.duration) + " s";
             }
             const size_t samples = std::clamp<size_t>(3'000'000 / vertices, 20, 700);
-            for (const bool dualQuaternions : {false, true}) {
-                if (dualQuaternions && (vertices > 3000 || c > 0)) {
-                    continue; // the reference is slow
+            for (const SkinningMode mode : kModes) {
+                const bool linear = mode == SkinningMode::linear;
+                if (!linear && (vertices > 3000 || c > 0)) {
+                    continue; // the references are slow
                 }
-                const double ratio = checkedRatio(*character, clip, dualQuaternions ? 20 : samples, dualQuaternions);
-                Worst& most = worst[dualQuaternions ? 1 : 0];
+                const double ratio = checkedRatio(*character, clip, linear ? samples : 20, Skinned(*character, mode));
+                Worst& most = worst[static_cast<size_t>(mode)];
                 most.sum += ratio;
                 ++most.count;
                 if (ratio > most.ratio) {
@@ -113,11 +130,11 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
             }
         }
     }
-    for (const bool dualQuaternions : {false, true}) {
-        const Worst& most = worst[dualQuaternions ? 1 : 0];
+    for (const SkinningMode mode : kModes) {
+        const Worst& most = worst[static_cast<size_t>(mode)];
         std::printf("%s: %zu clips, diagonals are %.4f of the sampled ones on average, at most %.4f (%s)\n",
-                    dualQuaternions ? "dual quaternions" : "linear", most.count,
-                    most.sum / static_cast<double>(most.count), most.ratio, most.of.c_str());
+                    cage::skinningModeName(mode), most.count, most.sum / static_cast<double>(most.count), most.ratio,
+                    most.of.c_str());
     }
     std::printf("slowest: %.1f ms (%s)\n", slowest, slowestOf.c_str());
     EXPECT_GT(worst[0].count, 3u);
@@ -177,13 +194,14 @@ TEST(ClipBounds, HoldRandomClips) {
         if (run % 3 == 0) {
             add(tube.parts[0].node, ChannelPath::weights, 3, false);
         }
-        for (const bool dualQuaternions : {false, true}) {
-            const Box seen = sampledBox(tube, clip, 1500, dualQuaternions);
+        for (const SkinningMode mode : kModes) {
+            const Skinned skinned(tube, mode);
+            const Box seen = sampledBox(tube, clip, 1500, skinned);
             // Whole segments show that errors are what they say; the usual tolerance, how large boxes are.
             for (const double tolerance : {1e9, 0.2, ClipBoundsDesc{}.tolerance}) {
-                const Box bound = clipBounds(tube, &clip, {dualQuaternions, 0.0, tolerance});
+                const Box bound = clipBounds(tube, &clip, skinned.bounds(tolerance));
                 EXPECT_TRUE(holds(bound, seen)) << tolerance;
-                if (!dualQuaternions && tolerance == ClipBoundsDesc{}.tolerance) {
+                if (mode == SkinningMode::linear && tolerance == ClipBoundsDesc{}.tolerance) {
                     worst = std::max(worst, diagonal(bound) / diagonal(seen));
                     sum += diagonal(bound) / diagonal(seen);
                 }
@@ -219,10 +237,10 @@ TEST(ClipBounds, RestBindAndMargin) {
     const Box bind = bindBounds(tube, {}), rest = clipBounds(tube, nullptr, {});
     EXPECT_EQ(bind.high.x, 8.0);
     EXPECT_NEAR(rest.low.z, bind.low.z + 100.0, 1e-3);
-    const Box larger = bindBounds(tube, {false, 0.25});
+    const Box larger = bindBounds(tube, {.margin = 0.25});
     EXPECT_DOUBLE_EQ(larger.high.x, 10.0);
     EXPECT_DOUBLE_EQ(larger.low.x, -2.0);
-    const Box restLarger = clipBounds(tube, nullptr, {false, 0.25});
+    const Box restLarger = clipBounds(tube, nullptr, {.margin = 0.25});
     EXPECT_NEAR(restLarger.high.x, 10.0, 1e-2);
 }
 

@@ -3,7 +3,9 @@
 
 #include "cage/gltf/reader.h"
 #include "skinning/played_pose.h"
+#include "skinning/skinned_bounds.h"
 #include "tests/support/boxes.h"
+#include "tests/support/centers_reference.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
@@ -54,6 +56,9 @@ TEST(Reach, HoldsEveryMixOfClips) {
         slowest = std::max(slowest,
                            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         const Rig rig = makeRig(*character);
+        const bool small = character->cage.positions.size() < 1500; // references of other skinnings are slow
+        const Centers centers = small ? findCenters(*character) : Centers();
+        const SkinnedBounds about(SkinningMode::centersOfRotation, &centers);
         test::Noise noise(static_cast<uint32_t>(characters));
         PoseMemory memory(*character);
         std::vector<Affine> palette(character->skin.joints.size());
@@ -67,9 +72,13 @@ TEST(Reach, HoldsEveryMixOfClips) {
             posePalette(*character, memory.pose, memory.nodes, palette);
             const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
             ASSERT_TRUE(holds(paletteBounds(reach, palette, weights), own)) << path;
-            if (k == 0 && character->cage.positions.size() < 1500) {
-                const Box turned = boxAround(test::skinWithDualQuaternions(
-                    morphOnCpu(character->cage, character->morphs, weights), character->weights, palette));
+            if (k == 0 && small) {
+                const std::vector<glm::dvec3> morphed = morphOnCpu(character->cage, character->morphs, weights);
+                const Box turned = boxAround(test::skinWithDualQuaternions(morphed, character->weights, palette));
+                const Box centered =
+                    boxAround(test::skinAboutCenters(morphed, test::centersOf(centers), character->weights, palette));
+                ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered)) << path;
+                ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, reach.blended), turned)) << path;
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, paletteBounds(reach, palette, weights)), turned));
             }
@@ -125,6 +134,8 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
         const Reach reach = reachOf(tube);
         EXPECT_EQ(reach.anchor, 1u);
         const Rig rig = makeRig(tube);
+        const Centers centers = findCenters(tube);
+        const SkinnedBounds about(SkinningMode::centersOfRotation, &centers);
         test::Noise noise(run);
         PoseMemory memory(tube);
         std::vector<Affine> palette(tube.skin.joints.size());
@@ -137,6 +148,10 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
             posePalette(tube, memory.pose, memory.nodes, palette);
             const std::vector<float> weights(memory.pose.morphWeights.begin(), memory.pose.morphWeights.end());
             ASSERT_TRUE(holds(paletteBounds(reach, palette, weights), own));
+            const Box centered = boxAround(test::skinAboutCenters(morphOnCpu(tube.cage, tube.morphs, weights),
+                                                                  test::centersOf(centers), tube.weights, palette));
+            ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered));
+            ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
         }
         ratios += diagonal(reach.blended) / diagonal(seen);
     }

@@ -73,7 +73,10 @@ private:
                               .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,
                               .poseSource = SUPPLE_POSES_PLAYBACK,
                               .view = view_});
-        rates_ = createMany({.scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 8, .view = view_});
+        rates_ = createMany({.scheme = SUPPLE_SCHEME_FRAGMENTS,
+                             .rate = 8,
+                             .skinning = SUPPLE_SKINNING_CENTERS_OF_ROTATION,
+                             .view = view_});
         SuppleGroupDesc follower{};
         follower.structSize = sizeof follower;
         follower.asset = tube_;

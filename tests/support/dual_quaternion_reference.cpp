@@ -1,34 +1,12 @@
 #include "tests/support/dual_quaternion_reference.h"
 
+#include "tests/support/joint_factors.h"
+
 #include <glm/gtc/quaternion.hpp>
 
 namespace supple::test {
 
 namespace {
-
-struct Joint {
-    glm::dmat3 rotation{1.0};
-    glm::dmat3 stretch{1.0}; ///< matrix = rotation * stretch
-    glm::dvec3 translation{0.0};
-};
-
-Joint split(const skinning::Affine& affine) {
-    glm::dmat3 matrix;
-    Joint joint;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            matrix[column][row] = static_cast<double>(affine.rows[row][column]);
-        }
-        joint.translation[row] = static_cast<double>(affine.rows[row].w);
-    }
-    // Newton's iteration for the orthogonal polar factor; a reflection goes into the stretch.
-    joint.rotation = glm::determinant(matrix) < 0.0 ? -matrix : matrix;
-    for (int i = 0; i < 60; ++i) {
-        joint.rotation = 0.5 * (joint.rotation + glm::transpose(glm::inverse(joint.rotation)));
-    }
-    joint.stretch = glm::transpose(joint.rotation) * matrix;
-    return joint;
-}
 
 struct DualQuaternion {
     glm::dquat real{0.0, 0.0, 0.0, 0.0};
@@ -40,9 +18,9 @@ struct DualQuaternion {
 std::vector<glm::dvec3> skinWithDualQuaternions(std::span<const glm::dvec3> positions, const cage::SkinWeights& weights,
                                                 std::span<const skinning::Affine> palette,
                                                 const glm::dmat4& transform) {
-    std::vector<Joint> joints;
+    std::vector<JointFactors> joints;
     for (const skinning::Affine& affine : palette) {
-        joints.push_back(split(affine));
+        joints.push_back(factorsOf(affine));
     }
     std::vector<glm::dvec3> skinned;
     for (size_t v = 0; v < positions.size(); ++v) {
@@ -56,7 +34,7 @@ std::vector<glm::dvec3> skinWithDualQuaternions(std::span<const glm::dvec3> posi
         const glm::dquat side = glm::quat_cast(joints[heaviest.joint].rotation);
         DualQuaternion blend;
         for (const cage::Influence& i : influences) {
-            const Joint& joint = joints[i.joint];
+            const JointFactors& joint = joints[i.joint];
             // Stretched about itself the vertex stays; this translation and the rotation then take it where the joint
             // does.
             const glm::dvec3 translation = joint.translation + joint.rotation * (joint.stretch * p - p);

@@ -5,6 +5,7 @@
 #include "skinning/deform_twin.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
+#include "tests/support/skinnings.h"
 
 #include <cmath>
 #include <cstring>
@@ -112,8 +113,7 @@ public:
         crowd.context().run(crowd.group(), first);
         runtime::Group& own = group();
         const skinning::PoseLayout& layout = own.instances().poseLayout();
-        const skinning::DeformTable table =
-            skinning::buildDeformTable(character().cage, character().weights, character().morphs);
+        const skinning::DeformTable table = deformTableOf(own);
         const host::GroupOutput output = crowd.output();
         poses = as<float>(crowd.read(output.info.poses));
         const std::vector<float> cages = as<float>(crowd.read(output.info.deformedCage));

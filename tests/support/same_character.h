@@ -83,6 +83,7 @@ private:
         compare(at + ".firstTarget", a.firstTarget, b.firstTarget);
         compare(at + ".targetCount", a.targetCount, b.targetCount);
         check(at + ".uvMode", a.uvMode == b.uvMode);
+        check(at + ".skinning", a.skinning == b.skinning);
         check(at + ".madeFor", a.madeFor == b.madeFor);
         if (!overlooked_.source) {
             compare(at + ".polygonSource", a.polygonSource, b.polygonSource);

@@ -170,6 +170,7 @@ Character richCharacter() {
                         {"", {}, {}}};
     c.morphs.weights = {0.25f, 0.0f, 1.0f};
     c.parts[0].targetCount = 3;
+    c.parts[0].skinning = SkinningMode::centersOfRotation;
     c.parts[0].name = c.skeleton.nodes[c.parts[0].node].name;
 
     c.clips.resize(2);

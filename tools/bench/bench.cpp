@@ -10,6 +10,7 @@
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/scene.h"
+#include "tools/bench/skinning.h"
 #include "tools/bench/targets.h"
 #include "tools/bench/update_rates.h"
 #include "tools/bench/views.h"
@@ -63,6 +64,9 @@ public:
             status = scene();
         }
         if (status) {
+            status = skinning();
+        }
+        if (status) {
             status = classical();
         }
         if (status) {
@@ -89,6 +93,7 @@ private:
     Status views();
     Status updateRates();
     Status scene();
+    Status skinning();
     Status classical();
     Status heats();
     Status load();
@@ -167,7 +172,7 @@ void Run::describe(const tools::Machine& machine) {
                         {"AVX2", hasAvx2Evaluation() ? "AVX2 and FMA by hand, one thread" : "not on this CPU"},
                         {"OpenSubdiv CPU", peers_.cpu()},
                         {"OpenSubdiv GLSL", peers_.glsl()}};
-    for (const char* list : {"leftOut", "agreement", "classical", "rows", "loading", "pipelines"}) {
+    for (const char* list : {"leftOut", "agreement", "skinning", "classical", "rows", "loading", "pipelines"}) {
         result_[list] = Json::array();
     }
 }
@@ -285,6 +290,39 @@ Status Run::scene() {
         return measured.error();
     }
     result_["scene"] = std::move(*measured);
+    return keep();
+}
+
+/// The crowd's character and all that have joints.
+Status Run::skinning() {
+    std::vector<BenchCage> cages;
+    if (crowdSize() > 0) {
+        Result<BenchCage> character = makeCrowdCharacter();
+        if (!character) {
+            return character.error();
+        }
+        character->name = "crowd";
+        cages.push_back(std::move(*character));
+    }
+    cages.insert(cages.end(), cages_.begin(), cages_.end());
+    std::erase_if(cages, [&](const BenchCage& cage) { // one joint moves the others
+        return mostCharacters() == 0 || cage.character.skin.joints.size() < 2;
+    });
+    for (const BenchCage& cage : cages) {
+        SkinningDesc desc;
+        desc.cage = &cage;
+        desc.characters = mostCharacters();
+        desc.rounds = roundOptions();
+        desc.rounds.progress = [&](uint32_t round) {
+            std::fprintf(stderr, "\rskinning, %s: round %u of %u   ", cage.name.c_str(), round, options_.rounds);
+        };
+        Result<Json> row = measureSkinning(device_, *workbench_, desc);
+        std::fprintf(stderr, "\n");
+        if (!row) {
+            return row.error();
+        }
+        result_["skinning"].push_back(std::move(*row));
+    }
     return keep();
 }
 

@@ -267,6 +267,20 @@ std::string updateRateTable(const Json& rows) {
     return table.empty() ? "" : "## Update rates\n\n" + table.text(1);
 }
 
+/// Nanoseconds a vertex, and over dual quaternions.
+std::string skinningTable(const Json& rows) {
+    Table table({"deform pass", "vertices", "joints", "influences", "characters", "skinning", "ns a vertex",
+                 "/ dual quaternions", "least", "largest"});
+    for (const Json& row : rows) {
+        for (const Json& way : row["ways"]) {
+            table.add({row["cage"], row["vertices"].dump(), row["joints"].dump(), number(row["influences"]),
+                       row["characters"].dump(), way["skinning"], number(way["nanosecondsPerVertex"]),
+                       number(way["overDualQuaternions"]), number(way["least"]), number(way["largest"])});
+        }
+    }
+    return table.empty() ? "" : "## Skinning\n\n" + table.text();
+}
+
 /// The dense mesh first, then its skin, then cage and surface.
 void addClassicalLines(const Json& row, Table& table) {
     const std::string where = row["cage"].get<std::string>() + ", rate " + row["rate"].dump();
@@ -404,6 +418,7 @@ std::string toTables(const Json& result) {
     if (result.contains("scene")) {
         out += sceneTables(result["scene"]);
     }
+    out += skinningTable(result.value("skinning", Json::array()));
     out += classicalTables(result.value("classical", Json::array()));
     out += "## Loading, pipelines, targets\n\n" + loadingTable(result) + pipelineTables(result) + targetTable(result);
     return out;

@@ -44,6 +44,7 @@ constexpr double kLoadMicrosecondsAFace = 5.0, kStaticBytesAFace = 150.0;
 constexpr double kBandwidthShare = 0.70, kCrowdMilliseconds = 0.5, kOneCharacterMicroseconds = 40.0;
 constexpr double kAroundEvaluate = 0.6;
 constexpr double kUnseen = 0.02;
+constexpr double kCenters = 1.5;
 constexpr uint32_t kCrowd = 1000, kCrowdRate = 4;
 struct SceneLimits {
     const char* use;
@@ -165,6 +166,14 @@ Json judge(const Json& result) {
         add("level, place and attributes / evaluate, in a view", row["scheme"], row["aroundEvaluate"], kAroundEvaluate);
         add("frame with all unseen / with all seen, in a view", row["scheme"],
             row["unseenMs"].get<double>() / row["frameMs"].get<double>(), kUnseen);
+    }
+    for (const Json& row : result.value("skinning", Json::array())) {
+        for (const Json& way : row["ways"]) {
+            if (way["skinning"] == "centers") {
+                add("centers of rotation / dual quaternions, deform pass", row["cage"], way["overDualQuaternions"],
+                    kCenters);
+            }
+        }
     }
     if (result.contains("scene")) {
         judgeScene(result["scene"], add, targets);

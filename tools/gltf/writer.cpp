@@ -313,6 +313,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (!part.parts[0].name.empty()) {
             mesh["name"] = part.parts[0].name;
         }
+        if (const auto& skinning = part.parts[0].skinning) {
+            mesh["extensions"]["SUPPLE_deformers"]["skinning"] = skinningModeName(*skinning);
+        }
         meshes.push_back(std::move(mesh));
     }
     reportFeatures(character.cage, file.warnings);
@@ -335,6 +338,10 @@ GlbFile toGlb(const Character& character) {
 
     json root = newRoot(character);
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
+    if (std::any_of(character.parts.begin(), character.parts.end(),
+                    [](const Part& part) { return part.skinning.has_value(); })) {
+        root["extensionsUsed"].push_back("SUPPLE_deformers");
+    }
     writeNodes(character, skins, root, file.warnings);
     root["meshes"] = writeMeshes(character, skins, packer, file);
     for (const std::vector<uint32_t>& joints : skins.joints) {

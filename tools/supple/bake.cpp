@@ -108,8 +108,7 @@ Status writeBakedMeshes(const BakeOptions& options, const Evaluation& baked, con
 }
 
 /// The joint palette with the morph weights behind it, as SuppleGroupInfo.poses has them, without padding.
-Result<std::vector<std::byte>> readPalette(Session& session, SuppleAsset asset, SuppleSkinning skinning,
-                                           const SuppleBufferRange& poses) {
+Result<std::vector<std::byte>> readPalette(Session& session, SuppleAsset asset, const SuppleGroupInfo& group) {
     SuppleAssetInfo info{};
     info.structSize = sizeof info;
     const Status status =
@@ -117,10 +116,10 @@ Result<std::vector<std::byte>> readPalette(Session& session, SuppleAsset asset, 
     if (!status) {
         return status.error();
     }
-    Result<std::vector<std::byte>> palette = session.device->readBuffer(poses);
+    Result<std::vector<std::byte>> palette = session.device->readBuffer(group.poses);
     if (palette) {
         const size_t joints = info.jointCount;
-        const size_t rows = skinning == SUPPLE_SKINNING_DUAL_QUATERNION ? 3 + 4 * joints : 3 * joints;
+        const size_t rows = group.skinning == SUPPLE_SKINNING_LINEAR ? 3 * joints : 3 + 4 * joints;
         palette->resize(sizeof(float) * (4 * rows + info.morphTargetCount));
     }
     return palette;
@@ -150,8 +149,7 @@ void printHashes(std::span<const std::byte> palette, const Evaluation& baked, bo
 
 /// Reads what only the hashes need, and prints them.
 Status writeHashes(Session& session, SuppleAsset asset, const BakeOptions& options, const Evaluation& baked) {
-    const Result<std::vector<std::byte>> palette =
-        readPalette(session, asset, skinningOf(options.surface.skinning), baked.surfaces.front().output.info.poses);
+    const Result<std::vector<std::byte>> palette = readPalette(session, asset, baked.surfaces.front().output.info);
     if (!palette) {
         return palette.error();
     }

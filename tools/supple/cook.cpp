@@ -26,7 +26,7 @@ struct CookOptions {
     std::vector<std::string> uses{"grids", "levels"};
     std::string mapping = "both";
     double clipError = 1e-4;
-    SurfaceFlags surface; ///< --scheme and --rate are the lists above
+    SurfaceFlags surface; ///< --skinning; --scheme and --rate are the lists above
 };
 
 struct PreparedDeleter {
@@ -182,6 +182,9 @@ std::string madeByOf(const CookOptions& options) {
     add("--scheme", options.schemes, asIs);
     add("--rate", options.rates, [](uint32_t rate) { return std::to_string(rate); });
     add("--for", options.uses, asIs);
+    if (options.surface.skinning != SurfaceFlags().skinning) {
+        line += " --skinning " + options.surface.skinning;
+    }
     char clipError[32];
     std::snprintf(clipError, sizeof clipError, " --clip-error %g", options.clipError);
     return line + " --mapping " + options.mapping + clipError + readingOf(options.surface.reading);
@@ -235,6 +238,7 @@ void bindCook(CLI::App& app, int& exitCode) {
     command->add_option("--mapping", options->mapping, "Devices: CPUs are narrow, GPUs wide")
         ->check(CLI::IsMember({"narrow", "wide", "both"}))
         ->capture_default_str();
+    bindSkinning(*command, options->surface.skinning);
     bindClipError(*command, options->clipError);
     bindReading(*command, options->surface.reading);
     command->callback([options, &exitCode] {

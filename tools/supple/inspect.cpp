@@ -281,6 +281,8 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["weldSource"] = cage::weldSourceName(character.parts[0].weldSource);
     const std::optional<cage::UvMode> uvMode = character.parts[0].uvMode;
     json["uvMode"] = uvMode ? Json(cage::uvModeName(*uvMode)) : Json();
+    const std::optional<cage::SkinningMode> skinning = character.parts[0].skinning;
+    json["skinning"] = skinning ? Json(cage::skinningModeName(*skinning)) : Json();
     json["parts"] = partsToJson(character);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
@@ -471,6 +473,9 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     printLine("welded by", cage::weldSourceName(character.parts[0].weldSource));
     if (const std::optional<cage::UvMode> uvMode = character.parts[0].uvMode) {
         printLine("UV interpolation", cage::uvModeName(*uvMode));
+    }
+    if (const std::optional<cage::SkinningMode> skinning = character.parts[0].skinning) {
+        printLine("skinning", cage::skinningModeName(*skinning));
     }
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");

@@ -101,6 +101,10 @@ void bindRate(CLI::App& command, uint32_t& rate) {
 namespace {
 
 /// By SuppleUvInterpolation.
+/// By SuppleSkinning.
+constexpr const char* kSkinnings[] = {"linear", "dual-quaternion", "centers", "file"};
+static_assert(SUPPLE_SKINNING_FROM_FILE == std::size(kSkinnings) - 1);
+
 constexpr const char* kUvModes[] = {"file", "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
 
 /// An option that may be given again: each text is parsed into one more setting.
@@ -144,10 +148,14 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
     bindSettings(command, "--part-scheme", partSchemes, host::parsePartScheme,
                  "The scheme of a part, by name or index, instead of --scheme. May be given again", "PART=SCHEME");
     bindRate(command, rate);
-    command.add_option("--skinning", skinning, "How joints move the cage")
-        ->check(CLI::IsMember({"linear", "dual-quaternion"}))
-        ->capture_default_str();
+    bindSkinning(command, skinning);
     bindReading(command, reading);
+}
+
+void bindSkinning(CLI::App& command, std::string& skinning) {
+    command.add_option("--skinning", skinning, "How joints move the cage; file: as the file says, or linearly")
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(kSkinnings), std::end(kSkinnings))))
+        ->capture_default_str();
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
@@ -224,7 +232,12 @@ SuppleFragmentRules rulesOf(const std::string& name) {
 }
 
 SuppleSkinning skinningOf(const std::string& name) {
-    return name == "dual-quaternion" ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
+    return static_cast<SuppleSkinning>(std::find(std::begin(kSkinnings), std::end(kSkinnings), name) -
+                                       std::begin(kSkinnings));
+}
+
+const char* skinningName(SuppleSkinning skinning) {
+    return kSkinnings[skinning];
 }
 
 void bindPose(CLI::App& command, std::string& clip, double& time, const std::string& without) {

@@ -50,13 +50,15 @@ struct SurfaceFlags {
     float sharpThreshold = 1.0f;
     std::string rules = "catmull-clark"; ///< of fragments
     std::string uvMode = "file";
-    std::string skinning = "linear";
+    std::string skinning = "file";
     host::ReadOptions reading;
 };
 /// `extraSchemes`: what --scheme also takes here, such as "cage".
 void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartScheme>& partSchemes, uint32_t& rate,
                 std::string& skinning, host::ReadOptions& reading, const std::vector<std::string>& extraSchemes = {});
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes = {});
+/// --skinning alone.
+void bindSkinning(CLI::App& command, std::string& skinning);
 /// --creases and --sharp.
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold);
 /// --rules.
@@ -80,8 +82,9 @@ struct SchemeOptions {
 [[nodiscard]] SuppleFragmentRules rulesOf(const std::string& name);
 /// --uv-mode: "file", or a name of OpenSubdiv's.
 [[nodiscard]] SuppleUvInterpolation uvInterpolationOf(const std::string& name);
-/// --skinning: "linear" or "dual-quaternion".
+/// --skinning: "linear", "dual-quaternion", "centers" or "file".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
+[[nodiscard]] const char* skinningName(SuppleSkinning skinning);
 
 /// --rate alone.
 void bindRate(CLI::App& command, uint32_t& rate);

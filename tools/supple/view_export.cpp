@@ -48,7 +48,7 @@ DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const Ex
     DrawOptions draw = given;
     draw.scheme = settings.cageFaces ? "cage" : schemeName(stage.scheme());
     draw.rate = static_cast<uint32_t>(settings.rate);
-    draw.skinning = stage.skinning() == SUPPLE_SKINNING_DUAL_QUATERNION ? "dual-quaternion" : "linear";
+    draw.skinning = skinningName(stage.skinning());
     draw.view = kViews[settings.view].name;
     if (settings.view == host::shared::kViewWeights)
         draw.joint = std::to_string(settings.joint);

@@ -226,9 +226,9 @@ void buildScheme(const ViewStage& stage, PanelWishes& wishes) {
         }
         ImGui::EndCombo();
     }
-    int skinning = stage.skinning() == SUPPLE_SKINNING_DUAL_QUATERNION ? 1 : 0;
-    if (ImGui::Combo("skinning", &skinning, "linear\0dual quaternion\0"))
-        wishes.skinning = skinning == 1 ? SUPPLE_SKINNING_DUAL_QUATERNION : SUPPLE_SKINNING_LINEAR;
+    int skinning = stage.skinning();
+    if (ImGui::Combo("skinning", &skinning, "linear\0dual quaternion\0centers of rotation\0as the file says\0"))
+        wishes.skinning = static_cast<SuppleSkinning>(skinning);
 }
 
 /// What is painted on the surface.

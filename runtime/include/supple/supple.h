@@ -903,11 +903,18 @@ typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_MAX_ENUM = 0x7FFFFFFF
 } SuppleVertexFormat;
 
-/** How several joints move one vertex. DUAL_QUATERNION keeps the girth of a limb that twists or bends. Joints may scale
- * and shear with both. A vertex that follows one joint alone moves the same with both. */
+/** How several joints move one vertex. DUAL_QUATERNION keeps the girth of a limb that twists or bends, and bulges where
+ * it bends far. CENTERS_OF_ROTATION keeps the girth too, with less of a bulge. Joints may scale and shear with all. A
+ * vertex that follows one joint alone moves the same with all. docs/skinning.md compares them. */
 typedef enum SuppleSkinning {
     SUPPLE_SKINNING_LINEAR = 0,
     SUPPLE_SKINNING_DUAL_QUATERNION = 1,
+    /** Each vertex turns about a point of the rest pose. The first group that asks for it finds these points, one per
+     * cage vertex, unless they are prepared (supple_prepare.h). */
+    SUPPLE_SKINNING_CENTERS_OF_ROTATION = 2,
+    /** What the file says of the meshes (SUPPLE_deformers: skinning): of the first part of which it says something. If
+     * it says nothing, LINEAR. */
+    SUPPLE_SKINNING_FROM_FILE = 3,
     SUPPLE_SKINNING_MAX_ENUM = 0x7FFFFFFF
 } SuppleSkinning;
 
@@ -1342,8 +1349,8 @@ typedef struct SuppleGroupInfo {
     SuppleBufferRange deformedCage;
     /** Per slot (stride bytes): per joint three rows of four floats, the 3x4 matrix transform * joint * inverse bind,
      * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With
-     * SUPPLE_SKINNING_DUAL_QUATERNION: first the three rows of the transform; per joint the three rows of joint *
-     * inverse bind, then its rotation as a quaternion (x, y, z, w); then the weights. Null with
+     * SUPPLE_SKINNING_DUAL_QUATERNION and _CENTERS_OF_ROTATION: first the three rows of the transform; per joint the
+     * three rows of joint * inverse bind, then its rotation as a quaternion (x, y, z, w); then the weights. Null with
      * SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferRange poses;
     /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. Groups
@@ -1361,7 +1368,8 @@ typedef struct SuppleGroupInfo {
      * That is a multiple of 256 bytes, but not in `poses` of a group that follows another one. Bind all other buffers
      * as a whole. Without SUPPLE_GROUP_WINDOWS draws need no windows, however many there are. */
     uint32_t windowCount;
-    uint32_t windowSize; /**< slots per window; the last one may have fewer */
+    uint32_t windowSize;     /**< slots per window; the last one may have fewer */
+    SuppleSkinning skinning; /**< how Supple skins its cages, if it does: never FROM_FILE */
 } SuppleGroupInfo;
 
 /** Fills out. */

@@ -31,6 +31,40 @@ Strings partNames(const Character& c) {
     return names;
 }
 
+/// Two nodes with a triangle each, whose meshes say how they are skinned.
+GltfBuilder skinnedBy(const std::string& first, const std::string& second) {
+    GltfBuilder b = trianglesAt(R"([{"name":"a","mesh":0},{"name":"b","mesh":1,"translation":[9,0,0]}])",
+                                R"(,"extensionsUsed":["SUPPLE_deformers"])");
+    const auto mesh = [](const std::string& value) {
+        return R"({"extensions":{"SUPPLE_deformers":)" + value + R"(},"primitives":[{"attributes":{"POSITION":0}}]})";
+    };
+    b.meshes = "[" + mesh(first) + "," + mesh(second) + "]";
+    return b;
+}
+
+TEST(GltfDeformers, MeshesNameTheirSkinning) {
+    for (const SkinningMode mode :
+         {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation}) {
+        const std::string named = R"({"skinning":")" + std::string(skinningModeName(mode)) + R"("})";
+        const Character c = readWell(skinnedBy(named, "{}"), kStrict);
+        EXPECT_EQ(c.parts[0].skinning, mode);
+        EXPECT_EQ(c.parts[1].skinning, std::nullopt);
+        EXPECT_EQ(c.warnings, Strings());
+    }
+    const GltfBuilder both = skinnedBy(R"({"skinning":"centersOfRotation"})", R"({"skinning":"linear"})");
+    EXPECT_EQ(saidOf(both.glb()), "part \"b\": its skinning is \"linear\"; part \"a\" comes first, so that all are "
+                                  "skinned by \"centersOfRotation\"");
+}
+
+TEST(GltfDeformers, OtherNamesAreToldApart) {
+    const std::string place = "mesh 0 SUPPLE_deformers skinning: ";
+    EXPECT_EQ(saidOf(skinnedBy(R"({"skinning":"deltaMush"})", "{}").glb()), place + "\"deltaMush\" is not followed");
+    const GltfBuilder other = skinnedBy(R"({"skinning":"centres"})", "{}");
+    EXPECT_EQ(saidOf(other.glb()), place + "\"centres\" is not allowed; left out");
+    EXPECT_EQ(messageOf(other), "t.glb: " + place + "\"centres\" is not allowed");
+    EXPECT_EQ(messageOf(skinnedBy(R"({"skinning":3})", "{}")), "t.glb: " + place + "not a string");
+}
+
 TEST(GltfVisibility, HiddenNodesAreNotDrawn) {
     const std::string nodes = R"([{"name":"a","mesh":0},{"name":"b","mesh":0,"translation":[9,0,0],)" + kHidden +
                               R"(},{"name":"c","mesh":0,"translation":[18,0,0],)" + visible("") + "}]";
