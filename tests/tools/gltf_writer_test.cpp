@@ -289,9 +289,10 @@ TEST(GltfWriter, SharpnessOfClipsComesBack) {
 
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
-    EXPECT_EQ(glb.root["extensionsUsed"],
-              json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "EXT_texture_webp", "KHR_materials_emissive_strength",
-                    "KHR_materials_unlit", "KHR_texture_basisu", "KHR_texture_transform"}));
+    EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",
+                                                "EXT_texture_webp", "KHR_materials_emissive_strength",
+                                                "KHR_materials_unlit", "KHR_texture_basisu", "KHR_texture_transform"}));
+    EXPECT_EQ(glb.root["meshes"][0]["extensions"], json({{"SUPPLE_deformers", {{"skinning", "centersOfRotation"}}}}));
     EXPECT_EQ(glb.root["extensionsRequired"], json({"EXT_texture_webp", "KHR_texture_basisu"}))
         << "textures with nothing but these";
     ASSERT_EQ(glb.root["meshes"][0]["primitives"].size(), 3u);
