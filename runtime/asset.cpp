@@ -165,6 +165,12 @@ Status Asset::makeClips(const gpu::Device& device) {
     return success();
 }
 
+void Asset::measureUpdates() {
+    if (updates.ofClips.size() != character.clips.size()) {
+        updates = skinning::measureUpdates(character);
+    }
+}
+
 gpu::MemoryUse Asset::memoryUse() const {
     gpu::MemoryUse use = buffers.use();
     use += clips.use();

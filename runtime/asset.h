@@ -6,6 +6,7 @@
 #include "runtime/clip_bounds.h"
 #include "runtime/prepared.h"
 #include "skinning/contacts.h"
+#include "skinning/update_errors.h"
 #include "supple/supple.h"
 
 #include <memory>
@@ -48,6 +49,7 @@ struct Asset {
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
     std::optional<skinning::Reach> ownReach; ///< made for the first group of a view, if it was not prepared
+    skinning::UpdateFacts updates;           ///< made for the first group with update rates
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -74,6 +76,8 @@ struct Asset {
     tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// Sees to it that `updates` is there.
+    void measureUpdates();
     /// How far the character reaches in any pose of its clips.
     [[nodiscard]] const skinning::Reach& reach();
     [[nodiscard]] gpu::MemoryUse memoryUse() const;

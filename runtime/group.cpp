@@ -4,6 +4,7 @@
 #include "surface/grid.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace supple::runtime {
 
@@ -121,7 +122,8 @@ Status Group::createInstances(const GroupShared& shared) {
     Result<std::shared_ptr<InstanceSet>> instances = InstanceSet::create(
         {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(desc_), desc_.capacity,
          shared.firstGeneration, shared.framesInFlight,
-         StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0},
+         StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0,
+                   (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0},
          shared.handsOver});
     if (!instances) {
         return instances.error();
@@ -157,8 +159,12 @@ Status Group::createListing(const GroupShared& shared) {
     listing_ = InstanceListing(std::move(*windows), view_ == nullptr && surfaces_.haveGrids() ? &drawnParts_ : nullptr);
     constexpr uint32_t kPosesAll = SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_BOUNDS;
     if (view_ != nullptr && view_->culls() && !follows() && (desc_.flags & kPosesAll) == 0 && stages_.keepReach()) {
-        outOfSight_ = OutOfSight(asset_->reach(), boundsMargin(), capacity);
+        outOfSight_ = OutOfSight(capacity);
         listing_.leaveOut(&outOfSight_);
+    }
+    const bool chooses = view_ != nullptr && (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
+    if (outOfSight_.isAskedFor() || chooses) {
+        boxes_ = InstanceBoxes(asset_->reach(), boundsMargin(), capacity);
     }
     return follows() ? success() : instances_->makeBuffers(windowed);
 }
@@ -446,6 +452,9 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
+    if (boxes_.areAskedFor()) {
+        boxes_.find(slots(), poses());
+    }
     changed = findUnseen() || changed;
     if (changed) {
         visibility_->list(slots(), listing_);
@@ -453,6 +462,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     if (changed || handsOver_) {
         cost.bytes += listing_.recordCopies(*device_, commandBuffer) + visibility_->recordUpload(commandBuffer);
     }
+    cost += recordPoseList(commandBuffer, frame.number);
     for (const auto& surface : surfaces_) {
         surface->setPastStep(step);
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
@@ -466,7 +476,24 @@ bool Group::findUnseen() {
         return false;
     }
     // Groups that draw the same instances read their deformed cages, wherever their views look.
-    return instances_.use_count() > 1 ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), poses());
+    return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_.boxes());
+}
+
+PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
+    Playback* const playback = follows() ? nullptr : poses().playback();
+    if (playback == nullptr || !playback->takesUpdateRates()) {
+        return {};
+    }
+    const shared::LodCamera camera = boxes_.areAskedFor() ? view_->cullView().camera : shared::LodCamera{};
+    const bool unknown = drawnElsewhere(); // in views that may look from nearer by
+    for (uint32_t slot = 0; boxes_.areAskedFor() && slot < slots().end(); ++slot) {
+        if (listing_.worksOn(slots(), slot) && playback->asksForSize(slot)) {
+            playback->setSize(slot, unknown ? std::numeric_limits<float>::infinity()
+                                            : pixelsPerUnit(camera, boxes_.boxes(), slot));
+        }
+    }
+    playback->listPoses(windows(), slots().end(), [&](uint32_t slot) { return listing_.worksOn(slots(), slot); });
+    return {0, playback->recordList(commandBuffer, frame)};
 }
 
 PassCost Group::recordBounds(gpu::Dispatches& dispatches) const {

@@ -8,6 +8,7 @@
 #include "runtime/asset_match.h"
 #include "runtime/culling/bounds_readback.h"
 #include "runtime/culling/culling.h"
+#include "runtime/culling/instance_boxes.h"
 #include "runtime/culling/listed_bounds.h"
 #include "runtime/culling/out_of_sight.h"
 #include "runtime/group_recipe.h"
@@ -166,8 +167,12 @@ private:
     /// Whether the view's pool has room for an instance.
     [[nodiscard]] Status checkPool() const;
     [[nodiscard]] Status createVisibility();
+    /// Whether other groups draw its instances too.
+    [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// With update rates: chooses them by sizes on the screen, and lists what is posed.
+    PassCost recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame);
     /// What is hashed of the group, a hash each.
     struct Hashed {
         HashedStage stage = HashedStage::palettes;
@@ -190,6 +195,7 @@ private:
     std::shared_ptr<InstanceSet> instances_;
     DrawnParts drawnParts_;
     InstanceListing listing_;
+    InstanceBoxes boxes_; ///< if the group belongs to a view that asks for them
     OutOfSight outOfSight_;
     std::unique_ptr<Visibility> visibility_;
     Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view

@@ -7,13 +7,14 @@
 
 namespace supple::runtime {
 
-skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode, uint32_t strideMultiple) {
+skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode, uint32_t runs,
+                                  uint32_t strideMultiple) {
     const cage::Character& character = asset.character;
     // Weights of targets that move nothing stay on the CPU.
     const size_t morphs = asset.firstInfluences != 0 ? character.morphs.targets.size() : 0;
     skinning::PoseLayout layout = skinning::PoseLayout::of(mode, static_cast<uint32_t>(character.skin.joints.size()),
                                                            static_cast<uint32_t>(morphs));
-    layout.stride = (layout.stride + strideMultiple - 1) / strideMultiple * strideMultiple;
+    layout.stride = (layout.runStride * runs + strideMultiple - 1) / strideMultiple * strideMultiple;
     return layout;
 }
 

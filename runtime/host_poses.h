@@ -18,7 +18,7 @@
 namespace supple::runtime {
 
 /// The layout of an instance's pose for this asset. Its stride is a multiple of `strideMultiple` elements.
-[[nodiscard]] skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode,
+[[nodiscard]] skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode, uint32_t runs,
                                                 uint32_t strideMultiple);
 
 /// Setting a pose allocates nothing. Every setter of a pose sets the clip's morph weights too; those of setMorphWeights

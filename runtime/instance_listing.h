@@ -53,6 +53,8 @@ public:
     void listForCulling(const InstanceSlots& slots, std::span<uint32_t> all) const;
     /// What the next lists leave out; null: nothing. It must outlive them.
     void leaveOut(const OutOfSight* unseen) { unseen_ = unseen; }
+    /// Whether the frame works on the instance in the slot.
+    [[nodiscard]] bool worksOn(const InstanceSlots& slots, uint32_t slot) const;
     /// Every instance is new to the next list().
     void forgetAll();
 
@@ -65,8 +67,6 @@ private:
     /// The visible slots of a draw window that show the part, rising; how many.
     [[nodiscard]] uint32_t listPart(const InstanceSlots& slots, uint32_t part, uint32_t window,
                                     std::span<uint32_t> out) const;
-    /// Whether the frame works on the instance in the slot.
-    [[nodiscard]] bool worksOn(const InstanceSlots& slots, uint32_t slot) const;
     [[nodiscard]] bool hasPast(const InstanceSlots& slots, uint32_t slot) const {
         return lives_[slot] == slots.life(slot);
     }

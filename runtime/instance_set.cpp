@@ -34,6 +34,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (!status) {
         return status.error();
     }
+    if (desc.room.updateRates) {
+        desc.asset->measureUpdates();
+    }
     set->slots_ = InstanceSlots(desc.capacity, desc.firstGeneration, static_cast<uint32_t>(desc.asset->parts.size()));
     set->userData_ = UserData(desc.capacity);
     const bool hasSets = !desc.asset->character.cage.creaseSets.empty();
@@ -46,7 +49,8 @@ uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {
 }
 
 BoundBytes InstanceSet::boundBytes(bool windowed) const {
-    const skinning::PoseLayout layout = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
+    const skinning::PoseLayout layout =
+        poseLayoutOf(*desc_.asset, desc_.mode, desc_.room.poseRuns(), windowed ? kPosePadding : 1);
     return {std::max(VkDeviceSize{cageStride_} * gpu::kVec4Bytes,
                      poseWindowBytes(desc_.source, *desc_.asset, layout, desc_.room)),
             0};
@@ -56,7 +60,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
     constexpr VkBufferUsageFlags kInput = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
+    layout_ = poseLayoutOf(*desc_.asset, desc_.mode, desc_.room.poseRuns(), windowed ? kPosePadding : 1);
     poses_ = makePoseSource(desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity,
                                            desc_.framesInFlight, desc_.room});
     addMember(*poses_);

@@ -2,9 +2,11 @@
 
 #include "gpu/tasks.h"
 #include "skinning/joints.h"
+#include "skinning/played_pose.h"
 #include "skinning/split_time.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace supple::runtime {
@@ -40,6 +42,11 @@ uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) 
                   (room.modifiers ? table.footCount : 0));
 }
 
+/// Poses of an instance that may be made in one frame.
+uint32_t posesInFrame(const StateRoom& room) {
+    return room.updateRates ? 2 : 1;
+}
+
 /// What the pose pass's dispatches of any window have in common.
 PosePush constantsOf(const Playback::Desc& desc) {
     const skinning::ClipTable& table = *desc.asset->clipTable;
@@ -58,6 +65,7 @@ PosePush constantsOf(const Playback::Desc& desc) {
     push.scratchStride = scratchStride(table, desc.room);
     push.contacts = table.contacts;
     push.poseStride = desc.layout.stride;
+    push.runStride = desc.layout.runStride;
     push.morphWeights = desc.layout.morphWeights;
     return push;
 }
@@ -72,7 +80,8 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
-    return std::max(stateStride(table, layout, room), scratchStride(table, room)) * gpu::kVec4Bytes;
+    return std::max(stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room)) *
+           gpu::kVec4Bytes;
 }
 
 Result<Playback> Playback::create(const Desc& desc) {
@@ -94,6 +103,11 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
     playback.twin_ = skinning::PoseTwin(table, desc.layout, push.transition);
+    if (desc.room.updateRates) {
+        playback.laterTwin_ = playback.twin_;
+        playback.rates_ = UpdateRates(desc.capacity);
+        playback.list_ = PoseList(desc.capacity, (desc.capacity + desc.windowSize - 1) / desc.windowSize);
+    }
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ = PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion,
@@ -132,8 +146,11 @@ Status Playback::createBuffers(const Desc& desc) {
     requests[kStates] = {"supple playback", capacity_ * stateBytes(), kStorage | kTexels | kCopied,
                          gpu::MemoryPurpose::poses};
     requests[kMasks] = {"supple masks", maskBytes, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
-    requests[kScratch] = {"supple node matrices", capacity_ * push_.scratchStride * gpu::kVec4Bytes, kStorage | kTexels,
-                          gpu::MemoryPurpose::scratch};
+    requests[kScratch] = {"supple node matrices",
+                          capacity_ * posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes,
+                          kStorage | kTexels, gpu::MemoryPurpose::scratch};
+    const VkDeviceSize ofList = takesUpdateRates() ? listBytes() : 0;
+    requests[kList] = {"supple list of poses", ofList, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
     if (!buffers) {
         return buffers.error();
@@ -143,6 +160,8 @@ Status Playback::createBuffers(const Desc& desc) {
     staging[kStateStaging] = {"supple playback staging", capacity_ * stateBytes() * framesInFlight_,
                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     staging[kMaskStaging] = {"supple mask staging", maskBytes * framesInFlight_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+    staging[kListStaging] = {"supple list of poses staging", ofList * framesInFlight_,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     Result<gpu::BufferSet> stagingSet = gpu::BufferSet::create(*desc.device, staging, gpu::MemoryKind::upload);
     if (!stagingSet) {
         return stagingSet.error();
@@ -162,10 +181,11 @@ Status Playback::createSets(const Desc& desc) {
     const VkDeviceSize tableBytes = asset_->clips.size(0), maskBytes = buffers_.size(kMasks);
     const VkBufferView tableView = view(table, gpu::kUint4, 0, tableBytes, "supple clips");
     const VkBufferView maskView = view(masks, gpu::kFloat4, 0, maskBytes, "supple masks");
-    const VkBufferView instanceView =
-        view(desc.instances, VK_FORMAT_R32_UINT, 0, desc.instanceBytes, "supple instances");
+    const VkBuffer list = takesUpdateRates() ? buffers_.buffer(kList) : desc.instances;
+    const VkDeviceSize listed = takesUpdateRates() ? listBytes() : desc.instanceBytes;
+    const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listed, "supple instances");
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
-                       scratchBytes = push_.scratchStride * gpu::kVec4Bytes;
+                       scratchBytes = posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes;
     for (uint32_t w = 0; w < windows && status; ++w) {
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
@@ -187,8 +207,12 @@ Status Playback::createSets(const Desc& desc) {
              {},
              view(scratch, gpu::kFloat4, first * scratchBytes, count * scratchBytes, "supple node matrices")},
             {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
-            {kInstanceBinding, {desc.instances, 0, desc.instanceBytes}, VK_NULL_HANDLE},
-            {kInstanceTexelBinding, {}, instanceView},
+            {kEndsBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
+            {kEndsTexelBinding,
+             {},
+             view(desc.poses, gpu::kFloat4, first * poseBytes, count * poseBytes, "supple poses")},
+            {kInstanceBinding, {list, 0, listed}, VK_NULL_HANDLE},
+            {kInstanceTexelBinding, {}, listView},
         };
         if (status) {
             sets_.write(device, kernels_->layout(), w, resources);
@@ -215,10 +239,23 @@ void Playback::forget(uint32_t slot) {
     }
 }
 
+void Playback::forgetEnds(uint32_t slot) {
+    if (takesUpdateRates()) {
+        rates_.forget(slot);
+    }
+}
+
 void Playback::evaluate(uint32_t slot) {
-    if (evaluated_ != slot) {
+    if (evaluated_ == slot) {
+        return;
+    }
+    evaluated_ = slot;
+    evaluatedSpan_ = spanOf(slot);
+    if (evaluatedSpan_.isExact()) {
         twin_.pose(stateWords(slot), masks_, time_);
-        evaluated_ = slot;
+    } else {
+        twin_.pose(stateWords(slot), masks_, evaluatedSpan_.begin, skinning::PoseTwin::Stands::unplaced);
+        laterTwin_.pose(stateWords(slot), masks_, evaluatedSpan_.end, skinning::PoseTwin::Stands::unplaced);
     }
 }
 
@@ -228,12 +265,18 @@ glm::mat4 Playback::jointTransform(uint32_t slot, uint32_t joint) {
         return skinning::placedJoint(glm::dmat4(own.transform()), asset_->jointFrames.bind[joint]);
     }
     evaluate(slot);
-    return twin_.placedJoint(joint);
+    return evaluatedSpan_.isExact()
+               ? twin_.placedJoint(joint)
+               : twin_.placedJointBetween(laterTwin_, evaluatedSpan_.partAt(time_), stateWords(slot), joint);
 }
 
 void Playback::writePose(uint32_t slot, std::span<glm::vec4> pose) {
     evaluate(slot);
-    twin_.write(pose);
+    if (evaluatedSpan_.isExact()) {
+        twin_.write(pose);
+    } else {
+        twin_.writeBetween(laterTwin_, evaluatedSpan_.partAt(time_), stateWords(slot), pose);
+    }
 }
 
 void Playback::setTime(double seconds) {
@@ -250,6 +293,9 @@ void Playback::reset(uint32_t slot) {
     own.setModifierCount(0);
     own.setBindPose();
     bounds_.setBindPose(slot);
+    if (takesUpdateRates()) {
+        rates_.set(slot, {});
+    }
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
     }
@@ -300,7 +346,8 @@ void Playback::startTransition(uint32_t slot, const TransitionRequest& request) 
     transitions_.end = std::max(transitions_.end, end);
 }
 
-void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request) {
+void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request,
+                   uint32_t updateInterval) {
     forget(slot);
     skinning::PlaybackState own = state(slot);
     const bool starts = request.seconds > 0.0f && !own.inBindPose(), keeps = request.keeps && own.isInTransition();
@@ -315,6 +362,9 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
     } else if (keeps) {
         own.setInTransition(true);
         bounds_.setTransition(slot, before);
+    }
+    if (takesUpdateRates()) {
+        rates_.set(slot, courseOf(desc, updateInterval));
     }
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
@@ -341,6 +391,7 @@ void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modif
     modifiers_.set(slot, state(slot), *asset_->clipTable, modifiers, origin_);
     modifies_ = modifies_ || !modifiers.empty();
     takeModifiers(slot);
+    forgetEnds(slot);
     markChanged(slot);
 }
 
@@ -398,6 +449,7 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     forget(slot);
+    forgetEnds(slot);
     state(slot).setMorphWeights(weights, push_.morphCount);
     markChanged(slot);
 }
@@ -412,6 +464,7 @@ void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<c
         std::copy(joints.begin(), joints.end(), own.begin());
     }
     evaluated_ = kNoSlot;
+    rates_.forgetAll();
     masksSet_[mask - 1] = joints.empty() ? MaskKind::morphs : MaskKind::joints;
     masksChanged_ = true;
 }
@@ -453,7 +506,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
     if (desc.root.node != cage::kNone) {
         desc.root.node = match.nodes[desc.root.node];
     }
-    set(slot, desc);
+    set(slot, desc, {}, other.takesUpdateRates() ? other.rates_.course(slot).asked : 0);
 }
 
 void Playback::takeOverMasks(const Playback& other, const AssetMatch& match) {
@@ -494,6 +547,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         const size_t words = size_t{push_.stateStride} * 4 * count;
         std::copy_n(other.states_.begin(), words, states_.begin());
         bounds_.takeOver(other.bounds_, count);
+        rates_.takeOver(other.rates_, count);
     } else {
         takeOverMasks(other, match);
     }
@@ -573,6 +627,114 @@ void Playback::cancelUpload(uint64_t frame) {
         }
     }
     masksChanged_ = masksChanged_ || masksFrame_ == frame;
+    if (listFrame_ == frame) {
+        rates_.forgetAll();
+    }
+}
+
+UpdateCourse Playback::courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const {
+    UpdateCourse course;
+    course.asked = updateInterval;
+    for (size_t n = 0; n < UpdateCourse::kIntervals.size(); ++n) {
+        double blended = 0.0, added = 0.0;
+        for (const skinning::PlaybackLayer& layer : desc.layers) {
+            const double speed = std::abs(static_cast<double>(layer.speed));
+            const double own = asset_->updates.ofClips[layer.clip].at(speed * UpdateCourse::kIntervals[n]);
+            const double weight =
+                std::max(std::abs(layer.weight), layer.fadeDuration > 0.0f ? std::abs(layer.fadeWeight) : 0.0f);
+            if (weight > 0.0 && layer.mode == skinning::LayerMode::additive) {
+                added += weight * own;
+            } else if (weight > 0.0) {
+                blended = std::max(blended, own);
+            }
+        }
+        course.errors[n] = static_cast<float>(blended + added);
+    }
+    return course;
+}
+
+void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
+    const glm::mat3 linear(transforms_[slot]);
+    const float scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+    const uint32_t before = rates_.interval(slot);
+    rates_.choose(slot, pixelsPerUnit * scale * static_cast<float>(asset_->updates.extent));
+    if (rates_.interval(slot) != before) {
+        forget(slot);
+    }
+}
+
+bool Playback::crossesSeam(uint32_t slot, const PoseSpan& span) {
+    constexpr double kSlack = 1e-5; // as finely as the device tells times apart
+    const skinning::PlaybackState own = state(slot);
+    if (own.inBindPose()) {
+        return false;
+    }
+    skinning::PlaybackState::Layers memory;
+    const skinning::PlaybackDesc desc = own.read(*asset_->clipTable, memory);
+    for (const skinning::PlaybackLayer& layer : desc.layers) {
+        const bool travels = desc.travels && &layer == desc.layers.data();
+        if (asset_->updates.ofClips[layer.clip].closes && !travels) {
+            continue;
+        }
+        if (skinning::loopsAt(asset_->character, layer, span.begin - kSlack) !=
+            skinning::loopsAt(asset_->character, layer, span.end + kSlack)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+PoseSpan Playback::spanOf(uint32_t slot) {
+    const uint32_t interval = takesUpdateRates() ? rates_.interval(slot) : 1;
+    if (interval <= 1 || state(slot).modifierCount() > 0) {
+        return exactSpan(time_);
+    }
+    const PoseSpan span = gridSpan(time_, slot, interval);
+    if (rates_.holds(slot, span)) { // then it was found to be one
+        return span;
+    }
+    const bool broken = bounds_.transition(slot).meets(span.begin, span.end) || crossesSeam(slot, span);
+    return broken ? exactSpan(time_) : span;
+}
+
+void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
+    const PoseSpan span = spanOf(slot);
+    if (span.isExact()) {
+        list_.addPose(slotInWindow, 0, time_);
+        return;
+    }
+    const UpdateRates::Ends ends = rates_.take(slot, span);
+    for (uint32_t i = 0; i < ends.dueCount; ++i) {
+        list_.addPose(slotInWindow, ends.due[i].run, ends.due[i].time);
+    }
+    list_.addMix(slotInWindow, ends.earlier, span.partAt(time_));
+}
+
+VkDeviceSize Playback::recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
+    const std::span<const uint32_t> words = list_.words();
+    if (words.empty()) {
+        return 0;
+    }
+    const VkDeviceSize from = frame % framesInFlight_ * listBytes();
+    std::memcpy(staging_.mapped(kListStaging) + from, words.data(), words.size_bytes());
+    const VkBufferCopy region{from, 0, words.size_bytes()};
+    device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(kListStaging), buffers_.buffer(kList), 1, &region);
+    listFrame_ = frame;
+    return words.size_bytes();
+}
+
+bool Playback::has(Part part) const {
+    const bool posed = !takesUpdateRates() || list_.poseCount() > 0;
+    switch (part) {
+    case Part::roots:
+        return posed && (roots_ || plants_);
+    case Part::modifiers:
+        return posed && modifies_;
+    case Part::mix:
+        return takesUpdateRates() && list_.mixCount() > 0;
+    default:
+        return posed;
+    }
 }
 
 skinning::PoseKernels::Locals Playback::locals() const {
@@ -581,14 +743,24 @@ skinning::PoseKernels::Locals Playback::locals() const {
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
 }
 
-void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const {
+void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);
     push.timeHigh = time.high;
     push.timeLow = time.low;
-    push.firstInstance = first;
-    push.instanceCount = count;
+    push.firstInstance = windows.firstEntry(window);
+    push.instanceCount = windows.listed[window].count;
     push.footCount = plants_ ? asset_->clipTable->footCount : 0;
+    if (takesUpdateRates()) {
+        const PoseList::Window& own = list_.window(window);
+        const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
+        push.firstInstance = run.first;
+        push.instanceCount = run.count;
+        push.times = run.values;
+    }
+    if (push.instanceCount == 0) {
+        return;
+    }
     switch (part) {
     case Part::locals:
         kernels_->recordLocals(dispatches, sets_[window], locals(), push);
@@ -601,6 +773,9 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, u
         break;
     case Part::palette:
         kernels_->recordPalette(dispatches, sets_[window], mode_, push);
+        break;
+    case Part::mix:
+        kernels_->recordMix(dispatches, sets_[window], mode_, push);
         break;
     }
 }
@@ -622,6 +797,10 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     }
     dispatches.computeBarrier();
     kernels_->recordPalette(dispatches, set, mode_, none);
+    if (takesUpdateRates()) {
+        dispatches.computeBarrier();
+        kernels_->recordMix(dispatches, set, mode_, none);
+    }
 }
 
 gpu::MemoryUse Playback::memoryUse() const {

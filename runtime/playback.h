@@ -8,7 +8,10 @@
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
 #include "runtime/instance_modifiers.h"
+#include "runtime/instance_windows.h"
 #include "runtime/played_bounds.h"
+#include "runtime/pose_list.h"
+#include "runtime/update_rates.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
 #include "skinning/playback.h"
@@ -16,6 +19,7 @@
 #include "skinning/pose_twin.h"
 #include "skinning/transition.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,10 +30,15 @@
 
 namespace supple::runtime {
 
-/// What instances may have beside layers: their states have room for it.
+/// What instances may have beside layers: there is room for it.
 struct StateRoom {
     bool modifiers = false;
-    bool transitions = false; ///< of instances that play on the device
+    // Of instances that play on the device:
+    bool transitions = false;
+    bool updateRates = false;
+
+    /// How many poses of an instance the device keeps (shaders/shared/pose.h).
+    [[nodiscard]] uint32_t poseRuns() const { return updateRates ? shared::kPoseRuns : 1; }
 };
 
 /// What suppleSetPlayback says beside the layers.
@@ -40,8 +49,8 @@ struct TransitionRequest {
     bool keeps = false;        ///< the transition that the instance is in
 };
 
-/// Setting and recording allocate nothing. A frame without anything set uploads nothing and costs the same for any
-/// number of instances.
+/// Setting and recording allocate nothing. Without update rates, a frame without anything set uploads nothing and costs
+/// the same for any number of instances.
 class Playback {
 public:
     struct Desc {
@@ -65,7 +74,12 @@ public:
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     /// An instance in the bind pose begins at once.
-    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request = {});
+    /// `updateInterval`: steps of the grid of times from pose to pose; 0: by the size on the screen.
+    void set(uint32_t slot, const skinning::PlaybackDesc& desc, const TransitionRequest& request = {},
+             uint32_t updateInterval = 0);
+    [[nodiscard]] bool takesUpdateRates() const { return rates_.areTaken(); }
+    /// What was asked for, or what the size on the screen has chosen.
+    [[nodiscard]] uint32_t updateIntervalOf(uint32_t slot) const { return rates_.interval(slot); }
     [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
@@ -114,13 +128,38 @@ public:
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
     void cancelUpload(uint64_t frame);
 
-    enum class Part { locals, roots, modifiers, palette };
-    static constexpr uint32_t kParts = 4;
-    /// A part of the pass over `count` instances of a window, whose entries of the list begin at `first`.
-    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, uint32_t first, uint32_t count) const;
+    // With update rates, in each frame, before its parts of the pass. The interval of an instance whose size on the
+    // screen decides is chosen with setSize(); until then it is posed in every frame.
+    /// Whether setSize() is waited for.
+    [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.course(slot).asked == 0; }
+    /// `pixelsPerUnit`: at most, where the instance is.
+    void setSize(uint32_t slot, float pixelsPerUnit);
+    void forgetSizes() { rates_.forgetChoices(); }
+    /// Lists what is posed of the instances that `worksOn` holds for.
+    template <class WorksOn>
+    void listPoses(const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
+        list_.clear();
+        for (uint32_t w = 0; w < windows.count(); ++w) {
+            const uint32_t first = windows.firstSlot(w), last = std::min(first + windows.slots(w), end);
+            for (uint32_t slot = first; slot < last; ++slot) {
+                if (worksOn(slot)) {
+                    listPose(slot, slot - first);
+                }
+            }
+            list_.endWindow(w);
+        }
+    }
+    VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame);
+
+    enum class Part { locals, roots, modifiers, palette, mix };
+    static constexpr uint32_t kParts = 5;
+    /// A part of the pass over the instances of a window.
+    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.
-    [[nodiscard]] bool has(Part part) const {
-        return part == Part::roots ? roots_ || plants_ : part == Part::modifiers ? modifies_ : true;
+    [[nodiscard]] bool has(Part part) const;
+    /// Poses that a frame makes of these instances.
+    [[nodiscard]] uint32_t poseCount(const InstanceWindows& windows) const {
+        return takesUpdateRates() ? list_.poseCount() : windows.visible;
     }
 
     /// Context::recordWarmUp.
@@ -129,8 +168,8 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
 private:
-    enum BufferIndex : size_t { kStates, kMasks, kScratch, kBufferCount };
-    enum StagingIndex : size_t { kStateStaging, kMaskStaging, kStagingCount };
+    enum BufferIndex : size_t { kStates, kMasks, kScratch, kList, kBufferCount };
+    enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
 
     Status createBuffers(const Desc& desc);
     Status createSets(const Desc& desc);
@@ -154,8 +193,14 @@ private:
     void takeOverMasks(const Playback& other, const AssetMatch& match);
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
-    void evaluate(uint32_t slot); ///< into twin_, unless it is in the bind pose
-    void forget(uint32_t slot);   ///< what plays there has changed
+    void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
+    [[nodiscard]] VkDeviceSize listBytes() const { return capacity_ * PoseList::kWordsOfInstance * sizeof(uint32_t); }
+    [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
+    [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
+    [[nodiscard]] bool crossesSeam(uint32_t slot, const PoseSpan& span);
+    void listPose(uint32_t slot, uint32_t slotInWindow);
+    void forget(uint32_t slot);     ///< what plays there, or where it stands, has changed
+    void forgetEnds(uint32_t slot); ///< what plays there has changed
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
@@ -183,7 +228,12 @@ private:
 
     static constexpr uint32_t kNoSlot = 0xFFFFFFFFu;
     uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
-    skinning::PoseTwin twin_;
+    skinning::PoseTwin twin_, laterTwin_;
+    PoseSpan evaluatedSpan_;
+
+    UpdateRates rates_;
+    PoseList list_;
+    uint64_t listFrame_ = 0; ///< the last that poses of the list are recorded in
 
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set

@@ -77,6 +77,16 @@ Status checkTransition(const Playback& playback, const SupplePlaybackDesc& desc)
     return success();
 }
 
+Status checkUpdateInterval(const Playback& playback, uint32_t interval) {
+    if (interval > shared::kMaxUpdateInterval || (interval & (interval - 1)) != 0) {
+        return outside("updateInterval is none of 0, 1, 2, 4 and 8");
+    }
+    if (interval != 0 && !playback.takesUpdateRates()) {
+        return Error{ErrorCode::argument, "an updateInterval in a group without SUPPLE_GROUP_UPDATE_RATES"};
+    }
+    return success();
+}
+
 } // namespace
 
 Status checkTime(double seconds) {
@@ -128,6 +138,7 @@ Status checkPlayback(const Asset& asset, const Playback& playback, const SuppleP
         return Error{ErrorCode::argument, "SUPPLE_PLAYBACK_TRAVEL without rootMotion to travel by"};
     }
     valid = checkTransition(playback, desc);
+    valid = valid ? checkUpdateInterval(playback, desc.updateInterval) : valid;
     if (!valid) {
         return valid;
     }

@@ -37,7 +37,9 @@ public:
         double start = std::numeric_limits<double>::infinity(), end = -std::numeric_limits<double>::infinity();
 
         /// The device tells times within SUPPLE_MAX_TIME apart as finely as this.
-        [[nodiscard]] bool holds(double time) const { return time > start - 1e-5 && time < end + 1e-5; }
+        [[nodiscard]] bool holds(double time) const { return meets(time, time); }
+        /// Whether it holds a time between two.
+        [[nodiscard]] bool meets(double first, double last) const { return last > start - 1e-5 && first < end + 1e-5; }
     };
     /// In this time nobody knows where the slot is: what it has shown goes on as it moved. set() and setBindPose() end
     /// it.

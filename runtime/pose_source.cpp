@@ -123,13 +123,13 @@ public:
         if (!has(part)) {
             return {};
         }
-        windows.forEach(
-            [&](uint32_t w) { playback_.record(dispatches, part, w, windows.firstEntry(w), windows.listed[w].count); });
+        windows.forEach([&](uint32_t w) { playback_.record(dispatches, part, w, windows); });
         if (part != Playback::Part::palette) { // whose poses are what is counted
             return {0, 0, windows.visible > 0};
         }
         const skinning::PoseLayout& layout = desc_.layout;
-        return {uint64_t{layout.jointCount} * windows.visible, uint64_t{layout.stride} * 16 * windows.visible};
+        const uint64_t poses = playback_.poseCount(windows);
+        return {layout.jointCount * poses, layout.runStride * 16 * poses};
     }
 
 private:

@@ -102,11 +102,11 @@ DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& we
 }
 
 PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount) {
-    PoseLayout layout{mode, jointCount, morphCount, 0, 0};
+    PoseLayout layout{mode, jointCount, morphCount, 0, 0, 0};
     layout.morphWeights = mode == SkinningMode::linear
                               ? kLinearElements * jointCount
                               : kDualQuaternionTransform + kDualQuaternionElements * jointCount;
-    layout.stride = layout.morphWeights + (morphCount + 3) / 4;
+    layout.stride = layout.runStride = layout.morphWeights + (morphCount + 3) / 4;
     return layout;
 }
 

@@ -31,7 +31,8 @@ struct PoseLayout {
     uint32_t jointCount = 0;
     uint32_t morphCount = 0; ///< weights that the device needs
     uint32_t morphWeights = 0;
-    uint32_t stride = 0;
+    uint32_t stride = 0;    ///< from one instance to the next
+    uint32_t runStride = 0; ///< of a pose; with update rates an instance has several (shaders/shared/pose.h)
     [[nodiscard]] static PoseLayout of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount);
 };
 

@@ -51,6 +51,18 @@ double PoseDistance::between(const std::vector<glm::dmat4>& a, const std::vector
     return worst / extent_;
 }
 
+void PoseDistance::place(const std::vector<glm::dmat4>& globals, std::vector<glm::dvec3>& points) const {
+    points.clear();
+    for (const uint32_t v : watched_) {
+        points.push_back(vertex(v, globals));
+    }
+    for (const uint32_t node : character_.skin.joints) {
+        for (int axis = 0; axis < 3; ++axis) {
+            points.push_back(shellPoint(globals[node], axis));
+        }
+    }
+}
+
 glm::dvec3 PoseDistance::vertex(uint32_t v, const std::vector<glm::dmat4>& globals) const {
     const cage::SkinWeights& weights = character_.weights;
     glm::dvec3 sum(0.0);

@@ -36,6 +36,9 @@ public:
     /// One matrix a node, in model space.
     void globalsOf(const Pose& pose, std::vector<glm::dmat4>& globals) const;
 
+    /// Where the watched vertices are, then the points of all shells.
+    void place(const std::vector<glm::dmat4>& globals, std::vector<glm::dvec3>& points) const;
+
     /// The largest distance between two poses, in extents: of these vertices, and of all shells.
     [[nodiscard]] double between(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
                                  std::span<const uint32_t> vertices) const;

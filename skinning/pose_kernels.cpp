@@ -4,6 +4,7 @@
 #include "shaders/pose_locals_comp.h"
 #include "shaders/pose_locals_comp_ADDS.h"
 #include "shaders/pose_locals_comp_ADDS_TRANSITIONS.h"
+#include "shaders/pose_mix_comp.h"
 #include "shaders/pose_modify_comp.h"
 #include "shaders/pose_palette_comp.h"
 #include "shaders/pose_roots_comp.h"
@@ -31,6 +32,8 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
         gpu::storage(kScratchPoseBinding),
         gpu::narrowTexels(kScratchPoseTexelBinding),
         gpu::storage(kPosedBinding),
+        gpu::wideStorage(kEndsBinding),
+        gpu::narrowTexels(kEndsTexelBinding),
         gpu::wideStorage(kInstanceBinding),
         gpu::narrowTexels(kInstanceTexelBinding),
     };
@@ -60,6 +63,9 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
     found.palette = batch.get(layout_, pose_palette_comp, constants,
                               dual ? "supple pose, palette of dual quaternions" : "supple pose, palette");
+    const gpu::Constant layout[] = {{kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
+    found.mix = batch.get(layout_, pose_mix_comp, layout,
+                          dual ? "supple pose, between dual quaternions" : "supple pose, between palettes");
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
 }
@@ -78,6 +84,7 @@ Status PoseKernels::prepare(SkinningMode mode) {
     roots_ = made->roots;
     modifiers_ = made->modifiers;
     palette_[static_cast<size_t>(mode)] = made->palette;
+    mix_[static_cast<size_t>(mode)] = made->mix;
     return success();
 }
 
@@ -107,6 +114,14 @@ void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet
                                 const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
     record(dispatches, set, push, palette_[static_cast<size_t>(mode)], (push.instanceCount + local - 1) / local);
+}
+
+void PoseKernels::recordMix(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
+                            const PosePush& push) const {
+    const uint64_t place = mode == SkinningMode::dualQuaternion ? 1 : 0;
+    const uint64_t items = push.jointCount + place + (push.morphCount + 3) / 4;
+    const uint64_t local = device_->mapping.localSize;
+    record(dispatches, set, push, mix_[static_cast<size_t>(mode)], (items * push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

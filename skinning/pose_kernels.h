@@ -32,11 +32,14 @@ public:
     void recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                        const shared::PosePush& push) const;
+    /// Only in groups with update rates: what is shown between ends.
+    void recordMix(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
+                   const shared::PosePush& push) const;
 
 private:
     struct Kernels {
         gpu::Kernel locals[kLocals];
-        gpu::Kernel roots, modifiers, palette;
+        gpu::Kernel roots, modifiers, palette, mix;
     };
     [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
@@ -48,7 +51,7 @@ private:
     gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
-    gpu::Kernel palette_[2]; ///< by SkinningMode
+    gpu::Kernel palette_[2], mix_[2]; ///< by SkinningMode
 };
 
 } // namespace supple::skinning

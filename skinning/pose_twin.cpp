@@ -2,6 +2,7 @@
 
 #include "shaders/pose/affine.h"
 #include "shaders/pose/limbs.h"
+#include "shaders/pose/straight.h"
 #include "shaders/pose/time.h"
 #include "shaders/shared/pose.h"
 #include "skinning/playback.h"
@@ -22,6 +23,7 @@ struct PoseLoads {
     const float* masks = nullptr;
     PosePush push;
 
+    [[nodiscard]] vec2 posedTime() const { return {push.timeHigh, push.timeLow}; }
     [[nodiscard]] uvec4 table(uint i) const { return elementOf(tableWords, i); }
     [[nodiscard]] uvec4 state(uint i) const { return elementOf(stateWords, i); }
     [[nodiscard]] vec4 tableFloats(uint i) const { return floatsOf(table(i)); }
@@ -100,14 +102,14 @@ PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t tr
     held_.resize(table.footCount);
 }
 
-void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time) {
-    sample(state, masks, time);
+void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time, Stands stands) {
+    sample(state, masks, time, stands);
     if (!bindPose_) {
         finish(state);
     }
 }
 
-void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> masks, double time) {
+void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> masks, double time, Stands stands) {
     const SplitTime split = splitTime(time);
     push_.timeHigh = split.high;
     push_.timeLow = split.low;
@@ -116,7 +118,7 @@ void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> ma
     for (uint32_t quad = 0; quad < weights_.size(); ++quad) {
         weights_[quad] = code.shownWeights(0, quad, code.morphWeights(0, quad));
     }
-    place_ = code.transformOf(0);
+    place_ = stands == Stands::placed ? code.transformOf(0) : identity();
     const glm::uvec4 header = loads.state(0);
     bindPose_ = (header.y & kStateBindPose) != 0;
     if (bindPose_) {
@@ -132,7 +134,7 @@ void PoseTwin::sample(std::span<const uint32_t> state, std::span<const float> ma
         const shared::Transform root = roots.posedTransform(0, header.z, sinceBegin);
         locals_[header.z] = roots.shownTransform(0, header.z, root);
         if ((header.y & kStateTravels) != 0) {
-            place_ = roots.travelled(0, sinceBegin);
+            place_ = roots.travelled(0, place_, sinceBegin);
         }
     }
     if (header.y >> kStateModifierShift != 0) {
@@ -202,24 +204,63 @@ shared::Affine PoseTwin::skinned(uint32_t joint) const {
     return combined(nodeOf(joint), twin::affineOf(loads, push_.joints + kJointElements * joint));
 }
 
-void PoseTwin::write(std::span<glm::vec4> pose) const {
-    const auto put = [&](size_t at, const shared::Affine& m) {
-        pose[at] = m.x;
-        pose[at + 1] = m.y;
-        pose[at + 2] = m.z;
-    };
+glm::mat4 PoseTwin::placedJointBetween(const PoseTwin& later, float part, std::span<const uint32_t> state,
+                                       uint32_t joint) const {
+    twin::PoseCode<false> code{{table_->words.data(), state.data(), nullptr, push_}};
+    const shared::Affine between =
+        straight(combined(place_, nodeOf(joint)), combined(later.place_, later.nodeOf(joint)), part);
+    return twin::matrixOf(combined(code.transformOf(0), between));
+}
+
+void PoseTwin::writeBetween(const PoseTwin& later, float part, std::span<const uint32_t> state,
+                            std::span<glm::vec4> pose) const {
+    twin::PoseCode<false> code{{table_->words.data(), state.data(), nullptr, push_}};
+    const shared::Affine transform = code.transformOf(0);
     const bool dual = layout_.mode == SkinningMode::dualQuaternion;
     if (dual) {
-        put(0, place_);
+        put(combined(transform, straight(place_, later.place_, part)), pose, 0);
     }
     for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
-        const shared::Affine own = bindPose_ ? identity() : skinned(joint);
+        const shared::Affine a = own(joint), b = later.own(joint);
         if (dual) {
             const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
-            put(at, own);
-            pose[at + 3] = rotationOf(own);
+            put(straight(a, b, part), pose, at);
+            pose[at + 3] = straightRotation(rotationOf(a), rotationOf(b), part);
         } else {
-            put(kLinearElements * size_t{joint}, combined(place_, own));
+            const shared::Affine between = straight(combined(place_, a), combined(later.place_, b), part);
+            put(combined(transform, between), pose, kLinearElements * size_t{joint});
+        }
+    }
+    const bool hosts = (code.state(0).y & kStateHostWeights) != 0;
+    for (size_t quad = 0; quad < weights_.size(); ++quad) {
+        pose[layout_.morphWeights + quad] = hosts ? code.morphWeights(0, static_cast<uint32_t>(quad))
+                                                  : straight(weights_[quad], later.weights_[quad], part);
+    }
+}
+
+void PoseTwin::put(const shared::Affine& m, std::span<glm::vec4> pose, size_t at) {
+    pose[at] = m.x;
+    pose[at + 1] = m.y;
+    pose[at + 2] = m.z;
+}
+
+shared::Affine PoseTwin::own(uint32_t joint) const {
+    return bindPose_ ? identity() : skinned(joint);
+}
+
+void PoseTwin::write(std::span<glm::vec4> pose) const {
+    const bool dual = layout_.mode == SkinningMode::dualQuaternion;
+    if (dual) {
+        put(place_, pose, 0);
+    }
+    for (uint32_t joint = 0; joint < push_.jointCount; ++joint) {
+        const shared::Affine m = own(joint);
+        if (dual) {
+            const size_t at = kDualQuaternionTransform + kDualQuaternionElements * size_t{joint};
+            put(m, pose, at);
+            pose[at + 3] = rotationOf(m);
+        } else {
+            put(combined(place_, m), pose, kLinearElements * size_t{joint});
         }
     }
     std::copy(weights_.begin(), weights_.end(), pose.begin() + layout_.morphWeights);

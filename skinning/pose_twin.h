@@ -22,12 +22,17 @@ public:
     /// The table, with its words, must outlive this. `transition`: PosePush::transition.
     PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t transition);
 
+    /// Where a pose stands: at the instance's transform, or, as ends do, in model space and where it has travelled from
+    /// there.
+    enum class Stands { placed, unplaced };
     /// `state`: the instance's words (skinning/playback.h). `masks`: those of the group.
-    void pose(std::span<const uint32_t> state, std::span<const float> masks, double time);
+    void pose(std::span<const uint32_t> state, std::span<const float> masks, double time,
+              Stands stands = Stands::placed);
 
     /// The same, up to modifiers and without the hierarchy. What follows is then of no pose: what an instance shows
     /// before modifiers is in locals() and weights(). pose() leaves there what it shows behind them.
-    void sample(std::span<const uint32_t> state, std::span<const float> masks, double time);
+    void sample(std::span<const uint32_t> state, std::span<const float> masks, double time,
+                Stands stands = Stands::placed);
     /// One a node of the table; not of the bind pose.
     [[nodiscard]] std::span<const shared::Transform> locals() const { return locals_; }
     [[nodiscard]] std::span<const glm::vec4> weights() const { return weights_; }
@@ -49,7 +54,16 @@ public:
     /// Writes what the pass leaves for the deform pass: layout.stride elements; those behind the last weights stay.
     void write(std::span<glm::vec4> pose) const;
 
+    // The same straight between the last pose and the last one of another twin, both ends: `part` of the way. The
+    // transform is that in `state`.
+    [[nodiscard]] glm::mat4 placedJointBetween(const PoseTwin& later, float part, std::span<const uint32_t> state,
+                                               uint32_t joint) const;
+    void writeBetween(const PoseTwin& later, float part, std::span<const uint32_t> state,
+                      std::span<glm::vec4> pose) const;
+
 private:
+    static void put(const shared::Affine& m, std::span<glm::vec4> pose, size_t at);
+    [[nodiscard]] shared::Affine own(uint32_t joint) const; ///< skinned(joint); in the bind pose, nothing
     [[nodiscard]] const shared::Affine& nodeOf(uint32_t joint) const;
     void finish(std::span<const uint32_t> state); ///< locals_ are there: modifiers, then globals_
 

@@ -88,7 +88,7 @@ SuppleResult suppleSetPlayback(SuppleContext handle, SuppleInstance instance, co
                          }
                          runtime::PlaybackLayers layers;
                          found.poses().playback()->set(instance.slot, runtime::playbackOf(found.asset(), desc, layers),
-                                                       runtime::transitionRequestOf(desc));
+                                                       runtime::transitionRequestOf(desc), desc.updateInterval);
                          return noted(context, calls::SetPlayback{instance, desc});
                      });
 }

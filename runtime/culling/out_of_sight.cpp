@@ -47,27 +47,6 @@ void findFar(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8
 
 } // namespace
 
-BoxRuns::BoxRuns(size_t count) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-        middle[axis].assign(count, 0.0f);
-        half[axis].assign(count, 0.0f);
-    }
-}
-
-void BoxRuns::set(size_t index, const skinning::Box& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-        middle[static_cast<size_t>(axis)][index] = static_cast<float>(0.5 * box.low[axis] + 0.5 * box.high[axis]);
-        half[static_cast<size_t>(axis)][index] = static_cast<float>(0.5 * box.high[axis] - 0.5 * box.low[axis]);
-    }
-}
-
-void BoxRuns::setUnknown(size_t index) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-        middle[axis][index] = 0.0f;
-        half[axis][index] = std::numeric_limits<float>::infinity();
-    }
-}
-
 void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8_t> unseen) {
     std::fill(unseen.begin(), unseen.end(), uint8_t{0});
     for (size_t k = 0; k < 6; ++k) {
@@ -78,28 +57,9 @@ void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<ui
     }
 }
 
-OutOfSight::OutOfSight(const skinning::Reach& reach, float margin, uint32_t capacity)
-    : reach_(&reach), margin_(static_cast<double>(margin)), versions_(capacity, 0), boxes_(capacity),
-      judged_(capacity, 0), unseen_(capacity, 0) {}
-
-bool OutOfSight::find(const shared::CullView& view, const InstanceSlots& slots, PoseSource& poses) {
+bool OutOfSight::find(const shared::CullView& view, const InstanceSlots& slots, const BoxRuns& boxes) {
     const uint32_t end = slots.end();
-    for (uint32_t slot = 0; slot < end; ++slot) {
-        if (!slots.shows(slot)) {
-            continue;
-        }
-        const uint64_t version = poses.boundsVersion(slot);
-        if (versions_[slot] == version) {
-            continue;
-        }
-        versions_[slot] = version;
-        if (const std::optional<skinning::Box> cage = poses.boundsOf(slot, *reach_)) {
-            boxes_.set(slot, skinning::grownBy(*cage, margin_ * (cage->high - cage->low)));
-        } else {
-            boxes_.setUnknown(slot);
-        }
-    }
-    findUnseen(view, boxes_, std::span(judged_).first(end));
+    findUnseen(view, boxes, std::span(judged_).first(end));
     bool changed = false;
     count_ = 0;
     for (uint32_t slot = 0; slot < end; ++slot) {

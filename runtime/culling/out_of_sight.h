@@ -1,26 +1,15 @@
 // Which instances of a view's group surely are out of its sight, found on the CPU before they are posed.
 #pragma once
 
+#include "runtime/culling/instance_boxes.h"
 #include "runtime/instance_slots.h"
-#include "runtime/pose_source.h"
 #include "shaders/shared/bounds.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace supple::runtime {
-
-/// Boxes by their middle and half their size, a run for each coordinate: a test of many is done in vectors.
-struct BoxRuns {
-    std::array<std::vector<float>, 3> middle, half;
-
-    explicit BoxRuns(size_t count = 0);
-    void set(size_t index, const skinning::Box& box);
-    /// Nobody knows it: it may be anywhere.
-    void setUnknown(size_t index);
-};
 
 /// By box: 1 if all of it is where the view does not look, else 0. The device judges boxes that lie within these, in
 /// floats (shaders/bounds/bounds.comp): what is surely unseen here is unseen there.
@@ -30,14 +19,12 @@ void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<ui
 class OutOfSight {
 public:
     OutOfSight() = default;
-    /// `margin`: how far surfaces may lie outside the boxes of their cages, as a part of the size of these. `reach`
-    /// must outlive this.
-    OutOfSight(const skinning::Reach& reach, float margin, uint32_t capacity);
+    explicit OutOfSight(uint32_t capacity) : judged_(capacity, 0), unseen_(capacity, 0) {}
     /// Whether somebody looks for them.
-    [[nodiscard]] bool isAskedFor() const { return reach_ != nullptr; }
+    [[nodiscard]] bool isAskedFor() const { return !unseen_.empty(); }
 
-    /// True if others than before are unseen.
-    bool find(const shared::CullView& view, const InstanceSlots& slots, PoseSource& poses);
+    /// True if others than before are unseen. `boxes`: by slot.
+    bool find(const shared::CullView& view, const InstanceSlots& slots, const BoxRuns& boxes);
     /// Nothing is unseen. True if something was.
     bool clear();
     [[nodiscard]] bool holds(uint32_t slot) const { return unseen_[slot] != 0; }
@@ -45,12 +32,7 @@ public:
     [[nodiscard]] uint32_t count() const { return count_; }
 
 private:
-    const skinning::Reach* reach_ = nullptr;
-    double margin_ = 0.0;
-    // By slot:
-    std::vector<uint64_t> versions_; ///< of the boxes: PoseSource::boundsVersion
-    BoxRuns boxes_;
-    std::vector<uint8_t> judged_, unseen_;
+    std::vector<uint8_t> judged_, unseen_; ///< by slot
     uint32_t count_ = 0;
 };
 

@@ -432,7 +432,8 @@ void fields(A& a, T& layer) {
 template <class A, CallStruct<SupplePlaybackDesc> T>
 void fields(A& a, T& playback) {
     a.sized(playback);
-    a(playback.flags, playback.rootMotion, playback.rootJoint, playback.transition, playback.transitionKind);
+    a(playback.flags, playback.rootMotion, playback.rootJoint, playback.transition, playback.transitionKind,
+      playback.updateInterval);
     a.list(playback.layers, playback.layerCount);
 }
 template <class A, CallStruct<SuppleMaskDesc> T>

@@ -15,7 +15,7 @@
 namespace supple::runtime {
 
 inline constexpr char kRecordingMagic[] = {'S', 'U', 'P', 'P', 'R', 'E', 'C', '\n'};
-inline constexpr uint32_t kRecordingVersion = 1;
+inline constexpr uint32_t kRecordingVersion = 2;
 
 enum class ChunkKind : uint32_t { header = 1, asset, call, hashes, end };
 

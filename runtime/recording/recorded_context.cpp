@@ -61,6 +61,12 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     }
     recorder_ = std::move(recorder);
     recording_ = true;
+    // A replay does not know what sizes on the screen have chosen before.
+    groups.forEach([](Group& group) {
+        if (Playback* const playback = group.poses().playback()) {
+            playback->forgetSizes();
+        }
+    });
     return success();
 }
 

@@ -16,7 +16,7 @@ struct Layer {
 Layer layerAt(uint first) {
     uvec4 ids = state(first);
     vec4 begin = stateFloats(first + 1u), course = stateFloats(first + 2u);
-    vec2 now = vec2(push.timeHigh, push.timeLow);
+    vec2 now = posedTime();
     SUPPLE_PRECISE Layer layer;
     layer.first = first;
     layer.clip = ids.x;
@@ -171,8 +171,8 @@ vec4 morphWeights(uint first, uint quad) {
     return weights;
 }
 
-// The instance's transform, after what the first layer's root has moved by since its clip began.
-Affine travelled(uint first, Motion sinceBegin) {
+// A place, after what the first layer's root has moved by since its clip began.
+Affine travelled(uint first, Affine from, Motion sinceBegin) {
     Layer layer = layerAt(first + kStateElements);
     vec4 before = stateFloats(first + 4u), turns = stateFloats(first + 5u), center = stateFloats(first + 6u);
     SUPPLE_PRECISE float loops = 0.0f;
@@ -181,7 +181,7 @@ Affine travelled(uint first, Motion sinceBegin) {
     motion = combinedMotion(motionOf(vec3(before), vec2(turns)), motion);
     vec3 x = turnedAboutY(motion.halfTurn, vec3(1.0f, 0.0f, 0.0f));
     vec3 z = turnedAboutY(motion.halfTurn, vec3(0.0f, 0.0f, 1.0f));
-    return combined(transformOf(first), rowsOf(vec4(x.x, 0.0f, z.x, motion.translation.x),
-                                               vec4(0.0f, 1.0f, 0.0f, motion.translation.y),
-                                               vec4(x.z, 0.0f, z.z, motion.translation.z)));
+    return combined(from, rowsOf(vec4(x.x, 0.0f, z.x, motion.translation.x),
+                                 vec4(0.0f, 1.0f, 0.0f, motion.translation.y),
+                                 vec4(x.z, 0.0f, z.z, motion.translation.z)));
 }

@@ -30,16 +30,18 @@ void main() {
     // instance's nodes, whose layers they load together.
     uint entry = kWide ? id / items : id % push.instanceCount;
     uint item = kWide ? id % items : id / push.instanceCount;
-    uint instance = instanceSlot(entry);
-    uint first = instance * push.stateStride, locals = instance * push.scratchStride;
+    beginEntry(entry);
+    uint first = posedSlot() * push.stateStride, locals = entry * push.scratchStride;
     if (item < push.nodeCount) {
         Motion none = standing();
         storeLocal(locals + kAffineElements * item, shownTransform(first, item, posedTransform(first, item, none)));
     } else if (item == push.nodeCount) {
-        storePlace(locals + kAffineElements * item, transformOf(first));
+        precise Affine place = identity();
+        if (isPlaced()) place = transformOf(first);
+        storePlace(locals + kAffineElements * item, place);
     } else {
         uint quad = item - push.nodeCount - 1u;
         precise vec4 weights = shownWeights(first, quad, morphWeights(first, quad));
-        posed.at[instance * push.poseStride + push.morphWeights + quad] = weights;
+        posed.at[posedPose() + push.morphWeights + quad] = weights;
     }
 }

@@ -40,7 +40,8 @@ void keepHeld(uint foot, vec4 held) {
 void main() {
     uint id = invocationIndex();
     listed = id < push.instanceCount; // lanes beyond the instances must not store: others change what they have read
-    uint instance = instanceSlot(min(id, push.instanceCount - 1u));
-    locals = instance * push.scratchStride;
-    modifyInstance(instance * push.stateStride);
+    uint entry = min(id, push.instanceCount - 1u);
+    beginEntry(entry);
+    locals = entry * push.scratchStride;
+    modifyInstance(posedSlot() * push.stateStride);
 }

@@ -28,7 +28,7 @@ Modifier modifierAt(uint element) {
     uvec4 ids = state(element);
     vec4 course = stateFloats(element + 2u), limits = stateFloats(element + 3u);
     vec4 target = stateFloats(element + 4u), pole = stateFloats(element + 5u);
-    vec2 now = vec2(push.timeHigh, push.timeLow);
+    vec2 now = posedTime();
     SUPPLE_PRECISE Modifier own;
     own.kind = ids.x & 255u;
     own.flags = ids.x >> 8u;

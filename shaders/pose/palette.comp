@@ -91,10 +91,11 @@ void storeJoint(uint joint, bool bindPose, uint matrices, uint pose, Affine plac
 void main() {
     uint id = kWide ? workgroupIndex() : invocationIndex();
     bool within = id < push.instanceCount;
-    uint instance = instanceSlot(min(id, push.instanceCount - 1u));
-    uint matrices = instance * push.scratchStride, pose = instance * push.poseStride;
+    uint entry = min(id, push.instanceCount - 1u);
+    beginEntry(entry);
+    uint matrices = entry * push.scratchStride, pose = posedPose();
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
-    bool bindPose = (state(instance * push.stateStride).y & kStateBindPose) != 0u;
+    bool bindPose = (state(posedSlot() * push.stateStride).y & kStateBindPose) != 0u;
     Affine place = placeAt(matrices + kAffineElements * push.nodeCount);
     // Matrices change in their places: lanes beyond the instances must not store.
     if (kWide) {

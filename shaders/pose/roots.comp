@@ -15,15 +15,18 @@ const bool kAdds = true, kRoots = true, kTransitions = true;
 #include "shaders/pose/local.glsl"
 
 void main() {
-    uint instance = instanceSlot(min(invocationIndex(), push.instanceCount - 1u));
-    uint first = instance * push.stateStride, locals = instance * push.scratchStride;
+    uint entry = min(invocationIndex(), push.instanceCount - 1u);
+    beginEntry(entry);
+    uint first = posedSlot() * push.stateStride, locals = entry * push.scratchStride;
     uvec4 header = state(first);
     if (header.w != 0u) {
         precise Motion sinceBegin = standing();
         Transform root = posedTransform(first, header.z, sinceBegin);
         storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
-            storePlace(locals + kAffineElements * push.nodeCount, travelled(first, sinceBegin));
+            precise Affine place = identity();
+            if (isPlaced()) place = transformOf(first);
+            storePlace(locals + kAffineElements * push.nodeCount, travelled(first, place, sinceBegin));
         }
     }
     for (uint foot = 0u; foot < push.footCount; ++foot) {

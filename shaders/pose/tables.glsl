@@ -16,6 +16,25 @@ LOADED_BUFFER(vec4, maskValues, Masks, kMaskBinding, samplerBuffer, kMaskTexelBi
 vec4 tableFloats(uint i) { return uintBitsToFloat(table(i)); }
 vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 
+// What is posed: an entry of the group's list of instances, at the group's time; in groups with update rates one of a list of
+// their own, which says for which run of the instance's pose, and at which time.
+uint posedWord = 0u;
+vec2 posedSeconds = vec2(0.0);
+void beginEntry(uint n) {
+    posedWord = instanceEntry(n);
+    posedSeconds = vec2(push.timeHigh, push.timeLow);
+    if (push.times != 0u) {
+        uint word = push.times + 2u * n;
+        posedSeconds = uintBitsToFloat(uvec2(instanceWord(word), instanceWord(word + 1u)));
+    }
+}
+uint posedSlot() { return slotOf(posedWord); }
+uint posedRun() { return push.times != 0u ? SUPPLE_POSED_RUN(posedWord) : 0u; }
+uint posedPose() { return posedSlot() * push.poseStride + posedRun() * push.runStride; }
+// Of an end, where the instance stands is left to mix.comp: the host may move it while the end stays.
+bool isPlaced() { return posedRun() == 0u; }
+vec2 posedTime() { return posedSeconds; }
+
 float component(vec4 v, uint k) {
     vec2 two = SELECT2((k & 2u) == 0u, v.xy, v.zw);
     return SELECT((k & 1u) == 0u, two.x, two.y);

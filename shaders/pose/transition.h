@@ -19,7 +19,7 @@ Transition transitionOf(uint first) {
     own.phase = 0.0f;
     if (kTransitions && (state(first).y & kStateTransition) != 0u) {
         vec4 course = stateFloats(first + push.transition);
-        vec2 now = vec2(push.timeHigh, push.timeLow);
+        vec2 now = posedTime();
         own.seconds = course.z;
         own.since = timeSum(now, -vec2(course)).x;
         if (own.since >= 0.0f && own.since < own.seconds) own.kind = state(first + push.transition).w;

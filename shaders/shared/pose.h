@@ -61,7 +61,16 @@
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
 // element on one a morph target.
 //
-// Scratch (vec4 elements, one run of `scratchStride` an instance): three a node, its local translation, rotation (x, y, z, w;
+// Pose (vec4 elements, one run of `poseStride` an instance): what the deform pass reads (shaders/shared/deform.h). In groups with
+// update rates it has kPoseRuns such runs, `runStride` apart: what is shown, then two *ends*, the poses at the two grid times that
+// a time lies between. Ends stand in model space, or where the instance has travelled to from there: the transform is left out.
+//
+// List of what is posed (words), in groups with update rates, made anew for every frame. For each window of instances: an entry for
+// every pose that is due, slot | run << kPosedRunShift; from `times` on two words for each of these, its time as a high and a
+// low float; an entry for every instance that is shown between its ends, slot | run of the earlier one << kPosedRunShift;
+// then a float for each of these, the part of the way from the earlier end to the later one.
+//
+// Scratch (vec4 elements, one run of `scratchStride` an entry of the list): three a node, its local translation, rotation (x, y, z, w;
 // of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
 // what it has travelled; then, if feet are planted, one for every foot: x of where it is held, times how firmly; how far it has
 // been lowered; z as x; how firmly. A node whose local matrix is fixed has that, whatever stands here.
@@ -83,6 +92,8 @@ SUPPLE_SHARED_CONST kMaskTexelBinding = 5u;
 SUPPLE_SHARED_CONST kScratchPoseBinding = 6u;
 SUPPLE_SHARED_CONST kScratchPoseTexelBinding = 7u;
 SUPPLE_SHARED_CONST kPosedBinding = 8u; // what the deform pass reads
+SUPPLE_SHARED_CONST kEndsBinding = 9u;  // the same, read
+SUPPLE_SHARED_CONST kEndsTexelBinding = 10u;
 
 SUPPLE_SHARED_CONST kNoNode = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kNodeElements = 4u;
@@ -135,6 +146,13 @@ SUPPLE_SHARED_FLOAT kTransitionReach = 0.072f; // seconds that what was shown go
 SUPPLE_SHARED_FLOAT kTransitionDecay = 13.888889f;  // 1 / kTransitionReach
 SUPPLE_SHARED_FLOAT kTransitionStep = 0.0083333338f; // seconds over which speeds are found
 
+// Update rates.
+SUPPLE_SHARED_CONST kPoseRuns = 3u;
+SUPPLE_SHARED_CONST kPosedRunShift = 28u; // two bits
+#define SUPPLE_POSED_RUN(entry) (((entry) >> kPosedRunShift) & 3u)
+SUPPLE_SHARED_CONST kMaxUpdateInterval = 8u; // steps of the grid
+SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
+
 // Axes of root motion; values of SuppleRootMotionFlags.
 SUPPLE_SHARED_CONST kGroundAxes = 1u;
 SUPPLE_SHARED_CONST kHeightAxis = 2u;
@@ -160,7 +178,7 @@ struct PosePush {
     float timeHigh; // the group's time
     float timeLow;
     uint firstInstance; // of the list
-    uint instanceCount; // of this window
+    uint instanceCount; // of this window, or entries of the list of what is posed
     uint nodeCount;
     uint jointCount;
     uint morphCount; // weights that the deform pass reads
@@ -177,6 +195,8 @@ struct PosePush {
     uint transition;   // first element of the transition in an instance's state
     uint contacts;     // section of the clip table
     uint footCount;    // 0: none is planted
+    uint runStride;    // from one run of an instance's pose to the next
+    uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
 };
 
 SUPPLE_SHARED_END

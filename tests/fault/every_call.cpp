@@ -251,7 +251,7 @@ private:
              .scheme = SUPPLE_SCHEME_PM},
             {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_CATMULL_CLARK},
             {.scheme = SUPPLE_SCHEME_POLYGONS},
-            {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+            {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES,
              .scheme = SUPPLE_SCHEME_PREP,
              .poseSource = SUPPLE_POSES_PLAYBACK},
             {.scheme = SUPPLE_SCHEME_FRAGMENTS},

@@ -190,7 +190,7 @@ private:
         desc.flags = choose_.below(64);
         desc.poseSource = static_cast<SupplePoseSource>(choose_.below(4));
         if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-            desc.flags |= choose_.below(4) * SUPPLE_GROUP_MODIFIERS; // and transitions
+            desc.flags |= choose_.below(8) * SUPPLE_GROUP_MODIFIERS; // transitions, and update rates
         }
         desc.skinning = static_cast<SuppleSkinning>(choose_.below(2));
         uint32_t family = families_;
@@ -397,6 +397,7 @@ private:
         desc.transition = 0.1 * choose.below(3);
         desc.transitionKind = static_cast<SuppleTransitionKind>(choose.below(2));
         desc.flags = choose.below(4) * SUPPLE_PLAYBACK_KEEP_TRANSITION; // and from what is modified
+        desc.updateInterval = 1u << choose.below(5) >> 1u;
         check(suppleSetPlayback(context_, instance, &desc));
     }
 

@@ -289,7 +289,7 @@ void framesTakeNoMemory(bool recorded) {
                  .rate = 1}),
             createGroup(handle, asset, {.capacity = kCapacity, .rate = 1, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}),
             createGroup(handle, asset,
-                        {.flags = SUPPLE_GROUP_TRANSITIONS,
+                        {.flags = SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES,
                          .capacity = kCapacity,
                          .rate = 1,
                          .poseSource = SUPPLE_POSES_PLAYBACK})};
@@ -332,6 +332,7 @@ void framesTakeNoMemory(bool recorded) {
                     desc.flags = SUPPLE_PLAYBACK_TRAVEL;
                     desc.transition = 0.1 * static_cast<double>(n % 3);
                     desc.transitionKind = static_cast<SuppleTransitionKind>(n % 2);
+                    desc.updateInterval = 1u << n % 4;
                     return suppleSetPlayback(handle, instance, &desc);
                 };
                 SuppleMaskDesc mask{};

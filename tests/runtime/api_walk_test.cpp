@@ -56,7 +56,7 @@ public:
             createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_CAGE_BUFFER});
         played = createGroup(handle(), mine.asset, {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
         modified = createGroup(handle(), mine.asset,
-                               {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+                               {.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES,
                                 .scheme = SUPPLE_SCHEME_CAGE,
                                 .poseSource = SUPPLE_POSES_PLAYBACK});
         bounded = createGroup(handle(), mine.asset, {.flags = SUPPLE_GROUP_BOUNDS, .scheme = SUPPLE_SCHEME_CAGE});
@@ -1963,6 +1963,14 @@ void playback(Rows& r) {
             return suppleSetPlayback(w.handle(), w.modified.instances[0], &desc);
         };
     };
+    spoiled("updateInterval 3", kRange, [](Desc& d) { d.updateInterval = 3; });
+    spoiled("updateInterval 16", kRange, [](Desc& d) { d.updateInterval = 16; });
+    spoiled("an updateInterval without room for it", kConflict, [](Desc& d) { d.updateInterval = 2; });
+    r.accept(kSet, "an updateInterval", [](World& w) {
+        Desc desc = w.playbackDesc();
+        desc.updateInterval = 8;
+        return suppleSetPlayback(w.handle(), w.modified.instances[0], &desc);
+    });
     r.accept(kSet, "a transition", transits(SUPPLE_PLAYBACK_FROM_MODIFIED));
     r.refuse(kSet, "a transition that keeps another", kConflict, transits(SUPPLE_PLAYBACK_KEEP_TRANSITION));
     const auto layer = [&](const char* what, int message, const std::function<void(Layer&)>& spoil) {

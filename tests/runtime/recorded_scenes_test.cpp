@@ -178,6 +178,37 @@ void goesOver(SceneHost& host) {
     }
 }
 
+/// Update rates: those that the host asks for, moved, hidden and posed anew meanwhile; frames at any times.
+void takesTurns(SceneHost& host) {
+    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+        host.played.push_back(host.create({.flags = SUPPLE_GROUP_UPDATE_RATES,
+                                           .scheme = SUPPLE_SCHEME_PREP,
+                                           .rate = 1,
+                                           .skinning = skinning,
+                                           .poseSource = SUPPLE_POSES_PLAYBACK},
+                                          4));
+    }
+    const auto play = [&](uint32_t i, uint32_t clip) {
+        SupplePlaybackDesc desc{};
+        desc.updateInterval = 1u << i % 4;
+        desc.rootMotion = i % 3 == 0 ? SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW : 0;
+        desc.flags = i % 3 == 0 ? SUPPLE_PLAYBACK_TRAVEL : 0;
+        host.loop(i, clip, 0.125 * i, desc);
+    };
+    for (uint32_t i = 0; i < 8; ++i) {
+        play(i, i % 3);
+    }
+    for (uint32_t frame = 0; frame < kSceneFrames; ++frame) {
+        host.time -= frame % 2 == 0 ? 0.0 : 0.109375; // in turns 1/64 s and 1/8 s
+        if (frame == 3) {
+            play(1, 2);
+            host.place(2, -2.0f, 1.0f);
+        }
+        succeed(suppleSetVisible(host.handle(), host.all[5], frame == 2 ? 0 : 1));
+        host.run();
+    }
+}
+
 /// Several schemes at once, one of them over the instances of another; instances that come and go.
 void schemes(SceneHost& host) {
     for (const SuppleScheme scheme : {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_FRAGMENTS}) {
@@ -255,9 +286,10 @@ struct RecordedScene {
     const std::string& character;
     void (*play)(SceneHost&); ///< null: a sample has recorded it
 };
-const RecordedScene kScenes[] = {{"fades", kPip, fades},          {"goes_over", kWren, goesOver},
-                                 {"schemes", kPipQuads, schemes}, {"matrices", kPip, matrices},
-                                 {"travels", kWren, travels},     {"plays", kWren, nullptr}};
+const RecordedScene kScenes[] = {
+    {"fades", kPip, fades},          {"goes_over", kWren, goesOver}, {"takes_turns", kWren, takesTurns},
+    {"schemes", kPipQuads, schemes}, {"matrices", kPip, matrices},   {"travels", kWren, travels},
+    {"plays", kWren, nullptr}};
 
 class RecordedScenes : public testing::TestWithParam<RecordedScene> {
 protected:

@@ -68,7 +68,7 @@ private:
         set(suppleCreateView(handle(), &view, &view_));
         set(suppleCreateView(handle(), &view, &unused_));
         posed_ = createMany({.flags = SUPPLE_GROUP_MODIFIERS, .scheme = SUPPLE_SCHEME_CATMULL_CLARK, .rate = 4});
-        played_ = createMany({.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS,
+        played_ = createMany({.flags = SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES,
                               .scheme = SUPPLE_SCHEME_PM,
                               .skinning = SUPPLE_SKINNING_DUAL_QUATERNION,
                               .poseSource = SUPPLE_POSES_PLAYBACK,
@@ -265,6 +265,7 @@ private:
             desc.transition = static_cast<double>(number(0.05f, 0.4f));
             desc.transitionKind = upTo(2) == 0 ? SUPPLE_TRANSITION_QUINTIC : SUPPLE_TRANSITION_DEAD_BLENDING;
         }
+        desc.updateInterval = 1u << upTo(5) >> 1u; // 0 to 8
         set(suppleSetPlayback(handle(), instance, &desc));
     }
     void modify(SuppleInstance instance) {

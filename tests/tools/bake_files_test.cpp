@@ -638,6 +638,33 @@ TEST_F(BakeFiles, TransitionsGoFromOneClipToTheOther) {
     EXPECT_EQ(runOnDevice(bake + "--hash --time 0.5 --rest-pose --transition 'walk@0.4->idle'").exitCode, 2);
 }
 
+TEST_F(BakeFiles, UpdateIntervalsGoStraightBetweenPoses) {
+    const std::string bake = "bake " + kSamplePip + " --scheme cage --hash --clip walk ";
+    const auto palette = [&](const std::string& arguments) {
+        const Outcome outcome = runOnDevice(bake + arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return hashesIn(outcome.out)["palette"];
+    };
+    // Every eighth step is a multiple of 2/15 s for the first instance.
+    EXPECT_NE(palette("--time 0.45 --update-interval 8"), palette("--time 0.45 --update-interval 1"));
+    EXPECT_NE(palette("--time 0.45 --update-interval 8"), palette("--time 0.45 --update-interval 4"));
+    EXPECT_EQ(palette("--time 0.45 --update-interval 8 --mapping wide"), palette("--time 0.45 --update-interval 8"));
+    EXPECT_EQ(palette("--time 0.45 --update-interval 1"), palette("--time 0.45 --set head=0,0,0,1 --weight 0"));
+    EXPECT_EQ(runOnDevice(bake + "--time 0.45 --update-interval 3").exitCode, 2);
+    EXPECT_EQ(runOnDevice("bake " + kSamplePip + " --hash --update-interval 4").exitCode, 2) << "no clip";
+
+    const Outcome inspected = run("inspect " + kSamplePip + " --json");
+    ASSERT_EQ(inspected.exitCode, 0) << inspected.err;
+    for (const nlohmann::json& clip : nlohmann::json::parse(inspected.out)["clips"]) {
+        const nlohmann::json& errors = clip["updateErrors"];
+        EXPECT_TRUE(errors["closes"].get<bool>());
+        EXPECT_GT(errors["every2"].get<double>(), 0.0);
+        EXPECT_GT(errors["every4"].get<double>(), errors["every2"].get<double>());
+        EXPECT_GT(errors["every8"].get<double>(), errors["every4"].get<double>());
+        EXPECT_LT(errors["every8"].get<double>(), 0.5);
+    }
+}
+
 TEST_F(BakeFiles, ModifiersChangeThePose) {
     const std::string bake = "bake " + kSamplePip + " --scheme cage --hash --clip walk --time 0.4 ";
     const auto palette = [&](const std::string& arguments) {

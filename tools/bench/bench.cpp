@@ -11,6 +11,7 @@
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/targets.h"
+#include "tools/bench/update_rates.h"
 #include "tools/bench/views.h"
 #include "tools/common/schemes.h"
 
@@ -56,6 +57,9 @@ public:
             status = views();
         }
         if (status) {
+            status = updateRates();
+        }
+        if (status) {
             status = scene();
         }
         if (status) {
@@ -83,6 +87,7 @@ private:
     Status agreed(const std::vector<Agreement>& all);
     Status crowd();
     Status views();
+    Status updateRates();
     Status scene();
     Status classical();
     Status heats();
@@ -237,6 +242,23 @@ Status Run::views() {
         return measured.error();
     }
     result_["views"] = std::move(*measured);
+    return keep();
+}
+
+Status Run::updateRates() {
+    if (crowdSize() == 0) {
+        return success();
+    }
+    UpdateRatesDesc desc;
+    desc.characters = options_.quick ? std::vector<uint32_t>{kQuickCpuCrowd} : std::vector<uint32_t>{100, 1000};
+    desc.frames = 8 * (options_.quick ? 1 : options_.rounds);
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rupdate rates: %s   ", what.c_str()); };
+    Result<Json> measured = measureUpdateRates(device_, *workbench_, desc);
+    std::fprintf(stderr, "\n");
+    if (!measured) {
+        return measured.error();
+    }
+    result_["updateRates"] = std::move(*measured);
     return keep();
 }
 

@@ -252,6 +252,21 @@ std::string sceneTables(const Json& scene) {
            (rows.empty() ? "" : rows.text(2)) + refused + (views.empty() ? "" : views.text());
 }
 
+std::string updateRateTable(const Json& rows) {
+    Table table(
+        {"poses", "characters", "posed a frame", "pose, ms", "/ without", "deform, ms", "/ without", "record, CPU us"});
+    for (const Json& row : rows) {
+        const auto interval = row["interval"].get<uint32_t>();
+        const std::string what = interval == 0   ? "without update rates"
+                                 : interval == 1 ? "in every frame"
+                                                 : "every " + std::to_string(interval) + " steps";
+        table.add({what, row["characters"].dump(), number(row["posed"]), number(row["poseMs"]),
+                   number(row["poseRatio"]), number(row["deformMs"]), number(row["deformRatio"]),
+                   number(row["recordUs"])});
+    }
+    return table.empty() ? "" : "## Update rates\n\n" + table.text(1);
+}
+
 /// The dense mesh first, then its skin, then cage and surface.
 void addClassicalLines(const Json& row, Table& table) {
     const std::string where = row["cage"].get<std::string>() + ", rate " + row["rate"].dump();
@@ -385,6 +400,7 @@ std::string toTables(const Json& result) {
         out += crowdTable(result["crowd"]);
     }
     out += viewTable(result.value("views", Json::array()));
+    out += updateRateTable(result.value("updateRates", Json::array()));
     if (result.contains("scene")) {
         out += sceneTables(result["scene"]);
     }

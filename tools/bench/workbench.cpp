@@ -75,7 +75,7 @@ Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepar
     return SuppleAsset{*asset};
 }
 
-Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
+Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc, uint32_t updateInterval) {
     desc.structSize = sizeof desc;
     desc.capacity = std::max(desc.capacity, 1u);
     if (desc.view.id == 0) { // nothing is drawn, so that it need not be bound as a whole
@@ -102,9 +102,13 @@ Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc) {
         playback.layers = &layer;
         playback.layerCount = 1;
         runtime::PlaybackLayers layers;
-        played->set(i, runtime::playbackOf(group.asset(), playback, layers));
+        played->set(i, runtime::playbackOf(group.asset(), playback, layers), {}, updateInterval);
     }
     return SuppleGroup{*id};
+}
+
+void Workbench::setTime(SuppleGroup group, double seconds) {
+    inside_->group(group).poses().playback()->setTime(seconds);
 }
 
 double Workbench::phaseOf(uint32_t instance) {

@@ -41,7 +41,10 @@ public:
     /// A group with as many instances as it has room for, one where desc.capacity is 0. `desc.asset` is one of
     /// createAsset's. All are in the bind pose; or, with SUPPLE_POSES_PLAYBACK, instance i plays the first clip, in a
     /// loop, from phaseOf(i) of its length on.
-    [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc);
+    /// `updateInterval`: SupplePlaybackDesc.updateInterval.
+    [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc, uint32_t updateInterval = 0);
+    /// Of a group that plays.
+    void setTime(SuppleGroup group, double seconds);
     /// Irrational steps: no two instances have a pose in common, and an instance's does not hang on how many there are.
     [[nodiscard]] static double phaseOf(uint32_t instance);
     /// Bytes of static data a frame uploads at most; 0: no bound.

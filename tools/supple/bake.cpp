@@ -41,6 +41,7 @@ struct BakeOptions {
     std::vector<host::MorphSetting> morphs;
     ModifierFlags modifiers;
     host::TransitionSetting transition;
+    uint32_t updateInterval = 0;
     DeviceFlags device;
 };
 
@@ -200,8 +201,12 @@ int runBake(const BakeOptions& options) {
     if (!transition) {
         return fail(kExitBadInput, transition.error().message);
     }
-    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip, options.time, std::move(*weights),
-                    std::move(*modifiers), *transition};
+    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip,
+                    options.time,
+                    std::move(*weights),
+                    std::move(*modifiers),
+                    *transition,
+                    options.updateInterval};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
@@ -264,6 +269,13 @@ void bindBake(CLI::App& app, int& exitCode) {
     command->get_option("--transition")
         ->excludes(command->get_option("--rest-pose"))
         ->needs(command->get_option("--time"));
+    command
+        ->add_option("--update-interval", options->updateInterval,
+                     "What is shown if poses are made every N steps of 1/60 s only, and are straight between these")
+        ->check(CLI::IsMember({1, 2, 4, 8}))
+        ->type_name("N")
+        ->needs(command->get_option("--clip"))
+        ->excludes(command->get_option("--transition"));
     bindDevice(*command, options->device);
     bindRecord(*command, options->device.record);
     command->callback([options, &exitCode] {

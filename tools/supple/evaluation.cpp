@@ -105,23 +105,32 @@ void findMirrored(Evaluation& evaluation, const cage::Cage& cage) {
 
 namespace {
 
-/// What stands plays with speed 0.
-Status playStanding(host::Context& context, SuppleInstance instance, const Pose& pose) {
+/// What stands plays with speed 0; poses before and after it are needed where it lies between two.
+Status playStanding(host::Context& context, SuppleGroup group, SuppleInstance instance, const Pose& pose) {
+    const bool between = pose.updateInterval > 0;
     SupplePlaybackLayer layer{};
     layer.clip = pose.clip;
     layer.weight = 1.0f;
-    layer.offset = pose.time;
+    layer.offset = between ? 0.0 : pose.time;
+    layer.speed = between ? 1.0f : 0.0f;
+    if (between) {
+        const Status status = context.check(suppleSetTime(context.handle(), group, pose.time), "suppleSetTime");
+        if (!status) {
+            return status;
+        }
+    }
     SupplePlaybackDesc playback{};
     playback.structSize = sizeof playback;
     playback.layers = &layer;
     playback.layerCount = pose.clip == SUPPLE_BIND_POSE || pose.clip == SUPPLE_REST_POSE ? 0 : 1;
+    playback.updateInterval = pose.updateInterval;
     return context.check(suppleSetPlayback(context.handle(), instance, &playback), "suppleSetPlayback");
 }
 
 /// The pose and what changes it, by the device.
 Status play(host::Context& context, SuppleGroup group, SuppleInstance instance, const Pose& pose) {
     Status status = pose.transition ? host::playTransition(context, group, instance, *pose.transition, pose.time)
-                                    : playStanding(context, instance, pose);
+                                    : playStanding(context, group, instance, pose);
     if (!status || pose.modifiers.empty()) {
         return status;
     }
@@ -145,10 +154,11 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
-    const bool plays = !pose.modifiers.empty() || pose.transition;
+    const bool plays = !pose.modifiers.empty() || pose.transition || pose.updateInterval > 0;
     if (plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS;
+        desc.flags |= pose.updateInterval > 0 ? SUPPLE_GROUP_UPDATE_RATES : 0;
     }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);

@@ -55,6 +55,7 @@ struct Pose {
     std::vector<float> morphWeights;                   ///< of all targets, instead of the clip's; empty: the clip's
     std::vector<SuppleModifier> modifiers;             ///< of any pose but the bind pose, which then is the rest pose
     std::optional<host::PlannedTransition> transition; ///< instead of the clip
+    uint32_t updateInterval = 0; ///< steps of 1/60 s from pose to pose, with a clip; 0: the pose itself
 };
 
 /// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.

@@ -5,6 +5,7 @@
 #include "skinning/clip_packer.h"
 #include "skinning/clip_table.h"
 #include "skinning/contacts.h"
+#include "skinning/update_errors.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
@@ -255,6 +256,15 @@ nlohmann::ordered_json contactsIn(const cage::Character& character, const skinni
     return list;
 }
 
+/// How far off it is to be posed every 2, 4 or 8 steps of 1/60 s; null if nobody knows.
+nlohmann::ordered_json updateErrors(const skinning::UpdateErrors& errors) {
+    nlohmann::ordered_json every = {{"closes", errors.closes}};
+    for (size_t n = 0; n < errors.every.size(); ++n) {
+        every["every" + std::to_string(size_t{2} << n)] = errors.every[n]; // infinity becomes null
+    }
+    return every;
+}
+
 /// What was measured on a device, if asked for.
 struct Measured {
     std::optional<Comparison> comparison;
@@ -313,6 +323,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["mostInfluences"] = findings.mostInfluences;
     json["clips"] = Json::array();
     const skinning::Contacts contacts = skinning::findContacts(character);
+    const skinning::UpdateFacts updates = skinning::measureUpdates(character);
     const skinning::NodeOrder order = skinning::nodeOrder(character);
     for (const cage::Clip& clip : character.clips) {
         Json markers = Json::array();
@@ -326,6 +337,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
             entry["packed"] = {{"bytes", facts.bytes}, {"ratio", facts.ratio}, {"error", clip.packed.error}};
         }
         entry["contacts"] = contactsIn(character, contacts, json["clips"].size());
+        entry["updateErrors"] = updateErrors(updates.ofClips[json["clips"].size()]);
         json["clips"].push_back(std::move(entry));
     }
     json["materials"] = Json::array();

@@ -973,7 +973,13 @@ typedef enum SuppleGroupFlags {
     /** With SUPPLE_POSES_PLAYBACK: instances may go over from what they play to something else
      * (SupplePlaybackDesc.transition). Room for it costs 64 bytes per node that moves a joint, and 8 per morph target,
      * for each instance: of device memory, and of staging memory for each frame in flight. */
-    SUPPLE_GROUP_TRANSITIONS = 2048
+    SUPPLE_GROUP_TRANSITIONS = 2048,
+    /** With SUPPLE_POSES_PLAYBACK: instances may be posed at every second, fourth or eighth step of a grid of times
+     * only, and go straight from pose to pose between these (SupplePlaybackDesc.updateInterval). Three poses are kept
+     * of each instance instead of one, so the stride of SuppleGroupInfo.poses is three times as large; the first is
+     * what is shown. The first group of an asset with this flag measures its clips, which takes some milliseconds for
+     * each. */
+    SUPPLE_GROUP_UPDATE_RATES = 4096
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1562,7 +1568,7 @@ SUPPLE_API const char* suppleGetPassName(SupplePass pass);
  * end, so it includes the barrier before it. Draws of the host are in no pass, also if they are in the same command
  * buffer. On a GPU, work of the host that runs at the same time takes its share of the device. */
 typedef struct SuppleTiming {
-    /** Upload, attributes, pose (up to three times), deform, vertex, assemble, patch, evaluate, motion. Groups of a
+    /** Upload, attributes, pose (up to five times), deform, vertex, assemble, patch, evaluate, motion. Groups of a
      * view also have bounds (twice with OCCLUSION; groups with SUPPLE_GROUP_BOUNDS have it as well), list, level
      * (twice), solve (once per view) and place, which comes once more if instances choose rates; and assemble and place
      * once more each, for the levels of chains that views ask for, if patches of catmull-clark or loop have chains. If

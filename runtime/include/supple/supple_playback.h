@@ -228,22 +228,29 @@ typedef struct SupplePlaybackDesc {
     double transition; /**< seconds from T at the call on, in which the instance goes over from what it has shown; 0:
                         * none. Groups with SUPPLE_GROUP_TRANSITIONS. 0.3 suits most changes */
     SuppleTransitionKind transitionKind; /**< how */
+    /** Groups with SUPPLE_GROUP_UPDATE_RATES: steps of 1/60 s from pose to pose: 2, 4 or 8; 1: it is posed in every
+     * frame; 0: as the size on the screen allows in the view that the group belongs to, and 1 without a view. */
+    uint32_t updateInterval;
 } SupplePlaybackDesc;
 
 /** Groups with SUPPLE_POSES_PLAYBACK: sets what an instance plays from the next suppleRecord on, until it is set again.
  * The array is read during the call. The device then computes poses from the group's time alone. In a frame in which
  * no playback and no new origin is set, none is uploaded, and the CPU's work is the same for any number of instances;
- * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL).
+ * but in a view that culls, it looks for those that are out of sight (SUPPLE_VIEW_CULL), and with update rates for those
+ * whose turn it is.
  * Such groups also take suppleSetTransform and suppleSetMorphWeights. Poses agree with those of suppleSetPose except
  * for rounding (docs/playback.md).
  * A transition is a function of T. It starts at the T that the group has at the call, so set the time first. If another
  * transition is running, it starts from what that one shows, and replaces it. At a T before its start there is none. It
  * changes local transforms, after layers and root motion and before modifiers, and morph weights unless the host has
  * set some. It ends if the playback is set again without KEEP_TRANSITION. An instance in the bind pose begins at once.
- * Errors: the group has another pose source; too many layers; a clip, joint, mode, flag or kind of transition that does
- * not exist; a mask that was not set; a weight, speed, fade, transition or time out of range or not finite; TRAVEL
- * without rootMotion; a transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION; FROM_MODIFIED without a
- * transition. */
+ * With an updateInterval of N, the instance in a slot is posed for the times (k N - slot mod N) / 60 s, ahead of T, and
+ * its joint palette goes straight from one to the next: it does not lag, and it depends on T alone. It is posed
+ * exactly, in every frame, while it is in a transition, has modifiers, or passes the seam of a loop that does not end
+ * as it begins. Errors: the group has another pose source; too many layers; a clip, joint, mode, flag or kind of
+ * transition that does not exist; a mask that was not set; a weight, speed, fade, transition or time out of range or
+ * not finite; TRAVEL without rootMotion; a transition without SUPPLE_GROUP_TRANSITIONS, or with KEEP_TRANSITION;
+ * FROM_MODIFIED without a transition; an updateInterval that is none of these, or without SUPPLE_GROUP_UPDATE_RATES. */
 SUPPLE_API SuppleResult suppleSetPlayback(SuppleContext context, SuppleInstance instance,
                                           const SupplePlaybackDesc* playback);
 /** Sets T, the time in seconds by which all instances of a group with SUPPLE_POSES_PLAYBACK play; 0 at first. It may
