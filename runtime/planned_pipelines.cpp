@@ -96,7 +96,9 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.pieces = pieces;
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
-        if (Status made = pose ? (*pose)->make(planned.skinning) : pose.error(); !made) {
+        const bool springs =
+            (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 && !prepared.character.springBones.springs.empty();
+        if (Status made = pose ? (*pose)->make(planned.skinning, springs) : pose.error(); !made) {
             return made;
         }
     }

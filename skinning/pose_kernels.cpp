@@ -8,6 +8,7 @@
 #include "shaders/pose_modify_comp.h"
 #include "shaders/pose_palette_comp.h"
 #include "shaders/pose_roots_comp.h"
+#include "shaders/pose_springs_comp.h"
 #include "shaders/shared/specialization.h"
 
 #include <algorithm>
@@ -23,19 +24,13 @@ static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
 Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
-        gpu::wideStorage(kClipTableBinding),
-        gpu::narrowTexels(kClipTableTexelBinding),
-        gpu::wideStorage(kStateBinding),
-        gpu::narrowTexels(kStateTexelBinding),
-        gpu::wideStorage(kMaskBinding),
-        gpu::narrowTexels(kMaskTexelBinding),
-        gpu::storage(kScratchPoseBinding),
-        gpu::narrowTexels(kScratchPoseTexelBinding),
-        gpu::storage(kPosedBinding),
-        gpu::wideStorage(kEndsBinding),
-        gpu::narrowTexels(kEndsTexelBinding),
-        gpu::wideStorage(kInstanceBinding),
-        gpu::narrowTexels(kInstanceTexelBinding),
+        gpu::wideStorage(kClipTableBinding),  gpu::narrowTexels(kClipTableTexelBinding),
+        gpu::wideStorage(kStateBinding),      gpu::narrowTexels(kStateTexelBinding),
+        gpu::wideStorage(kMaskBinding),       gpu::narrowTexels(kMaskTexelBinding),
+        gpu::storage(kScratchPoseBinding),    gpu::narrowTexels(kScratchPoseTexelBinding),
+        gpu::storage(kPosedBinding),          gpu::wideStorage(kEndsBinding),
+        gpu::narrowTexels(kEndsTexelBinding), gpu::storage(kSpringBinding),
+        gpu::wideStorage(kInstanceBinding),   gpu::narrowTexels(kInstanceTexelBinding),
     };
     PoseKernels made;
     made.device_ = &device;
@@ -48,7 +43,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
     return made;
 }
 
-Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
+Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool springs) const {
     const bool dual = mode == SkinningMode::dualQuaternion;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
@@ -66,23 +61,29 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode) const {
     const gpu::Constant layout[] = {{kDualQuaternionsConstant, dual ? VK_TRUE : VK_FALSE}};
     found.mix = batch.get(layout_, pose_mix_comp, layout,
                           dual ? "supple pose, between dual quaternions" : "supple pose, between palettes");
+    if (springs) {
+        found.springs = batch.get(layout_, pose_springs_comp, {}, "supple pose, springs");
+    }
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
 }
 
-Status PoseKernels::make(SkinningMode mode) const {
-    const Result<Kernels> made = kernels(mode);
+Status PoseKernels::make(SkinningMode mode, bool springs) const {
+    const Result<Kernels> made = kernels(mode, springs);
     return made ? success() : made.error();
 }
 
-Status PoseKernels::prepare(SkinningMode mode) {
-    const Result<Kernels> made = kernels(mode);
+Status PoseKernels::prepare(SkinningMode mode, bool springs) {
+    const Result<Kernels> made = kernels(mode, springs);
     if (!made) {
         return made.error();
     }
     std::copy(std::begin(made->locals), std::end(made->locals), locals_);
     roots_ = made->roots;
     modifiers_ = made->modifiers;
+    if (springs) {
+        springs_ = made->springs;
+    }
     palette_[static_cast<size_t>(mode)] = made->palette;
     mix_[static_cast<size_t>(mode)] = made->mix;
     return success();
@@ -108,6 +109,11 @@ void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& 
 void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
     record(dispatches, set, push, modifiers_, (push.instanceCount + local - 1) / local);
+}
+
+void PoseKernels::recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+    const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
+    record(dispatches, set, push, springs_, (push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,

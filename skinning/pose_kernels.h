@@ -13,10 +13,11 @@ class PoseKernels {
 public:
     /// Both must outlive the pass.
     [[nodiscard]] static Result<PoseKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
-    /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording.
-    [[nodiscard]] Status make(SkinningMode mode) const;
+    /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording. `springs`: some
+    /// joints swing.
+    [[nodiscard]] Status make(SkinningMode mode, bool springs) const;
     /// The same for what is to be recorded.
-    [[nodiscard]] Status prepare(SkinningMode mode);
+    [[nodiscard]] Status prepare(SkinningMode mode, bool springs);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// What locals can do: the second if some instance has an additive layer, the third if one is in a transition. Code
@@ -30,6 +31,8 @@ public:
     void recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     /// Only where one has modifiers.
     void recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
+    /// Only in groups with springs. `push.instanceCount`: how many swing.
+    void recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                        const shared::PosePush& push) const;
     /// Only in groups with update rates: what is shown between ends.
@@ -39,9 +42,9 @@ public:
 private:
     struct Kernels {
         gpu::Kernel locals[kLocals];
-        gpu::Kernel roots, modifiers, palette, mix;
+        gpu::Kernel roots, modifiers, springs, palette, mix;
     };
-    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode) const;
+    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode, bool springs) const;
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
                 const gpu::Kernel& kernel, uint64_t groups) const;
 
@@ -51,6 +54,7 @@ private:
     gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
+    gpu::Kernel springs_;
     gpu::Kernel palette_[2], mix_[2]; ///< by SkinningMode
 };
 

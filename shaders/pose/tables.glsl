@@ -29,6 +29,13 @@ void beginEntry(uint n) {
     }
 }
 uint posedSlot() { return slotOf(posedWord); }
+// First element of what the instance plays.
+uint posedState() {
+    bool before = push.times != 0u && (posedWord & kPosedBefore) != 0u;
+    return posedSlot() * push.stateStride + (before ? push.stateBefore : 0u);
+}
+// Nobody sees it: a step of springs.
+bool isStep(uint entry) { return entry >= push.shown; }
 uint posedRun() { return push.times != 0u ? SUPPLE_POSED_RUN(posedWord) : 0u; }
 uint posedPose() { return posedSlot() * push.poseStride + posedRun() * push.runStride; }
 // Of an end, where the instance stands is left to mix.comp: the host may move it while the end stays.

@@ -450,9 +450,9 @@ typedef struct SuppleClipFile {
 } SuppleClipFile;
 
 /** What becomes of clips that were made for another skeleton (docs/gltf.md#retargeting). Then joints are told by what
- * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the rest
- * pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of the
- * clip go. A warning says how many joints follow, what is left out, and for which clips the legs are too short. */
+ * they are, by names as rigs have them and by structure: hips, thighs, shins, feet, and so on. Their turns from the
+ * rest pose are taken over, the hips move by the ratio of the legs, and the legs bend so that ankles go where those of
+ * the clip go. A warning says how many joints follow, what is left out, and for which clips the legs are too short. */
 typedef enum SuppleRetargeting {
     /** Clip files of which nodes of one role have other names than the asset's, or other bones. Both skeletons must be
      * of bipeds that stand upright: hips above two legs. Else clips move nodes of their names alone, and the warning
@@ -516,8 +516,8 @@ typedef struct SuppleAssetDesc {
     SuppleRetargeting retargeting; /**< of clipFiles; 0: of those whose skeleton is another one */
     uint32_t jointPairCount;
     /** jointPairCount pairs, for all clipFiles: they go before what names and structure say, and clip files are then
-     * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset does
-     * not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
+     * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset
+     * does not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
     const SuppleJointPair* jointPairs;
 } SuppleAssetDesc;
 
@@ -595,8 +595,8 @@ typedef struct SuppleClipInfo {
     const char* name;   /**< lives as long as the asset */
     double duration;    /**< seconds */
     uint64_t byteCount; /**< that it takes on the device, beside key times that it shares with other clips */
-    /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip is
-     * not packed. */
+    /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip
+     * is not packed. */
     double packedError;
 } SuppleClipInfo;
 
@@ -979,7 +979,16 @@ typedef enum SuppleGroupFlags {
      * of each instance instead of one, so the stride of SuppleGroupInfo.poses is three times as large; the first is
      * what is shown. The first group of an asset with this flag measures its clips, which takes some milliseconds for
      * each. */
-    SUPPLE_GROUP_UPDATE_RATES = 4096
+    SUPPLE_GROUP_UPDATE_RATES = 4096,
+    /** With SUPPLE_POSES_PLAYBACK: joints swing by the springs of the character's file (VRM: docs/springs.md), behind
+     * layers, transitions and modifiers, in steps of 1/60 s of the group's time. What a step leaves depends on the
+     * times at which calls are made, not on the frames between. It has no effect if the file has no springs. Instances
+     * in the bind pose do not swing. suppleGetJointTransform gives joints without their swinging. An instance that was
+     * just created, or whose time has gone back or forward by more than 8 steps, begins with its joints at rest in the
+     * pose; so does one that was hidden, or out of a view's sight, for more than 8 steps. suppleTeleport keeps how they
+     * hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for an instance: 10 times the
+     * matrices of all nodes, and 64 bytes for each joint. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+    SUPPLE_GROUP_SPRINGS = 8192
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
