@@ -424,7 +424,7 @@ bool Playback::travels(uint32_t slot) {
 
 void Playback::teleport(uint32_t slot) {
     if (hasSprings()) {
-        springs_.jump(slot);
+        springs_.jump(slot, time_);
     }
 }
 
@@ -453,6 +453,7 @@ void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modif
 
 void Playback::setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal) {
     forget(slot);
+    keepBefore(slot);
     modifiers_.setGoal(slot, state(slot), index, goal, origin_);
     markChanged(slot);
 }
@@ -492,6 +493,7 @@ void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
 void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
     positions_[slot] = position;
     if (hasSprings()) {
+        keepBefore(slot);
         springs_.place(slot, time_);
     }
     place(slot);
@@ -803,8 +805,8 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     }
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    const uint32_t flags = (due.settles ? kSpringSettles : 0) | (due.jumps ? kSpringJumps : 0);
-    list_.addSwinging(slotInWindow, due.count | flags, due.part, due.moves);
+    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
+    list_.addSwinging(slotInWindow, due.count | jump | (due.settles ? kSpringSettles : 0), due.part, due.moves);
     for (uint32_t k = 0; k < due.count; ++k) {
         const double time = springTime(due.first + k);
         list_.addStep(slotInWindow, due.before[k], time);

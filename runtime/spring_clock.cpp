@@ -60,11 +60,21 @@ bool SpringClock::change(uint32_t slot, double time) {
 
 SpringPlace SpringClock::placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
                                  bool travels) {
-    if (travels) {
-        return stepTime < own.placed ? own.inFrame : place;
+    if (own.jumped != kNoTime || travels) {
+        return stepTime < std::min(own.jumped, own.placed) ? own.inFrame : place;
     }
     const double span = time - own.frameTime;
     return span > 0.0 ? placeBetween(own.inFrame, place, (stepTime - own.frameTime) / span) : place;
+}
+
+SpringClock::Due SpringClock::begun(const Slot& own, double time) {
+    const int64_t step = springStepAt(time);
+    Due due;
+    due.settles = own.last == kNever || step < own.last || step - own.last > int64_t{shared::kMostSpringSteps};
+    due.first = due.settles ? step : own.last + 1;
+    due.count = static_cast<uint32_t>(step - due.first + 1);
+    due.part = std::clamp(static_cast<float>((time - springTime(step)) * shared::kSpringSteps), 0.0f, 1.0f);
+    return due;
 }
 
 SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels) {
@@ -74,32 +84,30 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
     }
     Slot& own = slots_[slot];
     undo_.push_back({slot, own});
-    const int64_t step = springStepAt(time);
-    Due due;
-    due.settles = own.last == kNever || step < own.last || step - own.last > int64_t{shared::kMostSpringSteps};
-    due.first = due.settles ? step : own.last + 1;
-    due.count = static_cast<uint32_t>(step - due.first + 1);
-    due.part = std::clamp(static_cast<float>((time - springTime(step)) * shared::kSpringSteps), 0.0f, 1.0f);
-    due.jumps = own.jumps && !due.settles;
-    if (due.jumps || due.settles) {
+    Due due = begun(own, time);
+    if (due.settles) {
         own.atLast = own.inFrame = place;
-        own.changed = kNoTime;
+        own.changed = own.jumped = kNoTime;
     }
-    due.moves = !due.settles && (own.atLast != place || own.inFrame != place);
+    due.moves = own.atLast != place || own.inFrame != place;
     for (uint32_t k = 0; k < due.count; ++k) {
         const double stepTime = springTime(due.first + k);
-        due.before[k] = hasBefore(slot) && stepTime < own.changed;
+        due.before[k] = stepTime < own.changed && hasBefore(slot);
         if (due.moves) {
             const SpringPlace now = placeAt(own, stepTime, time, place, travels);
             due.rows[k] = moveBetween(own.atLast, now);
             own.atLast = now;
         }
+        if (stepTime >= own.jumped) {
+            due.jump = k;
+            own.inFrame = own.atLast = place;
+            own.jumped = kNoTime;
+        }
     }
-    own.last = step;
+    own.last = springStepAt(time);
     own.inFrame = place;
     own.frameTime = time;
     own.changed = kNoTime;
-    own.jumps = due.jumps && due.count == 0;
     return due;
 }
 

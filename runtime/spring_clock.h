@@ -4,6 +4,7 @@
 
 #include "shaders/shared/pose.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -40,24 +41,25 @@ public:
     /// The instance begins anew with its next step: tails at rest in the pose.
     void settle(uint32_t slot) { slots_[slot].last = kNever; }
     void settleAll();
-    /// Where it stands at its next step, it has stood all the time.
-    void jump(uint32_t slot) { slots_[slot].jumps = true; }
+    /// At a time of the group it is elsewhere, and has not moved there.
+    void jump(uint32_t slot, double time) { slots_[slot].jumped = std::min(slots_[slot].jumped, time); }
     /// Its place is set at a time of the group: if root motion travels, it stands there from then on; else it goes
     /// there, straight from where it was in the last frame.
     void place(uint32_t slot, double time) { slots_[slot].placed = time; }
 
-    /// A call changes what is played, at a time of the group. Whether steps that are due are posed by what was played
-    /// before.
+    /// A call changes what is played or where, at a time of the group. Whether steps that are due are posed by what was
+    /// played before.
     [[nodiscard]] bool change(uint32_t slot, double time);
     [[nodiscard]] bool hasBefore(uint32_t slot) const { return slots_[slot].changed != kNoTime; }
 
+    static constexpr uint32_t kNone = 0xFFFFFFFFu;
     /// The steps that an instance runs in a frame.
     struct Due {
         int64_t first = 0;
         uint32_t count = 0;
         bool settles = false;
-        float part = 0.0f;  ///< of the way from the step before the last to the last, that is shown
-        bool jumps = false; ///< to the first of them, without having moved
+        float part = 0.0f;     ///< of the way from the step before the last to the last, that is shown
+        uint32_t jump = kNone; ///< the one to which it has not moved
         bool moves = false;
         std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
         /// If it moves.
@@ -81,8 +83,9 @@ private:
         double frameTime = 0.0;
         double placed = 0.0;
         double changed = kNoTime; ///< since when what is played differs from what the last frame had
-        bool jumps = false;
+        double jumped = kNoTime;
     };
+    [[nodiscard]] static Due begun(const Slot& own, double time); ///< without what it has been told
     [[nodiscard]] static SpringPlace placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
                                              bool travels);
 

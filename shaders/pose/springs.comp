@@ -101,8 +101,8 @@ void main() {
     tails = slot * push.springStride;
     SpringStep now;
     now.settles = (steps & kSpringSettles) != 0u;
-    bool jumps = (steps & kSpringJumps) != 0u;
-    steps = min(steps & ~(kSpringSettles | kSpringJumps), kMostSpringSteps);
+    uint jump = (steps >> kSpringJumpShift) & 15u;
+    steps = min(steps & 255u, kMostSpringSteps);
     precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
     meet();
     for (uint k = 0u; k < steps; ++k) {
@@ -113,7 +113,7 @@ void main() {
         now.move = before;
         if (moves != 0u) now.move = combined(movedRows(moves + kMoveWords * k), now.move);
         now.move = combined(undone(way), now.move);
-        if (jumps && k == 0u) now.move = identity();
+        if (jump == k + 1u) now.move = identity();
         before = way;
         runStep(all, now, lane, lanes);
     }

@@ -83,8 +83,8 @@
 // low float; an entry for every instance that is shown between its ends, slot | run of the earlier one << kPosedRunShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
 // In groups with springs the list has, for each window: an entry for every pose that is shown, `shown` of them; an entry for each
-// step of springs that is due, slot | kPosedBefore if it is posed by what played before the last call; from `times` on the times
-// of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | kSpringJumps, the
+// step of springs that is due, slot | kPosedBefore if it is posed as before the last call; from `times` on the times
+// of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | a jump, the
 // part of the way from the step before the last to the last, as a float, where its moves begin or 0, its entry among those that are
 // shown); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
@@ -192,7 +192,7 @@ SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
 SUPPLE_SHARED_CONST kSpringWords = 6u;
 SUPPLE_SHARED_CONST kMoveWords = 12u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
-SUPPLE_SHARED_CONST kSpringJumps = 0x40000000u;   // the first step has not moved
+SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
 SUPPLE_SHARED_CONST kColliderElements = 3u;
