@@ -121,18 +121,7 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
     playback.twin_ = skinning::PoseTwin(table, desc.layout, push.transition);
-    if (desc.room.updateRates) {
-        playback.laterTwin_ = playback.twin_;
-        playback.rates_ = UpdateRates(desc.capacity);
-    }
-    if (desc.room.springs) {
-        playback.springs_ = SpringClock(desc.capacity);
-        playback.beforeDue_.resize(desc.capacity, false);
-    }
-    if (playback.listsPoses()) {
-        playback.list_ =
-            PoseList(desc.capacity, (desc.capacity + desc.windowSize - 1) / desc.windowSize, desc.room.springs);
-    }
+    playback.makeLists(desc);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ = PlayedBounds(desc.asset->character, desc.layout.mode == skinning::SkinningMode::dualQuaternion,
@@ -163,6 +152,20 @@ Result<Playback> Playback::create(const Desc& desc) {
         return status.error();
     }
     return playback;
+}
+
+void Playback::makeLists(const Desc& desc) {
+    if (desc.room.updateRates) {
+        laterTwin_ = twin_;
+        rates_ = UpdateRates(desc.capacity);
+    }
+    if (desc.room.springs) {
+        springs_ = SpringClock(desc.capacity);
+        beforeDue_.resize(desc.capacity, false);
+    }
+    if (listsPoses()) {
+        list_ = PoseList(desc.capacity, (desc.capacity + desc.windowSize - 1) / desc.windowSize, desc.room.springs);
+    }
 }
 
 Status Playback::createBuffers(const Desc& desc) {

@@ -191,6 +191,7 @@ private:
     enum BufferIndex : size_t { kStates, kMasks, kScratch, kList, kBufferCount };
     enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
 
+    void makeLists(const Desc& desc); ///< of instances with update rates, or springs
     Status createBuffers(const Desc& desc);
     Status createSets(const Desc& desc);
     [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }

@@ -37,7 +37,6 @@ void keepGlobal(uint node, Affine m) {
         scratch.at[i + 2u] = global.z;
     }
 }
-Affine placement() { return scratchRows(locals + kAffineElements * push.nodeCount); }
 uint colliderPlace(uint collider) {
     return locals + push.springScratch + kAffineElements + kPosedColliderElements * collider;
 }
@@ -84,8 +83,7 @@ void runStep(SpringTables all, SpringStep now, uint lane, uint lanes) {
     for (uint i = lane; i < all.colliderCount; i += lanes) poseCollider(i, all.colliders + kColliderElements * i);
     meet();
     for (uint chain = lane; chain < all.chainCount; chain += lanes) {
-        uvec4 nodes = table(all.chains + chain);
-        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) stepSpringNode(i, now);
+        stepChain(table(all.chains + chain), now);
     }
     meet();
 }
@@ -115,6 +113,7 @@ void main() {
         now.move = combined(undone(way), now.move);
         if (jump == k + 1u) now.move = identity();
         before = way;
+        now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);
     }
     if (lane == 0u && steps != 0u) {

@@ -1,5 +1,5 @@
 // Joints that swing: steps of an instance on the grid of times, then what it shows between the last two. Needs what nodes.h
-// needs; swing.h and limbs.h; of what is stepped or shown nodeLocal(), keepLocal(), nodeGlobal(), keepGlobal(), placement(),
+// needs; swing.h and limbs.h; of what is stepped or shown nodeLocal(), keepLocal(), nodeGlobal(), keepGlobal(),
 // posedCollider(), keepCollider(); of the instance spring(), keepSpring().
 #include "shaders/pose/nodes.h"
 
@@ -64,6 +64,7 @@ uint colliderAt(uint reference) {
 // What joints of a step have in common.
 struct SpringStep {
     Affine move;   // of the model's frame at the step before
+    Affine place;  // where the instance stands
     bool settles;  // tails at rest in the pose
 };
 
@@ -87,7 +88,7 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
     }
     SUPPLE_PRECISE vec3 last = through(move, vec3(spring(at)));
     SUPPLE_PRECISE vec3 before = through(move, vec3(spring(at + 1u)));
-    SUPPLE_PRECISE vec3 pull = worldDirection(placement(), vec3(gravity)) * gravity.w;
+    SUPPLE_PRECISE vec3 pull = worldDirection(now.place, vec3(gravity)) * gravity.w;
     SUPPLE_PRECISE vec3 way = directionOr(swungTail(last, before, axis, tail.w, ways.x, pull) - head, axis);
     SUPPLE_PRECISE vec3 next = head + way * size;
     for (uint k = 0u; k < ids.w; ++k) {
@@ -118,13 +119,20 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
     return rotation;
 }
 
-// A node of a chain, behind those above it.
-void stepSpringNode(uint element, SpringStep now) {
-    uvec4 ids = table(element);
-    SUPPLE_PRECISE Affine above = globalOfParent(ids.x);
-    SUPPLE_PRECISE Transform own = nodeLocal(ids.x);
-    if (ids.y != kNoNode) own.rotation = swungRotation(element, ids, above, own, now);
-    keepGlobal(ids.x, combined(above, localMatrix(ids.x, own)));
+// The nodes of a chain, each behind those above it; most hang on the one before.
+void stepChain(uvec4 chain, SpringStep now) {
+    uint last = kNoNode;
+    SUPPLE_PRECISE Affine global = identity();
+    for (uint element = chain.x; element < chain.y; element += kSpringNodeElements) {
+        uvec4 ids = table(element);
+        SUPPLE_PRECISE Affine above = global;
+        if (last == kNoNode || parentOf(ids.x) != last) above = globalOfParent(ids.x);
+        SUPPLE_PRECISE Transform own = nodeLocal(ids.x);
+        if (ids.y != kNoNode) own.rotation = swungRotation(element, ids, above, own, now);
+        global = combined(above, localMatrix(ids.x, own));
+        keepGlobal(ids.x, global);
+        last = ids.x;
+    }
 }
 
 // What is shown of a node of a chain, `part` of the way from the last step but one to the last.

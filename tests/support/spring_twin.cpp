@@ -19,7 +19,6 @@ struct SpringCode {
     PosePush push;
     Transform* locals = nullptr;
     Affine* globals = nullptr;
-    Affine place{};
     vec4* colliders = nullptr;
     vec4* springs = nullptr;
 
@@ -35,7 +34,6 @@ struct SpringCode {
     void keepLocal(uint node, const Transform& t) const { locals[node].rotation = t.rotation; }
     [[nodiscard]] Affine nodeGlobal(uint node) const { return globals[node]; }
     void keepGlobal(uint node, const Affine& m) const { globals[node] = m; }
-    [[nodiscard]] Affine placement() const { return place; }
     [[nodiscard]] vec4 posedCollider(uint collider, uint element) const {
         return colliders[kPosedColliderElements * collider + element];
     }
@@ -58,7 +56,9 @@ struct SpringCode {
         for (uint i = 0; i < all.colliderCount; ++i) {
             poseCollider(i, all.colliders + kColliderElements * i);
         }
-        forChains([&](uint element) { stepSpringNode(element, now); });
+        for (uint chain = 0; chain < all.chainCount; ++chain) {
+            stepChain(table(all.chains + chain), now);
+        }
     }
     template <class F>
     void forChains(F&& visit) {
@@ -96,9 +96,8 @@ void SpringTwin::step(std::span<const uint32_t> state, std::span<const float> ma
     }
     twin_.pose(state, masks, time);
     std::copy(twin_.locals().begin(), twin_.locals().end(), locals_.begin());
-    SpringCode code{table_->words.data(), push_,          locals_.data(), globals_.data(), twin_.place(),
-                    colliders_.data(),    springs_.data()};
-    SpringCode::SpringStep now{rowsOf(springs_[0], springs_[1], springs_[2]), begins == Begins::anew};
+    SpringCode code{table_->words.data(), push_, locals_.data(), globals_.data(), colliders_.data(), springs_.data()};
+    SpringCode::SpringStep now{rowsOf(springs_[0], springs_[1], springs_[2]), twin_.place(), begins == Begins::anew};
     now.move = moved ? combined(rowsOf((*moved)[0], (*moved)[1], (*moved)[2]), now.move) : now.move;
     now.move = begins == Begins::withoutMove ? identity() : combined(undone(way), now.move);
     code.runStep(now);
@@ -120,8 +119,7 @@ void SpringTwin::show(std::span<const uint32_t> state, std::span<const float> ma
                       std::span<glm::vec4> pose) {
     twin_.pose(state, masks, time);
     std::copy(twin_.locals().begin(), twin_.locals().end(), locals_.begin());
-    SpringCode code{table_->words.data(), push_,          locals_.data(), globals_.data(), twin_.place(),
-                    colliders_.data(),    springs_.data()};
+    SpringCode code{table_->words.data(), push_, locals_.data(), globals_.data(), colliders_.data(), springs_.data()};
     code.forChains([&](uint element) { code.showSpringNode(element, part); });
     // As locals that nothing changes any more.
     std::vector<uint32_t> words(state.begin(), state.end());

@@ -122,7 +122,7 @@ TEST(GltfVrm, WhatIsNotUsedIsSaidInOneLine) {
             trianglesAt(R"([{"mesh":0)" + more + "}]", R"(,"extensions":{)" + extensions + "}" + required).glb());
     };
     EXPECT_EQ(said(R"("VRM":{"blendShapeMaster":{},"secondaryAnimation":{},"firstPerson":{},"materialProperties":[]})"),
-              "VRM: spring bones, first-person flags and toon materials are not used");
+              "VRM: first-person flags and toon materials are not used");
     EXPECT_EQ(said(R"("VRMC_vrm":{"expressions":{},"lookAt":{}},"VRMC_springBone":{"springs":[]})",
                    R"(,"extensions":{"VRMC_node_constraint":{}})"),
               "VRM: gaze and node constraints are not used");
