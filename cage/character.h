@@ -198,7 +198,7 @@ struct Expression {
     std::array<ExpressionHold, kExpressionKinds> holds{}; ///< by kind
 };
 
-/// A bone that swings. Without numbers of its own it has VRM's.
+/// A joint that swings. Without numbers of its own it has VRM's.
 struct SpringJoint {
     uint32_t node = 0;
     float hitRadius = 0.0f; ///< against colliders
@@ -207,21 +207,26 @@ struct SpringJoint {
     float drag = 0.5f;
     glm::vec3 gravityDirection{0.0f, -1.0f, 0.0f};
 };
+enum class ColliderShape : uint8_t { sphere, capsule, plane };
 struct SpringCollider {
     uint32_t node = 0;
-    bool isCapsule = false;
-    glm::vec3 offset{0.0f}; ///< in the node's space: a sphere's center, or one of a capsule's two
-    glm::vec3 tail{0.0f};   ///< a capsule's other one
+    ColliderShape shape = ColliderShape::sphere;
+    bool inside = false;    ///< tails stay in it, not out of it; not of a plane
+    glm::vec3 offset{0.0f}; ///< in the node's space: a sphere's center, one of a capsule's two, a point of a plane
+    glm::vec3 tail{0.0f};   ///< a capsule's other one; of a plane its normal, to the side where tails stay
     float radius = 0.0f;
 };
-/// Hair, a skirt, an ear: joints with those above before those below.
+/// Hair, a skirt, an ear: joints with those above before those below. No node is in two springs.
 struct Spring {
     std::string name;
     uint32_t center = kNone; ///< the node in whose space it moves, or kNone: the world
+    /// VRM 0.x: every joint moves, its tail is its first child, and of a leaf 7 cm beyond. VRM 1.0: its tail is the
+    /// next joint, and the last joint is a tail alone.
+    bool isTree = false;
     std::vector<SpringJoint> joints;
     std::vector<uint32_t> colliderGroups;
 };
-/// The spring bones of a file, as data: no pose moves by them yet.
+/// The spring bones of a file. Groups with SUPPLE_GROUP_SPRINGS move by them.
 struct SpringBones {
     std::vector<Spring> springs;
     std::vector<std::vector<uint32_t>> colliderGroups; ///< of colliders

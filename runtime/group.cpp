@@ -119,7 +119,7 @@ Status Group::createInstances(const GroupShared& shared) {
         {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(asset_->character, desc_.skinning),
          desc_.capacity, shared.firstGeneration, shared.framesInFlight,
          StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0,
-                   (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0},
+                   (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0, (desc_.flags & SUPPLE_GROUP_SPRINGS) != 0},
          shared.handsOver});
     if (!instances) {
         return instances.error();
@@ -482,19 +482,21 @@ bool Group::findUnseen() {
 
 PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
     Playback* const playback = follows() ? nullptr : poses().playback();
-    if (playback == nullptr || !playback->takesUpdateRates()) {
+    if (playback == nullptr || !playback->listsPoses()) {
         return {};
     }
     playback->takeStep();
     const shared::LodCamera camera = boxes_.areAskedFor() ? view_->cullView().camera : shared::LodCamera{};
     const bool unknown = drawnElsewhere(); // in views that may look from nearer by
-    for (uint32_t slot = 0; boxes_.areAskedFor() && slot < slots().end(); ++slot) {
+    const bool sizes = boxes_.areAskedFor() && playback->takesUpdateRates();
+    for (uint32_t slot = 0; sizes && slot < slots().end(); ++slot) {
         if (listing_.worksOn(slots(), slot) && playback->asksForSize(slot)) {
             playback->setSize(slot, unknown ? std::numeric_limits<float>::infinity()
                                             : pixelsPerUnit(camera, boxes_.boxes(), slot));
         }
     }
-    playback->listPoses(windows(), slots().end(), [&](uint32_t slot) { return listing_.worksOn(slots(), slot); });
+    playback->listPoses(frame, windows(), slots().end(),
+                        [&](uint32_t slot) { return listing_.worksOn(slots(), slot); });
     return {0, playback->recordList(commandBuffer, frame)};
 }
 

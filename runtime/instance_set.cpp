@@ -26,7 +26,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
-        status = desc.pose->prepare(desc.mode, desc.room.updateRates);
+        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs});
     }
     if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers)) {
         status = desc.asset->makeClips(*desc.device);
@@ -34,6 +34,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {
         status = desc.asset->makeSkinning(*desc.device, desc.mode);
     }
+    status = status && desc.room.springs ? set->takeSprings() : status;
     if (!status) {
         return status.error();
     }
@@ -45,6 +46,19 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     const bool hasSets = !desc.asset->character.cage.creaseSets.empty();
     set->creaseAlphas_ = CreaseAlphas(hasSets ? desc.capacity : 0, ownAlphas());
     return set;
+}
+
+Status InstanceSet::takeSprings() {
+    const skinning::ClipTable& table = *desc_.asset->clipTable;
+    desc_.room.springs = table.springs != 0;
+    // Eight steps must not bring an invocation near the 65,536 rounds of its loops where some drivers end it.
+    constexpr uint32_t kMostWork = 7000;
+    if (table.springWork > kMostWork) {
+        return Error{ErrorCode::limit, "its springs have " + std::to_string(table.springWork) +
+                                           " joints, colliders and tests of one against the other, of at most " +
+                                           std::to_string(kMostWork)};
+    }
+    return success();
 }
 
 uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {

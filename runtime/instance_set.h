@@ -74,6 +74,8 @@ public:
     PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
 
 private:
+    /// The asset has its clip table: whether joints swing, and not too many.
+    [[nodiscard]] Status takeSprings();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 
     Desc desc_;

@@ -96,8 +96,10 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.pieces = pieces;
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
-        const bool mixes = (group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
-        if (Status made = pose ? (*pose)->make(planned.skinning, mixes) : pose.error(); !made) {
+        const skinning::PoseNeeds needs{(group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0,
+                                        (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 &&
+                                            !prepared.character.springBones.springs.empty()};
+        if (Status made = pose ? (*pose)->make(planned.skinning, needs) : pose.error(); !made) {
             return made;
         }
     }

@@ -33,13 +33,24 @@ uint32_t transitionBegin(const skinning::PoseLayout& layout, const StateRoom& ro
     return skinning::PlaybackState::elements(layout.morphCount, room.modifiers ? kMaxModifiers : 0);
 }
 
-uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
+/// Of what an instance plays; with springs it has two, the second of which is what it has played before the last call.
+uint32_t playedStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
     return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
 }
+uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
+    return (room.springs ? 2 : 1) * playedStride(table, layout, room);
+}
 
+/// Behind the nodes and the place.
+uint32_t springScratch(const skinning::ClipTable& table, const StateRoom& room) {
+    return kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1) + (room.modifiers ? table.footCount : 0);
+}
 uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) {
-    return padded(kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1) +
-                  (room.modifiers ? table.footCount : 0));
+    return padded(springScratch(table, room) +
+                  (room.springs ? kAffineElements + kPosedColliderElements * table.springColliderCount : 0));
+}
+uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
+    return room.springs ? padded(kSpringJoints + kSpringJointElements * table.springJointCount) : 0;
 }
 
 /// From one end of an instance to the next. Both together are a multiple of kPadding.
@@ -50,7 +61,7 @@ uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
 
 /// Poses of an instance that may be made in one frame.
 uint32_t posesInFrame(const StateRoom& room) {
-    return room.updateRates ? 2 : 1;
+    return room.updateRates ? 2 : room.springs ? 1 + kMostSpringSteps : 1;
 }
 
 /// What the pose pass's dispatches of any window have in common.
@@ -73,6 +84,12 @@ PosePush constantsOf(const Playback::Desc& desc) {
     push.poseStride = desc.layout.stride;
     push.endStride = endStride(desc.layout, desc.room);
     push.morphWeights = desc.layout.morphWeights;
+    push.shown = UINT32_MAX;
+    push.stepNodes = desc.room.modifiers ? 0 : kNodeOfSprings;
+    push.stateBefore = playedStride(table, desc.layout, desc.room);
+    push.springs = table.springs;
+    push.springScratch = springScratch(table, desc.room);
+    push.springStride = springStride(table, desc.room);
     return push;
 }
 
@@ -99,7 +116,7 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 VkDeviceSize Playback::windowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
     return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
-                     kPoseEnds * endStride(layout, room)}) *
+                     kPoseEnds * endStride(layout, room), springStride(table, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -122,22 +139,21 @@ Result<Playback> Playback::create(const Desc& desc) {
     playback.masks_.assign(size_t{kMaxMasks} * push.maskStride * 4, 1.0f);
     playback.jointMasks_.assign(size_t{kMaxMasks} * push.jointCount, 1.0f);
     playback.twin_ = skinning::PoseTwin(table, desc.layout, push.transition);
-    if (desc.room.updateRates) {
-        playback.laterTwin_ = playback.twin_;
-        playback.rates_ = UpdateRates(desc.capacity);
-        playback.list_ = PoseList(desc.capacity, (desc.capacity + desc.windowSize - 1) / desc.windowSize);
-    }
+    playback.makeLists(desc);
     playback.transforms_.resize(desc.capacity, glm::mat4(1.0f));
     playback.positions_.resize(desc.capacity, glm::dvec3(0.0));
     playback.bounds_ = PlayedBounds(desc.asset->character, desc.asset->skinnedBounds(desc.layout.mode),
                                     desc.room.modifiers, desc.capacity);
+    if (desc.room.springs) {
+        playback.bounds_.setSwinging(table.swinging);
+    }
     playback.versions_.resize(desc.capacity, 1);
     playback.changed_.resize(desc.capacity, false);
     playback.changedSlots_.reserve(desc.capacity);
     playback.uploadedSlots_.reserve(desc.capacity);
     // Runs of slots with others between; of states of which only parts are used, each part by itself.
-    const bool inParts = desc.room.modifiers || desc.room.transitions;
-    playback.regions_.reserve(inParts ? 2 * size_t{desc.capacity} : size_t{desc.capacity} / 2 + 1);
+    const size_t parts = size_t{desc.room.springs ? 3u : desc.room.modifiers || desc.room.transitions ? 2u : 0u};
+    playback.regions_.reserve(parts > 0 ? parts * desc.capacity : size_t{desc.capacity} / 2 + 1);
     if (desc.room.transitions) {
         playback.transitionDue_.resize(desc.capacity, false);
         for (auto* const poses : {&playback.startsFrom_.shown, &playback.startsFrom_.played}) {
@@ -156,6 +172,20 @@ Result<Playback> Playback::create(const Desc& desc) {
     return playback;
 }
 
+void Playback::makeLists(const Desc& desc) {
+    if (desc.room.updateRates) {
+        laterTwin_ = twin_;
+        rates_ = UpdateRates(desc.capacity);
+    }
+    if (desc.room.springs) {
+        springs_ = SpringClock(desc.capacity);
+        beforeDue_.resize(desc.capacity, false);
+    }
+    if (listsPoses()) {
+        list_ = PoseList(desc.capacity, (desc.capacity + desc.windowSize - 1) / desc.windowSize, desc.room.springs);
+    }
+}
+
 Status Playback::createBuffers(const Desc& desc) {
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -169,7 +199,7 @@ Status Playback::createBuffers(const Desc& desc) {
                           capacity_ * posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes,
                           kStorage | kTexels, gpu::MemoryPurpose::scratch};
     requests[kEnds] = {"supple ends", capacity_ * endBytes(), kStorage | kTexels, gpu::MemoryPurpose::poses};
-    const VkDeviceSize ofList = takesUpdateRates() ? listBytes() : 0;
+    const VkDeviceSize ofList = listsPoses() ? listBytes() : 0;
     requests[kList] = {"supple list of poses", ofList, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
     if (!buffers) {
@@ -187,7 +217,7 @@ Status Playback::createBuffers(const Desc& desc) {
         return stagingSet.error();
     }
     staging_ = std::move(*stagingSet);
-    return success();
+    return hasSprings() ? springState_.create(*desc.device, capacity_, springBytes(), "supple springs") : success();
 }
 
 Status Playback::createSets(const Desc& desc) {
@@ -201,8 +231,8 @@ Status Playback::createSets(const Desc& desc) {
     const VkDeviceSize tableBytes = asset_->clips.size(0), maskBytes = buffers_.size(kMasks);
     const VkBufferView tableView = view(table, gpu::kUint4, 0, tableBytes, "supple clips");
     const VkBufferView maskView = view(masks, gpu::kFloat4, 0, maskBytes, "supple masks");
-    const VkBuffer list = takesUpdateRates() ? buffers_.buffer(kList) : desc.instances;
-    const VkDeviceSize listed = takesUpdateRates() ? listBytes() : desc.instanceBytes;
+    const VkBuffer list = listsPoses() ? buffers_.buffer(kList) : desc.instances;
+    const VkDeviceSize listed = listsPoses() ? listBytes() : desc.instanceBytes;
     const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listed, "supple instances");
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes,
                        scratchBytes = posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes;
@@ -232,6 +262,8 @@ Status Playback::createSets(const Desc& desc) {
             {kPosedBinding, range(desc.poses, poseBytes), VK_NULL_HANDLE},
             {kEndsBinding, range(ends, bytesOfEnds), VK_NULL_HANDLE},
             {kEndsTexelBinding, {}, view(ends, gpu::kFloat4, first * bytesOfEnds, count * bytesOfEnds, "supple ends")},
+            {kSpringBinding, hasSprings() ? range(springState_.buffer(), springBytes()) : range(scratch, scratchBytes),
+             VK_NULL_HANDLE},
             {kInstanceBinding, {list, 0, listed}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, listView},
         };
@@ -329,6 +361,9 @@ void Playback::reset(uint32_t slot) {
     if (takesUpdateRates()) {
         rates_.reset(slot);
     }
+    if (hasSprings()) {
+        springs_.settle(slot);
+    }
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
     }
@@ -388,6 +423,7 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
     if (starts) {
         sampleShown(slot, request);
     }
+    keepBefore(slot);
     own.set(asset_->character, *asset_->clipTable, desc);
     bounds_.set(slot, desc);
     if (starts) {
@@ -406,6 +442,27 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
     markChanged(slot);
 }
 
+void Playback::keepBefore(uint32_t slot) {
+    if (hasSprings() && springs_.change(slot, time_)) {
+        const std::span<uint32_t> words = stateWords(slot);
+        const size_t played = size_t{push_.stateBefore} * 4;
+        std::copy_n(words.begin(), played, words.begin() + static_cast<ptrdiff_t>(played));
+        beforeDue_[slot] = true;
+    }
+}
+
+bool Playback::travels(uint32_t slot) {
+    const auto asks = [](std::span<const uint32_t> words) { return (words[1] & kStateTravels) != 0; };
+    const std::span<uint32_t> words = stateWords(slot);
+    return asks(words) || (springs_.hasBefore(slot) && asks(words.subspan(size_t{push_.stateBefore} * 4)));
+}
+
+void Playback::teleport(uint32_t slot) {
+    if (hasSprings()) {
+        springs_.jump(slot, time_);
+    }
+}
+
 glm::mat4 Playback::placement(uint32_t slot) const {
     glm::mat4 placed = transforms_[slot];
     placed[3] = glm::vec4(glm::vec3(positions_[slot] - origin_), 1.0f);
@@ -421,6 +478,7 @@ void Playback::place(uint32_t slot) {
 
 void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) {
     forget(slot);
+    keepBefore(slot);
     modifiers_.set(slot, state(slot), *asset_->clipTable, modifiers, origin_);
     modifies_ = modifies_ || !modifiers.empty();
     takeModifiers(slot);
@@ -430,6 +488,7 @@ void Playback::setModifiers(uint32_t slot, std::span<const PlacedModifier> modif
 
 void Playback::setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal) {
     forget(slot);
+    keepBefore(slot);
     modifiers_.setGoal(slot, state(slot), index, goal, origin_);
     markChanged(slot);
 }
@@ -468,6 +527,10 @@ void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
 
 void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
     positions_[slot] = position;
+    if (hasSprings()) {
+        keepBefore(slot);
+        springs_.place(slot, time_);
+    }
     place(slot);
 }
 
@@ -585,6 +648,10 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         bounds_.takeOver(other.bounds_, count);
         rates_.takeOver(other.rates_, count);
         steps_ = other.steps_;
+        if (hasSprings()) {
+            springs_.takeOver(other.springs_, count);
+            springState_.takeOver(other.springState_, count);
+        }
     } else {
         takeOverMasks(other, match);
     }
@@ -596,8 +663,12 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         if (takesTransitions()) {
             transitionDue_[slot] = state(slot).isInTransition();
         }
+        if (hasSprings()) {
+            beforeDue_[slot] = springs_.hasBefore(slot);
+        }
         transforms_[slot] = other.transforms_[slot];
-        setPosition(slot, other.positions_[slot]);
+        positions_[slot] = other.positions_[slot];
+        place(slot);
     }
 }
 
@@ -612,7 +683,7 @@ void Playback::stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes) {
 }
 
 VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
-    VkDeviceSize bytes = 0;
+    VkDeviceSize bytes = hasSprings() ? springState_.recordUpload(commandBuffer, frame, {}) : 0;
     const VkDeviceSize run = frame % framesInFlight_;
     if (!changedSlots_.empty()) {
         // Packed in the order of slots: a region of the copy for every run of neighbors.
@@ -626,6 +697,11 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
             if (takesTransitions() && transitionDue_[slot] && state(slot).isInTransition()) {
                 stage(from, to + push_.transition * gpu::kVec4Bytes, transitionElements_ * gpu::kVec4Bytes);
                 transitionDue_[slot] = false;
+            }
+            if (hasSprings() && beforeDue_[slot]) {
+                const VkDeviceSize played = push_.stateBefore * gpu::kVec4Bytes;
+                stage(from, to + played, played);
+                beforeDue_[slot] = false;
             }
             changed_[slot] = false;
         }
@@ -649,17 +725,30 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
 }
 
 VkDeviceSize Playback::usedBytes(uint32_t slot) {
-    return takesModifiers() || takesTransitions()
+    return takesModifiers() || takesTransitions() || hasSprings()
                ? VkDeviceSize{skinning::PlaybackState::elements(push_.morphCount, state(slot).modifierCount())} * 16
                : stateBytes();
 }
 
-void Playback::cancelUpload(uint64_t frame) {
+void Playback::beginFrame(uint64_t completedFrame) {
+    if (hasSprings()) {
+        springState_.beginFrame(completedFrame);
+    }
+}
+
+void Playback::cancelFrame(uint64_t frame) {
+    if (hasSprings()) {
+        springState_.cancelFrame(frame);
+        springs_.cancelFrame(frame);
+    }
     if (uploadFrame_ == frame) {
         for (const uint32_t slot : uploadedSlots_) {
             markChanged(slot);
             if (takesTransitions()) {
                 transitionDue_[slot] = state(slot).isInTransition();
+            }
+            if (hasSprings()) {
+                beforeDue_[slot] = springs_.hasBefore(slot);
             }
         }
     }
@@ -745,6 +834,26 @@ void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
     list_.addMix(slotInWindow, ends.earlier, span.partAt(time_));
 }
 
+void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
+    list_.addPose(slotInWindow, 0, time_);
+    if (state(slot).inBindPose()) {
+        springs_.settle(slot);
+        return;
+    }
+    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
+    const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
+    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
+    list_.addSwinging(slotInWindow, due.count | jump | (due.settles ? kSpringSettles : 0), due.part, due.moves);
+    for (uint32_t k = 0; k < due.count; ++k) {
+        const double time = springTime(due.first + k);
+        list_.addStep(slotInWindow, due.before[k], time);
+        firstStep_ = std::min(firstStep_, time);
+        if (due.moves) {
+            list_.addMove(due.rows[k]);
+        }
+    }
+}
+
 VkDeviceSize Playback::recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
     const std::span<const uint32_t> words = list_.words();
     if (words.empty()) {
@@ -759,12 +868,14 @@ VkDeviceSize Playback::recordList(VkCommandBuffer commandBuffer, uint64_t frame)
 }
 
 bool Playback::has(Part part) const {
-    const bool posed = !takesUpdateRates() || list_.poseCount() > 0;
+    const bool posed = !listsPoses() || list_.poseCount() > 0;
     switch (part) {
     case Part::roots:
         return posed && (roots_ || plants_);
     case Part::modifiers:
         return posed && modifies_;
+    case Part::springs:
+        return hasSprings() && list_.swingingCount() > 0;
     case Part::mix:
         return takesUpdateRates() && list_.mixCount() > 0;
     default:
@@ -774,11 +885,12 @@ bool Playback::has(Part part) const {
 
 skinning::PoseKernels::Locals Playback::locals() const {
     using Locals = skinning::PoseKernels::Locals;
-    const bool inTransition = transitions_.holds(time_) && bounds_.anyInTransition(time_);
+    const double first = hasSprings() ? firstStep_ : time_;
+    const bool inTransition = transitions_.meets(first, time_) && bounds_.anyInTransition(first, time_);
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
 }
 
-void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const {
+PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& windows) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);
     push.timeHigh = time.high;
@@ -786,13 +898,20 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
     push.firstInstance = windows.firstEntry(window);
     push.instanceCount = windows.listed[window].count;
     push.footCount = plants_ ? asset_->clipTable->footCount : 0;
-    if (takesUpdateRates()) {
+    if (listsPoses()) {
         const PoseList::Window& own = list_.window(window);
         const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
         push.firstInstance = run.first;
-        push.instanceCount = run.count;
+        push.instanceCount = part == Part::palette ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
+        push.shown = own.shown;
+        push.springWords = own.swinging.first;
     }
+    return push;
+}
+
+void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const {
+    const PosePush push = pushOf(part, window, windows);
     if (push.instanceCount == 0) {
         return;
     }
@@ -805,6 +924,9 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
         break;
     case Part::modifiers:
         kernels_->recordModifiers(dispatches, sets_[window], push);
+        break;
+    case Part::springs:
+        kernels_->recordSprings(dispatches, sets_[window], push);
         break;
     case Part::palette:
         kernels_->recordPalette(dispatches, sets_[window], mode_, push);
@@ -830,6 +952,10 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
         dispatches.computeBarrier();
         kernels_->recordModifiers(dispatches, set, none);
     }
+    if (hasSprings()) {
+        dispatches.computeBarrier();
+        kernels_->recordSprings(dispatches, set, none);
+    }
     dispatches.computeBarrier();
     kernels_->recordPalette(dispatches, set, mode_, none);
     if (takesUpdateRates()) {
@@ -841,6 +967,9 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
 gpu::MemoryUse Playback::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
+    if (hasSprings()) {
+        use += springState_.memoryUse();
+    }
     return use;
 }
 

@@ -8,9 +8,11 @@
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
 #include "runtime/instance_modifiers.h"
+#include "runtime/instance_state.h"
 #include "runtime/instance_windows.h"
 #include "runtime/played_bounds.h"
 #include "runtime/pose_list.h"
+#include "runtime/spring_clock.h"
 #include "runtime/update_rates.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
@@ -36,6 +38,7 @@ struct StateRoom {
     // Of instances that play on the device:
     bool transitions = false;
     bool updateRates = false;
+    bool springs = false; ///< some joints of the asset swing
 };
 
 /// What suppleSetPlayback says beside the layers.
@@ -46,8 +49,8 @@ struct TransitionRequest {
     bool keeps = false;        ///< the transition that the instance is in
 };
 
-/// Setting and recording allocate nothing. Without update rates, a frame without anything set uploads nothing and costs
-/// the same for any number of instances.
+/// Setting and recording allocate nothing. Without update rates and springs, a frame without anything set uploads
+/// nothing and costs the same for any number of instances.
 class Playback {
 public:
     struct Desc {
@@ -78,6 +81,14 @@ public:
     /// What was asked for, or what the size on the screen has chosen.
     [[nodiscard]] uint32_t updateIntervalOf(uint32_t slot) const { return rates_.interval(slot); }
     [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
+    /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
+    [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
+    /// A frame poses what listPoses() has listed, not all that the group works on.
+    [[nodiscard]] bool listsPoses() const { return takesUpdateRates() || hasSprings(); }
+    /// Its springs see no movement from where it stood to where it stands in the next frame.
+    void teleport(uint32_t slot);
+    /// All begin anew: tails at rest in the pose.
+    void settleSprings() { springs_.settleAll(); }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
     /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
@@ -106,6 +117,13 @@ public:
     /// The pose as the next recording leaves it on the device: all elements but those of padding.
     void writePose(uint32_t slot, std::span<glm::vec4> pose);
 
+    // What the device reads: of the slot, and the masks.
+    [[nodiscard]] std::span<const uint32_t> stateOf(uint32_t slot) const {
+        const size_t words = size_t{push_.stateStride} * 4;
+        return std::span(states_).subspan(slot * words, words);
+    }
+    [[nodiscard]] std::span<const float> masks() const { return masks_; }
+
     /// A box that holds the instance's cage at the group's time, where the next recording places it; nothing if nobody
     /// knows. It is found without a pose.
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t slot, const skinning::Reach& reach);
@@ -122,10 +140,11 @@ public:
 
     /// What has changed since it was recorded last; the bytes of it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
+    void beginFrame(uint64_t completedFrame);
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
-    void cancelUpload(uint64_t frame);
+    void cancelFrame(uint64_t frame);
 
-    // With update rates, in each frame, before its parts of the pass. The interval of an instance whose size on the
+    // If listsPoses(), in each frame, before its parts of the pass. The interval of an instance whose size on the
     // screen decides is chosen with setSize(); until then it is posed in every frame.
     void takeStep() { steps_.take(time_); } ///< a recording begins
     /// Whether setSize() is waited for.
@@ -133,15 +152,16 @@ public:
     /// `pixelsPerUnit`: at most, where the instance is.
     void setSize(uint32_t slot, float pixelsPerUnit);
     void forgetSizes() { rates_.forgetChoices(); }
-    /// Lists what is posed of the instances that `worksOn` holds for.
+    /// Lists what is posed in a frame, of the instances that `worksOn` holds for.
     template <class WorksOn>
-    void listPoses(const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
+    void listPoses(uint64_t frame, const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
         list_.clear();
+        firstStep_ = time_;
         for (uint32_t w = 0; w < windows.count(); ++w) {
             const uint32_t first = windows.firstSlot(w), last = std::min(first + windows.slots(w), end);
             for (uint32_t slot = first; slot < last; ++slot) {
                 if (worksOn(slot)) {
-                    listPose(slot, slot - first);
+                    hasSprings() ? listSteps(frame, slot, slot - first) : listPose(slot, slot - first);
                 }
             }
             list_.endWindow(w);
@@ -149,15 +169,15 @@ public:
     }
     VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame);
 
-    enum class Part { locals, roots, modifiers, palette, mix };
-    static constexpr uint32_t kParts = 5;
+    enum class Part { locals, roots, modifiers, springs, palette, mix };
+    static constexpr uint32_t kParts = 6;
     /// A part of the pass over the instances of a window.
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const;
     /// Poses that a frame makes of these instances.
     [[nodiscard]] uint32_t poseCount(const InstanceWindows& windows) const {
-        return takesUpdateRates() ? list_.poseCount() : windows.visible;
+        return listsPoses() ? list_.poseCount() : windows.visible;
     }
 
     /// Context::recordWarmUp.
@@ -169,6 +189,7 @@ private:
     enum BufferIndex : size_t { kStates, kMasks, kScratch, kEnds, kList, kBufferCount };
     enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
 
+    void makeLists(const Desc& desc); ///< of instances with update rates, or springs
     Status createBuffers(const Desc& desc);
     Status createSets(const Desc& desc);
     [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
@@ -196,7 +217,15 @@ private:
     [[nodiscard]] VkDeviceSize endBytes() const {
         return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
     }
-    [[nodiscard]] VkDeviceSize listBytes() const { return capacity_ * PoseList::kWordsOfInstance * sizeof(uint32_t); }
+    [[nodiscard]] VkDeviceSize listBytes() const {
+        return capacity_ * (hasSprings() ? PoseList::kWordsOfSwinging : PoseList::kWordsOfInstance) * sizeof(uint32_t);
+    }
+    [[nodiscard]] VkDeviceSize springBytes() const { return VkDeviceSize{push_.springStride} * 16; }
+    /// What the slot plays changes: due steps are still posed by what it has played.
+    void keepBefore(uint32_t slot);
+    [[nodiscard]] bool travels(uint32_t slot);
+    void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
+    [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;
     [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
     /// What plays jumps or turns at once within a span: at seams, where clips begin and end, while weights fade.
@@ -239,6 +268,11 @@ private:
     TimeSteps steps_;
     PoseList list_;
     uint64_t listFrame_ = 0; ///< the last that poses of the list are recorded in
+
+    SpringClock springs_;
+    InstanceState springState_;   ///< if hasSprings()
+    std::vector<bool> beforeDue_; ///< by slot: what it has played before the last call is not on the device yet
+    double firstStep_ = 0.0;      ///< the earliest time of the list
 
     PlayedBounds bounds_;
     std::vector<uint32_t> versions_; ///< by slot: rises when anything is set

@@ -41,12 +41,10 @@ uint32_t PlayedBounds::loopOf(uint32_t slot, double time) const {
 }
 
 bool PlayedBounds::leavesReach(uint32_t slot, const skinning::Reach& reach) const {
-    if (turned_.empty()) {
-        return false;
-    }
-    const Turned& own = turned_[slot];
-    return own.elsewhere ||
-           std::any_of(own.nodes.begin(), own.nodes.end(), [&](uint32_t node) { return reach.anchored[node] == 0; });
+    const auto any = [&](const std::vector<uint32_t>& nodes) {
+        return std::any_of(nodes.begin(), nodes.end(), [&](uint32_t node) { return reach.anchored[node] == 0; });
+    };
+    return any(swinging_) || (!turned_.empty() && (turned_[slot].elsewhere || any(turned_[slot].nodes)));
 }
 
 std::optional<skinning::Box> PlayedBounds::of(uint32_t slot, double time, const skinning::Reach& reach,

@@ -46,10 +46,12 @@ public:
     /// it.
     void setTransition(uint32_t slot, const Interval& interval) { played_[slot].transition = interval; }
     [[nodiscard]] const Interval& transition(uint32_t slot) const { return played_[slot].transition; }
-    [[nodiscard]] bool anyInTransition(double time) const {
+    [[nodiscard]] bool anyInTransition(double first, double last) const {
         return std::any_of(played_.begin(), played_.end(),
-                           [&](const Played& own) { return own.transition.holds(time); });
+                           [&](const Played& own) { return own.transition.meets(first, last); });
     }
+    /// Springs turn these nodes of all slots.
+    void setSwinging(std::span<const uint32_t> nodes) { swinging_.assign(nodes.begin(), nodes.end()); }
 
     /// Takes over the first `count` slots of the same character.
     void takeOver(const PlayedBounds& other, uint32_t count) {
@@ -63,8 +65,8 @@ public:
 
     /// A box that holds the instance's cage at a time, before the instance's transform, but with what it has travelled.
     /// Nothing if nobody knows: with additive layers, in a transition, if something else than the only anchor takes the
-    /// movement of the root, or if modifiers turn a node that no clip moves or carries. `hostWeights`: morph weights of
-    /// the host's; empty: those of the clips.
+    /// movement of the root, or if modifiers or springs turn a node that no clip moves or carries. `hostWeights`: morph
+    /// weights of the host's; empty: those of the clips.
     [[nodiscard]] std::optional<skinning::Box> of(uint32_t slot, double time, const skinning::Reach& reach,
                                                   std::span<const float> hostWeights) const;
 
@@ -90,6 +92,7 @@ private:
     skinning::SkinnedBounds skinned_;
     std::vector<Played> played_; ///< by slot
     std::vector<Turned> turned_; ///< by slot, where instances may have modifiers
+    std::vector<uint32_t> swinging_;
 };
 
 } // namespace supple::runtime

@@ -1,11 +1,13 @@
-// The list of what is posed, in groups with update rates (shaders/shared/pose.h).
+// The list of what is posed, in groups with update rates or springs (shaders/shared/pose.h).
 #pragma once
 
 #include "shaders/shared/pose.h"
 #include "skinning/split_time.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -16,18 +18,26 @@ class PoseList {
 public:
     /// Of an instance: two ends with their times, or what is shown with its time; and its part of the way.
     static constexpr uint32_t kWordsOfInstance = 2 * 3 + 2;
+    /// With springs: what is shown, and each step with its time and its move.
+    static constexpr uint32_t kWordsOfSwinging =
+        3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
 
     PoseList() = default;
-    PoseList(uint32_t capacity, uint32_t windowCount) : windows_(windowCount) {
-        words_.reserve(size_t{capacity} * kWordsOfInstance);
-        times_.reserve(size_t{capacity} * 4);
-        mixes_.reserve(capacity);
-        parts_.reserve(capacity);
+    PoseList(uint32_t capacity, uint32_t windowCount, bool springs) : windows_(windowCount) {
+        words_.reserve(size_t{capacity} * (springs ? kWordsOfSwinging : kWordsOfInstance));
+        times_.reserve(size_t{capacity} * (springs ? 2 * (1 + size_t{shared::kMostSpringSteps}) : 4));
+        mixes_.reserve(springs ? 0 : capacity);
+        parts_.reserve(springs ? 0 : capacity);
+        const size_t steps = springs ? size_t{capacity} * shared::kMostSpringSteps : 0;
+        steps_.reserve(steps);
+        stepTimes_.reserve(2 * steps);
+        moves_.reserve(steps * shared::kMoveWords);
+        swinging_.reserve(springs ? capacity : 0);
     }
 
     void clear() {
         words_.clear();
-        poses_ = mixed_ = 0;
+        poses_ = mixed_ = swung_ = 0;
     }
     // Of one window after the other; slots count within it. endWindow() is called for each.
     /// `end`: its number; 0: what is shown.
@@ -41,15 +51,39 @@ public:
         mixes_.push_back(slot | earlierEnd << shared::kPosedEndShift);
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
+    /// Behind addPose() of the instance. Its steps and moves follow with addStep() and addMove().
+    void addSwinging(uint32_t slot, uint32_t steps, float part, bool moves) {
+        swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), steps, std::bit_cast<uint32_t>(part),
+                             moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
+                             static_cast<uint32_t>(times_.size() / 2) - 1});
+    }
+    void addStep(uint32_t slot, bool before, double time) {
+        const skinning::SplitTime split = skinning::splitTime(time);
+        steps_.push_back(slot | (before ? shared::kPosedBefore : 0));
+        stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
+        stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
+    }
+    void addMove(const std::array<glm::vec4, 3>& rows) {
+        for (const glm::vec4& row : rows) {
+            for (int i = 0; i < 4; ++i) {
+                moves_.push_back(std::bit_cast<uint32_t>(row[i]));
+            }
+        }
+    }
     void endWindow(uint32_t window) {
         Window& own = windows_[window];
+        own.shown = static_cast<uint32_t>(times_.size() / 2);
+        append(steps_);
+        times_.insert(times_.end(), stepTimes_.begin(), stepTimes_.end());
+        stepTimes_.clear();
         own.poses.count = static_cast<uint32_t>(times_.size() / 2);
         own.poses.values = append(times_);
         own.poses.first = own.poses.values - own.poses.count;
         own.mixes.first = append(mixes_);
         own.mixes.values = append(parts_);
         own.mixes.count = own.mixes.values - own.mixes.first;
-        poses_ += own.poses.count;
+        endSwinging(own);
+        poses_ += own.shown;
         mixed_ += own.mixes.count;
     }
 
@@ -59,14 +93,30 @@ public:
     };
     struct Window {
         Run poses, mixes;
+        uint32_t shown = 0; ///< of the poses, before steps of springs
+        Run swinging;       ///< kSpringWords for each
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }
     [[nodiscard]] std::span<const uint32_t> words() const { return words_; }
     // In all windows.
     [[nodiscard]] uint32_t poseCount() const { return poses_; }
     [[nodiscard]] uint32_t mixCount() const { return mixed_; }
+    [[nodiscard]] uint32_t swingingCount() const { return swung_; }
 
 private:
+    void endSwinging(Window& own) {
+        own.swinging.first = static_cast<uint32_t>(words_.size());
+        own.swinging.count = static_cast<uint32_t>(swinging_.size());
+        const uint32_t moves = own.swinging.first + own.swinging.count * shared::kSpringWords;
+        for (std::array<uint32_t, shared::kSpringWords>& record : swinging_) {
+            constexpr size_t kMoves = 4;
+            record[kMoves] += record[kMoves] != 0 ? moves - 1 : 0;
+            words_.insert(words_.end(), record.begin(), record.end());
+        }
+        swung_ += own.swinging.count;
+        swinging_.clear();
+        append(moves_);
+    }
     /// The word where they begin. Leaves none.
     uint32_t append(std::vector<uint32_t>& values) {
         const auto first = static_cast<uint32_t>(words_.size());
@@ -75,9 +125,12 @@ private:
         return first;
     }
 
-    std::vector<uint32_t> words_, times_, mixes_, parts_; ///< the latter three of the window that is being listed
+    std::vector<uint32_t> words_;
+    // Of the window that is being listed.
+    std::vector<uint32_t> times_, mixes_, parts_, steps_, stepTimes_, moves_;
+    std::vector<std::array<uint32_t, shared::kSpringWords>> swinging_;
     std::vector<Window> windows_;
-    uint32_t poses_ = 0, mixed_ = 0;
+    uint32_t poses_ = 0, mixed_ = 0, swung_ = 0;
 };
 
 } // namespace supple::runtime

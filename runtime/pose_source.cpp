@@ -76,6 +76,7 @@ public:
     void setTransform(uint32_t slot, const glm::mat4& transform) override { playback_.setTransform(slot, transform); }
     void setPosition(uint32_t slot, const glm::dvec3& position) override { playback_.setPosition(slot, position); }
     void setOrigin(const glm::dvec3& origin, uint32_t end) override { playback_.setOrigin(origin, end); }
+    void teleport(uint32_t slot) override { playback_.teleport(slot); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);
@@ -116,7 +117,8 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t) override {
         return {0, playback_.recordUpload(commandBuffer, frame)};
     }
-    void cancelFrame(uint64_t frame) override { playback_.cancelUpload(frame); }
+    void beginFrame(uint64_t completedFrame) override { playback_.beginFrame(completedFrame); }
+    void cancelFrame(uint64_t frame) override { playback_.cancelFrame(frame); }
     [[nodiscard]] bool has(Playback::Part part) const override { return playback_.has(part); }
     PassCost recordPart(gpu::Dispatches& dispatches, Playback::Part part,
                         const InstanceWindows& windows) const override {

@@ -30,6 +30,7 @@ public:
     /// Where the coordinates of the device begin, for the next recording and for jointTransform(). `end`: slots below
     /// it may be in use.
     virtual void setOrigin(const glm::dvec3& /*origin*/, uint32_t /*end*/) {}
+    virtual void teleport(uint32_t /*slot*/) {} ///< it has jumped to where the next recording places it
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
@@ -67,7 +68,7 @@ public:
     virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, uint32_t /*end*/) {
         return {};
     }
-    /// The pose pass has five parts with a barrier between each two. Whether the source has this one.
+    /// The pose pass has six parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {

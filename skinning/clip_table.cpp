@@ -6,6 +6,7 @@
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
 #include "skinning/split_time.h"
+#include "skinning/spring_table.h"
 
 #include <algorithm>
 #include <map>
@@ -48,8 +49,8 @@ public:
         for (const uint32_t node : table_.nodes) {
             const cage::Node& from = character_.skeleton.nodes[node];
             const uint32_t rotation = from.hasMatrix ? nodesEnd + static_cast<uint32_t>(fixed.size()) : 0u;
-            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? 1u : 0u, rotation,
-                 footNumber(node)});
+            put({from.parent == cage::kNone ? kNoNode : table_.places[from.parent], from.hasMatrix ? kNodeFixed : 0u,
+                 rotation, footNumber(node)});
             if (from.hasMatrix) {
                 putRows(from.matrix);
                 fixed.push_back(nearestRotation(glm::dmat3(glm::dmat4(from.matrix))));
@@ -315,6 +316,7 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putSkin();
     builder.putClips();
     builder.putContacts();
+    putSprings(character, table);
     return table;
 }
 

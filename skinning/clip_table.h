@@ -34,6 +34,10 @@ struct ClipTable {
     uint32_t contacts = 0;
     uint32_t footCount = 0;
     double longestLeg = 0.0; ///< of the feet
+    uint32_t springs = 0;    ///< 0: no joint swings
+    uint32_t springJointCount = 0, springColliderCount = 0;
+    uint32_t springWork = 0;        ///< nodes, colliders and tests against these in a step
+    std::vector<uint32_t> swinging; ///< nodes, in any order
 
     /// Whether feet can be planted there.
     [[nodiscard]] bool isFoot(uint32_t node) const;

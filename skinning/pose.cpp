@@ -13,10 +13,6 @@ using cage::Channel;
 using cage::ChannelPath;
 using cage::Interpolation;
 
-Transform restTransform(const cage::Node& node) {
-    return {glm::dvec3(node.translation), glm::dquat(node.rotation), glm::dvec3(node.scale)};
-}
-
 glm::dmat4 compose(const Transform& t) {
     const double x = t.rotation.x, y = t.rotation.y, z = t.rotation.z, w = t.rotation.w;
     const double squared = x * x + y * y + z * z + w * w;
@@ -125,6 +121,10 @@ void sampleWeights(const Channel& channel, double time, std::span<double> weight
 }
 
 } // namespace
+
+Transform restTransform(const cage::Node& node) {
+    return {glm::dvec3(node.translation), glm::dquat(node.rotation), glm::dvec3(node.scale)};
+}
 
 double sampleSharpness(const cage::SharpnessCurve& curve, double time) {
     double sharpness = 0.0;

@@ -20,6 +20,8 @@ struct Transform {
     glm::dvec3 scale{1.0};
 };
 
+[[nodiscard]] Transform restTransform(const cage::Node& node);
+
 /// All that a clip can set. Filling a pose that was filled for the same character before allocates nothing.
 struct Pose {
     std::vector<Transform> locals;    ///< one a node; nodes with a fixed matrix keep that, whatever stands here

@@ -8,6 +8,7 @@
 #include "shaders/pose_modify_comp.h"
 #include "shaders/pose_palette_comp.h"
 #include "shaders/pose_roots_comp.h"
+#include "shaders/pose_springs_comp.h"
 #include "shaders/shared/specialization.h"
 
 #include <algorithm>
@@ -28,19 +29,13 @@ size_t kindOf(SkinningMode mode) {
 
 Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     const gpu::Binding bindings[] = {
-        gpu::wideStorage(kClipTableBinding),
-        gpu::narrowTexels(kClipTableTexelBinding),
-        gpu::wideStorage(kStateBinding),
-        gpu::narrowTexels(kStateTexelBinding),
-        gpu::wideStorage(kMaskBinding),
-        gpu::narrowTexels(kMaskTexelBinding),
-        gpu::storage(kScratchPoseBinding),
-        gpu::narrowTexels(kScratchPoseTexelBinding),
-        gpu::storage(kPosedBinding),
-        gpu::storage(kEndsBinding),
-        gpu::narrowTexels(kEndsTexelBinding),
-        gpu::wideStorage(kInstanceBinding),
-        gpu::narrowTexels(kInstanceTexelBinding),
+        gpu::wideStorage(kClipTableBinding),  gpu::narrowTexels(kClipTableTexelBinding),
+        gpu::wideStorage(kStateBinding),      gpu::narrowTexels(kStateTexelBinding),
+        gpu::wideStorage(kMaskBinding),       gpu::narrowTexels(kMaskTexelBinding),
+        gpu::storage(kScratchPoseBinding),    gpu::narrowTexels(kScratchPoseTexelBinding),
+        gpu::storage(kPosedBinding),          gpu::storage(kEndsBinding),
+        gpu::narrowTexels(kEndsTexelBinding), gpu::storage(kSpringBinding),
+        gpu::wideStorage(kInstanceBinding),   gpu::narrowTexels(kInstanceTexelBinding),
     };
     PoseKernels made;
     made.device_ = &device;
@@ -53,7 +48,7 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
     return made;
 }
 
-Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool mixes) const {
+Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, PoseNeeds needs) const {
     const bool rotations = skinningRow(mode).rotations;
     const gpu::Constant constants[] = {
         {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
@@ -69,22 +64,25 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, bool mixes)
     found.palette = batch.get(layout_, pose_palette_comp, constants,
                               rotations ? "supple pose, palette with rotations" : "supple pose, palette");
     const gpu::Constant layout[] = {{kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
-    if (mixes) {
+    if (needs.mixes) {
         found.mix =
             batch.get(layout_, pose_mix_comp, layout,
                       rotations ? "supple pose, between palettes with rotations" : "supple pose, between palettes");
+    }
+    if (needs.springs) {
+        found.springs = batch.get(layout_, pose_springs_comp, {}, "supple pose, springs");
     }
     const Status made = batch.make();
     return made ? Result<Kernels>(found) : made.error();
 }
 
-Status PoseKernels::make(SkinningMode mode, bool mixes) const {
-    const Result<Kernels> made = kernels(mode, mixes);
+Status PoseKernels::make(SkinningMode mode, PoseNeeds needs) const {
+    const Result<Kernels> made = kernels(mode, needs);
     return made ? success() : made.error();
 }
 
-Status PoseKernels::prepare(SkinningMode mode, bool mixes) {
-    const Result<Kernels> made = kernels(mode, mixes);
+Status PoseKernels::prepare(SkinningMode mode, PoseNeeds needs) {
+    const Result<Kernels> made = kernels(mode, needs);
     if (!made) {
         return made.error();
     }
@@ -93,8 +91,11 @@ Status PoseKernels::prepare(SkinningMode mode, bool mixes) {
     modifiers_ = made->modifiers;
     const size_t kind = kindOf(mode);
     palette_[kind] = made->palette;
-    if (mixes) {
+    if (needs.mixes) {
         mix_[kind] = made->mix;
+    }
+    if (needs.springs) {
+        springs_ = made->springs;
     }
     return success();
 }
@@ -119,6 +120,11 @@ void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& 
 void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
     record(dispatches, set, push, modifiers_, (push.instanceCount + local - 1) / local);
+}
+
+void PoseKernels::recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+    const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
+    record(dispatches, set, push, springs_, (push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,

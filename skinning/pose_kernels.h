@@ -9,15 +9,20 @@
 
 namespace supple::skinning {
 
+/// What a group needs of the pose pass beside what all do.
+struct PoseNeeds {
+    bool mixes = false;   ///< update rates: what lies between two poses
+    bool springs = false; ///< some joints swing
+};
+
 class PoseKernels {
 public:
     /// Both must outlive the pass.
     [[nodiscard]] static Result<PoseKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
     /// Makes the pipelines of a mode if they are not there: on any thread, also beside recording.
-    /// `mixes`: also what groups with update rates need.
-    [[nodiscard]] Status make(SkinningMode mode, bool mixes) const;
+    [[nodiscard]] Status make(SkinningMode mode, PoseNeeds needs) const;
     /// The same for what is to be recorded.
-    [[nodiscard]] Status prepare(SkinningMode mode, bool mixes);
+    [[nodiscard]] Status prepare(SkinningMode mode, PoseNeeds needs);
 
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
     /// What locals can do: the second if some instance has an additive layer, the third if one is in a transition. Code
@@ -31,6 +36,8 @@ public:
     void recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     /// Only where one has modifiers.
     void recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
+    /// Only in groups with springs. `push.instanceCount`: how many swing.
+    void recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                        const shared::PosePush& push) const;
     /// Only in groups with update rates: what is shown between ends.
@@ -40,9 +47,9 @@ public:
 private:
     struct Kernels {
         gpu::Kernel locals[kLocals];
-        gpu::Kernel roots, modifiers, palette, mix;
+        gpu::Kernel roots, modifiers, springs, palette, mix;
     };
-    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode, bool mixes) const;
+    [[nodiscard]] Result<Kernels> kernels(SkinningMode mode, PoseNeeds needs) const;
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
                 const gpu::Kernel& kernel, uint64_t groups) const;
 
@@ -52,6 +59,7 @@ private:
     gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
+    gpu::Kernel springs_;
     gpu::Kernel palette_[2], mix_[2]; ///< by whether poses have rotations
 };
 

@@ -45,6 +45,8 @@ public:
     void hold(const cage::Character& character, const Rig& rig, const Layer& layer, const RootSelection& root,
               std::span<glm::vec4> held) const;
 
+    /// Where the last pose stands: see Stands.
+    [[nodiscard]] const shared::Affine& place() const { return place_; }
     // Of the last pose, which is not the bind pose: the joint's node in model space, and where the instance stands,
     // with what it has travelled.
     [[nodiscard]] glm::mat4 joint(uint32_t joint) const;

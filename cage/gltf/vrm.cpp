@@ -13,8 +13,6 @@ constexpr struct {
     const char* member;
     const char* what;
 } kVrmUses[] = {
-    {"VRM", "secondaryAnimation", "spring bones"},
-    {"VRMC_springBone", "springs", "spring bones"},
     {"VRM", "firstPerson", "first-person flags"},
     {"VRMC_vrm", "firstPerson", "first-person flags"},
     {"VRMC_vrm", "lookAt", "gaze"},

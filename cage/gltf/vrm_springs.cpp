@@ -4,6 +4,7 @@
 #include "cage/limits.h"
 
 #include <cmath>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,6 +68,14 @@ public:
             fault_ = std::string(key) + " is out of range";
         }
     }
+    void flag(const char* key, bool& into) {
+        const Json* given = find(key);
+        if (given != nullptr && !given->isBoolean()) {
+            fault_ = std::string(key) + " is neither true nor false";
+        } else if (given != nullptr) {
+            into = given->boolean();
+        }
+    }
     [[nodiscard]] const Fault& fault() const { return fault_; }
 
 private:
@@ -106,18 +115,41 @@ private:
     }
 
     Fault readShape(const Json& from, SpringCollider& collider) {
-        const Json* shape = objectIn(&from, "shape");
+        // The extended shape stands before the other, which is there for those who do not know it.
+        const Json* extended = objectIn(objectIn(&from, "extensions"), "VRMC_springBone_extended_collider");
+        const Json* shape = objectIn(extended != nullptr ? extended : &from, "shape");
         const Json* sphere = objectIn(shape, "sphere");
         const Json* capsule = objectIn(shape, "capsule");
-        if (sphere == nullptr && capsule == nullptr) {
-            return "its shape is neither a sphere nor a capsule";
+        const Json* plane = extended != nullptr ? objectIn(shape, "plane") : nullptr;
+        if (plane != nullptr) {
+            return readPlane(*plane, collider);
         }
-        collider.isCapsule = capsule != nullptr;
+        if (sphere == nullptr && capsule == nullptr) {
+            return "its shape is none that is known";
+        }
+        collider.shape = capsule != nullptr ? ColliderShape::capsule : ColliderShape::sphere;
         Numbers numbers(capsule != nullptr ? *capsule : *sphere);
         numbers.vector("offset", collider.offset);
         collider.tail = collider.offset;
-        numbers.vector("tail", collider.tail);
+        if (capsule != nullptr) {
+            numbers.vector("tail", collider.tail);
+        }
         numbers.number("radius", collider.radius, 0.0f);
+        if (extended != nullptr) {
+            numbers.flag("inside", collider.inside);
+        }
+        return numbers.fault();
+    }
+
+    static Fault readPlane(const Json& from, SpringCollider& collider) {
+        Numbers numbers(from);
+        collider.shape = ColliderShape::plane;
+        collider.tail = {0.0f, 0.0f, 1.0f}; // the extension's own
+        numbers.vector("offset", collider.offset);
+        numbers.vector("normal", collider.tail);
+        if (!numbers.fault() && !(glm::length(collider.tail) > 1e-6f)) {
+            return "its normal has no direction";
+        }
         return numbers.fault();
     }
 
@@ -154,7 +186,7 @@ private:
             for (const Json& joint : itemsIn(from, "joints")) {
                 fault = fault ? fault : readJoint(joint, spring);
             }
-            return keep(std::move(spring), fault);
+            return keep(std::move(spring), fault ? fault : chainFault(spring));
         });
     }
 
@@ -170,6 +202,28 @@ private:
         document_.memory->take(sizeof joint, "VRM springs");
         spring.joints.push_back(joint);
         return numbers.fault();
+    }
+
+    /// Why the joints are no chain of their own; nothing if they are. Then no other spring may take them.
+    Fault chainFault(const Spring& spring) {
+        taken_.resize(nodes_);
+        for (size_t j = 0; j < spring.joints.size(); ++j) {
+            const uint32_t node = spring.joints[j].node;
+            if (taken_[node] != 0) {
+                return "a joint moves by another spring";
+            }
+            uint32_t above = node;
+            do {
+                above = skeleton_.nodes[above].parent;
+            } while (j > 0 && above != kNone && above != spring.joints[j - 1].node);
+            if (j > 0 && above == kNone) {
+                return "a joint is not below the one before";
+            }
+        }
+        for (const SpringJoint& joint : spring.joints) {
+            taken_[joint.node] = 1;
+        }
+        return std::nullopt;
     }
 
     void readOld(const Json& own) {
@@ -204,6 +258,7 @@ private:
     /// A spring for each bone of a group.
     Fault readOldGroup(const Json& from) {
         Spring group;
+        group.isTree = true;
         SpringJoint joint;
         Numbers numbers(from);
         numbers.index("center", nodes_, group.center, false);

@@ -67,6 +67,7 @@ SuppleResult suppleSetPartVisible(SuppleContext handle, SuppleInstance instance,
 SuppleResult suppleTeleport(SuppleContext handle, SuppleInstance instance) {
     return withInstance(handle, instance, "suppleTeleport", [&](Context& context, Group& found) {
         found.slots().forget(instance.slot);
+        found.poses().teleport(instance.slot);
         return noted(context, calls::Teleport{instance});
     });
 }

@@ -33,6 +33,8 @@ template <>
 inline constexpr auto kLast<cage::ExpressionKind> = cage::ExpressionKind::mouth;
 template <>
 inline constexpr auto kLast<cage::ExpressionHold> = cage::ExpressionHold::block;
+template <>
+inline constexpr auto kLast<cage::ColliderShape> = cage::ColliderShape::plane;
 
 } // namespace supple::runtime
 
@@ -85,11 +87,11 @@ void fields(A& a, T& joint) {
 }
 template <class A, Is<SpringCollider> T>
 void fields(A& a, T& collider) {
-    a(collider.node, collider.isCapsule, collider.offset, collider.tail, collider.radius);
+    a(collider.node, collider.shape, collider.inside, collider.offset, collider.tail, collider.radius);
 }
 template <class A, Is<Spring> T>
 void fields(A& a, T& spring) {
-    a(spring.name, spring.center, spring.joints, spring.colliderGroups);
+    a(spring.name, spring.center, spring.isTree, spring.joints, spring.colliderGroups);
 }
 template <class A, Is<Image> T>
 void fields(A& a, T& image) {

@@ -61,10 +61,11 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     }
     recorder_ = std::move(recorder);
     recording_ = true;
-    // A replay does not know what sizes on the screen have chosen before.
+    // A replay does not know what sizes on the screen have chosen before, nor how springs have swung.
     groups.forEach([](Group& group) {
         if (Playback* const playback = group.poses().playback()) {
             playback->forgetSizes();
+            playback->settleSprings();
         }
     });
     return success();

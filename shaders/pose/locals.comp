@@ -24,6 +24,13 @@ const bool kRoots = false;
 #include "shaders/pose/transition.h"
 #include "shaders/pose/local.glsl"
 
+// What steps of springs do not need: morph weights and, in groups without modifiers, most nodes.
+bool isLeftOut(uint item) {
+    bool needed = item == push.nodeCount;
+    if (item < push.nodeCount) needed = (table(kNodeElements * item).y & push.stepNodes) == push.stepNodes;
+    return !needed;
+}
+
 void main() {
     uint items = push.nodeCount + 1u + (push.morphCount + 3u) / 4u;
     uint id = min(invocationIndex(), items * push.instanceCount - 1u);
@@ -32,7 +39,8 @@ void main() {
     uint entry = kWide ? id / items : id % push.instanceCount;
     uint item = kWide ? id % items : id / push.instanceCount;
     beginEntry(entry);
-    uint first = posedSlot() * push.stateStride, locals = entry * push.scratchStride;
+    uint first = posedState(), locals = entry * push.scratchStride;
+    if (isStep(entry) && isLeftOut(item)) return;
     if (item < push.nodeCount) {
         Motion none = standing();
         storeLocal(locals + kAffineElements * item, shownTransform(first, item, posedTransform(first, item, none)));

@@ -43,5 +43,5 @@ void main() {
     uint entry = min(id, push.instanceCount - 1u);
     beginEntry(entry);
     locals = entry * push.scratchStride;
-    modifyInstance(posedSlot() * push.stateStride);
+    modifyInstance(posedState());
 }

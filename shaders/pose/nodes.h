@@ -8,7 +8,7 @@ bool hangsOn(uint node, uint above) {
     }
     return found;
 }
-bool isFixed(uint node) { return table(kNodeElements * node).y != 0u; }
+bool isFixed(uint node) { return (table(kNodeElements * node).y & kNodeFixed) != 0u; }
 
 Transform restTransform(uint node) {
     uint first = kNodeElements * node;

@@ -17,16 +17,20 @@ const bool kAdds = true, kRoots = true, kTransitions = true;
 void main() {
     uint entry = min(invocationIndex(), push.instanceCount - 1u);
     beginEntry(entry);
-    uint first = posedSlot() * push.stateStride, locals = entry * push.scratchStride;
+    uint first = posedState(), locals = entry * push.scratchStride;
     uvec4 header = state(first);
     if (header.w != 0u) {
         precise Motion sinceBegin = standing();
         Transform root = posedTransform(first, header.z, sinceBegin);
         storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
-            precise Affine place = identity();
-            if (isPlaced()) place = transformOf(first);
-            storePlace(locals + kAffineElements * push.nodeCount, travelled(first, place, sinceBegin));
+            // A loop, so that the code is there once: where it stands, then for springs the way alone.
+            for (uint way = 0u; way < (isStep(entry) ? 2u : 1u); ++way) {
+                precise Affine place = identity();
+                if (isPlaced() && way == 0u) place = transformOf(first);
+                uint rows = way == 0u ? kAffineElements * push.nodeCount : push.springScratch;
+                storePlace(locals + rows, travelled(first, place, sinceBegin));
+            }
         }
     }
     for (uint foot = 0u; foot < push.footCount; ++foot) {

@@ -29,6 +29,13 @@ void beginEntry(uint n) {
 uint posedSlot() { return slotOf(posedWord); }
 uint posedEnd() { return push.times != 0u ? SUPPLE_POSED_END(posedWord) : 0u; } // 0: what is shown
 uint firstOfEnd(uint slot, uint end) { return (slot * kPoseEnds + end - 1u) * push.endStride; }
+// First element of what the instance plays.
+uint posedState() {
+    bool before = push.times != 0u && (posedWord & kPosedBefore) != 0u;
+    return posedSlot() * push.stateStride + (before ? push.stateBefore : 0u);
+}
+// Nobody sees it: a step of springs.
+bool isStep(uint entry) { return entry >= push.shown; }
 // Of an end, where the instance stands is left to mix.comp: the host may move it while the end stays.
 bool isPlaced() { return posedEnd() == 0u; }
 vec2 posedTime() { return posedSeconds; }

@@ -3,8 +3,9 @@
 // Clip table (uvec4 elements, floats as bits), static, one an asset. Nodes are those that move a joint, sorted by
 // depth, so that parents stand before children and a level's nodes side by side; kNodeElements each, from the first
 // element on:
-//   node       (parent or kNoNode, 1 where the local matrix is fixed, element of its rotation then, 1 + its number if it is
-//              a foot, else 0); then the three rows of the fixed matrix, or translation, rotation (x, y, z, w), scale of the rest pose
+//   node       (parent or kNoNode, flags (kNodeFixed, ...), element of its rotation if its local matrix is fixed, 1 + its
+//              number if it is a foot, else 0); then the three rows of the fixed matrix, or translation, rotation (x, y, z, w),
+//              scale of the rest pose
 //   rotation   one element each, of the nodes with a fixed matrix: the nearest to it (x, y, z, w)
 //   joint      kJointElements each, from `joints` on: the three rows of the inverse bind matrix; (node, 0, 0, 0)
 //   level      one element each, from `levels` on: (first node, end, 0, 0)
@@ -31,6 +32,18 @@
 //   foot of a clip  one element for every clip and foot of it: (first of its contacts, how many, 0, 0)
 //   contact    kContactElements each, by rising time: (place x, z at the clip's time 0, what it moves by a second, x, z);
 //              (begin, end in seconds of the clip, 1 / the seconds in which it takes hold, 0)
+//   springs    if the character has some, kSpringHeadElements from `springs` on: (levels, their first element, chains, their
+//              first element); (colliders, their first element, 0, 0)
+//   spring level  one element each: (first, end, 0, 0) of elements that name a node in x: those above joints that swing and
+//              above colliders, parents before children, a level's nodes side by side
+//   chain      one element each: (first, end, 0, 0) of its nodes' elements: a joint that swings and all below it that springs
+//              need, parents before children
+//   node of a chain  kSpringNodeElements each: (node, its number among the joints that swing or kNoNode, first of its
+//              colliders' references, how many); (the tail in the node's frame; stiffness of a step); (direction of gravity
+//              in the world; its pull of a step); (the part of the way that is kept, radius, center node or kNoNode, 0)
+//   reference  a word each, four an element: the number of a collider
+//   collider   kColliderElements each: (node or kNoNode, kCollider flags, 0, 0); (point in the node's frame; radius); (a
+//              capsule's other end, or a plane's normal; 0)
 //   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four an
 //              element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
 //
@@ -71,11 +84,24 @@
 // every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
 // low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
+// In groups with springs the list has, for each window: an entry for every pose that is shown, `shown` of them; an entry for each
+// step of springs that is due, slot | kPosedBefore if it is posed as before the last call; from `times` on the times
+// of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | a jump, the
+// part of the way from the step before the last to the last, as a float, where its moves begin or 0, its entry among those that are
+// shown); moves: for each step the
+// three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
+//
+// Springs (vec4 elements, one run of `springStride` an instance): three rows of what it had travelled at the last step; then
+// kSpringJointElements for every joint that swings: its tail after the last step, and before that, in model space or in the frame of
+// its center; by how much its direction then was off the pose's, as unit vectors in the frame that it hangs in; the same a step before.
 //
 // Scratch (vec4 elements, one run of `scratchStride` an entry of the list): three a node, its local translation, rotation (x, y, z, w;
 // of any length) and scale, then in their place the rows of its global matrix; three rows of the instance's transform with
 // what it has travelled; then, if feet are planted, one for every foot: x of where it is held, times how firmly; how far it has
-// been lowered; z as x; how firmly. A node whose local matrix is fixed has that, whatever stands here.
+// been lowered; z as x; how firmly. A node whose local matrix is fixed has that, whatever stands here. With springs, from
+// `springScratch` on: three rows of what the instance has travelled, if it does; two for every collider: (a point; radius, negative
+// if tails stay inside), (the way to a capsule's other end; 1 / its square) or (a plane's normal; -1). Of a step only nodes that
+// springs need are there.
 #ifndef SUPPLE_SHARED_POSE_H
 #define SUPPLE_SHARED_POSE_H
 
@@ -96,12 +122,18 @@ SUPPLE_SHARED_CONST kScratchPoseTexelBinding = 7u;
 SUPPLE_SHARED_CONST kPosedBinding = 8u; // what the deform pass reads
 SUPPLE_SHARED_CONST kEndsBinding = 9u;
 SUPPLE_SHARED_CONST kEndsTexelBinding = 10u;
+SUPPLE_SHARED_CONST kSpringBinding = 11u; // read and written
 
 SUPPLE_SHARED_CONST kNoNode = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kNodeElements = 4u;
 SUPPLE_SHARED_CONST kJointElements = 4u;
 SUPPLE_SHARED_CONST kAffineElements = 3u;
 SUPPLE_SHARED_CONST kContactElements = 2u;
+
+// Flags of a node.
+SUPPLE_SHARED_CONST kNodeFixed = 1u;      // its local matrix is
+SUPPLE_SHARED_CONST kNodeOfSprings = 2u;  // steps of springs need it
+SUPPLE_SHARED_CONST kNodeInChain = 4u;    // it swings, or hangs on one that does
 
 // Packed clips.
 SUPPLE_SHARED_CONST kPackedClip = 0x80000000u;
@@ -155,6 +187,23 @@ SUPPLE_SHARED_CONST kPosedEndShift = 28u; // two bits
 SUPPLE_SHARED_CONST kMaxUpdateInterval = 8u; // steps of the grid
 SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 
+// Springs.
+SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
+SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
+SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
+SUPPLE_SHARED_CONST kSpringWords = 6u;
+SUPPLE_SHARED_CONST kMoveWords = 12u;
+SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
+SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
+SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
+SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
+SUPPLE_SHARED_CONST kColliderElements = 3u;
+SUPPLE_SHARED_CONST kColliderInside = 1u;
+SUPPLE_SHARED_CONST kColliderPlane = 2u;
+SUPPLE_SHARED_CONST kPosedColliderElements = 2u;
+SUPPLE_SHARED_CONST kSpringJoints = 3u; // where they begin in an instance's run
+SUPPLE_SHARED_CONST kSpringJointElements = 4u;
+
 // Axes of root motion; values of SuppleRootMotionFlags.
 SUPPLE_SHARED_CONST kGroundAxes = 1u;
 SUPPLE_SHARED_CONST kHeightAxis = 2u;
@@ -199,6 +248,13 @@ struct PosePush {
     uint footCount;    // 0: none is planted
     uint endStride;    // from one end of an instance to the next
     uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
+    uint shown;        // entries before this one are shown, others are steps of springs
+    uint stepNodes;    // flags of nodes that steps of springs need
+    uint stateBefore;  // from an instance's state to what it played before the last call
+    uint springs;      // section of the clip table
+    uint springScratch;
+    uint springStride;
+    uint springWords;  // word of the list where instances that swing begin
 };
 
 SUPPLE_SHARED_END

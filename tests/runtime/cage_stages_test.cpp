@@ -1,9 +1,9 @@
 // Stages between deform and the surfaces (runtime/stages/cage_stages.h): a stage of the test's, with state for each
 // instance, stands in the table of a context. What it gets, and what surfaces are made of then.
 #include "runtime/api/entry.h"
+#include "runtime/instance_state.h"
 #include "runtime/stages/deform.h"
 #include "runtime/stages/gather.h"
-#include "runtime/stages/instance_state.h"
 #include "shaders/low_pass_comp.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
@@ -91,7 +91,7 @@ public:
     VkDeviceSize recordUpload(const CageFrame& frame) override {
         told().seconds.push_back(frame.seconds);
         told().newSlots.emplace_back(frame.newSlots.begin(), frame.newSlots.end());
-        return state_.recordUpload(frame);
+        return state_.recordUpload(frame.dispatches.commandBuffer(), frame.number, frame.newSlots);
     }
     runtime::PassCost record(const CageFrame& frame) override {
         LowPassPush push;

@@ -9,6 +9,7 @@
 #include "tests/support/played_group.h"
 #include "tests/support/recordings.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/springs.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -37,8 +38,8 @@ void succeed(SuppleResult result) {
 /// A host that records what it does with one character.
 class SceneHost {
 public:
-    SceneHost(host::Device& device, const std::string& character, std::ofstream& out)
-        : context(device, SUPPLE_MAPPING_NARROW), bytes_(fileBytes(character)),
+    SceneHost(host::Device& device, std::vector<std::byte> bytes, const std::string& character, std::ofstream& out)
+        : context(device, SUPPLE_MAPPING_NARROW), bytes_(std::move(bytes)),
           name_(character.substr(character.rfind('/') + 1)) {
         auto recording = sized<SuppleRecordingDesc>();
         recording.flags = SUPPLE_RECORDING_HASHES | SUPPLE_RECORDING_WITHOUT_ASSETS;
@@ -281,15 +282,64 @@ void travels(SceneHost& host) {
     }
 }
 
+/// Springs: moved, teleported and hidden meanwhile; with modifiers, and where root motion travels.
+void swings(SceneHost& host) {
+    for (const uint32_t modifiers : {0u, uint32_t{SUPPLE_GROUP_MODIFIERS}}) {
+        host.played.push_back(host.create({.flags = SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_TRANSITIONS | modifiers,
+                                           .scheme = SUPPLE_SCHEME_PREP,
+                                           .rate = 1,
+                                           .poseSource = SUPPLE_POSES_PLAYBACK},
+                                          3));
+    }
+    const auto play = [&](uint32_t i, uint32_t clip, double transition) {
+        SupplePlaybackDesc desc{};
+        desc.transition = transition;
+        desc.rootMotion = i % 3 == 0 ? SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW : 0;
+        desc.flags = i % 3 == 0 ? SUPPLE_PLAYBACK_TRAVEL : 0;
+        host.loop(i, clip, 0.125 * i, desc);
+    };
+    for (uint32_t i = 0; i < 6; ++i) {
+        play(i, i % 3, 0.0);
+    }
+    SuppleModifier turn{};
+    turn.kind = SUPPLE_MODIFIER_ADD;
+    turn.joint = 5; // the head
+    turn.weight = 1.0f;
+    turn.rotation[1] = 0.6f;
+    turn.rotation[3] = 0.8f;
+    auto modifiers = sized<SuppleModifiersDesc>();
+    modifiers.modifiers = &turn;
+    modifiers.modifierCount = 1;
+    succeed(suppleSetModifiers(host.handle(), host.all[4], &modifiers));
+    for (uint32_t frame = 0; frame < 2 * kSceneFrames; ++frame) {
+        host.time -= frame % 2 == 0 ? 0.03125 : 0.109375;
+        if (frame == 3) {
+            play(1, 2, 0.25);
+        }
+        host.place(2, 0.25f * static_cast<float>(frame), 1.0f);
+        if (frame == 5) {
+            host.place(4, 8.0f, 8.0f);
+            succeed(suppleTeleport(host.handle(), host.all[4]));
+        }
+        succeed(suppleSetVisible(host.handle(), host.all[5], frame > 3 && frame < 6 ? 0 : 1));
+        host.run();
+    }
+}
+
 struct RecordedScene {
     const char* name;
     const std::string& character;
     void (*play)(SceneHost&); ///< null: a sample has recorded it
+    bool springs = false;     ///< the character has some
+
+    [[nodiscard]] std::vector<std::byte> bytes() const {
+        return springs ? withExtensions(character, kWrenSprings) : fileBytes(character);
+    }
 };
 const RecordedScene kScenes[] = {
     {"fades", kPip, fades},          {"goes_over", kWren, goesOver}, {"takes_turns", kWren, takesTurns},
     {"schemes", kPipQuads, schemes}, {"matrices", kPip, matrices},   {"travels", kWren, travels},
-    {"plays", kWren, nullptr}};
+    {"plays", kWren, nullptr},       {"swings", kWren, swings, true}};
 
 class RecordedScenes : public testing::TestWithParam<RecordedScene> {
 protected:
@@ -300,7 +350,7 @@ protected:
 void expectSameWords(const std::vector<std::byte>& recording, const RecordedScene& scene, SuppleMapping mapping) {
     tools::Replayer::Options options;
     options.mapping = mapping;
-    options.characters.emplace_back(scene.character, fileBytes(scene.character));
+    options.characters.emplace_back(scene.character, scene.bytes());
     const Hashes recorded = read(recording).hashes;
     const size_t compared = expectSame(recorded, replay(*testDevice(), recording, std::move(options)));
     EXPECT_EQ(compared, recorded.size());
@@ -314,7 +364,7 @@ TEST_P(RecordedScenes, ComeOutWithTheWordsThatArePinned) {
                              "/" + scene.name + ".supprec";
     if (folder != nullptr) {
         std::ofstream out(path, std::ios::binary);
-        SceneHost host(*testDevice(), scene.character, out);
+        SceneHost host(*testDevice(), scene.bytes(), scene.character, out);
         scene.play(host);
         host.context.beginFrame(); // the last frame is complete
         succeed(suppleStopRecording(host.handle()));

@@ -257,14 +257,16 @@ std::string updateRateTable(const Json& rows) {
         {"poses", "characters", "posed a frame", "pose, ms", "/ without", "deform, ms", "/ without", "record, CPU us"});
     for (const Json& row : rows) {
         const auto interval = row["interval"].get<uint32_t>();
-        const std::string what = interval == 0   ? "without update rates"
+        const auto springs = row.value("springJoints", 0u);
+        const std::string what = springs > 0     ? std::to_string(springs) + " joints swing"
+                                 : interval == 0 ? "without update rates"
                                  : interval == 1 ? "in every frame"
                                                  : "every " + std::to_string(interval) + " steps";
         table.add({what, row["characters"].dump(), number(row["posed"]), number(row["poseMs"]),
                    number(row["poseRatio"]), number(row["deformMs"]), number(row["deformRatio"]),
                    number(row["recordUs"])});
     }
-    return table.empty() ? "" : "## Update rates\n\n" + table.text(1);
+    return table.empty() ? "" : "## Update rates, springs\n\n" + table.text(1);
 }
 
 /// Nanoseconds a vertex, and over dual quaternions.

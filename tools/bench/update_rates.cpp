@@ -15,11 +15,45 @@ namespace {
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
 constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
-/// 0: the group has no update rates.
-constexpr uint32_t kRatedIntervals[] = {0, 1, 2, 4, 8};
+/// 0: the group has no update rates. `springs`: joints swing.
+constexpr struct {
+    uint32_t interval;
+    bool springs;
+} kRatedKinds[] = {{0, false}, {1, false}, {2, false}, {4, false}, {8, false}, {0, true}};
+
+/// Four chains of three joints that swing, and a collider.
+constexpr uint32_t kChains = 4, kChainJoints = 3;
+void addSprings(cage::Character& character) {
+    const std::vector<cage::Node>& nodes = character.skeleton.nodes;
+    std::vector<uint32_t> children(nodes.size(), 0);
+    for (const cage::Node& node : nodes) {
+        if (node.parent != cage::kNone) {
+            ++children[node.parent];
+        }
+    }
+    std::vector<uint8_t> taken(nodes.size(), 0);
+    cage::SpringBones& bones = character.springBones;
+    bones.colliders.push_back({.node = character.skin.joints.front(), .radius = 0.1f});
+    bones.colliderGroups.push_back({0});
+    for (uint32_t leaf = 0; leaf < nodes.size() && bones.springs.size() < kChains; ++leaf) {
+        std::vector<cage::SpringJoint> joints;
+        for (uint32_t node = leaf;
+             children[leaf] == 0 && node != cage::kNone && taken[node] == 0 && joints.size() <= kChainJoints;
+             node = nodes[node].parent) {
+            joints.insert(joints.begin(), {.node = node, .gravityPower = 0.2f});
+        }
+        if (joints.size() == kChainJoints + 1) {
+            for (const cage::SpringJoint& joint : joints) {
+                taken[joint.node] = 1;
+            }
+            bones.springs.push_back({.joints = std::move(joints), .colliderGroups = {0}});
+        }
+    }
+}
 
 struct RatedGroup {
     uint32_t interval = 0;
+    bool springs = false;
     SuppleGroup group{};
     std::vector<double> pose, deform, record; ///< by frame
     uint64_t posed = 0;                       ///< joints
@@ -38,18 +72,18 @@ public:
     RatedCrowd& operator=(const RatedCrowd&) = delete;
 
     Status create(SuppleAsset asset) {
-        for (const uint32_t interval : kRatedIntervals) {
+        for (const auto& [interval, springs] : kRatedKinds) {
             SuppleGroupDesc desc{};
             desc.asset = asset;
             desc.scheme = SUPPLE_SCHEME_CAGE;
             desc.capacity = characters_;
             desc.poseSource = SUPPLE_POSES_PLAYBACK;
-            desc.flags = interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : 0;
+            desc.flags = interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : springs ? SUPPLE_GROUP_SPRINGS : 0;
             const Result<SuppleGroup> made = workbench_.createGroup(desc, interval);
             if (!made) {
                 return made.error();
             }
-            groups_.push_back({interval, *made, {}, {}, {}, 0});
+            groups_.push_back({interval, springs, *made, {}, {}, {}, 0});
         }
         return success();
     }
@@ -73,6 +107,7 @@ public:
             const double joints = kCrowdJoints;
             rows.push_back({{"characters", characters_},
                             {"interval", own.interval},
+                            {"springJoints", own.springs ? kChains * kChainJoints : 0},
                             {"posed", static_cast<double>(own.posed) / joints / frames},
                             {"poseMs", tools::summarize(own.pose).median},
                             {"deformMs", tools::summarize(own.deform).median},
@@ -135,6 +170,7 @@ Result<Json> measureUpdateRates(host::Device& device, Workbench& workbench, cons
     if (!character) {
         return character.error();
     }
+    addSprings(character->character);
     const Result<SuppleAsset> asset = workbench.createAsset(std::move(character->character));
     if (!asset) {
         return asset.error();

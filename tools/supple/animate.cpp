@@ -61,8 +61,16 @@ struct Course {
     double seconds = kStillSeconds;
     double loop = 0.0; ///< 0: none
 
+    double simulate = 0.0; ///< seconds before the first frame; 0: nothing swings
+
     [[nodiscard]] ClipTime at(double time) const {
-        return {clip, loop > 0.0 ? std::fmod(time, loop) : time, transition};
+        return {clip, loop > 0.0 && simulate == 0.0 ? std::fmod(time, loop) : time, transition, {}};
+    }
+    /// Springs go on from the frame before.
+    [[nodiscard]] ClipTime frame(uint32_t number, double fps) const {
+        ClipTime shown = at(number / fps);
+        shown.since = number == 0 ? -simulate : (number - 1) / fps;
+        return shown;
     }
     /// Poses that the camera has to hold.
     [[nodiscard]] std::vector<ClipTime> framed(const host::Figure& figure) const {
@@ -81,6 +89,7 @@ Result<Course> courseOf(const Stage& stage, const AnimateOptions& options) {
         return !transition ? transition.error() : clip.error();
     course.clip = *clip;
     course.transition = *transition;
+    course.simulate = options.draw.simulate;
     if (course.transition) {
         course.seconds = course.transition->at + course.transition->seconds + kSecondsBehind;
     } else {
@@ -163,7 +172,7 @@ Status animate(Session& session, const AnimateOptions& options) {
     const auto frames = static_cast<uint32_t>(std::max(1l, std::lround(course->seconds * options.fps)));
     const float yaw = scene->camera.yaw;
     for (uint32_t frame = 0; frame < frames; ++frame) {
-        if (const Status status = stage.pose(course->at(frame / options.fps)); !status)
+        if (const Status status = stage.pose(course->frame(frame, options.fps)); !status)
             return status.error();
         scene->camera.yaw = yaw + radians(options.turn) * static_cast<float>(frame) / static_cast<float>(frames);
         scene->lightYaw = scene->camera.yaw;

@@ -42,6 +42,7 @@ struct BakeOptions {
     ModifierFlags modifiers;
     host::TransitionSetting transition;
     uint32_t updateInterval = 0;
+    double simulate = 0.0;
     DeviceFlags device;
 };
 
@@ -204,7 +205,8 @@ int runBake(const BakeOptions& options) {
                     std::move(*weights),
                     std::move(*modifiers),
                     *transition,
-                    options.updateInterval};
+                    options.updateInterval,
+                    options.simulate};
     return withSession(options.device, [&](Session& session) -> Status {
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
@@ -274,6 +276,10 @@ void bindBake(CLI::App& app, int& exitCode) {
         ->type_name("N")
         ->needs(command->get_option("--clip"))
         ->excludes(command->get_option("--transition"));
+    bindSimulate(*command, options->simulate);
+    command->get_option("--simulate")
+        ->excludes(command->get_option("--transition"))
+        ->excludes(command->get_option("--update-interval"));
     bindDevice(*command, options->device);
     bindRecord(*command, options->device.record);
     command->callback([options, &exitCode] {

@@ -1,5 +1,7 @@
 #include "tools/supple/evaluation.h"
 
+#include "tools/common/simulation.h"
+
 #include "cage/limits.h"
 #include "host/patches.h"
 #include "host/shaders/draw.h"
@@ -129,16 +131,20 @@ Status playStanding(host::Context& context, SuppleGroup group, SuppleInstance in
 
 /// The pose and what changes it, by the device.
 Status play(host::Context& context, SuppleGroup group, SuppleInstance instance, const Pose& pose) {
-    Status status = pose.transition ? host::playTransition(context, group, instance, *pose.transition, pose.time)
-                                    : playStanding(context, group, instance, pose);
-    if (!status || pose.modifiers.empty()) {
-        return status;
-    }
     SuppleModifiersDesc modifiers{};
     modifiers.structSize = sizeof modifiers;
     modifiers.modifiers = pose.modifiers.data();
     modifiers.modifierCount = static_cast<uint32_t>(pose.modifiers.size());
-    return context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers");
+    Status status = context.check(suppleSetModifiers(context.handle(), instance, &modifiers), "suppleSetModifiers");
+    if (!status) {
+        return status;
+    }
+    if (pose.transition) {
+        return host::playTransition(context, group, instance, *pose.transition, pose.time);
+    }
+    return pose.simulate > 0.0
+               ? host::simulate(context, group, instance, pose.clip, pose.time - pose.simulate, pose.time)
+               : playStanding(context, group, instance, pose);
 }
 
 } // namespace
@@ -154,11 +160,12 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
     desc.scheme = schemeOf(surface.scheme);
     desc.rate = surface.rate;
     desc.vertexFormat = SUPPLE_VERTEX_24;
-    const bool plays = !pose.modifiers.empty() || pose.transition || pose.updateInterval > 0;
+    const bool plays = !pose.modifiers.empty() || pose.transition || pose.updateInterval > 0 || pose.simulate > 0.0;
     if (plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS;
         desc.flags |= pose.updateInterval > 0 ? SUPPLE_GROUP_UPDATE_RATES : 0;
+        desc.flags |= pose.simulate > 0.0 ? SUPPLE_GROUP_SPRINGS : 0;
     }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);

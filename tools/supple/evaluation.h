@@ -56,6 +56,7 @@ struct Pose {
     std::vector<SuppleModifier> modifiers;             ///< of any pose but the bind pose, which then is the rest pose
     std::optional<host::PlannedTransition> transition; ///< instead of the clip
     uint32_t updateInterval = 0; ///< steps of 1/60 s from pose to pose, with a clip; 0: the pose itself
+    double simulate = 0.0;       ///< seconds that the clip has played in a loop while springs swung; 0: nothing swings
 };
 
 /// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.

@@ -422,7 +422,7 @@ void printVrm(const cage::Character& character) {
     const cage::SpringBones& bones = character.springBones;
     if (!bones.springs.empty()) {
         printLine("spring bones", std::to_string(bones.springs.size()) + ", with " +
-                                      std::to_string(bones.colliders.size()) + " colliders; nothing moves by them");
+                                      std::to_string(bones.colliders.size()) + " colliders");
     }
     for (const cage::Spring& spring : bones.springs) {
         printLine("", (spring.name.empty() ? character.skeleton.nodes[spring.joints[0].node].name : spring.name) +

@@ -315,6 +315,14 @@ void bindTransition(CLI::App& command, host::TransitionSetting& setting) {
         ->needs(transition);
 }
 
+void bindSimulate(CLI::App& command, double& seconds) {
+    command
+        .add_option("--simulate", seconds,
+                    "Joints swing by the springs of the file: the clip has played, in a loop, for so long before")
+        ->check(CLI::Range(0.001, 3600.0))
+        ->type_name("SECONDS");
+}
+
 bool hasCoefficients(SuppleScheme wanted) {
     return std::any_of(std::begin(kSchemes), std::end(kSchemes),
                        [&](const Scheme& scheme) { return scheme.scheme == wanted && scheme.coefficients; });

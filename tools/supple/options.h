@@ -107,6 +107,8 @@ void bindModifiers(CLI::App& command, ModifierFlags& flags);
 
 /// --transition, --transition-seconds and --transition-kind. The command has --clip.
 void bindTransition(CLI::App& command, host::TransitionSetting& setting);
+/// `seconds` stays 0 without it.
+void bindSimulate(CLI::App& command, double& seconds);
 
 /// Whether the rate counts segments along an edge of the cage, in powers of two.
 [[nodiscard]] constexpr bool subdivides(SuppleScheme scheme) {

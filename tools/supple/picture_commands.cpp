@@ -139,6 +139,8 @@ void bindAnimate(CLI::App& app, int& exitCode) {
     bindDraw(*command, options->draw);
     bindLooks(*command, options->draw);
     bindTransition(*command, options->draw.transition);
+    bindSimulate(*command, options->draw.simulate);
+    command->get_option("--simulate")->excludes(command->get_option("--transition"));
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->draw.reading.clipFiles), {{"--output", options->output}});
         exitCode = runAnimate(*options);
@@ -165,6 +167,7 @@ void bindRender(CLI::App& app, int& exitCode) {
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     bindLooks(*command, options->draw);
     bindCamera(*command, *options);
+    bindSimulate(*command, options->draw.simulate);
     command->callback([options, &exitCode] {
         glm::vec3 eye, lookAt, up;
         if (parsePoint(options->eye, eye) && parsePoint(options->lookAt, lookAt) && parsePoint(options->up, up) &&

@@ -49,7 +49,7 @@ Result<Shown> open(Session& session, const RenderOptions& options, const std::st
             return played.error();
         shown.ground = played->bounds.min.y;
     }
-    const ClipTime pose[] = {{*clip, options.time}};
+    const ClipTime pose[] = {{*clip, options.time, {}, options.time - options.draw.simulate}};
     Result<Extent> figure = stage.measure(pose, cage); // and leaves it in this pose
     if (!figure)
         return figure.error();

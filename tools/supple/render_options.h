@@ -40,6 +40,7 @@ struct DrawOptions {
     host::ReadOptions reading;
     std::vector<host::MorphSetting> morphs;
     host::TransitionSetting transition; ///< animate
+    double simulate = 0.0;              ///< seconds that springs have swung for; 0: nothing swings
     std::string device;                 ///< name part or index; empty takes the best
     std::string mapping = "auto";       ///< auto | narrow | wide
     bool validate = false;              ///< run under the validation layer; its messages make the command fail

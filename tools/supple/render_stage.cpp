@@ -1,5 +1,7 @@
 #include "tools/supple/render_stage.h"
 
+#include "tools/common/simulation.h"
+
 #include "tools/common/figure_file.h"
 #include "tools/supple/legend.h"
 #include "tools/supple/views.h"
@@ -64,9 +66,12 @@ std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uin
 namespace {
 
 Status show(host::FigureGroup& group, const ClipTime& pose) {
-    return pose.transition ? host::playTransition(group.figure().context(), group.handle(), group.instance(0),
-                                                  *pose.transition, pose.time)
-                           : group.pose(0, pose.clip, pose.time);
+    host::Context& context = group.figure().context();
+    if (pose.transition)
+        return host::playTransition(context, group.handle(), group.instance(0), *pose.transition, pose.time);
+    return group.plays() ? host::simulate(context, group.handle(), group.instance(0), pose.clip,
+                                          pose.since.value_or(pose.time), pose.time)
+                         : group.pose(0, pose.clip, pose.time);
 }
 
 } // namespace
@@ -121,7 +126,8 @@ Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const
                                              .sharedSamples = options_.sharedSamples,
                                              .partSchemes = std::move(*partSchemes),
                                              .levels = levels,
-                                             .plays = options_.transition.isThere()});
+                                             .plays = options_.transition.isThere() || options_.simulate > 0.0,
+                                             .springs = options_.simulate > 0.0});
     if (!group)
         return group.error();
     Status status = (*group)->setMorphWeights(0, *weights);

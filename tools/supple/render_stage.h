@@ -36,6 +36,8 @@ struct ClipTime {
     uint32_t clip = SUPPLE_REST_POSE;
     double time = 0.0;
     std::optional<host::PlannedTransition> transition; ///< at `time`, instead of the clip; of groups that play
+    std::optional<double>
+        since; ///< when the clip, which loops, has begun to play, where springs swing; none: at `time`
 };
 /// `count` times spread evenly over the clip, both ends among them; the bind pose once.
 [[nodiscard]] std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uint32_t count);

@@ -987,7 +987,16 @@ typedef enum SuppleGroupFlags {
      * kept of each instance: 96 bytes of device memory per joint, 128 with dual quaternions, 8 per morph target, and 48
      * per node. SuppleGroupInfo.poses has what is shown, as ever. The first group of an asset with this flag measures
      * its clips, which takes some milliseconds for each. */
-    SUPPLE_GROUP_UPDATE_RATES = 4096
+    SUPPLE_GROUP_UPDATE_RATES = 4096,
+    /** With SUPPLE_POSES_PLAYBACK: joints swing by the springs of the character's file (VRM: docs/springs.md), behind
+     * layers, transitions and modifiers, in steps of 1/60 s of the group's time. What a step leaves depends on the
+     * times at which calls are made, not on the frames between. It has no effect if the file has no springs. Instances
+     * in the bind pose do not swing. suppleGetJointTransform gives joints without their swinging. An instance that was
+     * just created, or whose time has gone back or forward by more than 8 steps, begins with its joints at rest in the
+     * pose; so does one that was hidden, or out of a view's sight, for more than 8 steps. suppleTeleport keeps how they
+     * hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for an instance: 10 times the
+     * matrices of all nodes, and 64 bytes for each joint. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+    SUPPLE_GROUP_SPRINGS = 8192
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */

@@ -156,10 +156,10 @@ TEST(GltfVrm, WhatIsNotUsedIsSaidInOneLine) {
             trianglesAt(R"([{"mesh":0)" + more + "}]", R"(,"extensions":{)" + extensions + "}" + required).glb());
     };
     EXPECT_EQ(said(R"("VRM":{"blendShapeMaster":{},"secondaryAnimation":{},"firstPerson":{},"materialProperties":[]})"),
-              "VRM: spring bones, first-person flags and toon materials are not used");
+              "VRM: first-person flags and toon materials are not used");
     EXPECT_EQ(said(R"("VRMC_vrm":{"expressions":{},"lookAt":{}},"VRMC_springBone":{"springs":[]})",
                    R"(,"extensions":{"VRMC_node_constraint":{}})"),
-              "VRM: spring bones, gaze and node constraints are not used");
+              "VRM: gaze and node constraints are not used");
     EXPECT_EQ(said(R"("VRMC_vrm":{"humanoid":{}})"), "");
     EXPECT_EQ(said(R"("VRMC_vrm":7,"VRM":[])"), "");
     EXPECT_EQ(

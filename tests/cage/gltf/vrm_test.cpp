@@ -104,13 +104,42 @@ TEST(GltfVrm, SpringBonesOfVrm1) {
     EXPECT_EQ(joint.hitRadius, 0.02f);
     EXPECT_EQ(bones.springs[0].joints[1].stiffness, 1.0f) << "VRM's own numbers";
     ASSERT_EQ(bones.colliders.size(), 1u);
-    EXPECT_TRUE(bones.colliders[0].isCapsule);
+    EXPECT_FALSE(bones.springs[0].isTree);
+    EXPECT_EQ(bones.colliders[0].shape, ColliderShape::capsule);
+    EXPECT_FALSE(bones.colliders[0].inside);
     EXPECT_EQ(bones.colliders[0].offset, glm::vec3(1, 2, 3));
     EXPECT_EQ(bones.colliders[0].tail, glm::vec3(4, 5, 6));
     EXPECT_EQ(bones.colliders[0].radius, 0.5f);
     EXPECT_EQ(bones.colliderGroups, (std::vector<std::vector<uint32_t>>{{0}})) << "numbers follow what is left out";
-    EXPECT_EQ(c.warnings, (Strings{"VRM: spring bones are not used", "VRM colliders[0]: node is out of range; left out",
+    EXPECT_EQ(c.warnings, (Strings{"VRM colliders[0]: node is out of range; left out",
                                    "VRM springs[1]: node is out of range; left out, as are 1 more"}));
+}
+
+TEST(GltfVrm, ExtendedCollidersStandBeforeOthers) {
+    const Character c = readWell(twoFaces(R"("VRMC_springBone":{"colliders":[
+        {"node":1,"shape":{"sphere":{"radius":9}},"extensions":{"VRMC_springBone_extended_collider":{"shape":{"sphere":{"offset":[1,2,3],"radius":2,"inside":true}}}}},
+        {"node":1,"shape":{"sphere":{}},"extensions":{"VRMC_springBone_extended_collider":{"shape":{"capsule":{"radius":1,"tail":[0,1,0]}}}}},
+        {"node":1,"shape":{"sphere":{}},"extensions":{"VRMC_springBone_extended_collider":{"shape":{"plane":{"offset":[0,-1,0],"normal":[0,2,0]}}}}},
+        {"node":1,"shape":{"sphere":{}},"extensions":{"VRMC_springBone_extended_collider":{"shape":{"plane":{"normal":[0,0,0]}}}}},
+        {"node":1,"shape":{"plane":{}}},
+        {"node":1,"shape":{"sphere":{}},"extensions":{"VRMC_springBone_extended_collider":{"shape":{"sphere":{"inside":1}}}}}]})"));
+    const std::vector<SpringCollider>& colliders = c.springBones.colliders;
+    ASSERT_EQ(colliders.size(), 3u);
+    EXPECT_TRUE(colliders[0].inside);
+    EXPECT_EQ(colliders[0].radius, 2.0f);
+    EXPECT_EQ(colliders[0].offset, glm::vec3(1, 2, 3));
+    EXPECT_EQ(colliders[1].shape, ColliderShape::capsule);
+    EXPECT_FALSE(colliders[1].inside);
+    EXPECT_EQ(colliders[2].shape, ColliderShape::plane);
+    EXPECT_EQ(colliders[2].tail, glm::vec3(0, 2, 0));
+    EXPECT_EQ(c.warnings, Strings{"VRM colliders[3]: its normal has no direction; left out, as are 2 more"});
+}
+
+TEST(GltfVrm, JointsOfASpringAreAChainOfItsOwn) {
+    const Character c = readWell(twoFaces(R"("VRMC_springBone":{"springs":[
+        {"joints":[{"node":2},{"node":4}]},{"joints":[{"node":1},{"node":3}]},{"joints":[{"node":4},{"node":3}]},{"joints":[{"node":0},{"node":2}]}]})"));
+    ASSERT_EQ(c.springBones.springs.size(), 1u) << "a node may be left out";
+    EXPECT_EQ(c.warnings, Strings{"VRM springs[1]: a joint is not below the one before; left out, as are 2 more"});
 }
 
 TEST(GltfVrm, SpringBonesOfVrm0HaveAllThatIsBelow) {
@@ -129,7 +158,8 @@ TEST(GltfVrm, SpringBonesOfVrm0HaveAllThatIsBelow) {
     }
     ASSERT_EQ(c.springBones.colliders.size(), 1u);
     EXPECT_EQ(c.springBones.colliders[0].offset, glm::vec3(1, 2, -3)) << "Unity's z";
-    EXPECT_EQ(c.warnings, Strings{"VRM: spring bones are not used"}) << "node 4 moves with node 2 already";
+    EXPECT_TRUE(tail.isTree);
+    EXPECT_TRUE(c.warnings.empty()) << "node 4 moves with node 2 already";
 }
 
 } // namespace

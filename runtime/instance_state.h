@@ -1,11 +1,13 @@
-// What a cage stage keeps of every instance from frame to frame, on the device.
+// What a pass keeps of every instance from frame to frame, on the device.
 #pragma once
 
+#include "gpu/device.h"
 #include "gpu/memory.h"
 #include "runtime/recorded_once.h"
-#include "runtime/stages/cage_stage.h"
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 namespace supple::runtime {
 
@@ -22,13 +24,13 @@ public:
     [[nodiscard]] VkDeviceSize bytes() const { return bytes_; } ///< of an instance
     [[nodiscard]] gpu::MemoryUse memoryUse() const { return set_->use(); }
 
-    /// From CageStage::recordUpload; the bytes.
-    VkDeviceSize recordUpload(const CageFrame& frame);
+    /// With the uploads of a frame; the bytes. `newSlots`: rising.
+    VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, std::span<const uint32_t> newSlots);
     void beginFrame(uint64_t completedFrame) override;
     void cancelFrame(uint64_t frame) override;
 
 private:
-    void recordMove(const CageFrame& frame) const;
+    void recordMove(VkCommandBuffer commandBuffer) const;
 
     const gpu::Device* device_ = nullptr;
     VkDeviceSize bytes_ = 0;

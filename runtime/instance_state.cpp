@@ -1,4 +1,4 @@
-#include "runtime/stages/instance_state.h"
+#include "runtime/instance_state.h"
 
 #include <algorithm>
 
@@ -29,28 +29,29 @@ void InstanceState::takeOver(InstanceState& other, uint32_t count) {
     movedCount_ = other.start_.due() ? std::min(count, other.movedCount_) : count;
 }
 
-void InstanceState::recordMove(const CageFrame& frame) const {
+void InstanceState::recordMove(VkCommandBuffer commandBuffer) const {
     // The entry barrier of a frame lets transfers write, but not read what stages wrote.
-    gpu::memoryBarrier(*device_, frame.dispatches.commandBuffer(),
+    gpu::memoryBarrier(*device_, commandBuffer,
                        {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
     const VkBufferCopy region{0, 0, movedCount_ * bytes_};
-    device_->vk.CmdCopyBuffer(frame.dispatches.commandBuffer(), moved_->buffer(0), buffer(), 1, &region);
+    device_->vk.CmdCopyBuffer(commandBuffer, moved_->buffer(0), buffer(), 1, &region);
 }
 
-VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
+VkDeviceSize InstanceState::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame,
+                                         std::span<const uint32_t> newSlots) {
     const auto zero = [&](uint32_t first, uint32_t count) {
         if (count > 0) {
-            device_->vk.CmdFillBuffer(frame.dispatches.commandBuffer(), buffer(), first * bytes_, count * bytes_, 0);
+            device_->vk.CmdFillBuffer(commandBuffer, buffer(), first * bytes_, count * bytes_, 0);
         }
         return count * bytes_;
     };
     VkDeviceSize written = 0;
-    std::span<const uint32_t> slots = frame.newSlots;
+    std::span<const uint32_t> slots = newSlots;
     if (start_.due()) {
-        start_.record(frame.number);
+        start_.record(frame);
         if (moved_ != nullptr && movedCount_ > 0) {
-            recordMove(frame);
+            recordMove(commandBuffer);
             written += movedCount_ * bytes_;
         }
         written += zero(movedCount_, capacity_ - movedCount_);
@@ -58,7 +59,7 @@ VkDeviceSize InstanceState::recordUpload(const CageFrame& frame) {
         slots =
             slots.first(static_cast<size_t>(std::lower_bound(slots.begin(), slots.end(), movedCount_) - slots.begin()));
         if (!slots.empty()) {
-            gpu::memoryBarrier(*device_, frame.dispatches.commandBuffer(),
+            gpu::memoryBarrier(*device_, commandBuffer,
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                                {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
         }

@@ -1,0 +1,126 @@
+#include "runtime/spring_clock.h"
+
+#include "skinning/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supple::runtime {
+
+SpringPlace placeBetween(const SpringPlace& a, const SpringPlace& b, double part) {
+    if (part >= 1.0) {
+        return b;
+    }
+    SpringPlace between{b.linear, a.position + (b.position - a.position) * part};
+    if (a.linear != b.linear) {
+        const glm::dquat from = skinning::nearestRotation(a.linear), to = skinning::nearestRotation(b.linear);
+        const double side = glm::dot(from, to) < 0.0 ? -1.0 : 1.0;
+        const glm::dmat3 turn(skinning::unit(from * (1.0 - part) + to * (side * part)));
+        between.linear = turn * (glm::transpose(glm::dmat3(to)) * b.linear);
+    }
+    return between;
+}
+
+std::array<glm::vec4, 3> moveBetween(const SpringPlace& before, const SpringPlace& now) {
+    glm::dmat3 linear(1.0);
+    glm::dvec3 way(0.0);
+    if (std::abs(glm::determinant(now.linear)) > 1e-30) {
+        const glm::dmat3 within = glm::inverse(now.linear);
+        linear = within * before.linear;
+        way = within * (before.position - now.position);
+    }
+    std::array<glm::vec4, 3> rows;
+    for (int r = 0; r < 3; ++r) {
+        rows[static_cast<size_t>(r)] = glm::vec4(glm::dvec4(linear[0][r], linear[1][r], linear[2][r], way[r]));
+    }
+    return rows;
+}
+
+int64_t springStepAt(double time) {
+    auto step = static_cast<int64_t>(std::floor(time * shared::kSpringSteps));
+    step -= springTime(step) > time ? 1 : 0; // the product was rounded
+    step += springTime(step + 1) <= time ? 1 : 0;
+    return step;
+}
+
+void SpringClock::settleAll() {
+    for (Slot& slot : slots_) {
+        slot.last = kNever;
+    }
+}
+
+bool SpringClock::change(uint32_t slot, double time) {
+    Slot& own = slots_[slot];
+    const int64_t step = springStepAt(time);
+    const bool keeps = own.last != kNever && own.changed == kNoTime && step > own.last &&
+                       step - own.last <= int64_t{shared::kMostSpringSteps};
+    own.changed = keeps ? time : own.changed;
+    return keeps;
+}
+
+SpringPlace SpringClock::placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
+                                 bool travels) {
+    if (own.jumped != kNoTime || travels) {
+        return stepTime < std::min(own.jumped, own.placed) ? own.inFrame : place;
+    }
+    const double span = time - own.frameTime;
+    return span > 0.0 ? placeBetween(own.inFrame, place, (stepTime - own.frameTime) / span) : place;
+}
+
+SpringClock::Due SpringClock::begun(const Slot& own, double time) {
+    const int64_t step = springStepAt(time);
+    Due due;
+    due.settles = own.last == kNever || step < own.last || step - own.last > int64_t{shared::kMostSpringSteps};
+    due.first = due.settles ? step : own.last + 1;
+    due.count = static_cast<uint32_t>(step - due.first + 1);
+    due.part = std::clamp(static_cast<float>((time - springTime(step)) * shared::kSpringSteps), 0.0f, 1.0f);
+    return due;
+}
+
+SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels) {
+    if (undoFrame_ != frame) {
+        undo_.clear();
+        undoFrame_ = frame;
+    }
+    Slot& own = slots_[slot];
+    undo_.push_back({slot, own});
+    Due due = begun(own, time);
+    if (due.settles) {
+        own.atLast = own.inFrame = place;
+        own.changed = own.jumped = kNoTime;
+    }
+    due.moves = own.atLast != place || own.inFrame != place;
+    for (uint32_t k = 0; k < due.count; ++k) {
+        const double stepTime = springTime(due.first + k);
+        due.before[k] = stepTime < own.changed && hasBefore(slot);
+        if (due.moves) {
+            const SpringPlace now = placeAt(own, stepTime, time, place, travels);
+            due.rows[k] = moveBetween(own.atLast, now);
+            own.atLast = now;
+        }
+        if (stepTime >= own.jumped) {
+            due.jump = k;
+            own.inFrame = own.atLast = place;
+            own.jumped = kNoTime;
+        }
+    }
+    own.last = springStepAt(time);
+    own.inFrame = place;
+    own.frameTime = time;
+    own.changed = kNoTime;
+    return due;
+}
+
+void SpringClock::cancelFrame(uint64_t frame) {
+    if (undoFrame_ == frame) {
+        // The first of a slot is what it was.
+        std::for_each(undo_.rbegin(), undo_.rend(), [&](const Undo& undo) { slots_[undo.slot] = undo.before; });
+        undo_.clear();
+    }
+}
+
+void SpringClock::takeOver(const SpringClock& other, uint32_t count) {
+    std::copy_n(other.slots_.begin(), isTaken() ? count : 0, slots_.begin());
+}
+
+} // namespace supple::runtime

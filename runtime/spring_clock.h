@@ -1,0 +1,101 @@
+// Which steps of their springs the instances of a group have run, and which are due: on a grid of times, whatever the
+// frame rate.
+#pragma once
+
+#include "shaders/shared/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+namespace supple::runtime {
+
+/// Where an instance stands, but for what root motion has travelled.
+struct SpringPlace {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 position{0.0};
+    bool operator==(const SpringPlace&) const = default;
+};
+/// Straight between two, 0 to 1; turned the shorter way.
+[[nodiscard]] SpringPlace placeBetween(const SpringPlace& a, const SpringPlace& b, double part);
+/// How the model's frame at `before` lies in that at `now`: three rows. Nothing moves if `now` flattens.
+[[nodiscard]] std::array<glm::vec4, 3> moveBetween(const SpringPlace& before, const SpringPlace& now);
+
+/// The last step at or before a time.
+[[nodiscard]] int64_t springStepAt(double time);
+[[nodiscard]] constexpr double springTime(int64_t step) {
+    return static_cast<double>(step) / shared::kSpringSteps;
+}
+
+/// Asking allocates nothing.
+class SpringClock {
+public:
+    SpringClock() = default;
+    explicit SpringClock(uint32_t capacity) : slots_(capacity) { undo_.reserve(capacity); }
+    /// False: no instance has springs.
+    [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
+
+    /// The instance begins anew with its next step: tails at rest in the pose.
+    void settle(uint32_t slot) { slots_[slot].last = kNever; }
+    void settleAll();
+    /// At a time of the group it is elsewhere, and has not moved there.
+    void jump(uint32_t slot, double time) { slots_[slot].jumped = std::min(slots_[slot].jumped, time); }
+    /// Its place is set at a time of the group: if root motion travels, it stands there from then on; else it goes
+    /// there, straight from where it was in the last frame.
+    void place(uint32_t slot, double time) { slots_[slot].placed = time; }
+
+    /// A call changes what is played or where, at a time of the group. Whether steps that are due are posed by what was
+    /// played before.
+    [[nodiscard]] bool change(uint32_t slot, double time);
+    [[nodiscard]] bool hasBefore(uint32_t slot) const { return slots_[slot].changed != kNoTime; }
+
+    static constexpr uint32_t kNone = 0xFFFFFFFFu;
+    /// The steps that an instance runs in a frame.
+    struct Due {
+        int64_t first = 0;
+        uint32_t count = 0;
+        bool settles = false;
+        float part = 0.0f;     ///< of the way from the step before the last to the last, that is shown
+        uint32_t jump = kNone; ///< the one to which it has not moved
+        bool moves = false;
+        std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
+        /// If it moves.
+        std::array<std::array<glm::vec4, 3>, shared::kMostSpringSteps> rows{};
+    };
+    /// It has run them from now on. Frames come with rising numbers.
+    [[nodiscard]] Due take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels);
+    /// What the frame's steps have done never happens.
+    void cancelFrame(uint64_t frame);
+
+    /// Takes over the first `count` slots, with their state on the device.
+    void takeOver(const SpringClock& other, uint32_t count);
+
+private:
+    static constexpr int64_t kNever = std::numeric_limits<int64_t>::min();
+    static constexpr double kNoTime = std::numeric_limits<double>::infinity();
+    struct Slot {
+        int64_t last = kNever; ///< the last step that was run
+        SpringPlace atLast;    ///< where it stood then
+        SpringPlace inFrame;   ///< and in the last frame that had it
+        double frameTime = 0.0;
+        double placed = 0.0;
+        double changed = kNoTime; ///< since when what is played differs from what the last frame had
+        double jumped = kNoTime;
+    };
+    [[nodiscard]] static Due begun(const Slot& own, double time); ///< without what it has been told
+    [[nodiscard]] static SpringPlace placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
+                                             bool travels);
+
+    std::vector<Slot> slots_;
+    struct Undo {
+        uint32_t slot = 0;
+        Slot before;
+    };
+    std::vector<Undo> undo_; ///< of undoFrame_
+    uint64_t undoFrame_ = 0;
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,130 @@
+// Pose pass, fourth part, for groups with springs: instances run the steps that are due, each from a pose of its own, and what they
+// show swings. Narrow mapping: one lane per instance. Wide mapping: one workgroup per instance, in which a lane takes a node of a
+// level, then a collider, then a chain.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/pose/tables.glsl"
+#include "shaders/pose/limbs.h"
+#include "shaders/pose/swing.h"
+
+BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
+BUFFER(coherent, Springs, kSpringBinding, std430, vec4, springs)
+
+bool listed = false; // lanes beyond the instances must not store: others change what they have read
+uint locals = 0u;    // of the step, or of what is shown
+uint tails = 0u;     // of the instance
+
+Affine scratchRows(uint i) { return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]); }
+Transform nodeLocal(uint node) {
+    uint i = locals + kAffineElements * node;
+    Transform t;
+    t.translation = scratch.at[i].xyz;
+    t.rotation = scratch.at[i + 1u];
+    t.scale = scratch.at[i + 2u].xyz;
+    return t;
+}
+void keepLocal(uint node, Transform t) {
+    precise Transform local = t;
+    if (listed) scratch.at[locals + kAffineElements * node + 1u] = local.rotation;
+}
+Affine nodeGlobal(uint node) { return scratchRows(locals + kAffineElements * node); }
+void keepGlobal(uint node, Affine m) {
+    precise Affine global = m;
+    uint i = locals + kAffineElements * node;
+    if (listed) {
+        scratch.at[i] = global.x;
+        scratch.at[i + 1u] = global.y;
+        scratch.at[i + 2u] = global.z;
+    }
+}
+uint colliderPlace(uint collider) {
+    return locals + push.springScratch + kAffineElements + kPosedColliderElements * collider;
+}
+vec4 posedCollider(uint collider, uint element) { return scratch.at[colliderPlace(collider) + element]; }
+void keepCollider(uint collider, vec4 point, vec4 way) {
+    precise vec4 first = point;
+    precise vec4 second = way;
+    uint i = colliderPlace(collider);
+    if (listed) {
+        scratch.at[i] = first;
+        scratch.at[i + 1u] = second;
+    }
+}
+vec4 spring(uint i) { return springs.at[tails + i]; }
+void keepSpring(uint i, vec4 v) {
+    precise vec4 own = v;
+    if (listed) springs.at[tails + i] = own;
+}
+#include "shaders/pose/springs.h"
+
+Affine movedRows(uint word) {
+    vec4 rows[3];
+    for (uint i = 0u; i < 3u; ++i) {
+        uint w = word + 4u * i;
+        rows[i] = uintBitsToFloat(uvec4(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u), instanceWord(w + 3u)));
+    }
+    return rowsOf(rows[0], rows[1], rows[2]);
+}
+
+// Behind what other lanes of the workgroup have stored.
+void meet() {
+    if (kWide) {
+        memoryBarrierBuffer();
+        barrier();
+    }
+}
+
+void runStep(SpringTables all, SpringStep now, uint lane, uint lanes) {
+    for (uint level = 0u; level < all.levelCount; ++level) {
+        uvec4 nodes = table(all.levels + level);
+        for (uint i = nodes.x + lane; i < nodes.y; i += lanes) poseSpringNode(table(i).x);
+        meet();
+    }
+    for (uint i = lane; i < all.colliderCount; i += lanes) poseCollider(i, all.colliders + kColliderElements * i);
+    meet();
+    for (uint chain = lane; chain < all.chainCount; chain += lanes) {
+        stepChain(table(all.chains + chain), now);
+    }
+    meet();
+}
+
+void main() {
+    uint id = kWide ? workgroupIndex() : invocationIndex();
+    listed = id < push.instanceCount;
+    uint words = push.springWords + kSpringWords * min(id, push.instanceCount - 1u);
+    uint slot = slotOf(instanceWord(words)), first = push.shown + instanceWord(words + 1u);
+    uint steps = instanceWord(words + 2u), moves = instanceWord(words + 4u);
+    uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
+    SpringTables all = springTables();
+    tails = slot * push.springStride;
+    SpringStep now;
+    now.settles = (steps & kSpringSettles) != 0u;
+    uint jump = (steps >> kSpringJumpShift) & 15u;
+    steps = min(steps & 255u, kMostSpringSteps);
+    precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
+    meet();
+    for (uint k = 0u; k < steps; ++k) {
+        beginEntry(first + k);
+        locals = (first + k) * push.scratchStride;
+        precise Affine way = identity();
+        if ((state(posedState()).y & kStateTravels) != 0u) way = scratchRows(locals + push.springScratch);
+        now.move = before;
+        if (moves != 0u) now.move = combined(movedRows(moves + kMoveWords * k), now.move);
+        now.move = combined(undone(way), now.move);
+        if (jump == k + 1u) now.move = identity();
+        before = way;
+        now.place = scratchRows(locals + kAffineElements * push.nodeCount);
+        runStep(all, now, lane, lanes);
+    }
+    if (lane == 0u && steps != 0u) {
+        keepSpring(0u, before.x);
+        keepSpring(1u, before.y);
+        keepSpring(2u, before.z);
+    }
+    locals = instanceWord(words + 5u) * push.scratchStride;
+    float part = uintBitsToFloat(instanceWord(words + 3u));
+    for (uint chain = lane; chain < all.chainCount; chain += lanes) {
+        uvec4 nodes = table(all.chains + chain);
+        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) showSpringNode(i, part);
+    }
+}

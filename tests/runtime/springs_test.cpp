@@ -1,0 +1,641 @@
+// Joint springs on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to them.
+#include "tests/support/springs.h"
+
+#include "cage/gltf/reader.h"
+#include "runtime/spring_clock.h"
+#include "tests/support/allocation_count.h"
+#include "tests/support/limited_device.h"
+#include "tests/support/played_group.h"
+#include "tests/support/recordings.h"
+#include "tests/support/rigged_tube.h"
+#include "tests/support/spring_twin.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace supple::test {
+namespace {
+
+using cage::ChannelPath;
+
+class Springs : public CrowdContexts {};
+
+constexpr uint32_t kSprings = SUPPLE_GROUP_SPRINGS;
+using Pose = std::vector<float>;
+
+/// A group whose instances swing, beside the CPU's steps.
+class SwingingGroup : public PlayedGroup {
+public:
+    SwingingGroup(CrowdContext& context, const SuppleGroupDesc& desc)
+        : PlayedGroup(context, desc), clock(desc.capacity), places(desc.capacity, glm::mat4(1.0f)),
+          travels(desc.capacity, false) {
+        const skinning::PoseLayout& layout = group().instances().poseLayout();
+        const uint32_t modifiers = (desc.flags & SUPPLE_GROUP_MODIFIERS) != 0 ? shared::kMaxModifiers : 0;
+        const uint32_t transition = skinning::PlaybackState::elements(layout.morphCount, modifiers);
+        for (uint32_t i = 0; i < desc.capacity; ++i) {
+            twins.emplace_back(*group().asset().clipTable, layout, transition);
+        }
+    }
+
+    void move(uint32_t i, const glm::mat4& place) {
+        PlayedGroup::place(i, place);
+        places[i] = place;
+    }
+    void swingOnly(double time) {
+        EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
+        crowd.context().run(crowd.group());
+        poses = as<float>(crowd.read(crowd.output().info.poses));
+    }
+    /// A frame at a time; how many words of poses are others than the CPU's.
+    uint64_t swing(double time) {
+        swingOnly(time);
+        runtime::Group& own = group();
+        const runtime::Playback& playback = *own.poses().playback();
+        const skinning::PoseLayout& layout = own.instances().poseLayout();
+        std::vector<glm::vec4> pose(layout.stride);
+        uint64_t off = 0;
+        ++frame;
+        for (uint32_t i = 0; i < instances.size(); ++i) {
+            const runtime::SpringPlace place{glm::dmat3(glm::mat3(places[i])), glm::dvec3(places[i][3])};
+            const runtime::SpringClock::Due due = clock.take(i, frame, time, place, travels[i]);
+            const std::span<const uint32_t> state = playback.stateOf(instances[i].slot);
+            for (uint32_t k = 0; k < due.count; ++k) {
+                const auto begins = due.settles     ? SpringTwin::Begins::anew
+                                    : due.jump == k ? SpringTwin::Begins::withoutMove
+                                                    : SpringTwin::Begins::asItIs;
+                twins[i].step(state, playback.masks(), due.first + k, begins,
+                              due.moves ? std::optional(due.rows[k]) : std::nullopt);
+            }
+            twins[i].show(state, playback.masks(), time, due.part, pose);
+            const float* const there = poses.data() + 4 * size_t{instances[i].slot} * layout.stride;
+            for (size_t k = 0; k < 4 * size_t{layout.morphWeights}; ++k) {
+                EXPECT_TRUE(std::isfinite(there[k]));
+                off += std::memcmp(&pose[k / 4][static_cast<int>(k % 4)], there + k, sizeof(float)) != 0 ? 1 : 0;
+            }
+        }
+        return off;
+    }
+    /// What an instance showed in the last frame.
+    [[nodiscard]] Pose shown(uint32_t i) const {
+        const size_t stride = size_t{4} * group().instances().poseLayout().stride;
+        const auto begin = poses.begin() + static_cast<ptrdiff_t>(instances[i].slot * stride);
+        return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{group().instances().poseLayout().morphWeights})};
+    }
+
+    runtime::SpringClock clock;
+    std::vector<glm::mat4> places;
+    std::vector<bool> travels;
+    std::vector<SpringTwin> twins;
+    uint64_t frame = 0;
+};
+
+/// How far the matrices of a palette are apart, at most.
+double swungApart(const Pose& a, const Pose& b) {
+    double most = 0.0;
+    for (size_t k = 0; k < a.size(); ++k) {
+        most = std::max(most, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
+    }
+    return most;
+}
+
+TEST(SpringClock, StepsAreOnAGridOfTimes) {
+    for (int64_t n = -200'000; n < 200'000; n += 7) {
+        EXPECT_EQ(runtime::springStepAt(runtime::springTime(n)), n);
+        EXPECT_EQ(runtime::springStepAt(std::nextafter(runtime::springTime(n), -1e9)), n - 1);
+    }
+    double sum = 0.0;
+    for (int64_t n = 0; n < 100'000; ++n) {
+        EXPECT_LE(std::abs(runtime::springStepAt(sum) - n), 1);
+        sum += 1.0 / 60.0;
+    }
+}
+
+TEST(SpringClock, SaysWhatIsDue) {
+    runtime::SpringClock clock(1);
+    uint64_t frame = 0;
+    const auto at = [&](double step) { return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false); };
+    EXPECT_TRUE(at(100).settles);
+    EXPECT_EQ(at(100.5).count, 0u);
+    runtime::SpringClock::Due due = at(102.25);
+    EXPECT_FALSE(due.settles);
+    EXPECT_EQ(due.first, 101);
+    EXPECT_EQ(due.count, 2u);
+    EXPECT_NEAR(due.part, 0.25, 1e-3);
+    EXPECT_FALSE(due.moves);
+    EXPECT_EQ(at(110).count, 8u);
+    EXPECT_TRUE(at(119).settles) << "more than 8 are due";
+    EXPECT_TRUE(at(118).settles) << "time has gone back";
+    clock.settle(0);
+    EXPECT_TRUE(at(119).settles);
+    due = at(122);
+    clock.cancelFrame(frame);
+    EXPECT_EQ(at(122).first, due.first) << "what was cancelled is due again";
+}
+
+TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
+    runtime::SpringClock clock(1);
+    const auto placed = [](double x) { return runtime::SpringPlace{glm::dmat3(1.0), glm::dvec3(x, 0.0, 0.0)}; };
+    (void)clock.take(0, 1, 10.0 / 60.0, placed(0.0), false);
+    const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, placed(4.0), false);
+    ASSERT_EQ(due.count, 4u);
+    ASSERT_TRUE(due.moves);
+    for (uint32_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(due.rows[k][0].w, -1.0, 1e-6) << k;
+    }
+    // Jumps are not moves; a place that is set while root motion travels stands from then on.
+    clock.jump(0, 14.5 / 60.0);
+    const runtime::SpringClock::Due jumped = clock.take(0, 3, 15.0 / 60.0, placed(100.0), false);
+    EXPECT_EQ(jumped.jump, 0u);
+    EXPECT_FALSE(clock.take(0, 3, 15.0 / 60.0, placed(100.0), false).moves);
+    clock.place(0, 17.5 / 60.0);
+    const runtime::SpringClock::Due later = clock.take(0, 4, 19.0 / 60.0, placed(104.0), true);
+    ASSERT_EQ(later.count, 4u);
+    const float moved[] = {0.0f, 0.0f, -4.0f, 0.0f};
+    for (uint32_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(later.rows[k][0].w, moved[k]) << k;
+    }
+    // Turned and scaled: a quarter, in two steps.
+    const runtime::SpringPlace a{glm::dmat3(2.0), glm::dvec3(0.0)};
+    const runtime::SpringPlace b{glm::dmat3(glm::rotate(glm::dmat4(2.0), 1.5707963, glm::dvec3(0, 1, 0))),
+                                 glm::dvec3(0.0)};
+    const runtime::SpringPlace half = runtime::placeBetween(a, b, 0.5);
+    EXPECT_NEAR(half.linear[0][0], std::sqrt(2.0), 1e-6);
+    EXPECT_EQ(runtime::placeBetween(a, b, 1.0), b);
+    EXPECT_EQ(runtime::moveBetween(a, {glm::dmat3(0.0), glm::dvec3(1.0)})[0], glm::vec4(1, 0, 0, 0)) << "flat";
+}
+
+TEST(SpringClock, CallsTakeEffectAtTheirTime) {
+    runtime::SpringClock clock(1);
+    (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
+    EXPECT_FALSE(clock.change(0, 10.5 / 60.0)) << "no step was due before";
+    EXPECT_TRUE(clock.change(0, 12.5 / 60.0));
+    EXPECT_FALSE(clock.change(0, 13.5 / 60.0)) << "the first call counts";
+    const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, {}, false);
+    ASSERT_EQ(due.count, 4u);
+    EXPECT_TRUE(due.before[0] && due.before[1] && !due.before[2] && !due.before[3]);
+    EXPECT_FALSE(clock.hasBefore(0));
+}
+
+TEST_F(Springs, SwingWithTheWordsOfTheCpu) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        for (const bool isPip : {false, true}) {
+            const SuppleAsset asset = isPip ? pipWithSprings(own) : wrenWithSprings(own);
+            for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION}) {
+                constexpr uint32_t kCount = 6;
+                const uint32_t modifiers = isPip ? 0 : SUPPLE_GROUP_MODIFIERS;
+                SwingingGroup swinging(own, playedGroup(asset, kCount, kSprings | modifiers, skinning));
+                SwingingGroup still(own, playedGroup(asset, kCount, modifiers, skinning));
+                ASSERT_TRUE(swinging.crowd.valid());
+                for (uint32_t i = 0; i < kCount; ++i) {
+                    const bool travels = i == 1 || i == 4;
+                    for (SwingingGroup* const stage : {&swinging, &still}) {
+                        stage->play(i, 1 + i % 2, 0.1 * i,
+                                    travels ? SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW : 0,
+                                    travels ? SUPPLE_PLAYBACK_TRAVEL : 0);
+                    }
+                    swinging.travels[i] = travels;
+                }
+                if (!isPip) {
+                    SuppleModifier aim{};
+                    aim.kind = SUPPLE_MODIFIER_AIM;
+                    aim.joint = swinging.joint("head");
+                    aim.weight = 1.0f;
+                    aim.target[0] = 3.0f;
+                    aim.target[2] = 1.0f;
+                    swinging.modify(2, aim);
+                    still.modify(2, aim);
+                }
+                double swung = 0.0;
+                for (uint32_t f = 0; f < 24; ++f) {
+                    const double time = 0.35 + 0.021 * f;
+                    const glm::mat4 place = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(0.1f * f, 0, 0)),
+                                                        0.1f * f, glm::vec3(0.2f, 1.0f, 0.0f));
+                    for (const uint32_t i : {3u, 4u}) {
+                        swinging.move(i, place);
+                        still.move(i, place);
+                        swinging.clock.place(i, f == 0 ? 0.0 : 0.35 + 0.021 * (f - 1)); // before the time is set
+                    }
+                    EXPECT_EQ(swinging.swing(time), 0u) << time;
+                    still.swingOnly(time);
+                    for (uint32_t i = 0; i < kCount; ++i) {
+                        if (f == 0) {
+                            EXPECT_EQ(swinging.shown(i), still.shown(i)) << "at rest in the pose";
+                        }
+                        swung = std::max(swung, swungApart(swinging.shown(i), still.shown(i)));
+                    }
+                }
+                EXPECT_GT(swung, 0.1);
+                for (const SpringTwin& twin : swinging.twins) {
+                    for (const SpringTwin::Bone& bone : twin.bones()) {
+                        EXPECT_NEAR(glm::distance(bone.head, bone.tail), glm::distance(bone.head, bone.posedTail),
+                                    2.0f);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Frames of a rate that come to every sixth of a second.
+std::vector<double> framesOf(uint32_t rate, uint32_t sixths) {
+    std::vector<double> times;
+    for (uint32_t k = 0; k <= rate * sixths / 6; ++k) {
+        times.push_back(k * 6 % rate == 0 ? k * 6 / rate / 6.0 : static_cast<double>(k) / rate);
+    }
+    return times;
+}
+
+/// What a host does at some sixths of a second, whatever the frame rate.
+void callAt(SwingingGroup& stage, uint32_t sixth, double time) {
+    if (sixth == 3) { // she goes over to running
+        SupplePlaybackLayer layer = PlayedGroup::loops(2, 0.1);
+        layer.startTime = time;
+        SupplePlaybackDesc desc{};
+        desc.transition = 0.3;
+        stage.play(0, {&layer, 1}, desc);
+    }
+    if (sixth == 4) {
+        SuppleModifier turn{};
+        turn.kind = SUPPLE_MODIFIER_ADD;
+        turn.joint = stage.joint("head");
+        turn.weight = 1.0f;
+        turn.rotation[1] = 0.5f;
+        turn.rotation[3] = 0.8660254f;
+        stage.modify(1, turn);
+    }
+    if (sixth == 5) {
+        stage.move(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
+        EXPECT_EQ(suppleTeleport(stage.handle(), stage.instances[2]), SUPPLE_OK);
+    }
+}
+
+TEST_F(Springs, DoNotDependOnTheFrameRate) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = wrenWithSprings(own);
+    constexpr uint32_t kCount = 4, kSixths = 9;
+    std::vector<std::vector<double>> rates;
+    for (const uint32_t rate : {60u, 24u, 30u, 90u, 144u}) {
+        rates.push_back(framesOf(rate, kSixths));
+    }
+    std::vector<double> irregular = framesOf(6, kSixths);
+    Noise noise(11);
+    for (uint32_t k = 0; k < 40; ++k) {
+        irregular.push_back((0.5 + 0.5 * static_cast<double>(noise())) * kSixths / 6.0);
+    }
+    for (uint32_t k = 0; k < 2 * kSixths; ++k) { // never more than 8 steps apart
+        irregular.push_back(k / 12.0);
+    }
+    std::sort(irregular.begin(), irregular.end());
+    irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
+    rates.push_back(irregular);
+
+    std::vector<std::vector<Pose>> first;
+    for (const std::vector<double>& times : rates) {
+        SwingingGroup stage(own,
+                            playedGroup(asset, kCount, kSprings | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
+        ASSERT_TRUE(stage.crowd.valid());
+        for (uint32_t i = 0; i < kCount; ++i) {
+            stage.play(i, 1 + i % 2, 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0,
+                       i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
+        }
+        std::vector<std::vector<Pose>> shown;
+        for (const double time : times) {
+            const auto sixth = static_cast<uint32_t>(std::lround(time * 6.0));
+            const bool meets = time == sixth / 6.0;
+            if (meets) {
+                EXPECT_EQ(suppleSetTime(stage.handle(), stage.crowd.group(), time), SUPPLE_OK);
+                callAt(stage, sixth, time);
+            }
+            stage.swingOnly(time);
+            for (uint32_t i = 0; meets && i < kCount; ++i) {
+                shown.resize(sixth + 1);
+                shown[sixth].push_back(stage.shown(i));
+            }
+        }
+        first = first.empty() ? shown : first;
+        ASSERT_EQ(shown.size(), first.size());
+        for (uint32_t sixth = 0; sixth < first.size(); ++sixth) {
+            for (uint32_t i = 0; i < kCount; ++i) {
+                EXPECT_EQ(shown[sixth][i], first[sixth][i]) << times.size() << " frames, sixth " << sixth << ", " << i;
+            }
+        }
+    }
+}
+
+TEST_F(Springs, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
+    const ValidationGuard guard;
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    CrowdContext* const contexts[] = {&context(SUPPLE_MAPPING_NARROW), &context(SUPPLE_MAPPING_WIDE), &shared};
+    std::vector<Pose> first;
+    for (CrowdContext* const own : contexts) {
+        SwingingGroup stage(*own, playedGroup(pipWithSprings(*own), 3, kSprings));
+        ASSERT_TRUE(stage.crowd.valid());
+        for (uint32_t i = 0; i < 3; ++i) {
+            stage.play(i, i, 0.3 * i);
+        }
+        std::vector<Pose> shown;
+        for (uint32_t f = 0; f < 30; ++f) {
+            stage.move(1, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, 0.03f * static_cast<float>(f * f))));
+            stage.swingOnly(f / 50.0);
+            shown.push_back(stage.shown(f % 3));
+        }
+        first = first.empty() ? shown : first;
+        EXPECT_EQ(shown, first);
+    }
+}
+
+cage::Character readWren() {
+    Result<cage::Character> wren = cage::readGltf(withExtensions(kWren, kWrenSprings), "wren", "");
+    EXPECT_TRUE(wren.ok());
+    EXPECT_EQ(wren->springBones.springs.size(), 2u);
+    EXPECT_EQ(wren->springBones.colliders.size(), 5u);
+    return wren ? std::move(*wren) : cage::Character();
+}
+
+TEST_F(Springs, KeepTheirLengthsForHours) {
+    const cage::Character wren = readWren();
+    const skinning::ClipTable table = skinning::buildClipTable(wren);
+    const skinning::PoseLayout layout = skinning::PoseLayout::of(skinning::SkinningMode::linear, table.jointCount, 0);
+    SpringTwin twin(table, layout, 0);
+    std::vector<uint32_t> words(4 * size_t{skinning::PlaybackState::elements(0)});
+    skinning::PlaybackState state(words);
+    skinning::PlaybackLayer layer;
+    layer.clip = 3; // she attacks
+    layer.loop = true;
+    state.set(wren, table, {{&layer, 1}, {}, false});
+    state.setTransform(glm::mat4(1.0f));
+    const std::vector<float> masks(4 * size_t{skinning::maskElements(table)} * shared::kMaxMasks, 1.0f);
+    double stretch = 0.0, swung = 0.0;
+    for (int64_t n = 0; n < 100'000; ++n) {
+        twin.step(words, masks, n, n == 0 ? SpringTwin::Begins::anew : SpringTwin::Begins::asItIs);
+        for (const SpringTwin::Bone& bone : twin.bones()) {
+            const double posed = static_cast<double>(glm::distance(bone.head, bone.posedTail));
+            stretch = std::max(stretch, std::abs(static_cast<double>(glm::distance(bone.head, bone.tail)) - posed));
+            swung = std::max(swung, static_cast<double>(glm::distance(bone.tail, bone.posedTail)));
+        }
+    }
+    EXPECT_LT(stretch, 1e-6);
+    EXPECT_GT(swung, 0.02);
+    std::printf("lengths off by %.1e, tails off the pose by %.3f\n", stretch, swung);
+}
+
+/// Two groups that do the same, but for what `differs` does to the first.
+class TwoGroups {
+public:
+    TwoGroups(CrowdContext& context, uint32_t capacity)
+        : asset(wrenWithSprings(context)), other(context, playedGroup(asset, capacity, kSprings)),
+          plain(context, playedGroup(wrenWithSprings(context), capacity, kSprings)) {
+        for (uint32_t i = 0; i < capacity; ++i) {
+            other.play(i, 2, 0.1 * i);
+            plain.play(i, 2, 0.1 * i);
+        }
+    }
+    void run(uint32_t step) {
+        other.swingOnly(step / 60.0);
+        plain.swingOnly(step / 60.0);
+    }
+    [[nodiscard]] bool same(uint32_t i) const { return other.shown(i) == plain.shown(i); }
+
+    SuppleAsset asset;
+    SwingingGroup other, plain;
+};
+
+TEST_F(Springs, GoOnWhenTheCapacityChanges) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        TwoGroups both(context(mapping), 3);
+        for (uint32_t step = 0; step < 40; ++step) {
+            if (step == 15 || step == 25) {
+                EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 15 ? 9 : 5),
+                          SUPPLE_OK);
+            }
+            both.run(step);
+            for (uint32_t i = 0; i < 3; ++i) {
+                EXPECT_TRUE(both.same(i)) << step;
+            }
+        }
+    }
+}
+
+TEST_F(Springs, AFrameThatIsCancelledHasNotBeen) {
+    const ValidationGuard guard;
+    TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 30; ++step) {
+        if (step % 5 == 3 || step == 0) {
+            EXPECT_EQ(suppleSetTime(both.other.handle(), both.other.crowd.group(), step / 60.0), SUPPLE_OK);
+            both.other.crowd.context().cancel(both.other.crowd.group());
+        }
+        both.run(step);
+        EXPECT_TRUE(both.same(0) && both.same(1)) << step;
+    }
+}
+
+TEST_F(Springs, HiddenInstancesCatchUpOrSettle) {
+    const ValidationGuard guard;
+    TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 60; ++step) {
+        const bool hidden = (step > 10 && step < 18) || (step > 30 && step < 39);
+        both.other.crowd.setVisible(both.other.instances[1], !hidden);
+        both.run(step);
+        EXPECT_TRUE(both.same(0)) << step;
+        if (!hidden && step < 39) {
+            EXPECT_TRUE(both.same(1)) << step << ": 8 steps were due at most";
+        }
+        if (step == 39) {
+            EXPECT_FALSE(both.same(1)) << "9 were due";
+        }
+    }
+    EXPECT_LT(swungApart(both.other.shown(1), both.plain.shown(1)), 0.05) << "it comes together again";
+}
+
+TEST_F(Springs, SettleWhenTheirAssetIsLoadedAnew) {
+    const ValidationGuard guard;
+    TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 60; ++step) {
+        if (step == 20) {
+            const std::vector<std::byte> glb = withExtensions(kWren, kWrenSprings);
+            SuppleAssetDesc desc{};
+            desc.structSize = sizeof desc;
+            desc.name = "wren";
+            desc.bytes = glb.data();
+            desc.byteCount = glb.size();
+            EXPECT_EQ(suppleReloadAsset(both.other.handle(), both.asset, &desc), SUPPLE_OK);
+        }
+        both.run(step);
+        EXPECT_EQ(both.same(0), step < 20) << step;
+    }
+    EXPECT_LT(swungApart(both.other.shown(1), both.plain.shown(1)), 0.05) << "it comes together again";
+}
+
+TEST_F(Springs, TeleportsKeepHowTheyHang) {
+    const ValidationGuard guard;
+    TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(100.0f, 0.0f, 0.0f));
+    double told = 0.0, untold = 0.0;
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 20) {
+            both.other.move(0, far);
+            both.other.crowd.teleport(both.other.instances[0]);
+            both.other.move(1, far);
+        }
+        both.run(step);
+        const auto off = [&](uint32_t i) {
+            Pose here = both.other.shown(i);
+            for (size_t k = 3; k < here.size(); k += 12) {
+                here[k] -= step >= 20 ? 100.0f : 0.0f;
+            }
+            return swungApart(here, both.plain.shown(i));
+        };
+        told = std::max(told, off(0));
+        untold = std::max(untold, off(1));
+    }
+    EXPECT_LT(told, 1e-4) << "floats a hundred metres from the origin";
+    EXPECT_GT(untold, 0.1);
+}
+
+TEST_F(Springs, AreRefusedWhereTheyCannotBe) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = wrenWithSprings(own);
+    const auto created = [&](SuppleGroupDesc desc) {
+        desc.structSize = sizeof desc;
+        SuppleGroup group{};
+        const SuppleResult result = suppleCreateGroup(own.handle(), &desc, &group);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
+        }
+        return result;
+    };
+    SuppleGroupDesc desc = playedGroup(asset, 1, kSprings);
+    EXPECT_EQ(created(desc), SUPPLE_OK);
+    desc.flags |= SUPPLE_GROUP_UPDATE_RATES;
+    EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
+    desc.flags = kSprings;
+    desc.poseSource = SUPPLE_POSES_SET;
+    EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
+    (void)own.takeError();
+    EXPECT_EQ(created(playedGroup(own.asset(kWren), 1, kSprings)), SUPPLE_OK) << "nothing swings";
+}
+
+TEST_F(Springs, NothingSwingsWithoutSpringsOrInTheBindPose) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    PlayedGroup none(own, playedGroup(own.asset(kPip), 2, kSprings));
+    none.play(0, 1, 0.0);
+    for (uint32_t step = 0; step < 5; ++step) {
+        EXPECT_EQ(none.run(step / 60.0), 0u) << "the CPU's words, without springs";
+    }
+    PlayedGroup bind(own, playedGroup(pipWithSprings(own), 2, kSprings));
+    for (uint32_t step = 0; step < 5; ++step) {
+        EXPECT_EQ(bind.run(step / 60.0), 0u);
+    }
+}
+
+TEST_F(Springs, SwingInWindowsOfInstances) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 20; });
+        ASSERT_NE(limited.context(), nullptr);
+        constexpr uint32_t kCount = 80;
+        SwingingGroup stage(*limited.context(),
+                            playedGroup(wrenWithSprings(*limited.context()), kCount, kSprings | SUPPLE_GROUP_WINDOWS));
+        ASSERT_TRUE(stage.crowd.valid());
+        EXPECT_GT(stage.group().windows().count(), 1u);
+        for (uint32_t i = 0; i < kCount; ++i) {
+            stage.play(i, 1 + i % 2, 0.1 * i);
+        }
+        for (uint32_t f = 0; f < 4; ++f) {
+            EXPECT_EQ(stage.swing(0.1 * f), 0u);
+        }
+    }
+}
+
+TEST_F(Springs, AllocateNothingInFrames) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    SwingingGroup stage(own, playedGroup(wrenWithSprings(own), 4, kSprings | SUPPLE_GROUP_TRANSITIONS));
+    for (uint32_t i = 0; i < 4; ++i) {
+        stage.play(i, 1, 0.1 * i);
+    }
+    runtime::Group& group = stage.group();
+    runtime::Playback& playback = *group.poses().playback();
+    double time = 0.0;
+    uint64_t frame = 1000;
+    stage.swingOnly(time);
+    const uint64_t before = allocationsCounted();
+    for (uint32_t n = 0; n < 200; ++n) {
+        time += 0.01 * (n % 13);
+        const AllocationCount count;
+        playback.setTime(time);
+        playback.setTransform(n % 4, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
+        playback.listPoses(++frame, group.windows(), 4, [](uint32_t) { return true; });
+    }
+    EXPECT_EQ(allocationsCounted(), before);
+}
+
+/// A host with springs that calls all that concerns them, from a frame to another.
+void swingAbout(CrowdContext& own, SwingingGroup& stage, uint32_t first, uint32_t last) {
+    for (uint32_t f = first; f < last; ++f) {
+        EXPECT_EQ(suppleSetTime(own.handle(), stage.crowd.group(), 0.03 * f), SUPPLE_OK);
+        const uint32_t i = f % 3;
+        if (f % 4 == 1) {
+            stage.play(i, f % 3, 0.1 * f);
+        }
+        if (f % 5 == 2) {
+            stage.move(i, glm::rotate(glm::mat4(1.0f), 0.3f * static_cast<float>(f), glm::vec3(0, 1, 0)));
+        }
+        if (f % 7 == 3) {
+            stage.crowd.teleport(stage.instances[i]);
+        }
+        stage.crowd.setVisible(stage.instances[2], f % 6 > 2);
+        own.run(stage.crowd.group());
+    }
+}
+
+TEST_F(Springs, AreRecorded) {
+    for (const uint32_t begins : {0u, 9u}) {
+        CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+        SwingingGroup stage(own, playedGroup(wrenWithSprings(own), 3, kSprings));
+        for (uint32_t i = 0; i < 3; ++i) {
+            stage.play(i, 1, 0.1 * i);
+        }
+        swingAbout(own, stage, 0, begins);
+        Recorded recorded;
+        own.beginFrame();
+        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
+        swingAbout(own, stage, begins, begins + 16);
+        own.beginFrame();
+        own.beginFrame();
+        EXPECT_EQ(suppleStopRecording(own.handle()), SUPPLE_OK);
+        const Hashes hashes = read(recorded.bytes).hashes;
+        EXPECT_GT(hashes.size(), 20u);
+        for (const SuppleMapping mapping : kMappings) {
+            tools::Replayer::Options options;
+            options.mapping = mapping;
+            EXPECT_EQ(expectSame(hashes, replay(*testDevice(), recorded.bytes, options)), hashes.size()) << begins;
+        }
+    }
+}
+
+TEST_F(Springs, BoxesHoldWhatSwings) {
+    cage::Character tube = riggedTube({.joints = 4});
+    tube.clips.push_back(clipOf({channel(2, ChannelPath::rotation, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})}));
+    const skinning::Reach reach = skinning::reachOf(tube);
+    const auto isKnown = [&](std::vector<uint32_t> swinging) {
+        runtime::PlayedBounds bounds(tube, false, false, 1);
+        bounds.setSwinging(swinging);
+        skinning::PlaybackLayer layer;
+        bounds.set(0, {{&layer, 1}, {}, false});
+        return bounds.of(0, 0.0, reach, {}).has_value();
+    };
+    EXPECT_TRUE(isKnown({}));
+    EXPECT_TRUE(isKnown({2, 3}));
+    EXPECT_FALSE(isKnown({1})) << "no clip moves it, or what it hangs on";
+}
+
+} // namespace
+} // namespace supple::test
