@@ -48,7 +48,9 @@ constexpr Checked kShaders[] = {
     {"pose/roots.comp", "local"},
     {"pose/roots.comp", "held"},
     {"pose/modify.comp", "local"},
-    {"pose/palette.comp", "placed"},
+    {"pose/palette.comp", "element"},
+    {"pose/mix.comp", "rows"},
+    {"pose/mix.comp", "rotation"},
     {"polygons/face.comp", "canonical"},
     {"polygons/frame.comp", "canonical", true, true},
 };

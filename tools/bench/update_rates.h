@@ -17,8 +17,8 @@ struct UpdateRatesDesc {
 };
 
 /// A row per count of characters and interval: medians over the frames, which groups of all intervals record in turns,
-/// of the milliseconds of pose and deform by timestamps, of the microseconds of recording, and of the frames' own ratios
-/// to the group without update rates; and how many characters a frame poses, in the mean.
+/// of the milliseconds of pose and deform by timestamps, of the microseconds of recording, and of the frames' own
+/// ratios to the group without update rates; and how many characters a frame poses, in the mean.
 [[nodiscard]] Result<nlohmann::ordered_json> measureUpdateRates(host::Device& device, Workbench& workbench,
                                                                 const UpdateRatesDesc& desc);
 
