@@ -1092,8 +1092,9 @@ SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance i
 SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstance instance, uint32_t part,
                                              uint32_t visible);
 /** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
- * Instances that were not visible in the group's last suppleRecord are new without this call. With SUPPLE_GROUP_SPRINGS,
- * joints that swing hang on as they hung, as if it had not moved: call this at the group's time of the jump. */
+ * Instances that were not visible in the group's last suppleRecord are new without this call. With
+ * SUPPLE_GROUP_SPRINGS, joints that swing hang on as they hung, as if it had not moved: call this at the group's time
+ * of the jump. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
