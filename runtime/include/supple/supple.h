@@ -1100,7 +1100,9 @@ SUPPLE_API SuppleResult suppleSetVisible(SuppleContext context, SuppleInstance i
 SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstance instance, uint32_t part,
                                              uint32_t visible);
 /** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
- * Instances that were not visible in the group's last suppleRecord are new without this call. */
+ * Instances that were not visible in the group's last suppleRecord are new without this call. With
+ * SUPPLE_GROUP_SPRINGS, joints that swing hang on as they hung, as if it had not moved: call this at the group's time
+ * of the jump. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
@@ -1161,7 +1163,8 @@ SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInsta
  * pose that the device will compute, which costs what suppleSetPose costs with the same layers. The pose is kept for
  * more joints of the same instance, until another instance of the group is asked for, or suppleSetPlayback,
  * suppleSetTime or suppleSetMask changes it. So ask for all joints of one instance before the next one. Crowds read
- * SuppleGroupInfo.poses on the device instead (docs/integration.md).
+ * SuppleGroupInfo.poses on the device instead (docs/integration.md). With SUPPLE_GROUP_SPRINGS it is where the joint is
+ * before anything swings: how it swings, the device alone knows.
  * Errors: joint is not below jointCount; the host fills the group's poses (PALETTE_BUFFER, CAGE_BUFFER), so only the
  * device knows. */
 SUPPLE_API SuppleResult suppleGetJointTransform(SuppleContext context, SuppleInstance instance, uint32_t joint,
