@@ -626,7 +626,7 @@ TEST_F(Springs, BoxesHoldWhatSwings) {
     tube.clips.push_back(clipOf({channel(2, ChannelPath::rotation, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0.6f, 0.8f})}));
     const skinning::Reach reach = skinning::reachOf(tube);
     const auto isKnown = [&](std::vector<uint32_t> swinging) {
-        runtime::PlayedBounds bounds(tube, false, false, 1);
+        runtime::PlayedBounds bounds(tube, {}, false, 1);
         bounds.setSwinging(swinging);
         skinning::PlaybackLayer layer;
         bounds.set(0, {{&layer, 1}, {}, false});
