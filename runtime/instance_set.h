@@ -42,6 +42,8 @@ public:
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
     [[nodiscard]] SupplePoseSource source() const { return desc_.source; }
     [[nodiscard]] skinning::SkinningMode skinning() const { return desc_.mode; }
+    /// With springs only if some joints of the asset swing.
+    [[nodiscard]] const StateRoom& room() const { return desc_.room; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
     [[nodiscard]] UserData& userData() { return userData_; }

@@ -33,7 +33,7 @@ uint32_t transitionBegin(const skinning::PoseLayout& layout, const StateRoom& ro
     return skinning::PlaybackState::elements(layout.morphCount, room.modifiers ? kMaxModifiers : 0);
 }
 
-/// Of what an instance plays; with springs it has two, the second of which is what it has played before the last call.
+/// From what an instance plays to what it has played before the last call, which is there with springs.
 uint32_t playedStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
     return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
 }
@@ -199,7 +199,7 @@ Status Playback::createBuffers(const Desc& desc) {
                           capacity_ * posesInFrame(desc.room) * push_.scratchStride * gpu::kVec4Bytes,
                           kStorage | kTexels, gpu::MemoryPurpose::scratch};
     requests[kEnds] = {"supple ends", capacity_ * endBytes(), kStorage | kTexels, gpu::MemoryPurpose::poses};
-    const VkDeviceSize ofList = listsPoses() ? listBytes() : 0;
+    const VkDeviceSize ofList = listBytes();
     requests[kList] = {"supple list of poses", ofList, kStorage | kTexels | kCopied, gpu::MemoryPurpose::poses};
     Result<gpu::BufferSet> buffers = gpu::BufferSet::create(*desc.device, requests, gpu::MemoryKind::deviceLocal);
     if (!buffers) {

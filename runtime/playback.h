@@ -35,7 +35,7 @@ namespace supple::runtime {
 /// What instances may have beside layers: there is room for it.
 struct StateRoom {
     bool modifiers = false;
-    // Of instances that play on the device:
+    // For instances that play on the device:
     bool transitions = false;
     bool updateRates = false;
     bool springs = false; ///< some joints of the asset swing
@@ -213,12 +213,12 @@ private:
     [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
     void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
-    /// Of an instance's two ends.
+    /// Both ends of an instance.
     [[nodiscard]] VkDeviceSize endBytes() const {
         return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
     }
     [[nodiscard]] VkDeviceSize listBytes() const {
-        return capacity_ * (hasSprings() ? PoseList::kWordsOfSwinging : PoseList::kWordsOfInstance) * sizeof(uint32_t);
+        return capacity_ * PoseList::wordsOfInstance(takesUpdateRates(), hasSprings()) * sizeof(uint32_t);
     }
     [[nodiscard]] VkDeviceSize springBytes() const { return VkDeviceSize{push_.springStride} * 16; }
     /// What the slot plays changes: due steps are still posed by what it has played.

@@ -16,15 +16,20 @@ namespace supple::runtime {
 /// Listing allocates nothing.
 class PoseList {
 public:
-    /// Of an instance: two ends with their times, or what is shown with its time; and its part of the way.
+    /// An instance has two ends with their times, or what is shown with its time; and its part of the way.
     static constexpr uint32_t kWordsOfInstance = 2 * 3 + 2;
     /// With springs: what is shown, and each step with its time and its move.
     static constexpr uint32_t kWordsOfSwinging =
         3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
 
+    /// Of an instance of a group with update rates or springs; of others there is no list.
+    [[nodiscard]] static constexpr uint32_t wordsOfInstance(bool updateRates, bool springs) {
+        return springs ? kWordsOfSwinging : updateRates ? kWordsOfInstance : 0;
+    }
+
     PoseList() = default;
     PoseList(uint32_t capacity, uint32_t windowCount, bool springs) : windows_(windowCount) {
-        words_.reserve(size_t{capacity} * (springs ? kWordsOfSwinging : kWordsOfInstance));
+        words_.reserve(size_t{capacity} * wordsOfInstance(!springs, springs));
         times_.reserve(size_t{capacity} * (springs ? 2 * (1 + size_t{shared::kMostSpringSteps}) : 4));
         mixes_.reserve(springs ? 0 : capacity);
         parts_.reserve(springs ? 0 : capacity);
@@ -39,7 +44,7 @@ public:
         words_.clear();
         poses_ = mixed_ = swung_ = 0;
     }
-    // Of one window after the other; slots count within it. endWindow() is called for each.
+    // Windows are listed one after the other; slots count within one. endWindow() is called for each.
     /// `end`: its number; 0: what is shown.
     void addPose(uint32_t slot, uint32_t end, double time) {
         const skinning::SplitTime split = skinning::splitTime(time);
@@ -126,7 +131,7 @@ private:
     }
 
     std::vector<uint32_t> words_;
-    // Of the window that is being listed.
+    // What the window has that is being listed:
     std::vector<uint32_t> times_, mixes_, parts_, steps_, stepTimes_, moves_;
     std::vector<std::array<uint32_t, shared::kSpringWords>> swinging_;
     std::vector<Window> windows_;

@@ -19,7 +19,7 @@ struct PoseSpan {
 
     /// Posed at the group's time itself.
     [[nodiscard]] bool isExact() const { return begin == end; }
-    /// Of a time within it: 0 to 1.
+    /// How far a time within it has come: 0 to 1.
     [[nodiscard]] float partAt(double time) const { return static_cast<float>((time - begin) / (end - begin)); }
 };
 [[nodiscard]] constexpr PoseSpan exactSpan(double time) {

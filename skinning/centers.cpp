@@ -231,7 +231,7 @@ private:
     JointLists verticesOf_, trianglesOf_;
     std::vector<glm::dvec4> sums_; ///< by vertex: likeness times area times point, and likeness times area
 
-    // Of one pair of joints.
+    // For one pair of joints:
     std::vector<std::array<uint32_t, 2>> partners_; ///< later joint, vertex
     std::vector<Cell> cells_;
     std::vector<uint32_t> filled_;

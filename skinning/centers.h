@@ -9,7 +9,7 @@
 
 namespace supple::skinning {
 
-/// Of the influences of a vertex, so many count for its center: the heaviest.
+/// So many influences of a vertex count for its center: the heaviest.
 inline constexpr size_t kCenterInfluences = 8;
 
 struct Centers {

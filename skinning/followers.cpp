@@ -135,7 +135,7 @@ public:
 
 private:
     [[nodiscard]] bool isCommon(size_t role) const { return found_.from[role] != kNone && found_.to[role] != kNone; }
-    /// Of what hangs on a role, or on none.
+    /// For what hangs on a role, or on none.
     [[nodiscard]] glm::dquat correctionOf(size_t role) const {
         return role < kRoles ? corrections_[role] : glm::dquat(1.0, 0.0, 0.0, 0.0);
     }

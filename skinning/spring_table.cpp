@@ -200,7 +200,7 @@ private:
         }
         putHead(2, count, first);
     }
-    /// Of each spring the numbers of its colliders, which are those that springs use.
+    /// The numbers of the colliders of each spring. Those that no spring uses have none.
     void putReferences() {
         std::vector<uint32_t> all;
         for (const cage::Spring& spring : bones_.springs) {

@@ -10,7 +10,7 @@
 
 namespace play {
 
-/// Of one frame.
+/// What one frame asks for.
 struct Input {
     std::optional<glm::vec2> goal; ///< go there
     std::optional<glm::vec3> push; ///< a blow: the speed that it gives

@@ -54,7 +54,7 @@ public:
     void setTarget(uint32_t modifier, float weight, const glm::vec3& point,
                    const glm::quat& rotation = glm::quat(1.0f, 0.0f, 0.0f, 0.0f)) const;
 
-    /// Of kJoints.
+    /// One for each of kJoints.
     [[nodiscard]] uint32_t joint(Point point) const { return joints_[point]; }
     /// In the world, as the next frame shows it.
     [[nodiscard]] glm::mat4 jointTransform(Point point) const;

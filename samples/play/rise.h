@@ -5,7 +5,7 @@
 
 namespace play {
 
-/// Of a joint, while the transition is under way: the body curls up with it, instead of rising like a board.
+/// How a joint is turned while the transition is under way: the body curls up with it, instead of rising like a board.
 struct Bend {
     Point point;
     float angle; ///< about +X, in radians: positive leans forwards

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] float speed() const { return speed_; }
     [[nodiscard]] float heading() const { return heading_; }
     [[nodiscard]] const std::optional<glm::vec2>& goal() const { return goal_; }
-    /// Of the character's model space in the world.
+    /// Where the character's model space lies in the world.
     [[nodiscard]] glm::mat4 transform() const;
 
 private:

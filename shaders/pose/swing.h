@@ -11,7 +11,7 @@ SUPPLE_SHARED_FUNCTION vec3 directionThrough(Affine m, vec3 v) {
     SUPPLE_PRECISE vec3 result = vec3(dot3(vec3(m.x), v), dot3(vec3(m.y), v), dot3(vec3(m.z), v));
     return result;
 }
-// Of unit length; the other if v has no direction, or comes from numbers that a host has made absurd.
+// A direction of unit length; the other if v has none, or comes from numbers that a host has made absurd.
 SUPPLE_SHARED_FUNCTION vec3 directionOr(vec3 v, vec3 other) {
     float squares = dot3(v, v);
     bool sound = squares > 1e-24f && squares < 1e24f;

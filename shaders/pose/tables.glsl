@@ -36,7 +36,7 @@ uint posedState() {
 }
 // Nobody sees it: a step of springs.
 bool isStep(uint entry) { return entry >= push.shown; }
-// Of an end, where the instance stands is left to mix.comp: the host may move it while the end stays.
+// Ends are in model space: mix.comp places them, as the host may move the instance while its ends stay.
 bool isPlaced() { return posedEnd() == 0u; }
 vec2 posedTime() { return posedSeconds; }
 

@@ -9,6 +9,8 @@
 #include "tests/support/recordings.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/spring_twin.h"
+#include "tests/support/wrapped_vulkan.h"
+#include "tools/gltf/writer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -619,6 +621,36 @@ TEST_F(Springs, AreRecorded) {
             EXPECT_EQ(expectSame(hashes, replay(*testDevice(), recorded.bytes, options)), hashes.size()) << begins;
         }
     }
+}
+
+TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
+    WrappedVulkan& wrapped = wrappedVulkan();
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfSwinging;
+    const Result<cage::GlbFile> tube = cage::writeGlb(riggedTube({.segments = 8, .sides = 8, .joints = 4}));
+    ASSERT_TRUE(tube);
+    const std::vector<std::byte> swinging =
+        withExtensions(tube->bytes, R"("VRMC_springBone":{"springs":[{"joints":[{"node":2},{"node":3},{"node":4}]}]})");
+    wrapped.maxTexelBufferElements = kTexels;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext own(*device, mapping);
+        const SuppleAsset swings = own.createAsset(swinging, "tube"), stands = own.createAsset(tube->bytes, "tube");
+        const auto created = [&](SuppleAsset asset, uint32_t capacity) {
+            SuppleGroupDesc desc = playedGroup(asset, capacity, kSprings);
+            desc.structSize = sizeof desc;
+            SuppleGroup group{};
+            return suppleCreateGroup(own.handle(), &desc, &group);
+        };
+        const bool narrow = mapping == SUPPLE_MAPPING_NARROW;
+        EXPECT_EQ(created(swings, kMost), SUPPLE_OK);
+        EXPECT_EQ(created(swings, kMost + 1), narrow ? SUPPLE_ERROR_LIMIT : SUPPLE_OK);
+        if (narrow) {
+            EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_LIMIT);
+        }
+        EXPECT_EQ(created(stands, kMost + 1), SUPPLE_OK) << "without springs there is no list";
+    }
+    wrapped.maxTexelBufferElements = 0;
 }
 
 TEST_F(Springs, BoxesHoldWhatSwings) {

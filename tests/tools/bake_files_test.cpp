@@ -2,6 +2,7 @@
 #include "cage/formats/reader.h"
 #include "host/picture.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/spring_files.h"
 #include "tests/tools/baked_files.h"
 #include "tests/tools/command_runner.h"
 #include "tests/tools/obj_file.h"
@@ -663,6 +664,21 @@ TEST_F(BakeFiles, UpdateIntervalsGoStraightBetweenPoses) {
         EXPECT_GT(errors["every8"].get<double>(), errors["every4"].get<double>());
         EXPECT_LT(errors["every8"].get<double>(), 0.5);
     }
+}
+
+TEST_F(BakeFiles, SpringsSwingForSomeSeconds) {
+    const std::vector<std::byte> wren = supple::test::withExtensions(supple::test::kWren, supple::test::kWrenSprings);
+    writeText(file("wren.glb"), std::string(reinterpret_cast<const char*>(wren.data()), wren.size()));
+    const auto palette = [&](const std::string& arguments) {
+        const Outcome outcome = runOnDevice("bake wren.glb --scheme cage --hash --clip run --time 0.4 " + arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return hashesIn(outcome.out)["palette"];
+    };
+    const auto swung = palette("--simulate 2");
+    EXPECT_NE(swung, palette(""));
+    EXPECT_NE(swung, palette("--simulate 0.1"));
+    EXPECT_EQ(swung, palette("--simulate 2 --mapping wide"));
+    EXPECT_EQ(runOnDevice("bake wren.glb --hash --simulate 2 --update-interval 4 --clip run --time 0.4").exitCode, 2);
 }
 
 TEST_F(BakeFiles, ModifiersChangeThePose) {

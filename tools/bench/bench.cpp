@@ -99,6 +99,8 @@ private:
     Status load();
     Status pipelines(const BenchCage& cage, SuppleScheme scheme);
     Status keep();
+    /// Ends the line of progress, and keeps what was measured.
+    Status keepAs(const char* key, Result<Json> measured);
     [[nodiscard]] RoundOptions roundOptions() const;
     [[nodiscard]] uint32_t mostCharacters() const {
         return options_.crowd.value_or(!device_.isCpu() ? kGpuCrowd : options_.quick ? kQuickCpuCrowd : kCpuCrowd);
@@ -185,6 +187,15 @@ Status Run::keep() {
     return options_.keep(result_);
 }
 
+Status Run::keepAs(const char* key, Result<Json> measured) {
+    std::fprintf(stderr, "\n");
+    if (!measured) {
+        return measured.error();
+    }
+    result_[key] = std::move(*measured);
+    return keep();
+}
+
 RoundOptions Run::roundOptions() const {
     RoundOptions rounds;
     rounds.rounds = options_.rounds;
@@ -220,13 +231,7 @@ Status Run::crowd() {
     desc.rates = options_.quick ? std::vector<uint32_t>{4} : std::vector<uint32_t>{4, 8, 16};
     desc.rounds = roundOptions();
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rcrowd: %s   ", what.c_str()); };
-    Result<Json> measured = measureCrowd(device_, *workbench_, desc);
-    std::fprintf(stderr, "\n");
-    if (!measured) {
-        return measured.error();
-    }
-    result_["crowd"] = std::move(*measured);
-    return keep();
+    return keepAs("crowd", measureCrowd(device_, *workbench_, desc));
 }
 
 Status Run::views() {
@@ -241,13 +246,7 @@ Status Run::views() {
     }
     desc.frames = 3 * options_.rounds;
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rview: %s   ", what.c_str()); };
-    Result<Json> measured = measureViews(device_, *workbench_, desc);
-    std::fprintf(stderr, "\n");
-    if (!measured) {
-        return measured.error();
-    }
-    result_["views"] = std::move(*measured);
-    return keep();
+    return keepAs("views", measureViews(device_, *workbench_, desc));
 }
 
 Status Run::updateRates() {
@@ -261,13 +260,7 @@ Status Run::updateRates() {
     }
     desc.frames = 8 * (options_.quick ? 1 : options_.rounds);
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rupdate rates: %s   ", what.c_str()); };
-    Result<Json> measured = measureUpdateRates(device_, *workbench_, desc);
-    std::fprintf(stderr, "\n");
-    if (!measured) {
-        return measured.error();
-    }
-    result_["updateRates"] = std::move(*measured);
-    return keep();
+    return keepAs("updateRates", measureUpdateRates(device_, *workbench_, desc));
 }
 
 Status Run::scene() {
@@ -284,13 +277,7 @@ Status Run::scene() {
     desc.everyUse = !options_.quick;
     desc.mapping = options_.mapping;
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rscene: %s   ", what.c_str()); };
-    Result<Json> measured = measureScene(device_, desc);
-    std::fprintf(stderr, "\n");
-    if (!measured) {
-        return measured.error();
-    }
-    result_["scene"] = std::move(*measured);
-    return keep();
+    return keepAs("scene", measureScene(device_, desc));
 }
 
 /// The crowd's character and all that have joints.

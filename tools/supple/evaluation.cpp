@@ -1,10 +1,9 @@
 #include "tools/supple/evaluation.h"
 
-#include "tools/common/simulation.h"
-
 #include "cage/limits.h"
 #include "host/patches.h"
 #include "host/shaders/draw.h"
+#include "tools/common/simulation.h"
 
 #include <string>
 #include <utility>
