@@ -102,14 +102,9 @@ public:
     }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
-        Result<Playback> playback = Playback::create(
-            {desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity, buffers.windowSize,
-             desc_.framesInFlight, buffers.poses, buffers.instances, buffers.instanceBytes, desc_.room});
-        if (!playback) {
-            return playback.error();
-        }
-        playback_ = std::move(*playback);
-        return success();
+        return playback_.create({desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity,
+                                 buffers.windowSize, desc_.framesInFlight, buffers.poses, buffers.instances,
+                                 buffers.instanceBytes, desc_.room});
     }
     [[nodiscard]] gpu::MemoryUse memoryUse() const override { return playback_.memoryUse(); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override { playback_.recordWarmUp(commandBuffer); }
@@ -143,7 +138,7 @@ private:
 
 VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout,
                              const StateRoom& room) {
-    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout, room) : 0;
+    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? playbackWindowBytes(asset, layout, room) : 0;
     return std::max(played, VkDeviceSize{layout.stride} * 16);
 }
 
