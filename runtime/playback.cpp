@@ -278,7 +278,9 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
         own.setInTransition(true);
         bounds_.setTransition(slot, before);
     }
-    rates_.set(slot, updateCourseOf(*asset_, desc, updateInterval));
+    if (rates_.areTaken()) { // else the asset does not know the errors of its clips
+        rates_.set(slot, updateCourseOf(*asset_, desc, updateInterval));
+    }
     roots_ = roots_ || desc.root.axes != 0;
     for (const skinning::PlaybackLayer& layer : desc.layers) {
         adds_ = adds_ || layer.mode == skinning::LayerMode::additive;

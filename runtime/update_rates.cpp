@@ -27,7 +27,7 @@ void UpdateRates::forget(uint32_t slot) {
 }
 
 void UpdateRates::set(uint32_t slot, const UpdateCourse& course) {
-    if (areTaken() && slots_[slot].course != course) {
+    if (slots_[slot].course != course) {
         reset(slot);
         slots_[slot].course = course;
     }
