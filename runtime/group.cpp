@@ -450,7 +450,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     passesFrame_ = lastRecordedFrame_ = frame.number;
     bool changed = listing_.changed(slots());
-    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
+    PassCost cost =
+        follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them
