@@ -21,6 +21,19 @@ class App;
 
 namespace supple::tools {
 
+/// While one lives, what is added to a command stands under its heading in --help.
+class HelpGroup {
+public:
+    HelpGroup(CLI::App& command, const char* heading);
+    ~HelpGroup();
+    HelpGroup(const HelpGroup&) = delete;
+    HelpGroup& operator=(const HelpGroup&) = delete;
+
+private:
+    CLI::App& command_;
+    std::string before_;
+};
+
 /// --device, --mapping, --validate: wherever a device is used.
 struct DeviceFlags {
     std::string device; ///< name or index; empty: the best
