@@ -10,7 +10,7 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/catmull_clark.h"
+#include "cpu/catmull_clark.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/cage_arrays.h"
-#include "tools/reference/catmull_clark.h"
+#include "cpu/catmull_clark.h"
 
 #include <cstdio>
 #include <cstring>

@@ -8,7 +8,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/cage_arrays.h"
-#include "tools/reference/loop.h"
+#include "cpu/loop.h"
 
 #include <cstdio>
 #include <cstring>

@@ -11,7 +11,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
 #include "tools/common/procedural.h"
-#include "tools/reference/catmull_clark.h"
+#include "cpu/catmull_clark.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/loop.h"
+#include "cpu/loop.h"
 
 #include <cstdio>
 #include <gtest/gtest.h>

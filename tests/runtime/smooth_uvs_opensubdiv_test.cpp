@@ -5,7 +5,7 @@
 #include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/grid.h"
+#include "cpu/grid_sample.h"
 #ifdef SUPPLE_HAS_OPENSUBDIV
 #include "tools/bench/opensubdiv_refiner.h"
 

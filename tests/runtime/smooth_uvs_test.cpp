@@ -13,7 +13,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
-#include "tools/reference/grid.h"
+#include "cpu/grid_sample.h"
 
 #include <algorithm>
 #include <cmath>

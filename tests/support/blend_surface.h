@@ -4,8 +4,8 @@
 #include "surface/grid.h"
 #include "surface/scheme.h"
 #include "tests/support/meshes.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/stencils.h"
+#include "cpu/blend.h"
+#include "cpu/stencils.h"
 
 #include <algorithm>
 #include <array>

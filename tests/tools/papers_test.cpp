@@ -8,8 +8,8 @@
 #include "tools/bench/printed_figures.h"
 #include "tools/common/gallery_cages.h"
 #include "tools/common/procedural.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/catmull_clark.h"
+#include "cpu/blend.h"
+#include "cpu/catmull_clark.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 #include "tools/supple/surface_jets.h"
 
 #include "surface/patch_class.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/catmull_clark.h"
-#include "tools/reference/grid.h"
-#include "tools/reference/loop.h"
+#include "cpu/blend.h"
+#include "cpu/catmull_clark.h"
+#include "cpu/grid_sample.h"
+#include "cpu/loop.h"
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"
-#include "tools/reference/stencils.h"
+#include "cpu/stencils.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/fragment.h"
+#include "cpu/fragment.h"
 #include "tools/reference/fragments.h"
 
 #include <algorithm>

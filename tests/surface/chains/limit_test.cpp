@@ -5,7 +5,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/catmull_clark.h"
+#include "cpu/catmull_clark.h"
 #include "tools/reference/fragments.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/loop.h"
+#include "cpu/loop.h"
 
 #include <cmath>
 #include <cstdio>

@@ -3,6 +3,7 @@
 // sums are those of docs/subdivision.md.
 #pragma once
 
+#include "cpu/stencils.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
@@ -30,6 +31,16 @@ template <class T>
 [[nodiscard]] Vec3<T> unitOrZero(const Vec3<T>& v) {
     const T length = std::sqrt((v.x * v.x + v.y * v.y) + v.z * v.z);
     return length > T(0) ? v / length : Vec3<T>(T(0));
+}
+
+/// The vertices of the isolated level: one applyStencils() per step.
+template <class T>
+[[nodiscard]] std::vector<Vec3<T>> isolate(const Mesh& mesh, std::span<const Vec3<T>> positions) {
+    std::vector<Vec3<T>> points(positions.begin(), positions.end());
+    for (const Stencils& step : mesh.stencils) {
+        points = applyStencils<T>(step, std::span<const Vec3<T>>(points));
+    }
+    return points;
 }
 
 /// Which side of its axis a sector lies on; at a crease the two have normals of their own.
