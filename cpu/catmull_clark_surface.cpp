@@ -199,11 +199,15 @@ uint32_t CatmullClarkSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_
 
 } // namespace
 
-Built catmullClarkSurface(const cage::Cage& cage, Patches patches, bool fragments) {
+Built catmullClarkSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches) {
     Result<Isolation> isolation =
         surface::subdivision::isolateCage(cage, surface::subdivision::Subdivision::catmullClark);
     if (!isolation) {
         return isolation.error();
+    }
+    const bool fragments = recipe.scheme == surface::SchemeId::fragments;
+    if (const Status fits = fragments ? checkFragments(isolation->mesh) : success(); !fits) {
+        return fits.error();
     }
     auto made = std::make_unique<CatmullClarkSurface>(cage, std::move(*isolation), patches);
     if (const Status found = made->findPatches(cage, fragments); !found) {

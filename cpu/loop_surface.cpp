@@ -132,10 +132,14 @@ std::unique_ptr<Pose> LoopSurface::newPose() const {
 
 } // namespace
 
-Built loopSurface(const cage::Cage& cage, Patches patches, bool fragments) {
+Built loopSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches) {
     Result<Isolation> isolation = surface::subdivision::isolateCage(cage, surface::subdivision::Subdivision::loop);
     if (!isolation) {
         return isolation.error();
+    }
+    const bool fragments = recipe.scheme == surface::SchemeId::loopFragments;
+    if (const Status fits = fragments ? checkFragments(isolation->mesh) : success(); !fits) {
+        return fits.error();
     }
     auto made = std::make_unique<LoopSurface>(cage, std::move(*isolation), patches);
     if (const Status found = made->findPatches(cage, fragments); !found) {

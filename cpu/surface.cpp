@@ -29,13 +29,11 @@ Built Surface::create(const surface::Recipe& recipe, const cage::Cage& cage, Pat
     case SchemeId::pm:
         return pmSurface(cage, patches);
     case SchemeId::catmullClark:
-        return catmullClarkSurface(cage, patches, false);
     case SchemeId::fragments:
-        return catmullClarkSurface(cage, patches, true);
+        return catmullClarkSurface(recipe, cage, patches);
     case SchemeId::loop:
-        return loopSurface(cage, patches, false);
     case SchemeId::loopFragments:
-        return loopSurface(cage, patches, true);
+        return loopSurface(recipe, cage, patches);
     case SchemeId::blend:
         return blendSurface(recipe, cage, patches);
     default:

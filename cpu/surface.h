@@ -84,8 +84,8 @@ using Built = Result<std::unique_ptr<const Surface>>;
 using Patches = std::span<const surface::PatchInfo>;
 [[nodiscard]] Built prepSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built pmSurface(const cage::Cage& cage, Patches patches);
-[[nodiscard]] Built catmullClarkSurface(const cage::Cage& cage, Patches patches, bool fragments);
-[[nodiscard]] Built loopSurface(const cage::Cage& cage, Patches patches, bool fragments);
+[[nodiscard]] Built catmullClarkSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
+[[nodiscard]] Built loopSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built blendSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 
 } // namespace supple::cpu

@@ -41,8 +41,9 @@ typedef struct SuppleCpuGroupDesc {
     uint32_t reserved;       /**< 0 */
     SupplePrepared prepared; /**< the character: glTF, OBJ, arrays or a cooked file (supplePrepare) */
     /** Schemes and their options. flags, capacity, asset, view and what else is about instances and vertices does not
-     * matter here. All schemes but POLYGONS and CAGE have evaluators. If the group was planned when the character was
-     * prepared, nothing is built twice. */
+     * matter here. All schemes but POLYGONS and CAGE have evaluators; FRAGMENTS have none
+     * where creases are semi-sharp or end inside, as what they draw there hangs on the rate. If the group was planned
+     * when the character was prepared, nothing is built twice. */
     const SuppleGroupDesc* group;
     SuppleLogFunction log; /**< optional; called until the group and its poses are destroyed */
     void* logUser;
