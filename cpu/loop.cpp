@@ -116,15 +116,18 @@ Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation
     }};
     Point point;
     point.position = centre;
-    for (int m = 0; m <= 4; ++m) {
-        for (int n = 0; m + n <= 4; ++n) {
-            const glm::dvec3& own = c[static_cast<size_t>(m)][static_cast<size_t>(n)];
-            point.position += own * std::pow(x, m) * std::pow(y, n);
-            point.du += m == 0 ? glm::dvec3(0.0) : own * (m * std::pow(x, m - 1) * std::pow(y, n));
-            point.dv += n == 0 ? glm::dvec3(0.0) : own * (n * std::pow(x, m) * std::pow(y, n - 1));
-            point.duu += m < 2 ? glm::dvec3(0.0) : own * (m * (m - 1) * std::pow(x, m - 2) * std::pow(y, n));
-            point.duv += m == 0 || n == 0 ? glm::dvec3(0.0) : own * (m * n * std::pow(x, m - 1) * std::pow(y, n - 1));
-            point.dvv += n < 2 ? glm::dvec3(0.0) : own * (n * (n - 1) * std::pow(x, m) * std::pow(y, n - 2));
+    const std::array<double, 5> xs{1.0, x, x * x, x * x * x, x * x * x * x};
+    const std::array<double, 5> ys{1.0, y, y * y, y * y * y, y * y * y * y};
+    for (size_t m = 0; m <= 4; ++m) {
+        for (size_t n = 0; m + n <= 4; ++n) {
+            const glm::dvec3& own = c[m][n];
+            const auto dm = static_cast<double>(m), dn = static_cast<double>(n);
+            point.position += own * (xs[m] * ys[n]);
+            point.du += m == 0 ? glm::dvec3(0.0) : own * (dm * xs[m - 1] * ys[n]);
+            point.dv += n == 0 ? glm::dvec3(0.0) : own * (dn * xs[m] * ys[n - 1]);
+            point.duu += m < 2 ? glm::dvec3(0.0) : own * (dm * (dm - 1.0) * xs[m - 2] * ys[n]);
+            point.duv += m == 0 || n == 0 ? glm::dvec3(0.0) : own * (dm * dn * xs[m - 1] * ys[n - 1]);
+            point.dvv += n < 2 ? glm::dvec3(0.0) : own * (dn * (dn - 1.0) * xs[m] * ys[n - 2]);
         }
     }
     return point;

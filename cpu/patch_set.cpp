@@ -1,5 +1,6 @@
 #include "cpu/patch_set.h"
 
+#include "cpu/grid_places.h"
 #include "cpu/lanes.h"
 #include "cpu/normals.h"
 #include "cpu/pm_construction.h"
@@ -9,6 +10,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace supple::cpu {
 namespace {
@@ -17,29 +20,29 @@ constexpr uint32_t kRowsPerJob = 2048;
 /// Weights that are nothing but what the sums of forms left over.
 constexpr double kNoWeight = 1e-14;
 
-void set(Lanes3& to, size_t lane, const glm::vec3& from) {
-    to[0][lane] = from.x;
-    to[1][lane] = from.y;
-    to[2][lane] = from.z;
+void set(Lanes3& to, uint32_t lane, const glm::vec3& from) {
+    to.at[0][lane] = from.x;
+    to.at[1][lane] = from.y;
+    to.at[2][lane] = from.z;
 }
-glm::vec3 at(const Lanes3& from, size_t lane) {
-    return {from[0][lane], from[1][lane], from[2][lane]};
+glm::vec3 at(const Lanes3& from, uint32_t lane) {
+    return {from.at[0][lane], from.at[1][lane], from.at[2][lane]};
 }
 
 /// Places that wait for all lanes to be taken.
 struct Waiting {
     std::array<uint32_t, kLanes> places{};
-    size_t count = 0;
+    uint32_t count = 0;
 
     /// The lane of one more place.
-    size_t take(size_t place) {
+    uint32_t take(size_t place) {
         places[count] = static_cast<uint32_t>(place);
         return count++;
     }
     [[nodiscard]] bool full() const { return count == kLanes; }
     /// Hands over the results.
     void give(const JetLanes& from, const glm::vec3& origin, std::span<const Place> all, std::span<SurfaceJet> out) {
-        for (size_t lane = 0; lane < count; ++lane) {
+        for (uint32_t lane = 0; lane < count; ++lane) {
             SurfaceJet& jet = out[places[lane]];
             jet.position = glm::dvec3(origin) + glm::dvec3(at(from.position, lane));
             jet.du = at(from.du, lane), jet.dv = at(from.dv, lane);
@@ -50,27 +53,27 @@ struct Waiting {
     }
 };
 
-template <size_t N>
+template <uint32_t N>
 struct Tensors {
-    TensorLanes<N> patches;
-    BernsteinLanes<N> u, v;
+    TensorLanes<N> patches{};
+    WeightLanes<N> u{}, v{};
     Waiting waiting;
 
     void flush(const glm::vec3& origin, std::span<const Place> places, std::span<SurfaceJet> out) {
         JetLanes jets;
-        evaluateTensors<N>(patches, u, v, jets);
+        laneKernels().tensors<N>().evaluate(patches, u, v, jets);
         waiting.give(jets, origin, places, out);
     }
 };
 
 /// Places in sectors; their derivatives are turned from the sector's into the patch's before they wait.
 struct Quartics {
-    QuarticLanes triangles;
+    QuarticLanes triangles{};
     Waiting waiting;
 
     void flush(const glm::vec3& origin, std::span<const Place> places, std::span<SurfaceJet> out) {
         JetLanes jets;
-        evaluateQuartics(triangles, jets);
+        laneKernels().quartics(triangles, jets);
         waiting.give(jets, origin, places, out);
     }
 };
@@ -148,13 +151,21 @@ Status PatchSet::build(std::span<const glm::vec3> cage, const RunJobs& runJobs, 
     });
 }
 
+std::array<glm::vec3, 15> PatchSet::quarticNet(const Patch& patch, uint32_t sector, const PatchPose& pose) const {
+    std::array<glm::vec3, 31> c;
+    for (uint32_t k = 0; k < patch.count; ++k) {
+        c[k] = coefficient(patch, k, pose);
+    }
+    return surface::pm::quarticOf(surface::pm::SectorView<glm::vec3>(c, patch.sides, glm::vec3(0.0f)), sector);
+}
+
 void PatchSet::evaluate(std::span<const Place> places, const PatchPose& pose, std::span<SurfaceJet> out) const {
     Tensors<4> cubics;
     Tensors<6> quintics;
     Quartics quartics;
     std::vector<Place> turned(places.begin(), places.end());
     const auto addTensorPlace = [&](auto& tensors, const Patch& patch, size_t p) {
-        const size_t lane = tensors.waiting.take(p);
+        const uint32_t lane = tensors.waiting.take(p);
         for (uint32_t k = 0; k < patch.count; ++k) {
             set(tensors.patches.net[k], lane, coefficient(patch, k, pose));
         }
@@ -166,14 +177,9 @@ void PatchSet::evaluate(std::span<const Place> places, const PatchPose& pose, st
         }
     };
     const auto addSectorPlace = [&](const Patch& patch, size_t p) {
-        const size_t lane = quartics.waiting.take(p);
+        const uint32_t lane = quartics.waiting.take(p);
         const SectorPlace place = sectorPlace(patch.sides, places[p]);
-        std::array<glm::vec3, 31> c;
-        for (uint32_t k = 0; k < patch.count; ++k) {
-            c[k] = coefficient(patch, k, pose);
-        }
-        const std::array<glm::vec3, 15> net = surface::pm::quarticOf(
-            surface::pm::SectorView<glm::vec3>(c, patch.sides, glm::vec3(0.0f)), place.place.sector);
+        const std::array<glm::vec3, 15> net = quarticNet(patch, place.place.sector, pose);
         for (size_t k = 0; k < net.size(); ++k) {
             set(quartics.triangles.net[k], lane, net[k]);
         }
@@ -198,34 +204,92 @@ void PatchSet::evaluate(std::span<const Place> places, const PatchPose& pose, st
     quartics.flush(pose.origin, turned, out);
 }
 
-template <size_t N>
-void PatchSet::gridOf(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose,
+/// The weights of all parameters of a rate, the same in every lane.
+template <uint32_t N>
+struct PatchSet::GridWeights {
+    explicit GridWeights(uint32_t rateOf) : rate(rateOf), at(rateOf + 1) {
+        for (uint32_t k = 0; k <= rate; ++k) {
+            const float t = static_cast<float>(k) / static_cast<float>(rate);
+            const float back = static_cast<float>(rate - k) / static_cast<float>(rate);
+            for (uint32_t lane = 0; lane < kLanes; ++lane) {
+                setBernstein(at[k], lane, t, back);
+            }
+        }
+    }
+    uint32_t rate;
+    std::vector<WeightLanes<N>> at;
+};
+
+template <uint32_t N>
+void PatchSet::gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
                       const GridOutput& out) const {
-    TensorLanes<N> nets;
-    for (size_t lane = 0; lane < patches.size(); ++lane) {
+    const uint32_t rate = weights.rate;
+    const TensorKernels<N>& kernels = laneKernels().tensors<N>();
+    TensorLanes<N> nets{};
+    for (uint32_t lane = 0; lane < patches.size(); ++lane) {
         for (uint32_t k = 0; k < N * N; ++k) {
             set(nets.net[k], lane, coefficient(patches_[patches[lane]], k, pose));
         }
     }
-    std::array<BernsteinLanes<N>, surface::kMaxRate + 1> weights;
-    for (uint32_t k = 0; k <= rate; ++k) {
-        const float t = static_cast<float>(k) / static_cast<float>(rate);
-        const float back = static_cast<float>(rate - k) / static_cast<float>(rate);
-        for (size_t lane = 0; lane < kLanes; ++lane) {
-            setBernstein(weights[k], lane, t, back);
-        }
-    }
     const size_t samples = size_t{rate + 1} * (rate + 1);
     RowLanes<N> row;
-    JetLanes jets;
+    VertexLanes vertices;
     for (uint32_t j = 0; j <= rate; ++j) {
-        collapseRows<N>(nets, weights[j], row);
+        kernels.collapse(nets, weights.at[j], row);
         for (uint32_t i = 0; i <= rate; ++i) {
-            evaluateRows<N>(row, weights[i], jets);
-            for (size_t lane = 0; lane < patches.size(); ++lane) {
-                const size_t vertex = lane * samples + j * size_t{rate + 1} + i;
+            kernels.vertices(row, weights.at[i], vertices);
+            size_t vertex = j * size_t{rate + 1} + i;
+            for (uint32_t lane = 0; lane < patches.size(); ++lane, vertex += samples) {
+                out.positions[vertex] = pose.origin + at(vertices.position, lane);
+                if (!out.normals.empty()) {
+                    out.normals[vertex] = at(vertices.normal, lane);
+                }
+            }
+        }
+    }
+}
+
+/// The samples of a patch of sectors, sector by sector, with the weights of the sector's corners.
+struct PatchSet::SectorSamples {
+    SectorSamples(const Patch& patch, uint32_t rate) : bySector(patch.sides) {
+        const surface::Domain domain = surface::domainOf(patch.patchClass);
+        count = surface::sampleCount(domain, rate);
+        for (uint32_t sample = 0; sample < count; ++sample) {
+            const SectorPlace at = sectorPlace(patch.sides, gridPlace(domain, rate, sample, 0.0));
+            bySector[at.place.sector].push_back({sample, at.weights});
+        }
+    }
+    struct Sample {
+        uint32_t number = 0;
+        glm::vec3 weights{0.0f};
+    };
+    std::vector<std::vector<Sample>> bySector;
+    uint32_t count = 0;
+};
+
+void PatchSet::sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
+                          const GridOutput& out) const {
+    QuarticLanes triangles{};
+    JetLanes jets;
+    for (uint32_t sector = 0; sector < patch.sides; ++sector) {
+        const std::array<glm::vec3, 15> net = quarticNet(patch, sector, pose);
+        for (uint32_t lane = 0; lane < kLanes; ++lane) {
+            for (size_t k = 0; k < net.size(); ++k) {
+                set(triangles.net[k], lane, net[k]);
+            }
+        }
+        const std::vector<SectorSamples::Sample>& all = samples.bySector[sector];
+        for (size_t first = 0; first < all.size(); first += kLanes) {
+            const auto count = static_cast<uint32_t>(std::min<size_t>(kLanes, all.size() - first));
+            for (uint32_t lane = 0; lane < count; ++lane) {
+                set(triangles.weights, lane, all[first + lane].weights);
+            }
+            laneKernels().quartics(triangles, jets);
+            for (uint32_t lane = 0; lane < count; ++lane) {
+                const uint32_t vertex = all[first + lane].number;
                 out.positions[vertex] = pose.origin + at(jets.position, lane);
                 if (!out.normals.empty()) {
+                    // Corner, next corner, middle: counter-clockwise, so du x dv points outwards.
                     out.normals[vertex] = unitNormal(at(jets.du, lane), at(jets.dv, lane));
                 }
             }
@@ -235,16 +299,28 @@ void PatchSet::gridOf(std::span<const uint32_t> patches, uint32_t rate, const Pa
 
 void PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose,
                     const GridOutput& out) const {
-    const size_t samples = size_t{rate + 1} * (rate + 1);
+    std::array<std::optional<SectorSamples>, surface::kMaxSides + 1> sectors; // by sides
+    const GridWeights<4> cubic(rate);
+    const GridWeights<6> quintic(rate);
+    size_t vertex = 0;
     for (size_t begin = 0; begin < patches.size();) {
-        const Kind kind = patches_[patches[begin]].kind;
+        const Patch& patch = patches_[patches[begin]];
+        if (patch.kind == Kind::sectors) {
+            std::optional<SectorSamples>& samples = sectors[patch.sides];
+            samples = samples ? std::move(samples) : SectorSamples(patch, rate);
+            sectorGrid(patch, *samples, pose, out.from(vertex));
+            vertex += samples->count;
+            ++begin;
+            continue;
+        }
         size_t end = begin + 1;
-        while (end < patches.size() && end - begin < kLanes && patches_[patches[end]].kind == kind) {
+        while (end < patches.size() && end - begin < kLanes && patches_[patches[end]].kind == patch.kind) {
             ++end;
         }
         const std::span<const uint32_t> some = patches.subspan(begin, end - begin);
-        const GridOutput where = out.from(begin * samples);
-        kind == Kind::cubic ? gridOf<4>(some, rate, pose, where) : gridOf<6>(some, rate, pose, where);
+        patch.kind == Kind::cubic ? gridOf<4>(some, cubic, pose, out.from(vertex))
+                                  : gridOf<6>(some, quintic, pose, out.from(vertex));
+        vertex += some.size() * (rate + 1) * (rate + 1);
         begin = end;
     }
 }

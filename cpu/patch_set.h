@@ -7,6 +7,7 @@
 #include "cpu/place.h"
 #include "surface/patch_class.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -58,10 +59,8 @@ public:
     void evaluate(std::span<const Place> places, const PatchPose& pose, std::span<SurfaceJet> out) const;
 
     /// Polar patches have a row without du: their normals ask for care.
-    [[nodiscard]] bool hasFastGrid(uint32_t patch) const {
-        return patches_[patch].kind != Kind::sectors && patches_[patch].patchClass != PatchClass::polar;
-    }
-    /// The samples of patches that have one, in the order of surface::Domain::quad, patch after patch. Normals are
+    [[nodiscard]] bool hasFastGrid(uint32_t patch) const { return patches_[patch].patchClass != PatchClass::polar; }
+    /// The samples of patches that have one, in the order of their domains, patch after patch. Normals are
     /// by du and dv alone.
     void grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose, const GridOutput& out) const;
 
@@ -84,8 +83,16 @@ private:
     [[nodiscard]] const glm::vec3& coefficient(const Patch& patch, uint32_t k, const PatchPose& pose) const {
         return pose.points[coefficients_[patch.first + k]];
     }
-    template <size_t N>
-    void gridOf(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose, const GridOutput& out) const;
+    struct SectorSamples;
+    [[nodiscard]] std::array<glm::vec3, 15> quarticNet(const Patch& patch, uint32_t sector,
+                                                       const PatchPose& pose) const;
+    void sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
+                    const GridOutput& out) const;
+    template <uint32_t N>
+    struct GridWeights;
+    template <uint32_t N>
+    void gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
+                const GridOutput& out) const;
 
     std::vector<Patch> patches_;
     std::vector<uint32_t> coefficients_; ///< numbers of rows
