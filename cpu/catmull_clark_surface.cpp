@@ -86,7 +86,7 @@ public:
     [[nodiscard]] uint32_t patchOf(uint32_t quad) const { return patchOfQuad_[quad]; }
 
 protected:
-    [[nodiscard]] uint32_t fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
+    [[nodiscard]] FastGrid fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
                                     const GridOutput& out) const override;
 
 private:
@@ -180,8 +180,8 @@ std::unique_ptr<Pose> CatmullClarkSurface::newPose() const {
     return std::make_unique<PosedCatmullClark>(*this);
 }
 
-uint32_t CatmullClarkSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
-                                       const GridOutput& out) const {
+Surface::FastGrid CatmullClarkSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
+                                                const GridOutput& out) const {
     // Patches whose corner 0 is the quad's: the others go place by place.
     std::array<uint32_t, 64> patches;
     uint32_t count = 0;
@@ -193,8 +193,8 @@ uint32_t CatmullClarkSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_
         }
         patches[count] = patchOf(place.face);
     }
-    regular_.grid(std::span(patches).first(count), rate, static_cast<const PosedCatmullClark&>(pose).patches(), out);
-    return count;
+    const PatchPose& posed = static_cast<const PosedCatmullClark&>(pose).patches();
+    return {count, !regular_.grid(std::span(patches).first(count), rate, posed, out)};
 }
 
 } // namespace

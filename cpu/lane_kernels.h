@@ -75,8 +75,8 @@ void collapseRows(const TensorLanes<N>& patches, const WeightLanes<N>& v, RowLan
     }
 }
 
-/// As unitNormal() of cpu/normals.h.
-inline void unitNormals(const Lanes3& u, const Lanes3& v, Lanes3& out) {
+/// As unitNormal() of cpu/normals.h. Whether all of them exist.
+inline bool unitNormals(const Lanes3& u, const Lanes3& v, Lanes3& out) {
     const auto& x = u.at;
     const auto& y = v.at;
     const auto part = [&](unsigned a, unsigned b) { return eight(x[a]) * eight(y[b]) - eight(x[b]) * eight(y[a]); };
@@ -90,14 +90,17 @@ inline void unitNormals(const Lanes3& u, const Lanes3& v, Lanes3& out) {
     alignas(32) float length[kLanes], lengths[kLanes], scale[kLanes];
     eight(length) = square(normal.at);
     eight(lengths) = square(x) * square(y);
+    float least = 1.0f;
     for (unsigned l = 0; l < kLanes; ++l) {
         constexpr float kSine = 1e-5f;
         const bool exists = length[l] > kSine * kSine * lengths[l];
         scale[l] = exists ? 1.0f / sqrtf(exists ? length[l] : 1.0f) : 0.0f;
+        least = scale[l] < least ? scale[l] : least;
     }
     for (unsigned axis = 0; axis < 3; ++axis) {
         eight(out.at[axis]) = eight(normal.at[axis]) * eight(scale);
     }
+    return least > 0.0f;
 }
 
 template <unsigned N>
@@ -106,7 +109,7 @@ void verticesOfRows(const RowLanes<N>& rows, const WeightLanes<N>& u, VertexLane
     sum3<N>(out.position, u.value, rows.value, 1);
     sum3<N>(du, u.slope, rows.value, 1);
     sum3<N>(dv, u.value, rows.slope, 1);
-    unitNormals(du, dv, out.normal);
+    out.lacksNormals = !unitNormals(du, dv, out.normal);
 }
 
 /// De Casteljau: the coefficients of the next lower degree.

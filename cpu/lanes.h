@@ -38,6 +38,7 @@ struct RowLanes {
 /// What a place of a grid gets.
 struct VertexLanes {
     Lanes3 position, normal; ///< of unit length, or zero where du and dv are parallel
+    bool lacksNormals;       ///< one of them is zero
 };
 
 /// Triangles of degree 4, row by row from the side between corners 0 and 1 to corner 2: 5, 4, 3, 2, 1 coefficients.

@@ -221,7 +221,7 @@ struct PatchSet::GridWeights {
 };
 
 template <uint32_t N>
-void PatchSet::gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
+bool PatchSet::gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
                       const GridOutput& out) const {
     const uint32_t rate = weights.rate;
     const TensorKernels<N>& kernels = laneKernels().tensors<N>();
@@ -233,7 +233,8 @@ void PatchSet::gridOf(std::span<const uint32_t> patches, const GridWeights<N>& w
     }
     const size_t samples = size_t{rate + 1} * (rate + 1);
     RowLanes<N> row;
-    VertexLanes vertices;
+    VertexLanes vertices{};
+    bool lacks = false;
     for (uint32_t j = 0; j <= rate; ++j) {
         kernels.collapse(nets, weights.at[j], row);
         for (uint32_t i = 0; i <= rate; ++i) {
@@ -245,8 +246,10 @@ void PatchSet::gridOf(std::span<const uint32_t> patches, const GridWeights<N>& w
                     out.normals[vertex] = at(vertices.normal, lane);
                 }
             }
+            lacks = lacks || vertices.lacksNormals;
         }
     }
+    return !lacks;
 }
 
 /// The samples of a patch of sectors, sector by sector, with the weights of the sector's corners.
@@ -267,10 +270,11 @@ struct PatchSet::SectorSamples {
     uint32_t count = 0;
 };
 
-void PatchSet::sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
+bool PatchSet::sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
                           const GridOutput& out) const {
     QuarticLanes triangles{};
     JetLanes jets;
+    bool lacks = false;
     for (uint32_t sector = 0; sector < patch.sides; ++sector) {
         const std::array<glm::vec3, 15> net = quarticNet(patch, sector, pose);
         for (uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -291,24 +295,27 @@ void PatchSet::sectorGrid(const Patch& patch, const SectorSamples& samples, cons
                 if (!out.normals.empty()) {
                     // Corner, next corner, middle: counter-clockwise, so du x dv points outwards.
                     out.normals[vertex] = unitNormal(at(jets.du, lane), at(jets.dv, lane));
+                    lacks = lacks || out.normals[vertex] == glm::vec3(0.0f);
                 }
             }
         }
     }
+    return !lacks;
 }
 
-void PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose,
+bool PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose,
                     const GridOutput& out) const {
     std::array<std::optional<SectorSamples>, surface::kMaxSides + 1> sectors; // by sides
     const GridWeights<4> cubic(rate);
     const GridWeights<6> quintic(rate);
+    bool whole = true;
     size_t vertex = 0;
     for (size_t begin = 0; begin < patches.size();) {
         const Patch& patch = patches_[patches[begin]];
         if (patch.kind == Kind::sectors) {
             std::optional<SectorSamples>& samples = sectors[patch.sides];
             samples = samples ? std::move(samples) : SectorSamples(patch, rate);
-            sectorGrid(patch, *samples, pose, out.from(vertex));
+            whole = sectorGrid(patch, *samples, pose, out.from(vertex)) && whole;
             vertex += samples->count;
             ++begin;
             continue;
@@ -318,11 +325,14 @@ void PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const Patc
             ++end;
         }
         const std::span<const uint32_t> some = patches.subspan(begin, end - begin);
-        patch.kind == Kind::cubic ? gridOf<4>(some, cubic, pose, out.from(vertex))
-                                  : gridOf<6>(some, quintic, pose, out.from(vertex));
+        const GridOutput here = out.from(vertex);
+        whole =
+            (patch.kind == Kind::cubic ? gridOf<4>(some, cubic, pose, here) : gridOf<6>(some, quintic, pose, here)) &&
+            whole;
         vertex += some.size() * (rate + 1) * (rate + 1);
         begin = end;
     }
+    return whole;
 }
 
 } // namespace supple::cpu

@@ -62,7 +62,8 @@ public:
     [[nodiscard]] bool hasFastGrid(uint32_t patch) const { return patches_[patch].patchClass != PatchClass::polar; }
     /// The samples of patches that have one, in the order of their domains, patch after patch. Normals are
     /// by du and dv alone.
-    void grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose, const GridOutput& out) const;
+    /// False: some normals are zero.
+    bool grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose, const GridOutput& out) const;
 
 private:
     enum class Kind : uint8_t { cubic, quintic, sectors };
@@ -86,12 +87,12 @@ private:
     struct SectorSamples;
     [[nodiscard]] std::array<glm::vec3, 15> quarticNet(const Patch& patch, uint32_t sector,
                                                        const PatchPose& pose) const;
-    void sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
+    bool sectorGrid(const Patch& patch, const SectorSamples& samples, const PatchPose& pose,
                     const GridOutput& out) const;
     template <uint32_t N>
     struct GridWeights;
     template <uint32_t N>
-    void gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
+    bool gridOf(std::span<const uint32_t> patches, const GridWeights<N>& weights, const PatchPose& pose,
                 const GridOutput& out) const;
 
     std::vector<Patch> patches_;

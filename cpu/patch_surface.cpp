@@ -54,16 +54,16 @@ Place PatchSurface::placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample
     return place;
 }
 
-uint32_t PatchSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
-                                const GridOutput& out) const {
+Surface::FastGrid PatchSurface::fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
+                                         const GridOutput& out) const {
     std::array<uint32_t, 64> patches;
     uint32_t count = 0;
     while (count < patches.size() && begin + count < end && set_.hasFastGrid(begin + count)) {
         patches[count] = begin + count;
         ++count;
     }
-    set_.grid(std::span(patches).first(count), rate, static_cast<const PosedPatches&>(pose).pose(), out);
-    return count;
+    const PatchPose& posed = static_cast<const PosedPatches&>(pose).pose();
+    return {count, !set_.grid(std::span(patches).first(count), rate, posed, out)};
 }
 
 } // namespace supple::cpu

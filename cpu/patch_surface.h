@@ -22,7 +22,7 @@ public:
 
 protected:
     explicit PatchSurface(Patches patches) : Surface(patches) {}
-    [[nodiscard]] uint32_t fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
+    [[nodiscard]] FastGrid fastGrid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate,
                                     const GridOutput& out) const override;
 
     PatchSet set_; ///< in the order of the patches

@@ -46,14 +46,14 @@ void Surface::grid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate
     size_t vertex = 0;
     for (uint32_t patch = begin; patch < end;) {
         const GridOutput rest = out.from(vertex);
-        const uint32_t fast = fastGrid(pose, patch, end, rate, rest);
-        const uint32_t behind = patch + std::max(fast, 1u);
-        if (fast == 0) {
+        const FastGrid fast = fastGrid(pose, patch, end, rate, rest);
+        const uint32_t behind = patch + std::max(fast.patches, 1u);
+        if (fast.patches == 0) {
             slowGrid(pose, patch, rate, rest);
         }
         for (; patch < behind; ++patch) {
             const uint32_t samples = samplesOf(patch, rate);
-            if (!out.normals.empty()) {
+            if (!out.normals.empty() && (fast.patches == 0 || fast.lacksNormals)) {
                 mendNormals(pose, patch, rate, out.normals.subspan(vertex, samples));
             }
             vertex += samples;

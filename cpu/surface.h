@@ -63,10 +63,15 @@ public:
 
 protected:
     explicit Surface(std::span<const surface::PatchInfo> patches) : patches_(patches.begin(), patches.end()) {}
+    /// How many patches are written, and whether some normals of theirs are zero.
+    struct FastGrid {
+        uint32_t patches = 0;
+        bool lacksNormals = false;
+    };
     /// Writes the first of the patches that it has a faster way for than place by place, and returns how many.
-    [[nodiscard]] virtual uint32_t fastGrid(const Pose& /*pose*/, uint32_t /*begin*/, uint32_t /*end*/,
+    [[nodiscard]] virtual FastGrid fastGrid(const Pose& /*pose*/, uint32_t /*begin*/, uint32_t /*end*/,
                                             uint32_t /*rate*/, const GridOutput& /*out*/) const {
-        return 0;
+        return {};
     }
 
 private:
