@@ -8,13 +8,17 @@ namespace {
 #include "cpu/lane_kernels.h"
 } // namespace
 
+const LaneKernels& plainLaneKernels() {
+    return kKernels;
+}
+
 const LaneKernels& laneKernels() {
 #if defined(__GNUC__) && defined(__x86_64__)
     if (avx2LaneKernels() != nullptr && __builtin_cpu_supports("avx2")) {
         return *avx2LaneKernels();
     }
 #endif
-    return kKernels;
+    return plainLaneKernels();
 }
 
 void setBernstein(WeightLanes<4>& weights, unsigned lane, float t, float back) {

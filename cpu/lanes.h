@@ -74,6 +74,8 @@ struct LaneKernels {
 
 /// The fastest that this CPU has.
 [[nodiscard]] const LaneKernels& laneKernels();
+/// Those for what every CPU of the kind has.
+[[nodiscard]] const LaneKernels& plainLaneKernels();
 /// Those for AVX2, or null where they were not compiled.
 [[nodiscard]] const LaneKernels* avx2LaneKernels();
 

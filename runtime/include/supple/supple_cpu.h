@@ -46,7 +46,7 @@ typedef struct SuppleCpuGroupDesc {
      * when the character was prepared, nothing is built twice. */
     const SuppleGroupDesc* group;
     SuppleLogFunction log; /**< optional; called until the group and its poses are destroyed */
-    void* logUser;
+    void* logUser;         /**< handed to log */
 } SuppleCpuGroupDesc;
 
 /** Filled by suppleCpuGetGroupInfo. */
@@ -54,14 +54,14 @@ typedef struct SuppleCpuGroupInfo {
     uint32_t structSize;
     uint32_t cageVertexCount; /**< of the whole character, as SuppleAssetInfo has it */
     uint32_t faceCount;       /**< of the cage; points name them */
-    uint32_t surfaceCount;
+    uint32_t surfaceCount;    /**< one for each scheme */
 } SuppleCpuGroupInfo;
 
 /** A whole grid of one surface, filled by suppleCpuGetGridInfo. */
 typedef struct SuppleCpuGridInfo {
     uint32_t structSize;
-    SuppleScheme scheme;
-    uint32_t patchCount;
+    SuppleScheme scheme;  /**< never AUTO */
+    uint32_t patchCount;  /**< of the surface */
     uint32_t vertexCount; /**< of the grid */
     uint32_t indexCount;  /**< of its triangles: three each */
 } SuppleCpuGridInfo;
@@ -69,18 +69,24 @@ typedef struct SuppleCpuGridInfo {
 /** A point of a surface, whatever its scheme: a face of the character's cage and a place in it. Corners are those of
  * the face, in its order. On an edge it belongs to the face named, with that side's derivatives. */
 typedef struct SuppleSurfacePoint {
-    uint32_t face;
+    uint32_t face; /**< of the cage, below SuppleCpuGroupInfo.faceCount */
     uint32_t side; /**< faces of five and more sides: the side, from corner `side` to the next. Others: 0 */
     /** Triangle: a and b are the weights of corners 1 and 2. Quad: a from corner 0 (0) to corner 1 (1), b from corner 0
      * to corner 3. More sides: in the triangle of the side and the face's middle, a is the weight of corner side + 1
      * and b that of the middle. */
-    float a, b;
+    float a;
+    float b; /**< see a */
 } SuppleSurfacePoint;
 
 /** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
  * ones. du x dv points outwards. */
 typedef struct SuppleSurfaceJet {
-    float position[3], du[3], dv[3], duu[3], duv[3], dvv[3];
+    float position[3]; /**< x, y, z in the space of the cage */
+    float du[3];       /**< by a */
+    float dv[3];       /**< by b */
+    float duu[3];      /**< twice by a */
+    float duv[3];      /**< by a and by b */
+    float dvv[3];      /**< twice by b */
 } SuppleSurfaceJet;
 
 /** Makes the surfaces of a group. What follows from the character alone is computed here, so do it while loading.
