@@ -15,8 +15,8 @@ namespace supple::runtime {
 namespace {
 
 constexpr uint32_t kPointsPerJob = 1024;
-/// Points that are found and evaluated at a time.
-constexpr uint32_t kPointsAtATime = 128;
+/// Points that are found and evaluated at a time: stacks of jobs may be small.
+constexpr uint32_t kPointsAtATime = 32;
 constexpr uint32_t kPatchesPerJob = 64;
 /// Weights of floats add up to 1 and a little.
 constexpr double kSlack = 1e-6;
