@@ -1,11 +1,12 @@
 // The blending surface on the CPU, in double.
 #include "cpu/blend.h"
+#include "cpu/held.h"
+#include "cpu/normals.h"
 #include "cpu/quad_faces.h"
 #include "cpu/stencils.h"
 #include "cpu/surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace supple::cpu {
 namespace {
@@ -14,8 +15,11 @@ using surface::blend::ChartCoefficients;
 
 constexpr uint32_t kChartsPerJob = 256;
 constexpr uint32_t kVerticesPerJob = 4096;
-/// At corners a chart may have no derivatives: so far from them these are taken.
-constexpr double kBesideChart = 1.0 / 1024.0;
+/// A chart that is a polynomial in the parameters of its faces: derivatives exist at its vertex too.
+bool isPolynomial(const surface::blend::ChartClass& chart) {
+    using surface::blend::ChartKind;
+    return (chart.kind == ChartKind::interior || chart.kind == ChartKind::boundary) && chart.turns() == 4;
+}
 
 class BlendSurface final : public Surface {
 public:
@@ -45,14 +49,9 @@ public:
         if (found.fault != nullptr) {
             return found;
         }
-        const Place& place = found.place;
-        const bool right = place.x > 0.5, up = place.y > 0.5;
-        const double x = right ? 1.0 - place.x : place.x, y = up ? 1.0 - place.y : place.y;
-        if (std::max(x, y) < kBesideChart) {
-            found.held = true;
-            found.beside = place;
-            found.beside.x = right ? 1.0 - kBesideChart : kBesideChart;
-            found.beside.y = up ? 1.0 - kBesideChart : kBesideChart;
+        const uint32_t corner = nearestQuadCorner(found.place);
+        if (!isPolynomial(mesh_.classOf(chartOf(found.place.piece, corner)))) {
+            holdOff(found, kQuadCorners[corner], kQuadMiddle, kBesideSlowCorner);
         }
         return found;
     }
@@ -64,6 +63,9 @@ public:
     }
 
     [[nodiscard]] const surface::blend::Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] uint32_t chartOf(uint32_t face, uint32_t corner) const {
+        return mesh_.corners[4 * size_t{face} + corner].chart;
+    }
     [[nodiscard]] std::span<const surface::blend::FitMatrix> matrices() const { return matrices_; }
 
 private:
@@ -103,22 +105,29 @@ public:
     void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const override {
         for (size_t p = 0; p < places.size(); ++p) {
             const Place& place = places[p];
-            out[p] = atCorner(place)
-                         ? ofCorner(place)
-                         : surface::blend::evaluateJet(surface_.mesh(), charts_, place.piece, place.x, place.y);
+            if (isAtCorner(place) && !isPolynomial(surface_.mesh().classOf(cornerChart(place)))) {
+                out[p] = {};
+                out[p].position = charts_[cornerChart(place)][0];
+                continue;
+            }
+            out[p] = surface::blend::evaluateJet(surface_.mesh(), charts_, place.piece, place.x, place.y);
             turn(place, out[p]);
         }
     }
+    [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
+        using surface::blend::ChartKind;
+        const uint32_t chart = cornerChart(place);
+        const ChartKind kind = surface_.mesh().classOf(chart).kind;
+        const bool hasPlane = kind != ChartKind::point && kind != ChartKind::curve; // of its own
+        return isAtCorner(place) && hasPlane ? unitNormal(charts_[chart][3], charts_[chart][1]) : glm::dvec3(0.0);
+    }
 
 private:
-    static bool atCorner(const Place& place) {
+    static bool isAtCorner(const Place& place) {
         return (place.x == 0.0 || place.x == 1.0) && (place.y == 0.0 || place.y == 1.0);
     }
-    [[nodiscard]] SurfaceJet ofCorner(const Place& place) const {
-        const uint32_t corner = place.y > 0.5 ? (place.x > 0.5 ? 2 : 3) : (place.x > 0.5 ? 1 : 0);
-        SurfaceJet jet;
-        jet.position = charts_[surface_.mesh().corners[4 * size_t{place.piece} + corner].chart][0];
-        return jet;
+    [[nodiscard]] uint32_t cornerChart(const Place& place) const {
+        return surface_.chartOf(place.piece, nearestQuadCorner(place));
     }
 
     const BlendSurface& surface_;

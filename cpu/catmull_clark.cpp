@@ -74,7 +74,6 @@ struct Leaf {
 
 Point evaluate(const LevelNet& net, const Fan& fan, uint32_t sector, const Leaf& leaf) {
     const std::span<const glm::dvec3> points = net.points();
-    const glm::dvec3 centre = points[0];
     Point sum;
     for (int32_t j = 0; j < 4; ++j) {
         for (int32_t i = 0; i < 4; ++i) {
@@ -82,7 +81,7 @@ Point evaluate(const LevelNet& net, const Fan& fan, uint32_t sector, const Leaf&
             if (index == kNoPoint || index >= points.size()) {
                 continue; // behind a border, where weights are zero
             }
-            const glm::dvec3 p = points[index] - centre;
+            const glm::dvec3& p = points[index];
             const size_t x = static_cast<size_t>(i), y = static_cast<size_t>(j);
             sum.position += leaf.a.value[x] * leaf.b.value[y] * p;
             sum.du += leaf.a.slope[x] * leaf.b.value[y] * p;
@@ -92,7 +91,7 @@ Point evaluate(const LevelNet& net, const Fan& fan, uint32_t sector, const Leaf&
             sum.dvv += leaf.a.value[x] * leaf.b.bend[y] * p;
         }
     }
-    sum.position += centre;
+    sum.position += net.origin();
     return sum;
 }
 

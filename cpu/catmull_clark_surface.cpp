@@ -1,6 +1,7 @@
 // Catmull-Clark on the CPU, drawn by faces or by fragments. Quads that are regular all round are bicubic patches; the
 // rest of the limit is evaluated from nets of points, in double.
 #include "cpu/catmull_clark.h"
+#include "cpu/held.h"
 #include "cpu/limit_pose.h"
 #include "cpu/patch_surface.h"
 #include "cpu/quad_faces.h"
@@ -133,6 +134,9 @@ public:
             out[numbers[k]] = jets[k];
         }
     }
+    [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
+        return surface::catmull_clark::LimitSurface(limit_.pose()).at(place.piece, place.x, place.y).normal;
+    }
     [[nodiscard]] const PatchPose& patches() const { return patches_; }
 
 private:
@@ -162,18 +166,12 @@ void CatmullClarkSurface::addPatches(uint32_t cageVertices) {
 }
 
 void CatmullClarkSurface::holdOffCorner(FoundPlace& found) const {
-    const Place& place = found.place;
-    const bool right = place.x > 0.5, up = place.y > 0.5;
-    const uint32_t corner = up ? (right ? 2 : 3) : (right ? 1 : 0);
-    const double x = right ? 1.0 - place.x : place.x, y = up ? 1.0 - place.y : place.y;
-    if (patchOfQuad_[place.piece] != cage::kNone || std::max(x, y) >= kBesideCorner ||
-        shape_.isUniform(shape_.sectors()[4 * size_t{place.piece} + corner].fragment)) {
-        return;
+    const uint32_t corner = nearestQuadCorner(found.place);
+    const LimitShape::Sector& sector = shape_.sectors()[4 * size_t{found.place.piece} + corner];
+    if (patchOfQuad_[found.place.piece] == cage::kNone && !shape_.isUniform(sector.fragment)) {
+        holdOff(found, kQuadCorners[corner], kQuadMiddle,
+                shape_.isFlatCorner(sector) ? kBesideSlowCorner : kBesideCorner);
     }
-    found.held = true;
-    found.beside = place;
-    found.beside.x = right ? 1.0 - std::max(x, kBesideCorner) : std::max(x, kBesideCorner);
-    found.beside.y = up ? 1.0 - std::max(y, kBesideCorner) : std::max(y, kBesideCorner);
 }
 
 std::unique_ptr<Pose> CatmullClarkSurface::newPose() const {

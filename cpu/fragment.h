@@ -154,18 +154,30 @@ public:
         return {mesh_.subdivision, fragment.sectors, fragment.open};
     }
     [[nodiscard]] const std::vector<Vec>& points() const { return points_; }
+    /// What recentre() has taken from them, in all.
+    [[nodiscard]] const Vec& origin() const { return origin_; }
 
     /// Begins with a fragment on the isolated level.
     void load(const Fragment& fragment) {
         const uint32_t count =
             fragment.kind == FragmentKind::facet ? facetPointCount(1) : pointCount(fanOf(fragment), 2);
         points_.clear();
+        origin_ = Vec(T(0));
         for (uint32_t i = 0; i < count; ++i) {
             points_.push_back(isolated_[mesh_.net[fragment.firstNet + i]]);
         }
         const auto first = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
         spokes_.assign(first, first + fragment.spokes());
         centreSharpness_ = fragment.centreSharpness;
+    }
+
+    /// The points become differences from the first. Rings shrink from level to level: so their rounding does too.
+    void recentre() {
+        const Vec centre = points_[0];
+        for (Vec& point : points_) {
+            point -= centre;
+        }
+        origin_ += centre;
     }
 
     [[nodiscard]] float sharpnessOf(uint32_t spoke) const { return spoke == kNoSpoke ? 0.0f : spokes_[spoke]; }
@@ -265,6 +277,7 @@ private:
     const Mesh& mesh_;
     std::span<const Vec> isolated_;
     std::vector<Vec> points_, refined_;
+    Vec origin_{T(0)};
     std::vector<float> spokes_;
     float centreSharpness_ = 0.0f;
 };

@@ -40,6 +40,16 @@ LimitShape::LimitShape(const Mesh& mesh)
     }
 }
 
+bool LimitShape::isFlatCorner(const Sector& sector) const {
+    const Fragment& fragment = mesh_.fragments[sector.fragment];
+    const auto spokes = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
+    const auto isCrease = [&](uint32_t spoke) { return spokes[spoke % fragment.spokes()] >= kInfiniteSharpness; };
+    return fragment.kind == FragmentKind::vertex && fragment.centreSharpness == 0.0f && isCrease(sector.number) &&
+           isCrease(sector.number + 1) &&
+           std::count_if(spokes, spokes + fragment.spokes(),
+                         [](float sharpness) { return sharpness >= kInfiniteSharpness; }) == 2;
+}
+
 void LimitShape::keep(uint32_t fragment) {
     Kept& kept = kept_[fragment];
     if (kept.last != 0) {
@@ -49,11 +59,11 @@ void LimitShape::keep(uint32_t fragment) {
     kept.first = keptPoints_;
     if (of.kind == FragmentKind::facet) {
         kept.last = 1;
-        kept.perLevel = facetPointCount(1);
+        kept.perLevel = 1 + facetPointCount(1);
         keptPoints_ += kept.perLevel;
     } else {
         kept.last = uniform_[fragment] != 0 ? 2 : kLastKept;
-        kept.perLevel = pointCount({mesh_.subdivision, of.sectors, of.open}, 3);
+        kept.perLevel = 1 + pointCount({mesh_.subdivision, of.sectors, of.open}, 3);
         keptPoints_ += size_t{kept.perLevel} * (kept.last - 1);
     }
     keptFragments_.push_back(fragment);
@@ -91,14 +101,19 @@ void LimitPose::buildNets(FragmentNet<double>& net, uint32_t fragment) {
     const Fragment& of = shape_.mesh().fragments[fragment];
     net.load(of);
     auto to = nets_.begin() + static_cast<ptrdiff_t>(kept.first);
+    const auto put = [&] {
+        net.recentre();
+        *to++ = net.origin();
+        to = std::copy(net.points().begin(), net.points().end(), to);
+    };
     if (of.kind == FragmentKind::facet) {
-        std::copy(net.points().begin(), net.points().end(), to);
+        put();
         return;
     }
     const Fan fan = net.fanOf(of);
     for (uint32_t level = 2; level <= kept.last; ++level) {
-        net.refine(fan, shape_.patternOf(fan), kept.perLevel);
-        to = std::copy(net.points().begin(), net.points().end(), to);
+        net.refine(fan, shape_.patternOf(fan), kept.perLevel - 1);
+        put();
     }
 }
 
@@ -111,7 +126,9 @@ std::span<const glm::dvec3> LimitPose::kept(uint32_t fragment, uint32_t level) c
 LevelNet::LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level)
     : mesh_(pose.shape().mesh()), fragment_(mesh_.fragments[fragment]), level_(level) {
     if (level <= pose.shape().keptOf(fragment).last) {
-        points_ = pose.kept(fragment, level);
+        const std::span<const glm::dvec3> kept = pose.kept(fragment, level);
+        origin_ = kept[0];
+        points_ = kept.subspan(1);
         return;
     }
     FragmentNet<double> net(mesh_, pose.isolated());
@@ -119,7 +136,9 @@ LevelNet::LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level)
     const Fan fan = net.fanOf(fragment_);
     for (uint32_t j = 2; j <= level; ++j) {
         net.refine(fan, pose.shape().patternOf(fan), pointCount(fan, 3));
+        net.recentre();
     }
+    origin_ = net.origin();
     made_ = net.points();
     points_ = made_;
 }

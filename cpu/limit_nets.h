@@ -29,13 +29,17 @@ public:
     [[nodiscard]] const Pattern& patternOf(const Fan& fan) const { return patterns_.at(fan); }
     /// No crease passes, and all faces are regular: leaves of level 2 reach up to the vertex.
     [[nodiscard]] bool isUniform(uint32_t fragment) const { return uniform_[fragment] != 0; }
+    /// Alone between the two halves of a crease, which has one direction at the vertex: there the sector's edges are
+    /// parallel in the limit.
+    [[nodiscard]] bool isFlatCorner(const Sector& sector) const;
 
-    /// The nets that LimitPose keeps for a fragment: levels 2 to `last`, or that of a facet.
+    /// The nets that LimitPose keeps for a fragment: levels 2 to `last`, or that of a facet. Before the points of a
+    /// level stands what they are relative to.
     void keep(uint32_t fragment);
     struct Kept {
         size_t first = 0; ///< point
         uint32_t last = 0;
-        uint32_t perLevel = 0;
+        uint32_t perLevel = 0; ///< points, and the one before them
     };
     [[nodiscard]] const Kept& keptOf(uint32_t fragment) const { return kept_[fragment]; }
     [[nodiscard]] std::span<const uint32_t> keptFragments() const { return keptFragments_; }
@@ -60,7 +64,7 @@ public:
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
-    /// Of a kept level.
+    /// Of a kept level: its origin, then its points.
     [[nodiscard]] std::span<const glm::dvec3> kept(uint32_t fragment, uint32_t level) const;
 
 private:
@@ -77,13 +81,16 @@ public:
     /// Level 2 and up; a facet has level 1.
     LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level);
 
+    /// Relative to the origin, which is the first of them.
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
+    [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     [[nodiscard]] float sharpnessOf(uint32_t spoke) const;
 
 private:
     const Mesh& mesh_;
     const Fragment& fragment_;
     uint32_t level_;
+    glm::dvec3 origin_;
     std::span<const glm::dvec3> points_;
     std::vector<glm::dvec3> made_; ///< where the level is not kept
 };

@@ -291,6 +291,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
         point.du = -point.du, point.dv = -point.dv;
     }
     addSpokes(lattice, x, y, point);
+    point.position += net.origin();
     point.du *= scale, point.dv *= scale;
     catmull_clark::turnSecondDerivatives({scale, 0.0}, {0.0, scale}, point);
     return point;
@@ -300,6 +301,7 @@ Point LimitSurface::inMiddle(const Sector& facet, double x, double y) const {
     const LevelNet net(*pose_, facet.fragment, 1);
     const Lattice lattice(net);
     Point point = boxSpline(lattice, {0, 0}, 1, x, y);
+    point.position += net.origin();
     const std::array<double, 3> weights = {1.0 - x - y, x, y};
     const std::array<glm::dvec2, 3> slopes = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
     for (size_t corner = 0; corner < 3; ++corner) {

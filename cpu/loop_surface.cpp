@@ -1,4 +1,6 @@
 // Loop on the CPU, drawn by triangles or by fragments.
+#include "cpu/cut_faces.h"
+#include "cpu/held.h"
 #include "cpu/limit_pose.h"
 #include "cpu/loop.h"
 #include "cpu/quad_faces.h"
@@ -28,14 +30,19 @@ class LoopSurface final : public Surface {
 public:
     LoopSurface(const cage::Cage& cage, Isolation isolation, Patches patches)
         : Surface(patches), isolation_(std::move(isolation)), shape_(isolation_.mesh),
-          triangles_(cage.faceCount(), cage::kNone), holes_(cage.faceCount(), false) {
+          triangles_(cage.faceCount(), cage::kNone), cut_(cage), holes_(cage.faceCount(), false) {
         for (uint32_t f = 0; f < isolation_.mesh.fragments.size(); ++f) {
             shape_.keep(f);
         }
         const std::vector<uint32_t>& sources = isolation_.parent.sourceFaces;
-        for (uint32_t t = 0; t < isolation_.parent.cage.faceCount(); ++t) {
+        const cage::Cage& triangles = isolation_.parent.cage;
+        for (uint32_t t = 0; t < triangles.faceCount(); ++t) {
             const uint32_t face = sources.empty() ? t : sources[t];
-            triangles_[face] = cage.sides(face) == 3 ? t : cage::kNone;
+            if (cage.sides(face) == 3) {
+                triangles_[face] = t;
+            } else {
+                cut_.add(cage, face, t, std::span(triangles.faceVertices).subspan(triangles.faceStarts[t], 3));
+            }
         }
         for (const uint32_t face : cage.holes) {
             holes_[face] = true;
@@ -64,15 +71,18 @@ public:
     [[nodiscard]] std::unique_ptr<Pose> newPose() const override;
     [[nodiscard]] FoundPlace findPlace(const FacePoint& point) const override {
         FoundPlace found;
-        found.fault = holes_[point.face]                      ? kHole
-                      : triangles_[point.face] == cage::kNone ? "Loop splits the face"
-                                                              : nullptr;
-        if (found.fault == nullptr) {
+        if (holes_[point.face]) {
+            found.fault = kHole;
+            return found;
+        }
+        if (cut_.has(point.face)) {
+            found.place = cut_.find(point);
+        } else {
             found.place.piece = triangles_[point.face];
             found.place.x = point.a;
             found.place.y = point.b;
-            holdOffCorner(found);
         }
+        holdOffCorner(found);
         return found;
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
@@ -89,20 +99,17 @@ private:
     void holdOffCorner(FoundPlace& found) const {
         const std::array<double, 3> weights{1.0 - found.place.x - found.place.y, found.place.x, found.place.y};
         const auto corner = static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-        const double distance = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
-        if (distance >= kBesideCorner ||
-            shape_.isUniform(shape_.sectors()[4 * size_t{found.place.piece} + corner].fragment)) {
-            return;
+        const LimitShape::Sector& sector = shape_.sectors()[4 * size_t{found.place.piece} + corner];
+        if (!shape_.isUniform(sector.fragment)) {
+            holdOff(found, kTriangleCorners[corner], kTriangleMiddle,
+                    shape_.isFlatCorner(sector) ? kBesideSlowCorner : kBesideCorner);
         }
-        found.held = true;
-        found.beside = found.place;
-        found.beside.x = corner == 1 ? 1.0 - kBesideCorner : 0.5 * kBesideCorner;
-        found.beside.y = corner == 2 ? 1.0 - kBesideCorner : 0.5 * kBesideCorner;
     }
 
     Isolation isolation_;
     LimitShape shape_;
-    std::vector<uint32_t> triangles_; ///< by face of the cage; cage::kNone: split into several
+    std::vector<uint32_t> triangles_; ///< by face of the cage; cage::kNone: cut into several
+    CutFaces cut_;
     std::vector<bool> holes_;
     std::vector<PatchPlace> places_; ///< by patch of the tables
 };
@@ -120,6 +127,9 @@ public:
             out[p] = limit.at(places[p].piece, places[p].x, places[p].y).jet();
             turn(places[p], out[p]);
         }
+    }
+    [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
+        return surface::loop::LimitSurface(limit_.pose()).at(place.piece, place.x, place.y).normal;
     }
 
 private:

@@ -60,6 +60,9 @@ struct Tensors {
     Waiting waiting;
 
     void flush(const glm::vec3& origin, std::span<const Place> places, std::span<SurfaceJet> out) {
+        if (waiting.count == 0) {
+            return;
+        }
         JetLanes jets;
         laneKernels().tensors<N>().evaluate(patches, u, v, jets);
         waiting.give(jets, origin, places, out);
@@ -72,6 +75,9 @@ struct Quartics {
     Waiting waiting;
 
     void flush(const glm::vec3& origin, std::span<const Place> places, std::span<SurfaceJet> out) {
+        if (waiting.count == 0) {
+            return;
+        }
         JetLanes jets;
         laneKernels().quartics(triangles, jets);
         waiting.give(jets, origin, places, out);
@@ -102,8 +108,8 @@ uint32_t PatchSet::add(Kind kind, PatchClass patchClass, uint32_t sides, std::sp
     return patchCount() - 1;
 }
 
-/// Patches share the coefficients that are made of the same vertices with the same weights: so borders have the same
-/// bits.
+/// Patches share the coefficients that are made of the same vertices with the same weights. Borders of two patches have
+/// the same coefficients where their weights come out the same, and others nearly.
 uint32_t PatchSet::rowOf(const Form& form) {
     const auto first = static_cast<uint32_t>(vertices_.size());
     uint64_t hash = 0xCBF29CE484222325u;

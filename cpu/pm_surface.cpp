@@ -1,4 +1,7 @@
 // P_m on the CPU.
+#include "cpu/affine.h"
+#include "cpu/cut_faces.h"
+#include "cpu/held.h"
 #include "cpu/patch_faces.h"
 #include "cpu/patch_surface.h"
 #include "cpu/pm_construction.h"
@@ -10,24 +13,14 @@
 namespace supple::cpu {
 namespace {
 
-/// A polar patch ends in a point, where its u means nothing: so far from it derivatives are taken.
-constexpr double kApex = 1.0 / 1024.0;
-
-/// The weights of a triangle's corners as functions of those of corners 1 and 2.
-struct CornerWeight {
-    double value = 0.0;
-    glm::dvec2 slope{0.0};
-};
-
 /// A polar patch over a triangle: corner `first` is its corner 0, and the apex the one before that. `reach`: the weight
 /// of the other two corners together is at least this.
 Place polarPlace(const FacePoint& point, uint32_t first, double reach) {
-    const std::array<CornerWeight, 3> weights{
-        {{1.0 - point.a - point.b, {-1.0, -1.0}}, {point.a, {1.0, 0.0}}, {point.b, {0.0, 1.0}}}};
-    const CornerWeight &one = weights[first % 3], &other = weights[(first + 1) % 3], &apex = weights[(first + 2) % 3];
-    const double rest = one.value + other.value, outer = std::max(rest, reach);
+    const std::array<Affine, 3> weights{(kOne - kFirst) - kSecond, kFirst, kSecond};
+    const Affine &one = weights[first % 3], &other = weights[(first + 1) % 3], &apex = weights[(first + 2) % 3];
+    const double rest = one.at(point.a, point.b) + other.at(point.a, point.b), outer = std::max(rest, reach);
     Place place;
-    place.x = rest > 0.0 ? std::clamp(other.value / rest, 0.0, 1.0) : 0.5;
+    place.x = rest > 0.0 ? std::clamp(other.at(point.a, point.b) / rest, 0.0, 1.0) : 0.5;
     place.y = 1.0 - outer;
     if (outer > 0.0) { // x (1 - y) is the weight of the other corner
         place.xSlope = (other.slope + place.x * apex.slope) / outer;
@@ -40,7 +33,7 @@ Place polarPlace(const FacePoint& point, uint32_t first, double reach) {
 
 class PmSurface final : public PatchSurface {
 public:
-    PmSurface(const cage::Cage& cage, Patches patches) : PatchSurface(patches), faces_(cage.faceCount()) {}
+    PmSurface(const cage::Cage& cage, Patches patches) : PatchSurface(patches), faces_(cage.faceCount()), cut_(cage) {}
 
     static Built create(const cage::Cage& cage, Patches patches) {
         const Result<surface::pm::Mesh> mesh = surface::pm::buildMesh(cage);
@@ -65,10 +58,11 @@ public:
         for (uint32_t p = 0; p < patches.size(); ++p) {
             const uint32_t facet = (*facets)[p].face;
             made->add(surface::pm::gatherPoints<Form>(*mesh, coefficients, facet));
-            FaceOf& face = made->faces_[patches[p].face];
-            face.split = cage.sides(patches[p].face) > surface::kMaxSides;
-            face.patch = p + 1;
-            face.firstCorner = mesh->firstCorners[facet];
+            if (const uint32_t face = patches[p].face; cage.sides(face) > surface::kMaxSides) {
+                made->cut_.add(cage, face, p, std::span(patches[p].corners).first(patches[p].cornerCount));
+            } else {
+                made->faces_[face] = {p + 1, mesh->firstCorners[facet]};
+            }
         }
         made->set_.finish();
         return std::unique_ptr<const Surface>(std::move(made));
@@ -77,21 +71,29 @@ public:
     [[nodiscard]] FoundPlace findPlace(const FacePoint& point) const override {
         const FaceOf& face = faces_[point.face];
         FoundPlace found;
-        if (face.patch == 0 || face.split) {
-            found.fault = face.split ? "P_m splits the face" : kHole;
+        if (cut_.has(point.face)) {
+            found.place = cut_.find(point);
+            holdOffCorners(found);
+            return found;
+        }
+        if (face.patch == 0) {
+            found.fault = kHole;
             return found;
         }
         const uint32_t patch = face.patch - 1;
         if (patches()[patch].patchClass == PatchClass::polar) {
             found.place = polarPlace(point, face.firstCorner, 0.0);
-            found.held = 1.0 - found.place.y < kApex;
-            found.beside = found.held ? polarPlace(point, face.firstCorner, kApex) : Place{};
-        } else {
-            found.place.sector = point.side;
-            found.place.x = point.a;
-            found.place.y = point.b;
+            // It ends in a point, where its u means nothing.
+            found.held = 1.0 - found.place.y < kBesideSlowCorner;
+            found.beside = found.held ? polarPlace(point, face.firstCorner, kBesideSlowCorner) : Place{};
+            found.place.piece = found.beside.piece = patch;
+            return found;
         }
-        found.place.piece = found.beside.piece = patch;
+        found.place.piece = patch;
+        found.place.sector = point.side;
+        found.place.x = point.a;
+        found.place.y = point.b;
+        holdOffCorners(found);
         return found;
     }
 
@@ -100,11 +102,29 @@ private:
     struct FaceOf {
         uint32_t patch = 0; ///< 1 more than its number; 0: a hole
         uint8_t firstCorner = 0;
-        bool split = false;
     };
+
+    /// Of a patch alone between the two halves of a crease: there du and dv are parallel.
+    void holdOffCorners(FoundPlace& found) const {
+        const uint32_t sides = patches()[found.place.piece].cornerCount;
+        for (uint32_t i = 0; i < sides; ++i) {
+            if (!flatCorners_[found.place.piece][i] || found.held) {
+                continue;
+            }
+            const uint32_t inSector = (i + sides - found.place.sector) % sides; // a sector has two corners
+            if (sides == 4) {
+                holdOff(found, kQuadCorners[i], kQuadMiddle, kBesideSlowCorner);
+            } else if (sides == 3) {
+                holdOff(found, kTriangleCorners[i], kTriangleMiddle, kBesideSlowCorner);
+            } else if (inSector < 2) {
+                holdOff(found, kTriangleCorners[inSector], kTriangleMiddle, kBesideSlowCorner);
+            }
+        }
+    }
 
     void add(const surface::pm::PointPatch<Form>& patch) {
         const std::span<const Form> all(patch.c.data(), patch.count);
+        flatCorners_.push_back(patch.singularCorner);
         if (patch.patchClass == PatchClass::regular) {
             set_.addTensor(all);
         } else if (patch.patchClass == PatchClass::polar) {
@@ -117,6 +137,8 @@ private:
     }
 
     std::vector<FaceOf> faces_;
+    CutFaces cut_;
+    std::vector<std::array<bool, surface::kMaxSides>> flatCorners_; ///< by patch
 };
 
 } // namespace

@@ -15,6 +15,7 @@ namespace {
 constexpr uint32_t kBatch = 64;
 /// Where a surface has no normal, that of a point so far inside is taken.
 constexpr double kInside = 1e-3;
+
 glm::vec3 normalOf(const SurfaceJet& jet) {
     return glm::vec3(unitNormal(jet.du, jet.dv));
 }
@@ -36,6 +37,8 @@ Built Surface::create(const surface::Recipe& recipe, const cage::Cage& cage, Pat
         return loopSurface(recipe, cage, patches);
     case SchemeId::blend:
         return blendSurface(recipe, cage, patches);
+    case SchemeId::polygons:
+        return polygonsSurface(cage, patches);
     default:
         return Error{ErrorCode::argument,
                      std::string(surface::schemeOf(recipe.scheme).name) + " has no evaluator on the CPU"};
@@ -82,6 +85,9 @@ void Surface::slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const Gr
 
 void Surface::mendNormals(const Pose& pose, uint32_t patch, uint32_t rate, std::span<glm::vec3> normals) const {
     for (uint32_t sample = 0; sample < normals.size(); ++sample) {
+        if (normals[sample] == glm::vec3(0.0f)) {
+            normals[sample] = glm::vec3(pose.limitNormal(placeOfSample(patch, rate, sample, 0.0)));
+        }
         if (normals[sample] == glm::vec3(0.0f)) {
             const Place near = placeOfSample(patch, rate, sample, kInside);
             SurfaceJet jet;

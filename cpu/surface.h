@@ -27,6 +27,8 @@ public:
     [[nodiscard]] virtual Status build(std::span<const glm::vec3> cage, const RunJobs& runJobs) = 0;
     /// Derivatives by a and b of the places.
     virtual void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const = 0;
+    /// The limit's normal at a place whose du and dv span no plane, of unit length. Zero where it is not known.
+    [[nodiscard]] virtual glm::dvec3 limitNormal(const Place& /*place*/) const { return glm::dvec3(0.0); }
 };
 
 class Surface {
@@ -76,7 +78,7 @@ protected:
 
 private:
     void slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const GridOutput& out) const;
-    /// Gives a sample without a normal that of a place inside.
+    /// Gives a sample without a normal that of the limit, or of a place inside.
     void mendNormals(const Pose& pose, uint32_t patch, uint32_t rate, std::span<glm::vec3> normals) const;
 
     std::vector<surface::PatchInfo> patches_;
@@ -92,5 +94,6 @@ using Patches = std::span<const surface::PatchInfo>;
 [[nodiscard]] Built catmullClarkSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built loopSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built blendSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
+[[nodiscard]] Built polygonsSurface(const cage::Cage& cage, Patches patches);
 
 } // namespace supple::cpu

@@ -57,6 +57,15 @@ void write(const cpu::SurfaceJet& jet, SuppleSurfaceJet& out) {
     put(jet.duu, out.duu), put(jet.duv, out.duv), put(jet.dvv, out.dvv);
 }
 
+/// How many patches of each domain a surface has.
+std::array<uint64_t, surface::kDomainCount> domainsOf(const cpu::Surface& surface) {
+    std::array<uint64_t, surface::kDomainCount> counts{};
+    for (uint32_t p = 0; p < surface.patches().size(); ++p) {
+        ++counts[static_cast<size_t>(surface.domainOf(p))];
+    }
+    return counts;
+}
+
 /// The triangles of one patch, of all domains at a rate.
 class GridsByDomain {
 public:
@@ -118,7 +127,8 @@ Status CpuGroup::addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool 
         }
         tables = *built;
     }
-    std::vector<surface::PatchInfo> patches = tables->tables.patches;
+    part.patches = tables->tables.patches;
+    std::vector<surface::PatchInfo> patches = part.patches;
     if (part.piece != nullptr) {
         const cage::CagePiece& piece = part.piece->of;
         const auto inPiece = [](const std::vector<uint32_t>& of, uint32_t number) {
@@ -148,18 +158,21 @@ Status CpuGroup::addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool 
 }
 
 uint64_t CpuGroup::vertexCount(const Part& part, uint32_t rate) {
+    const std::array<uint64_t, surface::kDomainCount> patches = domainsOf(*part.surface);
     uint64_t vertices = 0;
-    for (uint32_t p = 0; p < part.surface->patches().size(); ++p) {
-        vertices += part.surface->samplesOf(p, rate);
+    for (uint32_t domain = 0; domain < surface::kDomainCount; ++domain) {
+        vertices += patches[domain] * surface::sampleCount(static_cast<surface::Domain>(domain), rate);
     }
     return vertices;
 }
 
 uint64_t CpuGroup::indexCount(const Part& part, uint32_t rate) {
+    const std::array<uint64_t, surface::kDomainCount> patches = domainsOf(*part.surface);
     uint64_t indices = 0;
-    GridsByDomain grids(rate);
-    for (uint32_t p = 0; p < part.surface->patches().size(); ++p) {
-        indices += grids.of(part.surface->domainOf(p)).size();
+    for (uint32_t domain = 0; domain < surface::kDomainCount; ++domain) {
+        if (patches[domain] > 0) {
+            indices += patches[domain] * surface::gridIndices(static_cast<surface::Domain>(domain), rate).size();
+        }
     }
     return indices;
 }
@@ -241,8 +254,8 @@ Status CpuPose::evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfa
     const auto count = static_cast<uint32_t>(points.size());
     std::atomic<uint32_t> firstBad{count};
     const Status ran = cpu::inRanges(runJobs, count, kPointsPerJob, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t p = begin; p < end; p += kPointsAtATime) {
-            const uint32_t some = std::min(end - p, kPointsAtATime);
+        for (uint32_t p = begin, some = 0; p < end; p += some) {
+            some = std::min(end - p, kPointsAtATime);
             const uint32_t sound = evaluateRange(points.subspan(p, some), out + p);
             uint32_t known = firstBad;
             while (sound < some && p + sound < known && !firstBad.compare_exchange_weak(known, p + sound)) {
@@ -279,6 +292,9 @@ uint32_t CpuPose::evaluateRange(std::span<const SuppleSurfacePoint> points, Supp
                 places[count++] = found[p].place.place;
             }
         }
+        if (count == 0) {
+            continue;
+        }
         poses_[part]->evaluate(std::span(places).first(count), jets);
         uint32_t heldCount = 0;
         std::array<uint32_t, kPointsAtATime> held;
@@ -288,7 +304,9 @@ uint32_t CpuPose::evaluateRange(std::span<const SuppleSurfacePoint> points, Supp
                 places[heldCount++] = place.beside;
             }
         }
-        poses_[part]->evaluate(std::span(places).first(heldCount), beside);
+        if (heldCount > 0) {
+            poses_[part]->evaluate(std::span(places).first(heldCount), beside);
+        }
         for (uint32_t h = 0; h < heldCount; ++h) {
             beside[h].position = jets[held[h]].position;
             jets[held[h]] = beside[h];

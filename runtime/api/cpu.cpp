@@ -3,6 +3,7 @@
 
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
+#include "runtime/api/patches.h"
 #include "runtime/cpu_group.h"
 
 #include <limits>
@@ -110,17 +111,34 @@ SuppleResult fillCpuInfo(const CpuLog& log, const char* function, const T& info,
     return SUPPLE_OK;
 }
 
+/// Why there is no such surface, or success.
+Status checkSurface(const runtime::CpuGroup& group, uint32_t surface) {
+    return surface < group.parts().size()
+               ? success()
+               : Status(Error{ErrorCode::range,
+                              "surface " + std::to_string(surface) + " of " + std::to_string(group.parts().size())});
+}
+
+/// The room that a host gives must be that of the grid.
+Status checkRoom(const char* what, uint64_t needed, uint32_t given) {
+    return needed == given ? success()
+                           : Status(Error{ErrorCode::range, "room for " + std::to_string(given) + " " + what +
+                                                                " for a grid of " + std::to_string(needed)});
+}
+
 /// Why a surface has no grid of a rate, or success.
 Status checkGrid(const runtime::CpuGroup& group, uint32_t surface, uint32_t rate) {
-    if (surface >= group.parts().size()) {
-        return Error{ErrorCode::range,
-                     "surface " + std::to_string(surface) + " of " + std::to_string(group.parts().size())};
+    if (const Status exists = checkSurface(group, surface); !exists) {
+        return exists;
     }
     if (rate == 0 || rate > SUPPLE_MAX_RATE) {
-        return Error{ErrorCode::range, "rate " + std::to_string(rate) + " leaves 1..64"};
+        return Error{ErrorCode::range, "rate " + std::to_string(rate) + " leaves 1.." + std::to_string(SUPPLE_MAX_RATE)};
     }
-    const uint64_t indices =
-        runtime::CpuGroup::indexCount(group.parts()[surface], rate); // more than there are vertices
+    return success();
+}
+
+/// Indices are 32 bits.
+Status checkIndices(uint64_t indices) {
     return indices <= std::numeric_limits<uint32_t>::max()
                ? success()
                : Status(Error{ErrorCode::limit, std::to_string(indices) + " indices are more than 32 bits number"});
@@ -223,6 +241,22 @@ SuppleResult suppleCpuEvaluatePoints(SuppleCpuPose pose, const SuppleSurfacePoin
     });
 }
 
+SuppleResult suppleCpuGetPatches(SuppleCpuGroup group, uint32_t surface, SupplePatchInfo* out, uint32_t* count) {
+    constexpr const char* kHere = "suppleCpuGetPatches";
+    if (group == nullptr) {
+        return SUPPLE_ERROR_ARGUMENT;
+    }
+    return caught([&] {
+        if (count == nullptr) {
+            return group->log.refused(kHere, ErrorCode::nullPointer, "count is null");
+        }
+        if (const Status exists = checkSurface(*group->group, surface); !exists) {
+            return group->log.refused(kHere, exists.error());
+        }
+        return fillPatches(group->group->parts()[surface].patches, out, count);
+    });
+}
+
 SuppleResult suppleCpuGetGridInfo(SuppleCpuGroup group, uint32_t surface, uint32_t rate, SuppleCpuGridInfo* out) {
     constexpr const char* kHere = "suppleCpuGetGridInfo";
     if (group == nullptr) {
@@ -233,16 +267,21 @@ SuppleResult suppleCpuGetGridInfo(SuppleCpuGroup group, uint32_t surface, uint32
             return group->log.refused(kHere, fits.error());
         }
         const runtime::CpuGroup::Part& part = group->group->parts()[surface];
+        const uint64_t indices = runtime::CpuGroup::indexCount(part, rate); // more than there are vertices
+        if (const Status fits = checkIndices(indices); !fits) {
+            return group->log.refused(kHere, fits.error());
+        }
         SuppleCpuGridInfo info{};
         info.scheme = part.scheme;
         info.patchCount = static_cast<uint32_t>(part.surface->patches().size());
         info.vertexCount = static_cast<uint32_t>(runtime::CpuGroup::vertexCount(part, rate));
-        info.indexCount = static_cast<uint32_t>(runtime::CpuGroup::indexCount(part, rate));
+        info.indexCount = static_cast<uint32_t>(indices);
         return fillCpuInfo(group->log, kHere, info, out);
     });
 }
 
-SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uint32_t rate, uint32_t* out) {
+SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uint32_t rate, uint32_t* out,
+                                     uint32_t count) {
     constexpr const char* kHere = "suppleCpuGetGridIndices";
     if (group == nullptr) {
         return SUPPLE_ERROR_ARGUMENT;
@@ -254,13 +293,17 @@ SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uin
         if (const Status fits = checkGrid(*group->group, surface, rate); !fits) {
             return group->log.refused(kHere, fits.error());
         }
-        runtime::CpuGroup::writeIndices(group->group->parts()[surface], rate, out);
+        const runtime::CpuGroup::Part& part = group->group->parts()[surface];
+        if (const Status fits = checkRoom("indices", runtime::CpuGroup::indexCount(part, rate), count); !fits) {
+            return group->log.refused(kHere, fits.error());
+        }
+        runtime::CpuGroup::writeIndices(part, rate, out);
         return SUPPLE_OK;
     });
 }
 
 SuppleResult suppleCpuEvaluateGrid(SuppleCpuPose pose, uint32_t surface, uint32_t rate, float* positions,
-                                   float* normals, const SuppleCpuJobs* jobs) {
+                                   float* normals, uint32_t vertexCount, const SuppleCpuJobs* jobs) {
     constexpr const char* kHere = "suppleCpuEvaluateGrid";
     if (pose == nullptr) {
         return SUPPLE_ERROR_ARGUMENT;
@@ -273,6 +316,10 @@ SuppleResult suppleCpuEvaluateGrid(SuppleCpuPose pose, uint32_t surface, uint32_
             return pose->log.refused(kHere, ErrorCode::nullPointer, "positions is null");
         }
         if (const Status fits = checkGrid(pose->pose.group(), surface, rate); !fits) {
+            return pose->log.refused(kHere, fits.error());
+        }
+        const runtime::CpuGroup::Part& part = pose->pose.group().parts()[surface];
+        if (const Status fits = checkRoom("vertices", runtime::CpuGroup::vertexCount(part, rate), vertexCount); !fits) {
             return pose->log.refused(kHere, fits.error());
         }
         return pose->log.told(kHere, pose->pose.evaluateGrid(surface, rate, positions, normals, runJobsOf(jobs)));

@@ -47,7 +47,7 @@ std::vector<glm::vec3> gridOf(SupplePrepared prepared, const SuppleGroupDesc& gr
     EXPECT_EQ(suppleCpuBuildPose(pose, &cage[0].x, sizeof(cage[0]), info.cageVertexCount, nullptr), SUPPLE_OK);
     suppleCpuDestroyGroup(surfaces); // the pose stays
     std::vector<glm::vec3> positions(grid.vertexCount);
-    EXPECT_EQ(suppleCpuEvaluateGrid(pose, 0, 4, &positions[0].x, nullptr, nullptr), SUPPLE_OK);
+    EXPECT_EQ(suppleCpuEvaluateGrid(pose, 0, 4, &positions[0].x, nullptr, grid.vertexCount, nullptr), SUPPLE_OK);
     suppleCpuDestroyPose(pose);
     return positions;
 }

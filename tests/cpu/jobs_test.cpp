@@ -5,9 +5,11 @@
 
 #include <atomic>
 #include <cstring>
+#include <functional>
 #include <gtest/gtest.h>
 #include <random>
 #include <thread>
+#include <type_traits>
 
 namespace supple::test {
 namespace {
@@ -99,6 +101,49 @@ TEST(CpuJobs, ThatAreNotRunAreRefused) {
     threads.lazy = false;
     EXPECT_EQ(group.build(cage.positions, &jobs), SUPPLE_OK);
     EXPECT_EQ(suppleCpuEvaluatePoints(group.pose(), &point, 1, &jet, &jobs), SUPPLE_OK);
+}
+
+/// What a host does with jobs 0..count-1.
+void runWrongly(const std::function<void(uint32_t count, const std::function<void(uint32_t)>& job)>& how) {
+    const cage::Cage cage = perturbed(cage::makeCubeSphere(16), 0.002f, 1);
+    CpuOptions options;
+    options.scheme = SUPPLE_SCHEME_PM;
+    CpuGroup group(cage, options);
+    ASSERT_EQ(group.build(cage.positions), SUPPLE_OK);
+    using How = std::decay_t<decltype(how)>;
+    How own = how;
+    const SuppleCpuJobs jobs{[](uint32_t count, void (*job)(void*, uint32_t), void* jobData, void* user) {
+                                 (*static_cast<How*>(user))(count, [&](uint32_t i) { job(jobData, i); });
+                             },
+                             &own};
+    const std::vector<SuppleSurfacePoint> points = randomPoints(cage, 3000, 7);
+    std::vector<SuppleSurfaceJet> jets(points.size());
+    EXPECT_EQ(suppleCpuEvaluatePoints(group.pose(), points.data(), 3000, jets.data(), &jobs), SUPPLE_ERROR_ARGUMENT);
+    ASSERT_FALSE(group.lines().empty());
+    EXPECT_EQ(group.lines().back(), "suppleCpuEvaluatePoints: runJobs has not run each of its jobs once");
+}
+
+TEST(CpuJobs, OneThatIsRunTwiceHidesNoneThatIsNot) {
+    runWrongly([](uint32_t count, const std::function<void(uint32_t)>& job) {
+        for (uint32_t i = 0; i < count; ++i) {
+            job(i == 1 ? 0 : i);
+        }
+    });
+    runWrongly([](uint32_t count, const std::function<void(uint32_t)>& job) {
+        for (uint32_t i = 0; i <= count; ++i) { // all of them, and the first again
+            job(i % count);
+        }
+    });
+}
+
+TEST(CpuJobs, OneThatDoesNotExistWritesNothing) {
+    runWrongly([](uint32_t count, const std::function<void(uint32_t)>& job) {
+        for (uint32_t i = 0; i < count; ++i) {
+            job(i);
+        }
+        job(count);
+        job(0xFFFFFFFFu);
+    });
 }
 
 } // namespace

@@ -53,24 +53,6 @@ TEST(CpuMistakes, PointsThatDoNotExist) {
     EXPECT_EQ(suppleCpuEvaluatePoints(group.pose(), nullptr, 0, nullptr, nullptr), SUPPLE_OK);
 }
 
-TEST(CpuMistakes, FacesThatASchemeSplits) {
-    const cage::Cage cage = prism(7);
-    const auto refusal = [&](SuppleScheme scheme, const SuppleSurfacePoint& point) {
-        CpuGroup group(cage, withScheme(scheme));
-        EXPECT_EQ(group.build(cage.positions), SUPPLE_OK);
-        SuppleSurfaceJet jet{};
-        EXPECT_EQ(suppleCpuEvaluatePoints(group.pose(), &point, 1, &jet, nullptr), SUPPLE_ERROR_ARGUMENT);
-        return group.lines().empty() ? "" : group.lines().back();
-    };
-    uint32_t large = 0, quad = 0;
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        large = cage.sides(face) == 7 ? face : large;
-        quad = cage.sides(face) == 4 ? face : quad;
-    }
-    EXPECT_NE(refusal(SUPPLE_SCHEME_PM, {large, 2, 0.25f, 0.25f}).find("P_m splits the face"), std::string::npos);
-    EXPECT_NE(refusal(SUPPLE_SCHEME_LOOP, {quad, 0, 0.25f, 0.25f}).find("Loop splits the face"), std::string::npos);
-}
-
 TEST(CpuMistakes, CagesThatDoNotFit) {
     const cage::Cage cage = cube();
     CpuGroup group(cage, withScheme(SUPPLE_SCHEME_CATMULL_CLARK));
@@ -104,24 +86,58 @@ TEST(CpuMistakes, CagesThatDoNotFit) {
 TEST(CpuMistakes, GridsThatDoNotExist) {
     const cage::Cage cage = cube();
     CpuGroup group(cage, withScheme(SUPPLE_SCHEME_CATMULL_CLARK));
-    std::vector<float> room(100000);
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    constexpr uint32_t kVertices = 6 * 81;
+    std::vector<float> room(3 * kVertices);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(group.lines().back(), "suppleCpuEvaluateGrid: the pose is not built");
     ASSERT_EQ(group.build(cage.positions), SUPPLE_OK);
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 1, 8, room.data(), nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 1, 8, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(group.lines().back(), "suppleCpuEvaluateGrid: surface 1 of 1");
     for (const uint32_t rate : {0u, 65u}) {
-        EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, rate, room.data(), nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, rate, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
         uint32_t index = 0;
-        EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, rate, &index), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, rate, &index, 1), SUPPLE_ERROR_ARGUMENT);
     }
     EXPECT_EQ(group.lines().back(), "suppleCpuGetGridIndices: rate 65 leaves 1..64");
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, nullptr, nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 8, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, nullptr, nullptr, 0, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 8, nullptr, 0), SUPPLE_ERROR_ARGUMENT);
     SuppleCpuGridInfo info{};
     EXPECT_EQ(suppleCpuGetGridInfo(group.handle(), 0, 8, &info), SUPPLE_ERROR_ARGUMENT);
     EXPECT_NE(group.lines().back().find("out.structSize is 0"), std::string::npos);
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, nullptr), SUPPLE_OK);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, kVertices, nullptr), SUPPLE_OK);
+    for (const uint32_t other : {kVertices - 1, kVertices + 1, 0u}) {
+        EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, other, nullptr),
+                  SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(group.lines().back(),
+                  "suppleCpuEvaluateGrid: room for " + std::to_string(other) + " vertices for a grid of 486");
+    }
+    std::vector<uint32_t> indices(6 * 6 * 64);
+    const auto total = static_cast<uint32_t>(indices.size());
+    EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 8, indices.data(), total), SUPPLE_OK);
+    EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 8, indices.data(), total - 1), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(group.lines().back(), "suppleCpuGetGridIndices: room for 2303 indices for a grid of 2304");
+}
+
+TEST(CpuMistakes, Patches) {
+    CpuGroup group(cube(), withScheme(SUPPLE_SCHEME_CATMULL_CLARK));
+    std::vector<SupplePatchInfo> patches(6);
+    uint32_t count = 0;
+    EXPECT_EQ(suppleCpuGetPatches(nullptr, 0, nullptr, &count), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuGetPatches(group.handle(), 0, nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(group.lines().back(), "suppleCpuGetPatches: count is null");
+    EXPECT_EQ(suppleCpuGetPatches(group.handle(), 1, nullptr, &count), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(group.lines().back(), "suppleCpuGetPatches: surface 1 of 1");
+    EXPECT_EQ(suppleCpuGetPatches(group.handle(), 0, nullptr, &count), SUPPLE_OK);
+    EXPECT_EQ(count, 6u);
+    count = 5;
+    EXPECT_EQ(suppleCpuGetPatches(group.handle(), 0, patches.data(), &count), SUPPLE_INCOMPLETE);
+    EXPECT_EQ(count, 6u);
+    EXPECT_EQ(suppleCpuGetPatches(group.handle(), 0, patches.data(), &count), SUPPLE_OK);
+    for (uint32_t p = 0; p < 6; ++p) {
+        EXPECT_EQ(patches[p].face, p);
+        EXPECT_EQ(patches[p].cornerCount, 4u);
+        EXPECT_LT(patches[p].corners[3], 8u);
+    }
 }
 
 TEST(CpuMistakes, TrianglesNameVerticesOfTheGrid) {
@@ -129,7 +145,7 @@ TEST(CpuMistakes, TrianglesNameVerticesOfTheGrid) {
     CpuGroup group(cage, withScheme(SUPPLE_SCHEME_PM));
     const SuppleCpuGridInfo info = group.grid(0, 5);
     std::vector<uint32_t> indices(info.indexCount);
-    ASSERT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 5, indices.data()), SUPPLE_OK);
+    ASSERT_EQ(suppleCpuGetGridIndices(group.handle(), 0, 5, indices.data(), info.indexCount), SUPPLE_OK);
     EXPECT_EQ(*std::max_element(indices.begin(), indices.end()), info.vertexCount - 1);
     ASSERT_EQ(group.build(cage.positions), SUPPLE_OK);
     const CpuGroup::Vertices vertices = group.evaluate(0, 5);
@@ -141,10 +157,9 @@ TEST(CpuMistakes, TrianglesNameVerticesOfTheGrid) {
 }
 
 TEST(CpuMistakes, GroupsThatCannotBe) {
-    EXPECT_EQ(CpuGroup(cube(), withScheme(SUPPLE_SCHEME_POLYGONS)).result(), SUPPLE_ERROR_ARGUMENT);
-    CpuGroup polygons(cube(), withScheme(SUPPLE_SCHEME_POLYGONS));
-    EXPECT_EQ(polygons.lines().back(), "suppleCpuCreateGroup: test cage: polygons has no evaluator on the CPU");
-    EXPECT_EQ(CpuGroup(cube(), withScheme(SUPPLE_SCHEME_CAGE)).result(), SUPPLE_ERROR_ARGUMENT);
+    CpuGroup none(cube(), withScheme(SUPPLE_SCHEME_CAGE));
+    EXPECT_EQ(none.result(), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(none.lines().back(), "suppleCpuCreateGroup: SUPPLE_SCHEME_CAGE has no surface");
     EXPECT_LT(CpuGroup(prism(5), withScheme(SUPPLE_SCHEME_PREP)).result(), 0); // no quads
     cage::Cage creased = cube();
     creased.creases = {{0, 1, 2.5f}};
@@ -171,11 +186,11 @@ TEST(CpuMistakes, NullAndSizes) {
     grid.structSize = sizeof(grid);
     EXPECT_EQ(suppleCpuGetGroupInfo(nullptr, &info), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleCpuGetGridInfo(nullptr, 0, 8, &grid), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleCpuGetGridIndices(nullptr, 0, 8, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuGetGridIndices(nullptr, 0, 8, nullptr, 0), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleCpuCreatePose(nullptr, &pose), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleCpuBuildPose(nullptr, nullptr, 12, 0, nullptr), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleCpuEvaluatePoints(nullptr, nullptr, 0, nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
-    EXPECT_EQ(suppleCpuEvaluateGrid(nullptr, 0, 8, nullptr, nullptr, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuEvaluateGrid(nullptr, 0, 8, nullptr, nullptr, 0, nullptr), SUPPLE_ERROR_ARGUMENT);
     CpuGroup own(cube(), withScheme(SUPPLE_SCHEME_PM));
     EXPECT_EQ(suppleCpuGetGroupInfo(own.handle(), nullptr), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(suppleCpuGetGroupInfo(own.handle(), &info), SUPPLE_OK);

@@ -78,7 +78,8 @@ public:
     [[nodiscard]] Vertices evaluate(uint32_t surface, uint32_t rate, const SuppleCpuJobs* jobs = nullptr) const {
         const uint32_t count = grid(surface, rate).vertexCount;
         Vertices vertices{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
-        EXPECT_EQ(suppleCpuEvaluateGrid(pose_, surface, rate, &vertices.positions[0].x, &vertices.normals[0].x, jobs),
+        EXPECT_EQ(suppleCpuEvaluateGrid(pose_, surface, rate, &vertices.positions[0].x, &vertices.normals[0].x, count,
+                                        jobs),
                   SUPPLE_OK);
         return vertices;
     }

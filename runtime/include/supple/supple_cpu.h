@@ -12,6 +12,8 @@
  * be used by another thread meanwhile, and what is destroyed must not be in use. Functions that take jobs call them on
  * the calling thread, and the host's threads run the jobs; results have the same bits however many threads there are.
  *
+ * The jobs of suppleCpuEvaluatePoints and suppleCpuEvaluateGrid take up to 32 KiB of stack each.
+ *
  * Errors go to the log function of the group's description, on the calling thread. Null handles and null pointers give
  * SUPPLE_ERROR_ARGUMENT. Handles are pointers: do not use one once it is destroyed.
  */
@@ -41,11 +43,13 @@ typedef struct SuppleCpuGroupDesc {
     uint32_t reserved;       /**< 0 */
     SupplePrepared prepared; /**< the character: glTF, OBJ, arrays or a cooked file (supplePrepare) */
     /** Schemes and their options. flags, capacity, asset, view and what else is about instances and vertices does not
-     * matter here. All schemes but POLYGONS and CAGE have evaluators; FRAGMENTS have none
-     * where creases are semi-sharp or end inside, as what they draw there hangs on the rate. If the group was planned
-     * when the character was prepared, nothing is built twice. */
+     * matter here. All schemes but CAGE have evaluators; FRAGMENTS have none where creases are semi-sharp or end
+     * inside, as what they draw there hangs on the rate. If the group was planned when the character was prepared,
+     * nothing is built twice. */
     const SuppleGroupDesc* group;
-    SuppleLogFunction log; /**< optional; called until the group and its poses are destroyed */
+    /** Optional; called until the group and its poses are destroyed. It is called on the threads that call these
+     * functions, so on several at the same time if they are called on several. */
+    SuppleLogFunction log;
     void* logUser;         /**< handed to log */
 } SuppleCpuGroupDesc;
 
@@ -61,7 +65,7 @@ typedef struct SuppleCpuGroupInfo {
 typedef struct SuppleCpuGridInfo {
     uint32_t structSize;
     SuppleScheme scheme;  /**< never AUTO */
-    uint32_t patchCount;  /**< of the surface */
+    uint32_t patchCount;  /**< of the surface, as suppleCpuGetPatches lists them */
     uint32_t vertexCount; /**< of the grid */
     uint32_t indexCount;  /**< of its triangles: three each */
 } SuppleCpuGridInfo;
@@ -79,7 +83,7 @@ typedef struct SuppleSurfacePoint {
 } SuppleSurfacePoint;
 
 /** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
- * ones. du x dv points outwards. */
+ * ones. du x dv points outwards. Where a scheme cuts a face, they jump inside it (docs/cpu.md). */
 typedef struct SuppleSurfaceJet {
     float position[3]; /**< x, y, z in the space of the cage */
     float du[3];       /**< by a */
@@ -113,32 +117,46 @@ SUPPLE_API SuppleResult suppleCpuBuildPose(SuppleCpuPose pose, const float* cage
 
 /** Evaluates points, in any order and of any faces.
  *
- * Where two derivatives hang on the direction that the point is come to from (an extraordinary corner, the apex of a
- * polar fan), those of a place beside it are given: 2^-30 of a face away with CATMULL_CLARK, LOOP and FRAGMENTS, 2^-10
- * with PM and BLEND. The position is always that of the point.
+ * Where derivatives hang on the direction that the point is come to from (an extraordinary corner, the apex of a polar
+ * fan), those of a place beside it are given: 2^-30 of a face away with CATMULL_CLARK, LOOP and FRAGMENTS, 2^-10 with
+ * PM and BLEND. So it is 2^-10 of a face away where du and dv are parallel, at the corner of a face alone between the
+ * two halves of a crease; with PREP du and dv are given as they are there. Second derivatives have no limit at an
+ * extraordinary corner: 2^-30 of a face away they may be large. The position is always that of the point.
  *
  * points, out: `count` of them. jobs: optional.
- * Errors: a pose that is not built; a face that does not exist, is a hole, or that the scheme splits (PM: six sides and
- * more; LOOP: four and more); a side that does not exist; numbers that are not finite or not within the face. What is
- * in out is undefined then. The log names the first such point. */
+ * Errors: a pose that is not built; a face that does not exist or is a hole; a side that does not exist; numbers that
+ * are not finite or not within the face. What is in out is undefined then. The log names the first such point. */
 SUPPLE_API SuppleResult suppleCpuEvaluatePoints(SuppleCpuPose pose, const SuppleSurfacePoint* points, uint32_t count,
                                                 SuppleSurfaceJet* out, const SuppleCpuJobs* jobs);
+
+/** Fills out and count: the patches of a surface, as suppleGetPatches lists those of the device. Faces and corners are
+ * numbers of the whole character's cage. *count: the room in out, then how many patches there are. out: null to learn
+ * that alone.
+ *
+ * Returns SUPPLE_INCOMPLETE if not all of them fit. Errors: no such surface. */
+SUPPLE_API SuppleResult suppleCpuGetPatches(SuppleCpuGroup group, uint32_t surface, SupplePatchInfo* out,
+                                            uint32_t* count);
 
 /** How large a grid is. rate: segments along a patch edge, 1..SUPPLE_MAX_RATE, as in SuppleGridOutput; where a scheme
  * subdivides the cage first, that is half of SuppleGroupDesc.rate or a quarter. */
 SUPPLE_API SuppleResult suppleCpuGetGridInfo(SuppleCpuGroup group, uint32_t surface, uint32_t rate,
                                              SuppleCpuGridInfo* out);
 /** The triangles of a grid, counter-clockwise seen from outside, as numbers of its vertices. The same for all poses.
- * Vertices on the borders of patches come twice, at the same position. out: room for SuppleCpuGridInfo.indexCount. */
-SUPPLE_API SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uint32_t rate, uint32_t* out);
-/** Evaluates all patches of a surface at a rate, in the order of the device: patch after patch, as suppleGetPatches
- * lists them, each with the samples of its domain (SuppleDomain).
+ * Vertices on the borders of patches come once for each patch, at positions that differ by rounding: up to 5e-7 of the
+ * character's extent. Who needs a closed mesh welds them by the corners of patches (suppleCpuGetPatches), or by distance.
+ * out, count: as many as SuppleCpuGridInfo.indexCount. Another count is an error. */
+SUPPLE_API SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uint32_t rate, uint32_t* out,
+                                                uint32_t count);
+/** Evaluates all patches of a surface at a rate, in the order of the device: patch after patch, as suppleCpuGetPatches
+ * lists them, each with the samples of its domain (SuppleDomain). POLYGONS: the flat triangles and their own normals, in
+ * the domain of triangles at any rate; the device shares their vertices at rate 1, and has the normals of the file.
  *
- * positions: x, y, z of SuppleCpuGridInfo.vertexCount vertices. normals: optional; of unit length, or zero where the
- * surface has none. jobs: optional.
- * Errors: a pose that is not built; no such surface; a rate that is out of range; a job that was not run; memory. */
+ * positions: x, y, z of vertexCount vertices. normals: optional; of unit length, or zero where the surface has none.
+ * vertexCount: SuppleCpuGridInfo.vertexCount. jobs: optional.
+ * Errors: a pose that is not built; no such surface; a rate that is out of range; another number of vertices; a job
+ * that was not run; memory. */
 SUPPLE_API SuppleResult suppleCpuEvaluateGrid(SuppleCpuPose pose, uint32_t surface, uint32_t rate, float* positions,
-                                              float* normals, const SuppleCpuJobs* jobs);
+                                              float* normals, uint32_t vertexCount, const SuppleCpuJobs* jobs);
 
 #ifdef __cplusplus
 }
