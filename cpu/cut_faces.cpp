@@ -53,9 +53,8 @@ void forEachTriangle(std::span<const glm::dvec2> corners, Visit&& visit) {
         visit(PlaneTriangle{0, {corners[0], corners[1], corners[2]}, kTriangleCorners});
     } else if (corners.size() == 4) {
         for (size_t k = 1; k < 3; ++k) {
-            visit(PlaneTriangle{0,
-                                {corners[0], corners[k], corners[k + 1]},
-                                {kQuadCorners[0], kQuadCorners[k], kQuadCorners[k + 1]}});
+            visit(PlaneTriangle{
+                0, {corners[0], corners[k], corners[k + 1]}, {kQuadCorners[0], kQuadCorners[k], kQuadCorners[k + 1]}});
         }
     } else {
         glm::dvec2 middle(0.0);
@@ -63,9 +62,8 @@ void forEachTriangle(std::span<const glm::dvec2> corners, Visit&& visit) {
             middle += corner / static_cast<double>(corners.size());
         }
         for (size_t s = 0; s < corners.size(); ++s) {
-            visit(PlaneTriangle{static_cast<uint32_t>(s),
-                                {corners[s], corners[(s + 1) % corners.size()], middle},
-                                kTriangleCorners});
+            visit(PlaneTriangle{
+                static_cast<uint32_t>(s), {corners[s], corners[(s + 1) % corners.size()], middle}, kTriangleCorners});
         }
     }
 }

@@ -27,8 +27,8 @@ public:
 private:
     struct Part {
         uint32_t piece = 0;
-        uint32_t sides = 0;     ///< of the face
-        uint32_t first = 0;     ///< into corners_
+        uint32_t sides = 0; ///< of the face
+        uint32_t first = 0; ///< into corners_
         uint32_t cornerCount = 0;
     };
 

@@ -45,9 +45,9 @@ bool LimitShape::isFlatCorner(const Sector& sector) const {
     const auto spokes = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
     const auto isCrease = [&](uint32_t spoke) { return spokes[spoke % fragment.spokes()] >= kInfiniteSharpness; };
     return fragment.kind == FragmentKind::vertex && fragment.centreSharpness == 0.0f && isCrease(sector.number) &&
-           isCrease(sector.number + 1) &&
-           std::count_if(spokes, spokes + fragment.spokes(),
-                         [](float sharpness) { return sharpness >= kInfiniteSharpness; }) == 2;
+           isCrease(sector.number + 1) && std::count_if(spokes, spokes + fragment.spokes(), [](float sharpness) {
+                                              return sharpness >= kInfiniteSharpness;
+                                          }) == 2;
 }
 
 void LimitShape::keep(uint32_t fragment) {

@@ -22,7 +22,7 @@ public:
     struct Part {
         SuppleScheme scheme = SUPPLE_SCHEME_AUTO;
         std::shared_ptr<const PreparedPiece> piece; ///< null: the whole cage
-        std::vector<surface::PatchInfo> patches; ///< of the whole cage's faces and vertices
+        std::vector<surface::PatchInfo> patches;    ///< of the whole cage's faces and vertices
         std::unique_ptr<const cpu::Surface> surface;
     };
 

@@ -132,7 +132,8 @@ Status checkGrid(const runtime::CpuGroup& group, uint32_t surface, uint32_t rate
         return exists;
     }
     if (rate == 0 || rate > SUPPLE_MAX_RATE) {
-        return Error{ErrorCode::range, "rate " + std::to_string(rate) + " leaves 1.." + std::to_string(SUPPLE_MAX_RATE)};
+        return Error{ErrorCode::range,
+                     "rate " + std::to_string(rate) + " leaves 1.." + std::to_string(SUPPLE_MAX_RATE)};
     }
     return success();
 }

@@ -3,10 +3,15 @@
 #include "tests/support/meshes.h"
 #include "tools/common/procedural.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <gtest/gtest.h>
+#if defined(__linux__)
+#include <pthread.h>
+#endif
 #include <random>
 #include <thread>
 #include <type_traits>
@@ -145,6 +150,73 @@ TEST(CpuJobs, OneThatDoesNotExistWritesNothing) {
         job(0xFFFFFFFFu);
     });
 }
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Runs each job on a stack of its own, and notes how much of it was used.
+struct PaintedStacks {
+    static constexpr size_t kSize = size_t{256} * 1024;
+    size_t most = 0;
+
+    static void run(uint32_t count, void (*job)(void*, uint32_t), void* jobData, void* user) {
+        struct Call {
+            void (*job)(void*, uint32_t);
+            void* jobData;
+            uint32_t number;
+        };
+        for (uint32_t i = 0; i < count; ++i) {
+            Call call{job, jobData, i};
+            void* const stack = std::aligned_alloc(4096, kSize);
+            std::memset(stack, 0xA5, kSize);
+            pthread_attr_t attributes;
+            pthread_attr_init(&attributes);
+            pthread_attr_setstack(&attributes, stack, kSize);
+            pthread_t thread{};
+            EXPECT_EQ(pthread_create(
+                          &thread, &attributes,
+                          [](void* data) -> void* {
+                              const Call& own = *static_cast<Call*>(data);
+                              own.job(own.jobData, own.number);
+                              return nullptr;
+                          },
+                          &call),
+                      0);
+            pthread_join(thread, nullptr);
+            pthread_attr_destroy(&attributes);
+            const auto* bytes = static_cast<const unsigned char*>(stack); // it grows downwards
+            size_t untouched = 0;
+            while (untouched < kSize && bytes[untouched] == 0xA5) {
+                ++untouched;
+            }
+            auto& own = *static_cast<PaintedStacks*>(user);
+            own.most = std::max(own.most, kSize - untouched);
+            std::free(stack);
+        }
+    }
+};
+
+/// What the header says, and what the thread itself takes.
+TEST(CpuJobs, FitTheStacksOfFibers) {
+    const cage::Cage cage = perturbed(cage::makeCubeSphere(16), 0.002f, 1);
+    for (const SuppleScheme scheme :
+         {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_BLEND,
+          SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_POLYGONS}) {
+        CpuOptions options;
+        options.scheme = scheme;
+        CpuGroup group(cage, options);
+        PaintedStacks stacks[3];
+        const auto jobs = [&](int k) { return SuppleCpuJobs{&PaintedStacks::run, &stacks[k]}; };
+        const SuppleCpuJobs building = jobs(0), pointing = jobs(1), gridding = jobs(2);
+        ASSERT_EQ(group.build(cage.positions, &building), SUPPLE_OK);
+        (void)group.at(randomPoints(cage, 3000, 7), &pointing);
+        (void)group.evaluate(0, 5, &gridding);
+        std::printf("scheme %d: pose %zu, points %zu, grid %zu bytes of stack\n", static_cast<int>(scheme),
+                    stacks[0].most, stacks[1].most, stacks[2].most);
+        for (const PaintedStacks& one : stacks) {
+            EXPECT_LE(one.most, size_t{40} * 1024) << scheme;
+        }
+    }
+}
+#endif
 
 } // namespace
 } // namespace supple::test

@@ -88,13 +88,16 @@ TEST(CpuMistakes, GridsThatDoNotExist) {
     CpuGroup group(cage, withScheme(SUPPLE_SCHEME_CATMULL_CLARK));
     constexpr uint32_t kVertices = 6 * 81;
     std::vector<float> room(3 * kVertices);
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, 8, room.data(), nullptr, kVertices, nullptr),
+              SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(group.lines().back(), "suppleCpuEvaluateGrid: the pose is not built");
     ASSERT_EQ(group.build(cage.positions), SUPPLE_OK);
-    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 1, 8, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 1, 8, room.data(), nullptr, kVertices, nullptr),
+              SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(group.lines().back(), "suppleCpuEvaluateGrid: surface 1 of 1");
     for (const uint32_t rate : {0u, 65u}) {
-        EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, rate, room.data(), nullptr, kVertices, nullptr), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(suppleCpuEvaluateGrid(group.pose(), 0, rate, room.data(), nullptr, kVertices, nullptr),
+                  SUPPLE_ERROR_ARGUMENT);
         uint32_t index = 0;
         EXPECT_EQ(suppleCpuGetGridIndices(group.handle(), 0, rate, &index, 1), SUPPLE_ERROR_ARGUMENT);
     }

@@ -1,6 +1,7 @@
 // Points of faces: they lie where the grid has them, and derivatives are those of the surface.
 #include "cage/topology.h"
 #include "surface/grid.h"
+#include "surface/patch_class.h"
 #include "tests/support/cpu_group.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <random>
+#include <tuple>
 
 namespace supple::test {
 namespace {
@@ -25,6 +27,15 @@ struct SchemeCage {
     SuppleFragmentRules rules = SUPPLE_RULES_CATMULL_CLARK;
 };
 
+/// Some faces lie alone between the two halves of a crease.
+cage::Cage withEndlessCreases(cage::Cage cage, uint32_t seed) {
+    cage = withRandomSharpness(std::move(cage), seed);
+    for (auto& crease : cage.creases) {
+        crease.sharpness = cage::kHardSharpness;
+    }
+    return cage;
+}
+
 /// Triangles, quads and pentagons; all quads; all triangles.
 std::vector<SchemeCage> schemeCages() {
     const cage::Cage quads = perturbed(biped(), 0.05f, 6);
@@ -34,13 +45,18 @@ std::vector<SchemeCage> schemeCages() {
             {"P_m", SUPPLE_SCHEME_PM, quads},
             {"P_m, mixed faces", SUPPLE_SCHEME_PM, mixed},
             {"P_m, polar", SUPPLE_SCHEME_PM, perturbed(cappedCylinder(7, 4), 0.02f, 5)},
+            {"P_m, creases", SUPPLE_SCHEME_PM, withEndlessCreases(quads, 4)},
+            {"P_m, large faces", SUPPLE_SCHEME_PM, perturbed(prism(11), 0.02f, 3)},
             {"Catmull-Clark", SUPPLE_SCHEME_CATMULL_CLARK, quads},
             {"Catmull-Clark, mixed faces", SUPPLE_SCHEME_CATMULL_CLARK, mixed},
             {"Catmull-Clark, creases", SUPPLE_SCHEME_CATMULL_CLARK, withRandomSharpness(quads, 4)},
             {"Loop", SUPPLE_SCHEME_LOOP, triangles},
+            {"Loop, mixed faces", SUPPLE_SCHEME_LOOP, mixed},
+            {"Loop, large faces", SUPPLE_SCHEME_LOOP, perturbed(prism(9), 0.02f, 3)},
             {"Loop, creases", SUPPLE_SCHEME_LOOP, withRandomSharpness(triangles, 4)},
             {"blend", SUPPLE_SCHEME_BLEND, quads},
             {"blend, mixed faces", SUPPLE_SCHEME_BLEND, mixed},
+            {"polygons", SUPPLE_SCHEME_POLYGONS, mixed},
             {"fragments", SUPPLE_SCHEME_FRAGMENTS, mixed},
             {"fragments by Loop's rules", SUPPLE_SCHEME_FRAGMENTS, triangles, SUPPLE_RULES_LOOP}};
 }
@@ -52,11 +68,17 @@ CpuOptions optionsOf(const SchemeCage& entry) {
     return options;
 }
 
-/// Well inside a face, and of faces that are split where they have one parameter.
+/// Anywhere in a face but within a margin of its border, so that steps stay in it.
 SuppleSurfacePoint innerPoint(const cage::Cage& cage, uint32_t face, std::mt19937& random) {
-    const auto number = [&] { return 0.1f + 0.25f * static_cast<float>(random() % 1000) / 1000.0f; };
+    constexpr float kMargin = 1.0f / 64.0f;
     const uint32_t sides = cage.sides(face);
-    return {face, sides > 4 ? static_cast<uint32_t>(random() % sides) : 0, number(), number()};
+    float a = static_cast<float>(random() % 1000) / 1000.0f, b = static_cast<float>(random() % 1000) / 1000.0f;
+    if (sides != 4 && a + b > 1.0f) {
+        a = 1.0f - a;
+        b = 1.0f - b;
+    }
+    const float room = 1.0f - (sides == 4 ? 2.0f : 3.0f) * kMargin;
+    return {face, sides > 4 ? static_cast<uint32_t>(random() % sides) : 0, kMargin + room * a, kMargin + room * b};
 }
 
 glm::dvec3 asVector(const float* v) {
@@ -218,36 +240,148 @@ TEST(CpuPoints, DerivativesKeepTheirDigitsFarFromTheOrigin) {
     }
 }
 
-/// Derivatives exist and are finite at every corner of every face.
+/// Every corner of every face.
+std::vector<SuppleSurfacePoint> cornersOf(const cage::Cage& cage) {
+    std::vector<SuppleSurfacePoint> points;
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        const uint32_t sides = cage.sides(face);
+        for (uint32_t side = 0; side < (sides > 4 ? sides : 1); ++side) {
+            points.push_back({face, side, 0.0f, 0.0f});
+            points.push_back({face, side, 1.0f, 0.0f});
+            points.push_back({face, side, 0.0f, 1.0f});
+        }
+        if (sides == 4) {
+            points.push_back({face, 0, 1.0f, 1.0f});
+        }
+    }
+    return points;
+}
+
+/// Beside corners that are not regular second derivatives are differences of points that lie close together.
+TEST(CpuPoints, CornersKeepTheirSecondDerivativesWhereverTheCageIs) {
+    cage::Cage quads = perturbed(fanOverPentagons(6), 0.03f, 2), triangles = perturbed(gyroBipyramid(5), 0.02f, 3);
+    const std::tuple<SuppleScheme, cage::Cage*, SuppleFragmentRules> cases[] = {
+        {SUPPLE_SCHEME_CATMULL_CLARK, &quads, SUPPLE_RULES_CATMULL_CLARK},
+        {SUPPLE_SCHEME_FRAGMENTS, &quads, SUPPLE_RULES_CATMULL_CLARK},
+        {SUPPLE_SCHEME_FRAGMENTS, &triangles, SUPPLE_RULES_LOOP},
+        {SUPPLE_SCHEME_LOOP, &triangles, SUPPLE_RULES_LOOP}};
+    for (const auto& [scheme, cage, rules] : cases) {
+        for (glm::vec3& p : cage->positions) { // exactly representable far away too
+            p = glm::round(p * 256.0f) / 256.0f;
+        }
+        CpuOptions options;
+        options.scheme = scheme;
+        options.rules = rules;
+        CpuGroup group(*cage, options);
+        ASSERT_TRUE(group.valid());
+        const std::vector<SuppleSurfacePoint> points = cornersOf(*cage);
+        ASSERT_EQ(group.build(cage->positions), SUPPLE_OK);
+        const std::vector<SuppleSurfaceJet> near = group.at(points);
+        std::vector<glm::vec3> moved = cage->positions;
+        for (glm::vec3& p : moved) {
+            p += glm::vec3(512.0f, -1024.0f, 256.0f);
+        }
+        ASSERT_EQ(group.build(moved), SUPPLE_OK);
+        const std::vector<SuppleSurfaceJet> far = group.at(points);
+        double worst = 0.0;
+        for (size_t i = 0; i < points.size(); ++i) {
+            const auto compare = [&](auto member) {
+                const glm::dvec3 a = asVector(near[i].*member), b = asVector(far[i].*member);
+                raise(worst, glm::distance(a, b) / std::max(1e-3, glm::length(a)));
+            };
+            compare(&SuppleSurfaceJet::du), compare(&SuppleSurfaceJet::dv);
+            compare(&SuppleSurfaceJet::duu), compare(&SuppleSurfaceJet::duv), compare(&SuppleSurfaceJet::dvv);
+        }
+        std::printf("scheme %d: %.1e\n", static_cast<int>(scheme), worst);
+        EXPECT_LE(worst, 1e-5) << scheme;
+    }
+}
+
+/// All patches at a vertex have one normal there, if no crease passes.
+TEST(CpuPoints, GridsHaveOneNormalAtAVertex) {
+    for (const SchemeCage& entry : schemeCages()) {
+        if (!entry.cage.creases.empty() || entry.scheme == SUPPLE_SCHEME_POLYGONS) {
+            continue;
+        }
+        CpuGroup group(entry.cage, optionsOf(entry));
+        ASSERT_EQ(group.build(entry.cage.positions), SUPPLE_OK);
+        constexpr uint32_t kRate = 4;
+        const CpuGroup::Vertices grid = group.evaluate(0, kRate);
+        std::vector<glm::dvec3> normals(entry.cage.vertexCount(), glm::dvec3(0.0));
+        double worst = 0.0;
+        uint32_t first = 0, compared = 0;
+        for (const SupplePatchInfo& patch : group.patches(0)) {
+            const surface::Domain domain = surface::domainOf(static_cast<surface::PatchClass>(patch.patchClass));
+            for (uint32_t k = 0; k < patch.cornerCount; ++k) {
+                const bool apex = domain == surface::Domain::polar && k == 2;
+                if (patch.corners[k] == SUPPLE_NO_VERTEX || apex) {
+                    continue;
+                }
+                const glm::dvec3 own(grid.normals[first + surface::edgeSample(domain, kRate, k, 0)]);
+                glm::dvec3& known = normals[patch.corners[k]];
+                if (known != glm::dvec3(0.0)) {
+                    raise(worst, angleDegrees(known, own));
+                    ++compared;
+                } else {
+                    known = own;
+                }
+            }
+            first += surface::sampleCount(domain, kRate);
+        }
+        std::printf("%-28s %.4f degrees, %u corners\n", entry.name, worst, compared);
+        EXPECT_GT(compared, 0u) << entry.name;
+        EXPECT_LE(worst, 0.05) << entry.name;
+    }
+}
+
+/// Derivatives exist, are finite and span a plane at every corner of every face.
 TEST(CpuPoints, CornersHaveFiniteDerivatives) {
     for (const SchemeCage& entry : schemeCages()) {
         CpuGroup group(entry.cage, optionsOf(entry));
         ASSERT_EQ(group.build(entry.cage.positions), SUPPLE_OK);
-        std::vector<SuppleSurfacePoint> points;
-        for (uint32_t face = 0; face < entry.cage.faceCount(); ++face) {
-            const uint32_t sides = entry.cage.sides(face);
-            for (uint32_t side = 0; side < (sides > 4 ? sides : 1); ++side) {
-                points.push_back({face, side, 0.0f, 0.0f});
-                points.push_back({face, side, 1.0f, 0.0f});
-                points.push_back({face, side, 0.0f, 1.0f});
-            }
-            if (sides == 4) {
-                points.push_back({face, 0, 1.0f, 1.0f});
-            }
-        }
+        const std::vector<SuppleSurfacePoint> points = cornersOf(entry.cage);
         const std::vector<SuppleSurfaceJet> jets = group.at(points);
-        size_t parallel = 0;
+        double least = 1.0;
         for (size_t i = 0; i < jets.size(); ++i) {
             const float* numbers = jets[i].position;
             for (size_t k = 0; k < sizeof(SuppleSurfaceJet) / sizeof(float); ++k) {
                 ASSERT_TRUE(std::isfinite(numbers[k])) << entry.name << ": face " << points[i].face;
             }
-            parallel += glm::cross(asVector(jets[i].du), asVector(jets[i].dv)) == glm::dvec3(0.0) ? 1 : 0;
+            const glm::dvec3 du = asVector(jets[i].du), dv = asVector(jets[i].dv);
+            least = std::min(least, glm::length(glm::cross(du, dv)) / (glm::length(du) * glm::length(dv)));
         }
-        // A face alone between two creases may have none: there du and dv are parallel.
-        const bool creased = !entry.cage.creases.empty();
-        EXPECT_LE(parallel, creased ? jets.size() / 50 : 0) << entry.name << " of " << jets.size();
+        std::printf("%-28s least sine %.1e\n", entry.name, least);
+        EXPECT_GT(least, 1e-4) << entry.name;
     }
+}
+
+/// Polygons are flat: a quad has two planes, and its own derivatives in each.
+TEST(CpuPoints, PolygonsAreTheirTriangles) {
+    cage::Cage cage = grid(1, 1);
+    cage.positions[2].z = 1.0f; // corner 3 of the quad
+    CpuOptions options;
+    options.scheme = SUPPLE_SCHEME_POLYGONS;
+    CpuGroup group(cage, options);
+    ASSERT_TRUE(group.valid());
+    ASSERT_EQ(group.build(cage.positions), SUPPLE_OK);
+    const std::vector<SupplePatchInfo> triangles = group.patches(0);
+    ASSERT_EQ(triangles.size(), 2u);
+    const std::vector<SuppleSurfaceJet> jets = group.at({{0, 0, 0.75f, 0.25f}, {0, 0, 0.25f, 0.75f}});
+    for (const SuppleSurfaceJet& jet : jets) {
+        EXPECT_EQ(asVector(jet.duu), glm::dvec3(0.0));
+        EXPECT_EQ(asVector(jet.duv), glm::dvec3(0.0));
+        EXPECT_EQ(asVector(jet.dvv), glm::dvec3(0.0));
+    }
+    // Cut from corner 0 to corner 2.
+    EXPECT_EQ(asVector(jets[0].position), glm::dvec3(0.75, 0.25, 0.0));
+    EXPECT_EQ(asVector(jets[0].du), glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(asVector(jets[0].dv), glm::dvec3(0.0, 1.0, 0.0));
+    EXPECT_EQ(asVector(jets[1].position), glm::dvec3(0.25, 0.75, 0.5));
+    EXPECT_EQ(asVector(jets[1].du), glm::dvec3(1.0, 0.0, -1.0));
+    EXPECT_EQ(asVector(jets[1].dv), glm::dvec3(0.0, 1.0, 1.0));
+    const CpuGroup::Vertices vertices = group.evaluate(0, 2);
+    EXPECT_EQ(vertices.positions.size(), 12u);
+    EXPECT_EQ(vertices.normals[0], glm::vec3(0.0f, 0.0f, 1.0f));
 }
 
 } // namespace

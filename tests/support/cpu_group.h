@@ -72,15 +72,22 @@ public:
         EXPECT_EQ(suppleCpuGetGridInfo(group_, surface, rate, &info), SUPPLE_OK);
         return info;
     }
+    [[nodiscard]] std::vector<SupplePatchInfo> patches(uint32_t surface) const {
+        uint32_t count = 0;
+        EXPECT_EQ(suppleCpuGetPatches(group_, surface, nullptr, &count), SUPPLE_OK);
+        std::vector<SupplePatchInfo> patches(count);
+        EXPECT_EQ(suppleCpuGetPatches(group_, surface, patches.data(), &count), SUPPLE_OK);
+        return patches;
+    }
     struct Vertices {
         std::vector<glm::vec3> positions, normals;
     };
     [[nodiscard]] Vertices evaluate(uint32_t surface, uint32_t rate, const SuppleCpuJobs* jobs = nullptr) const {
         const uint32_t count = grid(surface, rate).vertexCount;
         Vertices vertices{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
-        EXPECT_EQ(suppleCpuEvaluateGrid(pose_, surface, rate, &vertices.positions[0].x, &vertices.normals[0].x, count,
-                                        jobs),
-                  SUPPLE_OK);
+        EXPECT_EQ(
+            suppleCpuEvaluateGrid(pose_, surface, rate, &vertices.positions[0].x, &vertices.normals[0].x, count, jobs),
+            SUPPLE_OK);
         return vertices;
     }
     [[nodiscard]] std::vector<SuppleSurfaceJet> at(const std::vector<SuppleSurfacePoint>& points,

@@ -12,7 +12,7 @@
  * be used by another thread meanwhile, and what is destroyed must not be in use. Functions that take jobs call them on
  * the calling thread, and the host's threads run the jobs; results have the same bits however many threads there are.
  *
- * The jobs of suppleCpuEvaluatePoints and suppleCpuEvaluateGrid take up to 32 KiB of stack each.
+ * Jobs take up to 40 KiB of stack each (x86-64).
  *
  * Errors go to the log function of the group's description, on the calling thread. Null handles and null pointers give
  * SUPPLE_ERROR_ARGUMENT. Handles are pointers: do not use one once it is destroyed.
@@ -50,7 +50,7 @@ typedef struct SuppleCpuGroupDesc {
     /** Optional; called until the group and its poses are destroyed. It is called on the threads that call these
      * functions, so on several at the same time if they are called on several. */
     SuppleLogFunction log;
-    void* logUser;         /**< handed to log */
+    void* logUser; /**< handed to log */
 } SuppleCpuGroupDesc;
 
 /** Filled by suppleCpuGetGroupInfo. */
@@ -143,13 +143,13 @@ SUPPLE_API SuppleResult suppleCpuGetGridInfo(SuppleCpuGroup group, uint32_t surf
                                              SuppleCpuGridInfo* out);
 /** The triangles of a grid, counter-clockwise seen from outside, as numbers of its vertices. The same for all poses.
  * Vertices on the borders of patches come once for each patch, at positions that differ by rounding: up to 5e-7 of the
- * character's extent. Who needs a closed mesh welds them by the corners of patches (suppleCpuGetPatches), or by distance.
- * out, count: as many as SuppleCpuGridInfo.indexCount. Another count is an error. */
+ * character's extent. Who needs a closed mesh welds them by the corners of patches (suppleCpuGetPatches), or by
+ * distance. out, count: as many as SuppleCpuGridInfo.indexCount. Another count is an error. */
 SUPPLE_API SuppleResult suppleCpuGetGridIndices(SuppleCpuGroup group, uint32_t surface, uint32_t rate, uint32_t* out,
                                                 uint32_t count);
 /** Evaluates all patches of a surface at a rate, in the order of the device: patch after patch, as suppleCpuGetPatches
- * lists them, each with the samples of its domain (SuppleDomain). POLYGONS: the flat triangles and their own normals, in
- * the domain of triangles at any rate; the device shares their vertices at rate 1, and has the normals of the file.
+ * lists them, each with the samples of its domain (SuppleDomain). POLYGONS: the flat triangles and their own normals,
+ * in the domain of triangles at any rate; the device shares their vertices at rate 1, and has the normals of the file.
  *
  * positions: x, y, z of vertexCount vertices. normals: optional; of unit length, or zero where the surface has none.
  * vertexCount: SuppleCpuGridInfo.vertexCount. jobs: optional.
