@@ -1,7 +1,10 @@
 // The blending surface on the CPU, in double.
 #include "cpu/blend.h"
+#include "cpu/grid_places.h"
 #include "cpu/held.h"
 #include "cpu/normals.h"
+#include "cpu/patch_faces.h"
+#include "cpu/patch_place.h"
 #include "cpu/quad_faces.h"
 #include "cpu/stencils.h"
 #include "cpu/surface.h"

@@ -1,8 +1,11 @@
 // Catmull-Clark on the CPU, drawn by faces or by fragments. Quads that are regular all round are bicubic patches; the
 // rest of the limit is evaluated from nets of points, in double.
 #include "cpu/catmull_clark.h"
+#include "cpu/fragment_limits.h"
+#include "cpu/grid_places.h"
 #include "cpu/held.h"
-#include "cpu/limit_pose.h"
+#include "cpu/patch_faces.h"
+#include "cpu/patch_place.h"
 #include "cpu/patch_surface.h"
 #include "cpu/quad_faces.h"
 #include "cpu/surface.h"
@@ -117,7 +120,7 @@ public:
     void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const override {
         std::vector<Place> regular;
         std::vector<size_t> numbers;
-        const surface::catmull_clark::LimitSurface limit(limit_.pose());
+        const surface::catmull_clark::LimitSurface limit(limit_);
         for (size_t p = 0; p < places.size(); ++p) {
             if (const uint32_t patch = surface_.patchOf(places[p].piece); patch != cage::kNone) {
                 regular.push_back(places[p]);
@@ -135,14 +138,14 @@ public:
         }
     }
     [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
-        return surface::catmull_clark::LimitSurface(limit_.pose()).at(place.piece, place.x, place.y).normal;
+        return surface::catmull_clark::LimitSurface(limit_).at(place.piece, place.x, place.y).normal;
     }
     [[nodiscard]] const PatchPose& patches() const { return patches_; }
 
 private:
     const CatmullClarkSurface& surface_;
     PatchPose patches_;
-    PosedLimitOfCage limit_;
+    surface::subdivision::LimitPose limit_;
 };
 
 void CatmullClarkSurface::addPatches(uint32_t cageVertices) {

@@ -96,6 +96,11 @@ Status LimitPose::build(std::span<const glm::dvec3> positions, const cpu::RunJob
                          });
 }
 
+Status LimitPose::build(std::span<const glm::vec3> positions, const cpu::RunJobs& runJobs) {
+    given_.assign(positions.begin(), positions.end());
+    return build(std::span<const glm::dvec3>(given_), runJobs);
+}
+
 void LimitPose::buildNets(FragmentNet<double>& net, uint32_t fragment) {
     const LimitShape::Kept& kept = shape_.keptOf(fragment);
     const Fragment& of = shape_.mesh().fragments[fragment];

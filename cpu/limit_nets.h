@@ -61,6 +61,7 @@ public:
     explicit LimitPose(const LimitShape& shape);
     /// `positions`: of the cage that the mesh was built from.
     [[nodiscard]] Status build(std::span<const glm::dvec3> positions, const cpu::RunJobs& runJobs);
+    [[nodiscard]] Status build(std::span<const glm::vec3> positions, const cpu::RunJobs& runJobs);
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
@@ -71,6 +72,7 @@ private:
     void buildNets(FragmentNet<double>& net, uint32_t fragment);
 
     const LimitShape& shape_;
+    std::vector<glm::dvec3> given_;              ///< positions that came as floats
     std::vector<std::vector<glm::dvec3>> steps_; ///< the vertices after each step
     std::vector<glm::dvec3> nets_;
 };

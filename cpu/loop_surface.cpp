@@ -1,9 +1,11 @@
 // Loop on the CPU, drawn by triangles or by fragments.
 #include "cpu/cut_faces.h"
+#include "cpu/fragment_limits.h"
+#include "cpu/grid_places.h"
 #include "cpu/held.h"
-#include "cpu/limit_pose.h"
 #include "cpu/loop.h"
-#include "cpu/quad_faces.h"
+#include "cpu/patch_faces.h"
+#include "cpu/patch_place.h"
 #include "cpu/surface.h"
 
 #include <algorithm>
@@ -122,18 +124,18 @@ public:
         return limit_.build(cage, runJobs);
     }
     void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const override {
-        const surface::loop::LimitSurface limit(limit_.pose());
+        const surface::loop::LimitSurface limit(limit_);
         for (size_t p = 0; p < places.size(); ++p) {
             out[p] = limit.at(places[p].piece, places[p].x, places[p].y).jet();
             turn(places[p], out[p]);
         }
     }
     [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
-        return surface::loop::LimitSurface(limit_.pose()).at(place.piece, place.x, place.y).normal;
+        return surface::loop::LimitSurface(limit_).at(place.piece, place.x, place.y).normal;
     }
 
 private:
-    PosedLimitOfCage limit_;
+    surface::subdivision::LimitPose limit_;
 };
 
 std::unique_ptr<Pose> LoopSurface::newPose() const {

@@ -312,8 +312,8 @@ bool PatchSet::sectorGrid(const Patch& patch, const SectorSamples& samples, cons
 bool PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const PatchPose& pose,
                     const GridOutput& out) const {
     std::array<std::optional<SectorSamples>, surface::kMaxSides + 1> sectors; // by sides
-    const GridWeights<4> cubic(rate);
-    const GridWeights<6> quintic(rate);
+    std::optional<GridWeights<4>> cubic;
+    std::optional<GridWeights<6>> quintic;
     bool whole = true;
     size_t vertex = 0;
     for (size_t begin = 0; begin < patches.size();) {
@@ -332,9 +332,17 @@ bool PatchSet::grid(std::span<const uint32_t> patches, uint32_t rate, const Patc
         }
         const std::span<const uint32_t> some = patches.subspan(begin, end - begin);
         const GridOutput here = out.from(vertex);
-        whole =
-            (patch.kind == Kind::cubic ? gridOf<4>(some, cubic, pose, here) : gridOf<6>(some, quintic, pose, here)) &&
-            whole;
+        if (patch.kind == Kind::cubic) {
+            if (!cubic) {
+                cubic.emplace(rate);
+            }
+            whole = gridOf<4>(some, *cubic, pose, here) && whole;
+        } else {
+            if (!quintic) {
+                quintic.emplace(rate);
+            }
+            whole = gridOf<6>(some, *quintic, pose, here) && whole;
+        }
         vertex += some.size() * (rate + 1) * (rate + 1);
         begin = end;
     }

@@ -120,5 +120,41 @@ TEST(CpuCharacters, PartsHaveSchemesOfTheirOwn) {
     }
 }
 
+/// Eyes and buckles are polygons, which AUTO takes for them too: the rest of the character has its surface.
+TEST(CpuCharacters, PartsMayBePolygons) {
+    const std::string path = std::string(SUPPLE_SAMPLE_ASSETS) + "/wren.glb";
+    CpuOptions options;
+    options.scheme = SUPPLE_SCHEME_PM;
+    options.partSchemes = {SUPPLE_SCHEME_POLYGONS};
+    CpuGroup mixed(path, options);
+    ASSERT_TRUE(mixed.valid());
+    ASSERT_EQ(mixed.info().surfaceCount, 2u);
+    std::vector<glm::vec3> cage;
+    for (uint32_t v = 0; v < mixed.info().cageVertexCount; ++v) {
+        cage.emplace_back(static_cast<float>(v % 17), static_cast<float>(v % 5), static_cast<float>(v % 11));
+    }
+    ASSERT_EQ(mixed.build(cage), SUPPLE_OK);
+    uint32_t flat = 0, curved = 0;
+    for (uint32_t face = 0; face < mixed.info().faceCount; ++face) {
+        const SuppleSurfaceJet jet = mixed.at({{face, 0, 0.25f, 0.375f}})[0];
+        const glm::vec3 bend(jet.duu[0], jet.duu[1], jet.duu[2]);
+        (bend == glm::vec3(0.0f) ? flat : curved) += 1;
+    }
+    EXPECT_GT(flat, 0u);
+    EXPECT_GT(curved, 0u);
+    uint32_t patches = 0;
+    for (const uint32_t surface : {0u, 1u}) {
+        const std::vector<SupplePatchInfo> own = mixed.patches(surface);
+        patches += static_cast<uint32_t>(own.size());
+        for (const SupplePatchInfo& patch : own) { // numbers of the whole cage
+            EXPECT_LT(patch.face, mixed.info().faceCount);
+            for (uint32_t k = 0; k < patch.cornerCount; ++k) {
+                EXPECT_LT(patch.corners[k], mixed.info().cageVertexCount);
+            }
+        }
+    }
+    EXPECT_GE(patches, mixed.info().faceCount);
+}
+
 } // namespace
 } // namespace supple::test

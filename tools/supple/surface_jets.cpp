@@ -5,7 +5,7 @@
 #include "cpu/grid_sample.h"
 #include "cpu/loop.h"
 #include "cpu/patch_faces.h"
-#include "cpu/quad_faces.h"
+#include "cpu/patch_place.h"
 #include "cpu/stencils.h"
 #include "surface/patch_class.h"
 #include "tools/reference/pm.h"

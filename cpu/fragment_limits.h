@@ -1,18 +1,13 @@
-// The limit of a subdivision over a posed cage, and what its surfaces have in common.
+// Whether what fragments draw is the limit of the subdivision.
 #pragma once
 
-#include "cpu/limit_nets.h"
+#include "base/result.h"
+#include "surface/subdivision/mesh.h"
 #include "surface/subdivision_rules.h"
 
 #include <algorithm>
-#include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 namespace supple::cpu {
-
-/// So far from a corner that is not regular derivatives are taken, in the parameters of a quad or a triangle.
-inline constexpr double kBesideCorner = 0x1p-30;
 
 /// What fragments draw is the limit but where a crease is semi-sharp or ends (a dart): there it hangs on their depth.
 [[nodiscard]] inline Status checkFragments(const surface::subdivision::Mesh& mesh) {
@@ -29,21 +24,5 @@ inline constexpr double kBesideCorner = 0x1p-30;
     }
     return success();
 }
-
-/// A LimitPose that takes the cage as hosts have it.
-class PosedLimitOfCage {
-public:
-    explicit PosedLimitOfCage(const surface::subdivision::LimitShape& shape) : pose_(shape) {}
-
-    [[nodiscard]] Status build(std::span<const glm::vec3> cage, const RunJobs& runJobs) {
-        positions_.assign(cage.begin(), cage.end());
-        return pose_.build(positions_, runJobs);
-    }
-    [[nodiscard]] const surface::subdivision::LimitPose& pose() const { return pose_; }
-
-private:
-    std::vector<glm::dvec3> positions_;
-    surface::subdivision::LimitPose pose_;
-};
 
 } // namespace supple::cpu
