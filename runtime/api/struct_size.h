@@ -3,6 +3,7 @@
 
 #include "runtime/sized.h"
 #include "supple/supple.h"
+#include "supple/supple_cpu.h"
 
 #include <string>
 
@@ -58,7 +59,10 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleCameraDesc)                                                                                                \
     X(SuppleDepthPyramidDesc)                                                                                          \
     X(SuppleLevelOutput)                                                                                               \
-    X(SuppleViewStatistics)
+    X(SuppleViewStatistics)                                                                                            \
+    X(SuppleCpuGroupDesc)                                                                                              \
+    X(SuppleCpuGroupInfo)                                                                                              \
+    X(SuppleCpuGridInfo)
 #define SUPPLE_NAME_STRUCT(type)                                                                                       \
     template <>                                                                                                        \
     inline constexpr const char* kStructName<type> = #type;
