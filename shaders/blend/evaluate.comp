@@ -19,6 +19,7 @@ const uint kParts = 4u * kChartCoefficients; // coefficients
 #define CHOOSES_WIDE
 #define LANE_PATCH
 #endif
+const bool kLines = false;
 #include "shaders/evaluate/harness.glsl"
 
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;

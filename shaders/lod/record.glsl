@@ -3,7 +3,7 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/pattern.glsl"
 
-// Before the include: kForm, of the grids.
+// Before the include: kForm, of the grids, and kLines, whether runs have lines (kRunHasLines).
 
 // Records of a view, else all patches at one rate. A macro: what either does without need not be compiled when a pipeline
 // is made.
@@ -98,7 +98,7 @@ Share lodShareOfGroup(uint form) {
     uint capacity = capacityOf(b % kCapacityCount);
     share.samples = formSamples(form, capacity);
     share.side = capacity + 1u; // of a grid of rows
-    uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
+    uint each = recordsOfGroup(gl_WorkGroupSize.x, kLines, form, capacity);
     share.first = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
     share.count = share.first < next ? min(each, next - share.first) : 0u;
     return share;
@@ -107,9 +107,10 @@ Share lodShareOfGroup(uint form) {
 
 #if defined(WIDE) && defined(LEVELS)
 // The records of a workgroup and their patterns, in workgroup memory. The latter in two parts: one is integers.
-shared uvec4 localHeads[kMaxPatchesPerGroup];
-shared uvec2 localPatternBits[6u * kMaxPatchesPerGroup];
-shared vec2 localPatternWidths[6u * kMaxPatchesPerGroup];
+const uint kMostRecords = kLines ? kMaxRecordsPerGroup : kMaxPatchesPerGroup;
+shared uvec4 localHeads[kMostRecords];
+shared uvec2 localPatternBits[6u * kMostRecords];
+shared vec2 localPatternWidths[6u * kMostRecords];
 
 // To be called by all lanes.
 void loadRecords(Share share) {
@@ -125,11 +126,12 @@ void loadRecords(Share share) {
 }
 // Of the record in a place, without its pairs.
 LodRecord localRecord(uint place) { return lodRecordOf(localHeads[place]); }
-vec2 localPair(uint place, uint k, uint i, uint capacity) {
+LodPattern localPattern(uint place, uint k) {
     uvec2 bits = localPatternBits[6u * place + k];
     vec2 widths = localPatternWidths[6u * place + k];
-    return lodPair(LodPattern(bits.x, bits.y, widths.x, widths.y), i, capacity);
+    return LodPattern(bits.x, bits.y, widths.x, widths.y);
 }
+vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
 
 // Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
 vec2 lodU(uint place, uint capacity, uint i, uint j) {
