@@ -136,16 +136,16 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, const PatchRange& range, uin
         bool isNeeded;
         uint32_t rate; // 0: any
         bool lanePatch;
-    } kForms[] = {
+    } forms[] = {
         {!indexed, 0, false}, // for rates that are set later
         {!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition)), ownRate, false},
         {prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format)), rate, true},
     };
     gpu::Kernel first, last; // the last one is that of the rate the group begins with
-    for (const auto& form : kForms) {
+    for (const auto& form : forms) {
         if (form.isNeeded) {
             last = evaluateKernel(builder, patchClass, format, form.rate, form.lanePatch);
-            first = &form == kForms ? last : first;
+            first = &form == forms ? last : first;
         }
     }
     return indexed || isAtOwnRate(builder) ? last : first;

@@ -10,8 +10,7 @@ void storeSample(const PatchPlace at, uint own, vec3 position, Frame frame) {
     storeSurfaceVertex(vertex, vertex, at.empty ? vec3(0.0) : position, frame);
 }
 
-// A side as a row of its own, v = 0 of it inwards. h: of perturbed patches, the side's two coefficients and those next to them. Inwards
-// the derivative of a polar patch's side is the one that has no factor (rows.glsl).
+// A side as a row of its own, whose slopes point inwards. h: of perturbed patches, the side's two coefficients and those next to them.
 Row sideRow(Corner from, Corner to, bool isApex, vec3 h[4]) {
     Row row;
     row.g = vec3[4](from.point, placed(from.point, from.next), placed(to.point, to.last), to.point);
@@ -24,7 +23,7 @@ Row sideRow(Corner from, Corner to, bool isApex, vec3 h[4]) {
     }
     return row;
 }
-// Weights of the derivative inwards. Sides 1 and 3 of a polar patch end and begin at the apex.
+// Weights of the derivative inwards. Sides 1 and 3 of a polar patch end and begin at the apex: there it is Du without its factor.
 vec4 inwardsWeights(uint side, vec2 u) {
     if (!kPolar || (side & 1u) == 0u) return bernstein3(u);
     bool ends = side == 1u;
@@ -42,26 +41,24 @@ void sideSample(Row row, uint side, vec2 u, out vec3 position, out Frame frame) 
         inwards += blend2(w, row.innerV[0], row.innerV[1]);
     }
     position = p;
-    bool alongV = (side & 1u) != 0u;
-    float signU = SELECT(side == 1u || side == 2u, -1.0, 1.0), signV = SELECT(side >= 2u, -1.0, 1.0);
-    frame = Frame(signU * SELECT3(alongV, inwards, along), signV * SELECT3(alongV, along, inwards), cross(along, inwards));
+    vec3 normal = cross(along, inwards);
+    turnBack(side, along, inwards);
+    frame = Frame(along, inwards, normal);
 }
 // Loops are tested at the bottom: one tested at the top costs lavapipe one more time round with nothing to do.
 void evaluateSide(const PatchPlace at, Row row, uint side, LodPattern pattern, uvec4 slots) {
-    uint last = at.capacity, width = last + 1u;
-    uint own = side == 0u ? 0u : side == 1u ? last : side == 2u ? width * width - 1u : last * width;
-    uint step = (side & 1u) == 0u ? 1u : width, k = 0u;
-    if (side >= 2u) step = 0u - step;
+    uint k = 0u;
+    uvec2 samples = samplesOfSide(side, at.capacity);
     bool isApex = kPolar && side == 2u;
     do {
         vec3 position;
         Frame frame;
-        sideSample(row, side, lodPair(pattern, k, last), position, frame);
+        sideSample(row, side, lodPair(pattern, k, at.capacity), position, frame);
         if (isApex) position = row.g[0];
         if (kCornerNormals && k == 0u) frame = withCornerNormal(frame, side, slots, at.base);
-        storeSample(at, own, position, frame);
-        own += step;
-    } while (++k < last);
+        storeSample(at, samples.x, position, frame);
+        samples.x += samples.y;
+    } while (++k < at.capacity);
 }
 
 // Columns are the rows of a patch whose u and v have changed places.
@@ -86,7 +83,7 @@ Patch transposed(Patch c) {
 }
 Frame turned(Frame f) { return kColumns ? Frame(f.dv, f.du, -f.normal) : f; }
 
-// Line n inside of a patch, n = 1 .. capacity - 1. Capacities are odd, so no sample is its own mirror image. `c`: transposed where
+// Line n inside of a patch, n = 1 .. capacity - 1. Capacities are odd, so no sample is its own mirror image. `c`: transposed, where
 // lines are columns.
 void evaluateLine(const PatchPlace at, Patch c, uint n, LodPattern across, LodPattern along) {
     uint last = at.capacity, width = last + 1u, step = kColumns ? width : 1u, near = (kColumns ? n : n * width) + step;

@@ -44,6 +44,22 @@ LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
     return lodPattern((k & 1u) == 0u ? two.xy : two.zw, capacityIndex);
 }
 
+// The samples of a side of a grid of rows, from its first corner up to the next: the number of the first one, and the step to the next.
+uvec2 samplesOfSide(uint side, uint capacity) {
+    uint width = capacity + 1u, step = (side & 1u) == 0u ? 1u : width;
+    uint first = side == 0u ? 0u : side == 1u ? capacity : side == 2u ? width * width - 1u : capacity * width;
+    return uvec2(first, side < 2u ? step : 0u - step);
+}
+
+// Directions along such a side and inwards, as those along u and v.
+void turnBack(uint side, inout vec3 along, inout vec3 inwards) {
+    bool isUpright = (side & 1u) != 0u;
+    float signU = SELECT(side == 1u || side == 2u, -1.0, 1.0), signV = SELECT(side >= 2u, -1.0, 1.0);
+    vec3 u = signU * SELECT3(isUpright, inwards, along), v = signV * SELECT3(isUpright, along, inwards);
+    along = u;
+    inwards = v;
+}
+
 // A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
 // patch's corner.
 struct RingSample {
@@ -132,6 +148,17 @@ LodPattern localPattern(uint place, uint k) {
     return LodPattern(bits.x, bits.y, widths.x, widths.y);
 }
 vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
+
+// The line of a lane where grids have rings: line n of as many as a sector of a patch has. It has the samples n, n + lines, .. of the
+// sector's side, and behind it rings n + 1 and (capacity - 1) / 2 - n, so all have about as many samples as a side.
+struct RingLine {
+    uint place, sector, n, lines;
+};
+RingLine ringLineOfLane(Share share) {
+    uint lines = ringLines(share.side - 1u), each = formSides(kForm) * lines, place = gl_LocalInvocationID.x / each;
+    uint n = gl_LocalInvocationID.x - place * each, sector = n / lines;
+    return RingLine(place, sector, n - sector * lines, lines);
+}
 
 // Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.
 vec2 lodU(uint place, uint capacity, uint i, uint j) {

@@ -80,44 +80,42 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
 }
 #endif
 #if defined(WIDE) && defined(LEVELS)
-// A line of a regular triangle has the samples n, n + lines, .. of a sector's side, and those of rings n + 1 and inner - n.
-void evaluateLine(const PatchPlace at, uint place, uint sector, uint n, uint lines) {
+// Of a regular triangle.
+void evaluateLine(const PatchPlace at, RingLine line) {
     Triangle t = triangleOf(at.record, false);
     LeafPoints points = cageLeaf(at, t);
     Leaf leaf = leafOf(points);
-    LeafSide side = leafSide(points, sector, false, hasFlag(t, kSharpTriangleSide, sector));
-    LodPattern inside = localPattern(place, 0u), border = localPattern(place, 1u + sector);
-    uint last = at.capacity, inner = (last - 1u) / 2u, ring = n + 1u, k = n; // rings behind the side
+    LeafSide side = leafSide(points, line.sector, false, hasFlag(t, kSharpTriangleSide, line.sector));
+    LodPattern inside = localPattern(line.place, 0u), border = localPattern(line.place, 1u + line.sector);
+    uint last = at.capacity, ring = line.n + 1u, far = (last - 1u) / 2u - line.n, k = line.n;
     vec3 position;
     Frame frame;
     do {
-        TrianglePoint s = pointOnSide(sector, lodPair(border, k, last));
+        TrianglePoint s = pointOnSide(line.sector, lodPair(border, k, last));
         LeafRow row = leafRow(leaf, s.w.z);
-        frame = seenFrom(0u, sector, rowAlongX(row, s.w.y), rowAlongY(row, s.w.y));
+        frame = seenFrom(0u, line.sector, rowAlongX(row, s.w.y), rowAlongY(row, s.w.y));
         uint corner = cornerAt(s);
         if (corner == 3u) position = onSide(side, s.along);
         else position = cornerLimit(at, t, corner);
-        uint own = at.vertex + sector * last + k;
+        uint own = at.vertex + line.sector * last + k;
         storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
-        k += lines;
+        k += line.lines;
     } while (k < last);
     k = ring;
-    while (ring <= inner - n) {
+    while (ring <= far) {
         vec3 w = ringWeights(lodPair(inside, k, last), lodPair(inside, ring, last).x);
-        regularTriangle(at, t, points, leaf, ringPoint(sector, false, vec2(0.0), w), sector, position, frame);
-        uint own = at.vertex + ringSideStart(3u, ring, sector, last) + k - ring;
+        regularTriangle(at, t, points, leaf, ringPoint(line.sector, false, vec2(0.0), w), line.sector, position, frame);
+        uint own = at.vertex + ringSideStart(3u, ring, line.sector, last) + k - ring;
         storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
         if (++k < last - ring) continue;
-        ring += max(inner - n - ring, 1u);
+        ring += max(far - ring, 1u);
         k = ring;
     }
 }
 void evaluateLines() {
     Share share = shareOfGroup();
-    uint lines = ringLines(share.side - 1u), each = 3u * lines, place = gl_LocalInvocationID.x / each;
-    if (place >= share.count) return;
-    uint n = gl_LocalInvocationID.x - place * each, sector = n / lines;
-    evaluateLine(PATCH_IN_PLACE(share, place), place, sector, n - sector * lines, lines);
+    RingLine line = ringLineOfLane(share);
+    if (line.place < share.count) evaluateLine(PATCH_IN_PLACE(share, line.place), line);
 }
 void evaluateWide() {
     if (kLines) evaluateLines();

@@ -299,8 +299,8 @@ void evaluateStep(const PatchPlace at, SectorCubics c, LodPattern inside, uint s
     keepSample(at, first + k, position, frame);
     if (k != ring) keepSample(at, first + last - k, farPosition, farFrame);
 }
-// A line has some samples of a sector's side, and rings n + 1 and inner - n: all lines have about as many samples as a side.
-void evaluateLine(const PatchPlace at, uint place, uint sector, uint n, uint lines) {
+void evaluateLine(const PatchPlace at, RingLine line) {
+    uint sector = line.sector;
     uint innerBits = innerWord(at.record, kSides), centre = at.base + SUPPLE_INNER(innerBits);
     SectorSide before = loadSide(kSides, at.record, at.base, centre, sector == 0u ? kSides - 1u : sector - 1u, at.isNew);
     SectorSide own = loadSide(kSides, at.record, at.base, centre, sector, at.isNew);
@@ -308,22 +308,20 @@ void evaluateLine(const PatchPlace at, uint place, uint sector, uint n, uint lin
     Sector s = makeSector(kRay, coefficient(centre, at.isNew), before, own, next);
     SectorCubics c = cubicsOf(halvesOf(s));
     Border border = makeBorder(s, before, own, next, (SUPPLE_SINGULAR(innerBits) & (1u << sector)) != 0u);
-    evaluateSide(at, c, border, localPattern(place, 1u + sector), sector, n, lines);
-    LodPattern inside = localPattern(place, 0u);
-    uint inner = (at.capacity - 1u) / 2u, ring = n + 1u, k = ring; // rings behind the side
-    while (ring <= inner - n) {
+    evaluateSide(at, c, border, localPattern(line.place, 1u + sector), sector, line.n, line.lines);
+    LodPattern inside = localPattern(line.place, 0u);
+    uint ring = line.n + 1u, far = (at.capacity - 1u) / 2u - line.n, k = ring;
+    while (ring <= far) {
         evaluateStep(at, c, inside, sector, ring, k);
         if (2u * ++k < at.capacity) continue;
-        ring += max(inner - n - ring, 1u);
+        ring += max(far - ring, 1u);
         k = ring;
     }
 }
 void evaluateWide() {
     Share share = shareOfGroup();
-    uint lines = ringLines(share.side - 1u), each = kSides * lines, place = gl_LocalInvocationID.x / each;
-    if (place >= share.count) return;
-    uint n = gl_LocalInvocationID.x - place * each, sector = n / lines;
-    evaluateLine(PATCH_IN_PLACE(share, place), place, sector, n - sector * lines, lines);
+    RingLine line = ringLineOfLane(share);
+    if (line.place < share.count) evaluateLine(PATCH_IN_PLACE(share, line.place), line);
 }
 #else
 // The samples of a side of a ring: the first by itself, then mirrored ones.

@@ -110,5 +110,15 @@ TEST_F(LodMappings, OfLoop) {
     expectSame({PatchClass::loopRegular, PatchClass::loopIrregular, PatchClass::loopIrregularSharp});
 }
 
+TEST_F(LodMappings, OfBlend) {
+    const ValidationGuard guard;
+    const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
+    for (size_t z = 0; z < zoo.size(); z += 96) {
+        compare(zoo[z].cage, SUPPLE_SCHEME_BLEND);
+    }
+    compare(torus(7, 5), SUPPLE_SCHEME_BLEND);
+    expectSame({PatchClass::blend, PatchClass::blendSharp, PatchClass::blendRegular});
+}
+
 } // namespace
 } // namespace supple::test
