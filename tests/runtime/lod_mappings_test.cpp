@@ -31,18 +31,8 @@ struct Compared {
 
 class LodMappings : public testing::Test {
 protected:
-    /// Levels are scaled down by budgets: else most patches have one near 63 somewhere.
     void compare(const cage::Cage& cage, SuppleScheme scheme) {
-        const std::optional<RandomLevels::Drawn> first = draw(narrow_, cage, scheme, 0);
-        ASSERT_TRUE(first.has_value());
-        const auto patches = static_cast<uint32_t>(first->patches.size());
-        for (const uint32_t budget : {300 * patches, 60 * patches, 15 * patches}) {
-            ASSERT_NO_FATAL_FAILURE(compareAt(cage, scheme, budget));
-        }
-    }
-    void compareAt(const cage::Cage& cage, SuppleScheme scheme, uint32_t budget) {
-        const std::optional<RandomLevels::Drawn> narrow = draw(narrow_, cage, scheme, budget),
-                                                 wide = draw(wide_, cage, scheme, budget);
+        const std::optional<RandomLevels::Drawn> narrow = draw(narrow_, cage, scheme), wide = draw(wide_, cage, scheme);
         ASSERT_TRUE(narrow.has_value() && wide.has_value());
         std::map<uint32_t, LodSurface::Patch> ofWide; // records lie in any order
         for (const LodSurface::Patch& patch : wide->surface.patches) {
@@ -61,23 +51,21 @@ protected:
     }
     void expectSame(const std::set<surface::PatchClass>& classes) const {
         compared_.positions.print("positions");
-        std::printf("normals within %.2g degrees, %zu capacities\n", compared_.worstNormal,
-                    compared_.capacities.size());
+        std::printf("normals within %.2g degrees\n", compared_.worstNormal);
         EXPECT_EQ(compared_.positions.different, 0u);
         EXPECT_LE(compared_.worstNormal, 0.05);
         EXPECT_EQ(compared_.classes, classes);
-        EXPECT_GE(compared_.capacities.size(), 6u);
+        EXPECT_GE(compared_.capacities.size(), 3u); // chance gives most patches a level near 63
     }
 
 private:
-    static std::optional<RandomLevels::Drawn> draw(RandomLevels& random, const cage::Cage& cage, SuppleScheme scheme,
-                                                   uint32_t budget) {
+    static std::optional<RandomLevels::Drawn> draw(RandomLevels& random, const cage::Cage& cage, SuppleScheme scheme) {
         const host::CageArrays arrays(cage);
         Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "cage");
         EXPECT_TRUE(character.ok());
         SuppleGroupDesc desc{};
         desc.scheme = scheme;
-        return random.draw(std::move(*character), desc, budget);
+        return random.draw(std::move(*character), desc);
     }
     void comparePatch(const RandomLevels::Drawn& narrow, const LodSurface::Patch& patch,
                       const RandomLevels::Drawn& wide, const LodSurface::Patch& other, surface::lod::Form form) {
