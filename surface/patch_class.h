@@ -127,6 +127,12 @@ inline constexpr PatchClassRow kPatchClasses[] = {
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
     return rowOf(patchClass).name;
 }
+/// At levels a lane of the wide mapping takes a line of samples: shaders/evaluate/lines.glsl, and the evaluate.comp of
+/// P_m, Loop and the blending surface.
+[[nodiscard]] constexpr bool hasLines(PatchClass patchClass) {
+    return rowOf(patchClass).isBicubic() || rowOf(patchClass).hasSectors() || patchClass == PatchClass::loopRegular ||
+           patchClass == PatchClass::blendRegular;
+}
 [[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {
     return rowOf(patchClass).domain;
 }

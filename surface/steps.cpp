@@ -125,25 +125,30 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                           atRate(name, rate));
 }
 
-/// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
-/// The rate of a group with an indexed mesh stays. If nobody knows yet how many instances there are, all that they may
-/// need are made.
+/// Makes the kernels that a group needs of a range, and returns that of the rate it has now. The rate of a group with
+/// an indexed mesh stays. If nobody knows yet how many instances there are, all that they may need are made.
 gpu::Kernel evaluateKernel(ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
     const PatchClass patchClass = range.patchClass;
     const bool indexed = builder.tables.hasIndexedMesh(), isUnknown = builder.options.instances == 0;
     const bool prefersLane = prefersLanePatch(builder, range, format);
     const uint32_t rate = builder.options.rate, ownRate = ownRatePays(builder, patchClass) ? rate : 0;
-    gpu::Kernel any, own;
-    if (!indexed) {
-        own = any = evaluateKernel(builder, patchClass, format, 0, false);
+    const struct {
+        bool isNeeded;
+        uint32_t rate; // 0: any
+        bool lanePatch;
+    } forms[] = {
+        {!indexed, 0, false}, // for rates that are set later
+        {!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition)), ownRate, false},
+        {prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format)), rate, true},
+    };
+    gpu::Kernel first, last; // the last one is that of the rate the group begins with
+    for (const auto& form : forms) {
+        if (form.isNeeded) {
+            last = evaluateKernel(builder, patchClass, format, form.rate, form.lanePatch);
+            first = &form == forms ? last : first;
+        }
     }
-    if (!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition))) {
-        own = evaluateKernel(builder, patchClass, format, ownRate, false);
-    }
-    if (prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format))) {
-        own = evaluateKernel(builder, patchClass, format, rate, true);
-    }
-    return indexed || isAtOwnRate(builder) ? own : any;
+    return indexed || isAtOwnRate(builder) ? last : first;
 }
 
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
@@ -370,11 +375,13 @@ void addRangesAtLevels(ProgramBuilder& builder) {
         }
         if (builder.options.attributes) {
             const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
-            const gpu::Kernel kernel = builder.kernel(SetKind::attributes, own.kernel,
-                                                      {{kKindConstant, own.kind},
-                                                       {kSemiSharpConstant, semiSharpUvs(builder)},
-                                                       {kOutputsConstant, outputsOf(builder)}},
-                                                      std::string("supple attributes at levels, ") + row.name);
+            const gpu::Kernel kernel =
+                builder.kernel(SetKind::attributes, own.kernel,
+                               {{kKindConstant, own.kind},
+                                {kSemiSharpConstant, semiSharpUvs(builder)},
+                                {kLinesConstant, hasLines(range.patchClass) ? VK_TRUE : VK_FALSE},
+                                {kOutputsConstant, outputsOf(builder)}},
+                               std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;
             push.smoothUvs = range.smoothUvs;
             builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);

@@ -6,6 +6,7 @@
 // Before the include, a scheme includes tables.glsl and defines
 //   kRecordElements   table elements per patch
 //   kForm             the form of its grids at levels
+//   kLines            whether lanes take lines of samples there (kRunHasLines)
 //   kParts            wide mapping: parts per patch
 //   OWN_WIDE          a macro, if its own evaluateWide() is faster than evaluateWideSamples()
 //   CHOOSES_WIDE      a macro, if its own evaluateWide() chooses between that and another way

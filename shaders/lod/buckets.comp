@@ -13,7 +13,8 @@ layout(push_constant) uniform Push { LodSolvePush push; };
 
 shared uint sumRecords[kMaxLanes], sumVertices[kMaxLanes];
 
-uint formOf(uint run) { return runForm(lodWords.at[kLodRuns + kLodRunWords * run]); }
+uint runWord(uint run) { return lodWords.at[kLodRuns + kLodRunWords * run]; }
+uint formOf(uint run) { return runForm(runWord(run)); }
 uint dispatchOf(uint run) { return lodWords.at[kLodRuns + kLodRunWords * run + 1u] >> 16u; }
 uint bucketWord(uint run, uint c) {
     uint first = firstOfGroup(lodWords.at[kLodRuns + kLodRunWords * run + 1u], run);
@@ -26,8 +27,8 @@ uint padded(uint count, uint samples) {
     return (count + n - 1u) / n * n;
 }
 // Wide mapping: workgroups that evaluate so many records.
-uint groupsOf(uint whole, uint samples) {
-    uint each = clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup);
+uint groupsOf(uint run, uint c, uint whole) {
+    uint word = runWord(run), each = recordsOfGroup(gl_WorkGroupSize.x, runHasLines(word), runForm(word), capacityOf(c));
     return (whole + each - 1u) / each;
 }
 
@@ -54,7 +55,7 @@ uint groupsBefore(uint run) {
         uint form = formOf(run - 1u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
             uint samples = formSamples(form, capacityOf(c));
-            groups += groupsOf(padded(lodWords.at[drawWord(run - 1u, c) + kLodDrawCount], samples), samples);
+            groups += groupsOf(run - 1u, c, padded(lodWords.at[drawWord(run - 1u, c) + kLodDrawCount], samples));
         }
     }
     return groups;
@@ -82,7 +83,7 @@ void placeRuns(uint first, uint end, inout Place at, uint room) {
             at.record += whole;
             at.vertex += whole * samples;
             at.patches += count;
-            group += groupsOf(whole, samples);
+            group += groupsOf(run, c, whole);
         }
         lodWords.at[bucket] = at.record; // the next run's first, or the end of the group's
     }
@@ -108,9 +109,8 @@ void writeDispatch(uint run, uint dispatch) {
     uint end = run + 1u;
     while (end < push.runCount && dispatchOf(end) == dispatch) ++end;
     uint first = bucketWord(run, 0u), last = bucketWord(end - 1u, kCapacityCount - 1u);
-    uint samples = formSamples(formOf(end - 1u), capacityOf(kCapacityCount - 1u));
     uint firstRecord = lodWords.at[first], endRecord = lodWords.at[last + 4u], recordCount = endRecord - firstRecord;
-    uint groupCount = kWide ? lodWords.at[last + 3u] + groupsOf(endRecord - lodWords.at[last], samples)
+    uint groupCount = kWide ? lodWords.at[last + 3u] + groupsOf(end - 1u, kCapacityCount - 1u, endRecord - lodWords.at[last])
                             : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
     uint at = SUPPLE_LOD_DISPATCHES(push.runs) + kLodDispatchWords * dispatch;

@@ -3,7 +3,7 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/pattern.glsl"
 
-// Before the include: kForm, of the grids.
+// Before the include: kForm, of the grids, and kLines, whether runs have lines (kRunHasLines).
 
 // Records of a view, else all patches at one rate. A macro: what either does without need not be compiled when a pipeline
 // is made.
@@ -42,6 +42,22 @@ LodRecord lodRecordOf(uvec4 head) {
 LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
     vec4 two = uintBitsToFloat(lodElement(element + 1u + k / 2u));
     return lodPattern((k & 1u) == 0u ? two.xy : two.zw, capacityIndex);
+}
+
+// The samples of a side of a grid of rows, from its first corner up to the next: the number of the first one, and the step to the next.
+uvec2 samplesOfSide(uint side, uint capacity) {
+    uint width = capacity + 1u, step = (side & 1u) == 0u ? 1u : width;
+    uint first = side == 0u ? 0u : side == 1u ? capacity : side == 2u ? width * width - 1u : capacity * width;
+    return uvec2(first, side < 2u ? step : 0u - step);
+}
+
+// Directions along such a side and inwards, as those along u and v.
+void turnBack(uint side, inout vec3 along, inout vec3 inwards) {
+    bool isUpright = (side & 1u) != 0u;
+    float signU = SELECT(side == 1u || side == 2u, -1.0, 1.0), signV = SELECT(side >= 2u, -1.0, 1.0);
+    vec3 u = signU * SELECT3(isUpright, inwards, along), v = signV * SELECT3(isUpright, along, inwards);
+    along = u;
+    inwards = v;
 }
 
 // A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
@@ -98,7 +114,7 @@ Share lodShareOfGroup(uint form) {
     uint capacity = capacityOf(b % kCapacityCount);
     share.samples = formSamples(form, capacity);
     share.side = capacity + 1u; // of a grid of rows
-    uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
+    uint each = recordsOfGroup(gl_WorkGroupSize.x, kLines, form, capacity);
     share.first = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
     share.count = share.first < next ? min(each, next - share.first) : 0u;
     return share;
@@ -107,9 +123,10 @@ Share lodShareOfGroup(uint form) {
 
 #if defined(WIDE) && defined(LEVELS)
 // The records of a workgroup and their patterns, in workgroup memory. The latter in two parts: one is integers.
-shared uvec4 localHeads[kMaxPatchesPerGroup];
-shared uvec2 localPatternBits[6u * kMaxPatchesPerGroup];
-shared vec2 localPatternWidths[6u * kMaxPatchesPerGroup];
+const uint kMostRecords = kLines ? kMaxRecordsPerGroup : kMaxPatchesPerGroup;
+shared uvec4 localHeads[kMostRecords];
+shared uvec2 localPatternBits[6u * kMostRecords];
+shared vec2 localPatternWidths[6u * kMostRecords];
 
 // To be called by all lanes.
 void loadRecords(Share share) {
@@ -125,10 +142,22 @@ void loadRecords(Share share) {
 }
 // Of the record in a place, without its pairs.
 LodRecord localRecord(uint place) { return lodRecordOf(localHeads[place]); }
-vec2 localPair(uint place, uint k, uint i, uint capacity) {
+LodPattern localPattern(uint place, uint k) {
     uvec2 bits = localPatternBits[6u * place + k];
     vec2 widths = localPatternWidths[6u * place + k];
-    return lodPair(LodPattern(bits.x, bits.y, widths.x, widths.y), i, capacity);
+    return LodPattern(bits.x, bits.y, widths.x, widths.y);
+}
+vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
+
+// The line of a lane where grids have rings: line n of as many as a sector of a patch has. It has the samples n, n + lines, .. of the
+// sector's side, and behind it rings n + 1 and (capacity - 1) / 2 - n, so all have about as many samples as a side.
+struct RingLine {
+    uint place, sector, n, lines;
+};
+RingLine ringLineOfLane(Share share) {
+    uint lines = ringLines(share.side - 1u), each = formSides(kForm) * lines, place = gl_LocalInvocationID.x / each;
+    uint n = gl_LocalInvocationID.x - place * each, sector = n / lines;
+    return RingLine(place, sector, n - sector * lines, lines);
 }
 
 // Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.

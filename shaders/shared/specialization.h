@@ -18,6 +18,7 @@ SUPPLE_SHARED_CONST kCornerNormalsConstant = 4u; // bool: patch records have an 
 SUPPLE_SHARED_CONST kInteriorConstant = 5u;      // bool: samples inside patches alone; edges have theirs from elsewhere
 SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the push constants tell it
 SUPPLE_SHARED_CONST kLanePatchConstant = 17u;    // bool: wide mapping at kRateConstant: a lane takes a patch of kVertex16
+SUPPLE_SHARED_CONST kLinesConstant = 20u;        // bool: at levels a workgroup has the records that kRunHasLines gives it
 SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
 
 // Subdivision.
