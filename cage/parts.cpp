@@ -187,7 +187,8 @@ void placeTargets(std::span<PartCage> parts, Character& character) {
         const std::vector<std::string> names = targetNames(morphs);
         const auto [first, last] = named.equal_range(names);
         const auto same = std::find_if(first, last, [&](const auto& other) {
-            return parts[other.second].morphs.weights == morphs.weights &&
+            const PartCage& before = parts[other.second];
+            return before.morphs.weights == morphs.weights && before.drivers == parts[p].drivers &&
                    moveAlike(channels[other.second], channels[p]);
         });
         if (!names.empty() && same != last) {
@@ -199,6 +200,12 @@ void placeTargets(std::span<PartCage> parts, Character& character) {
             character.morphs.targets.push_back({target.name, {}, {}});
         }
         appendTo(character.morphs.weights, morphs.weights);
+        for (PoseDriver driver : parts[p].drivers) {
+            for (uint32_t& target : driver.targets) {
+                target += part.firstTarget;
+            }
+            character.drivers.push_back(std::move(driver));
+        }
     }
 }
 
@@ -352,6 +359,15 @@ Character takePart(const Character& character, size_t index) {
         places[piece.vertices[v]] = v;
     }
     takeTargets(character, index, places, taken.morphs);
+    for (PoseDriver driver : character.drivers) {
+        const Part& part = character.parts[index];
+        if (driver.targets[0] >= part.firstTarget && driver.targets[0] < part.firstTarget + part.targetCount) {
+            for (uint32_t& target : driver.targets) {
+                target -= part.firstTarget;
+            }
+            taken.drivers.push_back(std::move(driver));
+        }
+    }
     return taken;
 }
 

@@ -33,6 +33,9 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
+    if (asset.hasDrivers()) {
+        drivers_ = HostDrivers(character, instanceCount);
+    }
     if (modifiers) {
         const skinning::ClipTable& table = *asset.clipTable;
         modifiers_ = InstanceModifiers(instanceCount, 0);
@@ -91,6 +94,7 @@ void HostPoses::setPose(uint32_t instance) {
         modify(instance);
         return;
     }
+    drivers_.setLocals(instance, pose);
     skinning::posePalette(asset_->character, pose, memory_.nodes, palette(instance));
     skinning::jointTransforms(asset_->character.skin, memory_.nodes, joints(instance));
     finishPalette(instance);
@@ -124,6 +128,7 @@ void HostPoses::modify(uint32_t instance) {
     modifiers_.place(instance, own, origin_);
     twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
                      std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    drivers_.setLocals(instance, *asset_->clipTable, twin_.locals());
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> placed = joints(instance);
     for (uint32_t j = 0; j < target.size(); ++j) {
@@ -160,6 +165,7 @@ void HostPoses::setBindPose(uint32_t instance) {
     std::fill(own.begin(), own.end(), skinning::toAffine(glm::mat4(1.0f)));
     std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
+    drivers_.setBindPose(instance);
     forgetLocals(instance);
     finishPalette(instance);
 }
@@ -211,6 +217,7 @@ void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDes
         setWeights(instance,
                    desc.morphWeights != nullptr ? desc.morphWeights : asset_->character.morphs.weights.data());
     }
+    drivers_.setJoints(instance, own);
     forgetLocals(instance);
     finishPalette(instance);
 }
@@ -241,6 +248,7 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
                                      : asset_->jointFrames.rest[j];
         target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
     }
+    drivers_.setJoints(instance, own);
     finishPalette(instance);
 }
 
@@ -300,6 +308,7 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
         std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
         std::copy_n(other.joints_.begin(), joints, joints_.begin());
         std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
+        drivers_.takeOver(other.drivers_, count);
         if (takesModifiers()) {
             modifiers_.takeOver(other.modifiers_, count);
             std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
@@ -310,24 +319,26 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
     }
 }
 
-skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
+std::span<const float> HostPoses::weightsOf(uint32_t instance) const {
     const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+    return drivers_.shown(instance, std::span(weights).subspan(instance * targetCount_, targetCount_));
+}
+
+skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
     const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
-    const skinning::Box linear =
-        skinning::paletteBounds(reach, own, std::span(weights).subspan(instance * targetCount_, targetCount_));
+    const skinning::Box linear = skinning::paletteBounds(reach, own, weightsOf(instance));
     return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
 }
 
 void HostPoses::write(uint32_t count, std::byte* target) const {
     const size_t joints = layout_.jointCount;
     for (uint32_t instance = 0; instance < count; ++instance) {
-        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
         skinning::InstancePose pose;
         pose.palette = std::span(palettes_).subspan(instance * joints, joints);
         if (!rotations_.empty()) {
             pose.rotations = std::span(rotations_).subspan(instance * joints, joints);
         }
-        pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
+        pose.morphWeights = weightsOf(instance);
         pose.transform = placement(instance);
         skinning::writePose(layout_, pose, target);
         target += instanceBytes();

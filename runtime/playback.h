@@ -83,6 +83,8 @@ public:
     [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
     [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
+    /// Some morph weights follow from joints, beside what clips and the host make of them.
+    [[nodiscard]] bool hasDrivers() const { return push_.drivers != 0; }
     /// A frame poses what listPoses() has listed, not all that the group works on.
     [[nodiscard]] bool listsPoses() const { return takesUpdateRates() || hasSprings(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
@@ -169,8 +171,8 @@ public:
     }
     VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame);
 
-    enum class Part { locals, roots, modifiers, springs, palette, mix };
-    static constexpr uint32_t kParts = 6;
+    enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
+    static constexpr uint32_t kParts = 7;
     /// A part of the pass over the instances of a window.
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.

@@ -33,7 +33,14 @@ public:
         }
         joints_.resize(skin.joints.size());
         placed_.resize(positions_.size());
-        if (clip != nullptr) {
+        driven_.resize(character.morphs.targets.size());
+        if (clip != nullptr) { // in the rest pose, drivers add nothing
+            for (const cage::PoseDriver& driver : character.drivers) {
+                for (const uint32_t target : driver.targets) {
+                    driven_[target].low += static_cast<double>(driver.low);
+                    driven_[target].high += static_cast<double>(driver.high);
+                }
+            }
             steps_ = std::any_of(clip->channels.begin(), clip->channels.end(), [](const cage::Channel& channel) {
                 return channel.interpolation == cage::Interpolation::step;
             });
@@ -72,6 +79,10 @@ public:
     [[nodiscard]] bool isSound() const { return isSound_; }
 
 private:
+    /// What drivers add to a morph weight, at least and at most.
+    struct Driven {
+        double low = 0.0, high = 0.0;
+    };
     struct Joint {
         ChordNode place;
         ChordMatrix rotation; ///< of the joint's matrix with the inverse bind
@@ -132,7 +143,10 @@ private:
     void morph() {
         morphs_ = false;
         for (size_t t = 0; t < character_.morphs.targets.size(); ++t) {
-            const double weights[2] = {pose_.weights[0][t], pose_.weights[1][t]}, error = pose_.weightErrors[t];
+            // Drivers add what they will, between their ends.
+            const double middle = 0.5 * (driven_[t].low + driven_[t].high);
+            const double weights[2] = {pose_.weights[0][t] + middle, pose_.weights[1][t] + middle};
+            const double error = pose_.weightErrors[t] + (driven_[t].high - middle);
             if (weights[0] == 0.0 && weights[1] == 0.0 && error == 0.0) {
                 continue;
             }
@@ -313,6 +327,7 @@ private:
     double sum_ = 0.0;          ///< of everything: finite if all of it is
     std::vector<double> reach_; ///< by joint: the farthest vertex that follows it, or -1
     std::vector<Joint> joints_;
+    std::vector<Driven> driven_; ///< by morph target
     bool morphs_ = false;
     std::vector<glm::dvec3> morphed_[2];
     std::vector<double> morphErrors_;

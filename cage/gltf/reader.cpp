@@ -5,6 +5,7 @@
 #include "cage/finish.h"
 #include "cage/gltf/animation.h"
 #include "cage/gltf/document.h"
+#include "cage/gltf/drivers.h"
 #include "cage/gltf/material.h"
 #include "cage/gltf/mesh.h"
 #include "cage/gltf/morphs.h"
@@ -54,6 +55,8 @@ PartCage readPart(const Document& document, const MeshBinding& binding, const Gl
     part.element = mesh->element;
     part.gridStep = mesh->gridStep;
     part.morphs = readMorphs(document, node, targetCountOf(fromMesh), warnings);
+    part.drivers =
+        readDrivers(document, static_cast<size_t>(from.mesh), part.morphs.targets.size(), character.skeleton, warnings);
     split::buildCage(*mesh, options.pairing, part, *document.leniency, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
@@ -195,6 +198,7 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
     }
     std::vector<UnplacedExpression> expressions = readExpressions(document, targetCounts, warnings);
     character.springBones = readSpringBones(document, character.skeleton, warnings);
+    checkDrivers(document, character.skeleton, character.springBones, parts);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
         leniency.gather([&] {
