@@ -291,13 +291,13 @@ void Check::drivers() {
         require(rotations && isFinite(own.values) && own.width >= 0.01f && own.width <= 100.0f && own.low <= 0.0f &&
                     own.low >= -kMaxCoordinate && own.high >= 0.0f && own.high <= kMaxCoordinate,
                 name + "its poses are no rotations, or its numbers are not finite");
+        work += inputs * (own.poseCount() + 1);
+        require(work <= kMaxDriverWork, "drivers have too many poses");
         if (none()) {
             const Result<SolvedDriver> solved = solveDriver(own);
             require(solved.ok(), name + (solved ? "" : solved.error().message));
         }
-        work += inputs * (own.poseCount() + 1);
     }
-    require(work <= kMaxDriverWork, "drivers have too many poses");
 }
 
 void Check::springs() {

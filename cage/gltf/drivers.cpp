@@ -177,16 +177,22 @@ private:
     PoseDriver driver_;
 };
 
+/// What a driver is called once it is read.
+std::string nameOf(const PartCage& part, const PoseDriver& driver) {
+    return part.element + " SUPPLE_deformers driver " +
+           (driver.name.empty() ? "of " + at("morph target", driver.targets[0]) : cage::quoted(driver.name));
+}
+
 /// Refuses a driver that has no solution, and warns of one whose poses are hard to tell apart.
 void checkSolution(const PoseDriver& driver, const std::string& place, Warnings& warnings) {
     const Result<SolvedDriver> solved = solveDriver(driver);
     if (!solved) {
         refuse(place, solved.error().message);
     }
-    const auto nameOf = [](size_t pose) { return pose == 0 ? "the rest pose" : at("pose", pose - 1); };
+    const auto poseName = [](size_t pose) { return pose == 0 ? "the rest pose" : at("pose", pose - 1); };
     if (solved->closestDegrees < kCloseDegrees) {
         warn(warnings, place,
-             nameOf(solved->closest[0]) + " and " + nameOf(solved->closest[1]) + " are " +
+             poseName(solved->closest[0]) + " and " + poseName(solved->closest[1]) + " are " +
                  shortNumber(solved->closestDegrees) +
                  " degrees apart: between and beyond them weights may be far off");
     } else if (solved->condition > kHighCondition) {
@@ -205,7 +211,7 @@ void checkSolution(const PoseDriver& driver, const std::string& place, Warnings&
 } // namespace
 
 std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, size_t targetCount,
-                                    const Skeleton& skeleton, Warnings& warnings) {
+                                    const Skeleton& skeleton) {
     std::vector<PoseDriver> drivers;
     const Json& mesh = document.meshes[meshIndex];
     const std::string list = at("mesh", meshIndex) + " SUPPLE_deformers drivers";
@@ -224,9 +230,7 @@ std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, 
                 std::string name = stringMember(from, "name", item(list, i));
                 const std::string place = placeOf(list, i, name);
                 document.memory->take(2 * name.size(), place);
-                PoseDriver driver = DriverReader(document, skeleton, targetCount, from, place).read(std::move(name));
-                checkSolution(driver, place, warnings);
-                drivers.push_back(std::move(driver));
+                drivers.push_back(DriverReader(document, skeleton, targetCount, from, place).read(std::move(name)));
             });
         }
     });
@@ -234,7 +238,7 @@ std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, 
 }
 
 void checkDrivers(const Document& document, const Skeleton& skeleton, const SpringBones& springs,
-                  std::span<PartCage> parts) {
+                  std::span<PartCage> parts, Warnings& warnings) {
     std::vector<uint8_t> swings(skeleton.nodes.size(), 0);
     for (const Spring& spring : springs.springs) {
         const size_t joints = spring.joints.size();
@@ -247,7 +251,7 @@ void checkDrivers(const Document& document, const Skeleton& skeleton, const Spri
         std::vector<PoseDriver> kept;
         for (PoseDriver& driver : part.drivers) {
             document.leniency->leaveOut([&] {
-                const std::string place = part.element + " SUPPLE_deformers driver " + cage::quoted(driver.name);
+                const std::string place = nameOf(part, driver);
                 for (const DriverInput& input : driver.inputs) {
                     if (swings[input.node] != 0) {
                         refuse(place, at("node", input.node) + " swings by a spring, after drivers have looked at it");
@@ -259,6 +263,7 @@ void checkDrivers(const Document& document, const Skeleton& skeleton, const Spri
                            "drivers have more than " + std::to_string(kMaxDriverWork) + " rotations of poses together");
                 }
                 work += own;
+                checkSolution(driver, place, warnings);
                 kept.push_back(std::move(driver));
             });
         }

@@ -11,14 +11,13 @@
 
 namespace supple::cage::gltf {
 
-/// Those of a mesh, with its own morph targets, of which there are `targetCount`. Each that cannot be solved is left
-/// out.
+/// Those of a mesh, with its own morph targets, of which there are `targetCount`.
 [[nodiscard]] std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, size_t targetCount,
-                                                  const Skeleton& skeleton, Warnings& warnings);
+                                                  const Skeleton& skeleton);
 
-/// Leaves out those that look at joints of springs, which swing after drivers have looked, and what all parts have
-/// together beyond kMaxDriverWork.
+/// Leaves out those that look at joints of springs, which swing after drivers have looked, those without a solution,
+/// and what all parts have together beyond kMaxDriverWork. Warns of poses that are hard to tell apart.
 void checkDrivers(const Document& document, const Skeleton& skeleton, const SpringBones& springs,
-                  std::span<PartCage> parts);
+                  std::span<PartCage> parts, Warnings& warnings);
 
 } // namespace supple::cage::gltf

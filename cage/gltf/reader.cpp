@@ -56,7 +56,7 @@ PartCage readPart(const Document& document, const MeshBinding& binding, const Gl
     part.gridStep = mesh->gridStep;
     part.morphs = readMorphs(document, node, targetCountOf(fromMesh), warnings);
     part.drivers =
-        readDrivers(document, static_cast<size_t>(from.mesh), part.morphs.targets.size(), character.skeleton, warnings);
+        readDrivers(document, static_cast<size_t>(from.mesh), part.morphs.targets.size(), character.skeleton);
     split::buildCage(*mesh, options.pairing, part, *document.leniency, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
@@ -198,7 +198,7 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
     }
     std::vector<UnplacedExpression> expressions = readExpressions(document, targetCounts, warnings);
     character.springBones = readSpringBones(document, character.skeleton, warnings);
-    checkDrivers(document, character.skeleton, character.springBones, parts);
+    checkDrivers(document, character.skeleton, character.springBones, parts, warnings);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
         leniency.gather([&] {
