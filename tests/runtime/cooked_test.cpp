@@ -142,9 +142,10 @@ TEST(Cooked, FilesKeepPoseDrivers) {
         return refusalOf(writeCooked(wrong, ""));
     };
     using cage::PoseDriver;
-    const std::string place = "arm.glb: driver 1: ";
+    const std::string place = "hero.supple: driver 1: ";
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.inputs.clear(); }), place + "inputs, targets, poses and values do not fit");
-    EXPECT_EQ(spoiled([](PoseDriver& d) { d.values.pop_back(); }), place + "inputs, targets, poses and values do not fit");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.values.pop_back(); }),
+              place + "inputs, targets, poses and values do not fit");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.targets[1] = 99; }), place + "it names no morph targets of one part");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.inputs[0].node = 99; }),
               place + "an input names no node that turns, or is not finite");

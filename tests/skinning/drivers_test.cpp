@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 namespace supple::skinning {
@@ -125,6 +126,8 @@ TEST(Drivers, SolutionIsThatOfFloat64) {
                     std::max(elsewhere, std::abs(static_cast<double>(own[t]) - set.at("weights")[q][t].get<double>()));
             }
         }
+        std::printf("%-9s width %.0f: condition %.3g, at the poses %.1e, elsewhere %.1e off float64\n", name.c_str(),
+                    static_cast<double>(width), solved->condition, atPoses, elsewhere);
         EXPECT_LT(atPoses, width <= 2.0f ? 2e-6 : 1e-5) << name << " " << width;
         EXPECT_LT(elsewhere, 1e-5) << name << " " << width;
     }

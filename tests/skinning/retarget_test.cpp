@@ -249,8 +249,7 @@ TEST(Retarget, PairsSayWhatNamesDoNot) {
     const Outcome named = fit(wren, pip);
     const cage::Clip &a = clipCalled(outcome.set.clips, "run"), &b = clipCalled(named.set.clips, "run");
     for (const uint32_t node : rolesOf(pip)) {
-        EXPECT_LT(angleApart(poseOf(pip.skeleton, a, 0.3).turns[node], poseOf(pip.skeleton, b, 0.3).turns[node]),
-                  1e-6)
+        EXPECT_LT(angleApart(poseOf(pip.skeleton, a, 0.3).turns[node], poseOf(pip.skeleton, b, 0.3).turns[node]), 1e-6)
             << pip.skeleton.nodes[node].name;
     }
 
@@ -269,7 +268,7 @@ TEST(Retarget, PairsSayWhatNamesDoNot) {
                         now = poseOf(pip.skeleton, clip, 0.3);
         const RestPlaces fromRest(wren.skeleton), rest(pip.skeleton);
         return angleApart(was.turns[leading] * glm::conjugate(fromRest.turns[leading]),
-                            now.turns[node] * glm::conjugate(rest.turns[node]));
+                          now.turns[node] * glm::conjugate(rest.turns[node]));
     };
     EXPECT_LT(moves("ponytail1", "jaw"), 1e-3) << "a joint without a role turns as its counterpart";
     EXPECT_LT(moves("chest", "spine"), 1e-3) << "pairs go before the spine";
