@@ -79,7 +79,9 @@ public:
 };
 
 TEST(Drivers, SolutionIsThatOfFloat64) {
-    for (const nlohmann::json& set : vectors().at("sets")) {
+    const nlohmann::json data = vectors();
+    ASSERT_EQ(data.at("sets").size(), 12u);
+    for (const nlohmann::json& set : data.at("sets")) {
         const std::string name = set.at("name").get<std::string>();
         std::vector<glm::vec4> poses;
         for (const nlohmann::json& pose : set.at("poses")) {
@@ -128,7 +130,8 @@ TEST(Drivers, SolutionIsThatOfFloat64) {
         }
         std::printf("%-9s width %.0f: condition %.3g, at the poses %.1e, elsewhere %.1e off float64\n", name.c_str(),
                     static_cast<double>(width), solved->condition, atPoses, elsewhere);
-        EXPECT_LT(atPoses, width <= 2.0f ? 2e-6 : 1e-5) << name << " " << width;
+        const bool warned = solved->condition > 100.0 || solved->closestDegrees < 10.0; // as the reader does
+        EXPECT_LT(atPoses, warned ? 1e-5 : 2e-6) << name << " " << width;
         EXPECT_LT(elsewhere, 1e-5) << name << " " << width;
     }
 }
