@@ -219,7 +219,7 @@ struct PoseDriver {
     std::vector<uint32_t> targets; ///< Morphs::targets, all of one part
     std::vector<glm::vec4> poses;  ///< rotations from the rest pose (x, y, z, w), pose after pose, one per input
     std::vector<float> values;     ///< weights, pose after pose, one per target
-    float width = 2.0f;            ///< of what a pose reaches, by the mean square of distances between poses
+    float width = 2.0f;            ///< sigma^2 by the mean, over poses, of the squared distance to the nearest other
     float low = 0.0f, high = 1.0f; ///< of what it sets
 
     [[nodiscard]] size_t poseCount() const { return poses.size() / inputs.size(); }
@@ -253,6 +253,9 @@ struct Spring {
     bool isTree = false;
     std::vector<SpringJoint> joints;
     std::vector<uint32_t> colliderGroups;
+
+    /// How many of its joints may swing: the first ones.
+    [[nodiscard]] size_t swingingCount() const { return isTree || joints.empty() ? joints.size() : joints.size() - 1; }
 };
 /// The spring bones of a file. Groups with SUPPLE_GROUP_SPRINGS move by them.
 struct SpringBones {

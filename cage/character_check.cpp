@@ -275,10 +275,15 @@ void Check::drivers() {
             return;
         }
         const bool sound = std::all_of(own.inputs.begin(), own.inputs.end(), [&](const DriverInput& input) {
-            return input.node < nodes.size() && !nodes[input.node].hasMatrix && isFinite({&input.axis.x, 3}) &&
-                   input.weight >= 1e-3f && input.weight <= 1e3f;
+            return input.node < nodes.size() && !nodes[input.node].hasMatrix &&
+                   std::abs(glm::length(glm::dvec3(input.axis)) - 1.0) < 1e-3 && input.weight >= kMinInputWeight &&
+                   input.weight <= kMaxInputWeight;
         });
-        require(sound, name + "an input names no node that turns, or is not finite");
+        require(sound, name + "an input names no node that turns, or its axis has not unit length, or its weight is "
+                              "out of range");
+        std::vector<uint32_t> targets = own.targets;
+        std::ranges::sort(targets);
+        require(std::ranges::adjacent_find(targets) == targets.end(), name + "a morph target is there twice");
         const bool ofOnePart = std::ranges::any_of(character_.parts, [&](const Part& part) {
             return std::ranges::all_of(own.targets, [&](uint32_t target) {
                 return target >= part.firstTarget && target - part.firstTarget < part.targetCount;
@@ -286,13 +291,13 @@ void Check::drivers() {
         });
         require(ofOnePart, name + "it names no morph targets of one part");
         const bool rotations = std::all_of(own.poses.begin(), own.poses.end(), [](const glm::vec4& q) {
-            return glm::length(glm::dvec4(q)) > 1e-6 && glm::length(glm::dvec4(q)) < 1e6;
+            return glm::length(glm::dvec4(q)) > kMinTurnLength && glm::length(glm::dvec4(q)) < kMaxTurnLength;
         });
-        require(rotations && isFinite(own.values) && own.width >= 0.01f && own.width <= 100.0f && own.low <= 0.0f &&
-                    own.low >= -kMaxCoordinate && own.high >= 0.0f && own.high <= kMaxCoordinate,
+        require(rotations && isFinite(own.values) && own.width >= kMinDriverWidth && own.width <= kMaxDriverWidth &&
+                    own.low <= 0.0f && own.low >= -kMaxCoordinate && own.high >= 0.0f && own.high <= kMaxCoordinate,
                 name + "its poses are no rotations, or its numbers are not finite");
-        work += inputs * (own.poseCount() + 1);
-        require(work <= kMaxDriverWork, "drivers have too many poses");
+        work += driverWork(own);
+        require(work <= kMaxDriverWork, tooMuchDriverWork());
         if (none()) {
             const Result<SolvedDriver> solved = solveDriver(own);
             require(solved.ok(), name + (solved ? "" : solved.error().message));

@@ -125,7 +125,7 @@ public:
         std::vector<double> kernel(poses_.size() * poses_.size());
         for (size_t a = 0; a < poses_.size(); ++a) {
             for (size_t b = 0; b < poses_.size(); ++b) {
-                const double k = 1.0 / (1.0 + distance(a, b) * static_cast<double>(solved_.inverseWidth));
+                const double k = 1.0 / (1.0 + distance(a, b) * static_cast<double>(solved_.inverseSigma2));
                 kernel[a * poses_.size() + b] = k * k;
             }
         }
@@ -217,7 +217,7 @@ private:
             sum += nearest;
         }
         const double mean = sum / static_cast<double>(poses_.size());
-        solved_.inverseWidth = static_cast<float>(1.0 / (static_cast<double>(driver_.width) * mean));
+        solved_.inverseSigma2 = static_cast<float>(1.0 / (static_cast<double>(driver_.width) * mean));
     }
 
     [[nodiscard]] static double conditionOf(const std::vector<double>& kernel, const Factors& factors) {
@@ -257,6 +257,16 @@ private:
 };
 
 } // namespace
+
+size_t driverWork(const PoseDriver& driver) {
+    // Two rounds more of each loop: before it, and of its last test.
+    return driver.targets.size() * (driver.inputs.size() + 2) * (driver.poseCount() + 2);
+}
+
+std::string tooMuchDriverWork() {
+    return "drivers have more than " + std::to_string(kMaxDriverWork) +
+           " together of targets * (inputs + 2) * (poses + 2)";
+}
 
 Result<SolvedDriver> solveDriver(const PoseDriver& driver) {
     return Solver(driver).solve();

@@ -25,8 +25,12 @@ public:
         : character_(character), places_(places), first_(firstElement) {}
 
     DriverTable build() && {
+        solve();
         std::map<uint32_t, std::vector<size_t>> quads; // the drivers of each, in their order
         for (size_t d = 0; d < character_.drivers.size(); ++d) {
+            if (placed_[d].solved.samples.empty()) {
+                continue;
+            }
             for (const uint32_t target : character_.drivers[d].targets) {
                 std::vector<size_t>& own = quads[target / 4];
                 if (own.empty() || own.back() != d) {
@@ -46,8 +50,10 @@ public:
         const size_t sharesBegin = 1 + quads.size();
         table_.words.assign(4 * (sharesBegin + kShareElements * shares), 0u);
         table_.words[0] = table_.quads;
-        for (const cage::PoseDriver& driver : character_.drivers) {
-            putDriver(driver);
+        for (size_t d = 0; d < character_.drivers.size(); ++d) {
+            if (!placed_[d].solved.samples.empty()) {
+                putDriver(character_.drivers[d], placed_[d]);
+            }
         }
         size_t element = 1, share = sharesBegin;
         for (const auto& [quad, drivers] : quads) {
@@ -88,17 +94,22 @@ private:
         return found->second;
     }
 
-    void putDriver(const cage::PoseDriver& driver) {
-        Placed& placed = placed_.emplace_back();
-        Result<cage::SolvedDriver> solved = cage::solveDriver(driver);
-        if (!solved) { // of a character that no reader has let through
-            return;
+    /// Drivers without a solution, of a character that no reader has let through, have no samples and set nothing.
+    void solve() {
+        for (const cage::PoseDriver& driver : character_.drivers) {
+            Placed& placed = placed_.emplace_back();
+            if (Result<cage::SolvedDriver> solved = cage::solveDriver(driver)) {
+                placed.solved = std::move(*solved);
+            }
         }
-        placed.solved = std::move(*solved);
+    }
+
+    void putDriver(const cage::PoseDriver& driver, Placed& placed) {
         placed.inputs = next();
         for (const cage::DriverInput& input : driver.inputs) {
             const glm::dquat rest = unit(glm::dquat(character_.skeleton.nodes[input.node].rotation));
-            put({places_[input.node], numberOf(input.node), static_cast<uint32_t>(input.part), bits(input.weight)});
+            const uint32_t place = places_.empty() ? 0 : places_[input.node];
+            put({place, numberOf(input.node), static_cast<uint32_t>(input.part), bits(input.weight)});
             putFloats(glm::vec4(glm::dvec4(-rest.x, -rest.y, -rest.z, rest.w)));
             putFloats(glm::vec4(input.axis, 0.0f));
         }
@@ -142,9 +153,7 @@ private:
         set(element, {inputs, placed.inputs, poses, placed.rotations});
         setFloats(element + 1, low);
         setFloats(element + 2, high);
-        const auto coefficients = placed.coefficients.find(quad);
-        set(element + 3, {coefficients != placed.coefficients.end() ? coefficients->second : 0u,
-                          bits(placed.solved.inverseWidth), 0u, 0u});
+        set(element + 3, {placed.coefficients.at(quad), bits(placed.solved.inverseSigma2), 0u, 0u});
     }
 
     const cage::Character& character_;

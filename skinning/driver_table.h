@@ -16,9 +16,9 @@ struct DriverTable {
     uint32_t quads = 0;
     std::vector<uint32_t> nodes; ///< by the number that inputs have for them
 };
-/// `places`: what inputs name by node. `firstElement`: where the words will lie.
-[[nodiscard]] DriverTable buildDriverTable(const cage::Character& character, std::span<const uint32_t> places,
-                                           uint32_t firstElement);
+/// `places`: what inputs name by node; none: 0. `firstElement`: where the words will lie.
+[[nodiscard]] DriverTable buildDriverTable(const cage::Character& character, std::span<const uint32_t> places = {},
+                                           uint32_t firstElement = 0);
 
 /// Appends them to a table that has nodes.
 void putDrivers(const cage::Character& character, ClipTable& table);

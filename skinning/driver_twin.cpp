@@ -37,9 +37,7 @@ void addDriven(std::span<const uint32_t> words, uint32_t drivers, std::span<cons
     const uint32_t quads = code.table(drivers).x;
     for (uint32_t i = 0; i < quads; ++i) {
         const glm::uvec4 quad = code.table(drivers + 1 + i);
-        if (quad.x < weights.size()) {
-            weights[quad.x] = weights[quad.x] + code.drivenWeights(quad);
-        }
+        weights[quad.x] = weights[quad.x] + code.drivenWeights(quad);
     }
 }
 

@@ -9,8 +9,8 @@
 namespace supple::skinning {
 
 /// `words`: a table in which the section of drivers begins at element `drivers` (skinning/driver_table.h). `rotations`:
-/// of the nodes that drivers look at, by their number: local, (x, y, z, w), of any length. Adds to `weights`, four an
-/// element; those of quads beyond it are left out.
+/// of the nodes that drivers look at, by their number: local, (x, y, z, w), of any length. Adds to `weights`, those of
+/// all morph targets, four an element.
 void addDriven(std::span<const uint32_t> words, uint32_t drivers, std::span<const glm::vec4> rotations,
                std::span<glm::vec4> weights);
 

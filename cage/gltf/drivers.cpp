@@ -46,7 +46,7 @@ public:
         readInputs();
         readTargets();
         readPoses();
-        driver_.width = numberOr(from_, "width", driver_.width, 0.01f, 100.0f, place_);
+        driver_.width = numberOr(from_, "width", driver_.width, kMinDriverWidth, kMaxDriverWidth, place_);
         readClamp();
         return std::move(driver_);
     }
@@ -80,18 +80,19 @@ private:
         if (skeleton_.nodes[input.node].hasMatrix) {
             refuse(element + " node", at("node", input.node) + " has a matrix, which nothing turns");
         }
+        const bool isGiven = member(from, "part") != nullptr;
         const std::string part = stringMember(from, "part", element);
         constexpr TurnPart kParts[] = {TurnPart::rotation, TurnPart::swing, TurnPart::twist};
         const auto* const found =
             std::find_if(std::begin(kParts), std::end(kParts), [&](TurnPart one) { return part == turnPartName(one); });
-        if (!part.empty() && found == std::end(kParts)) {
+        if (isGiven && found == std::end(kParts)) {
             refuse(element + " part", quoted(part) + " is not allowed");
         }
-        input.part = part.empty() ? TurnPart::rotation : *found;
+        input.part = isGiven ? *found : TurnPart::rotation;
         if (input.part != TurnPart::rotation) {
             input.axis = readAxis(from, element);
         }
-        input.weight = numberOr(from, "weight", input.weight, 1e-3f, 1e3f, element);
+        input.weight = numberOr(from, "weight", input.weight, kMinInputWeight, kMaxInputWeight, element);
         return input;
     }
 
@@ -142,7 +143,7 @@ private:
         for (size_t i = 0; i < rotations; ++i) {
             const glm::vec4 q(read[4 * i], read[4 * i + 1], read[4 * i + 2], read[4 * i + 3]);
             const double length = glm::length(glm::dvec4(q));
-            if (!(length > 1e-6) || !(length < 1e6)) {
+            if (!(length > kMinTurnLength) || !(length < kMaxTurnLength)) {
                 refuse(item(place_ + " poses", i), "not a rotation");
             }
             driver_.poses.push_back(q);
@@ -163,8 +164,12 @@ private:
         }
         driver_.low = (*clamp)[0].real();
         driver_.high = (*clamp)[1].real();
-        if (!(driver_.low <= 0.0f && driver_.high >= 0.0f && -driver_.low <= kMaxCoordinate &&
-              driver_.high <= kMaxCoordinate)) {
+        for (const float end : {driver_.low, driver_.high}) {
+            if (const char* fault = faultOfCoordinate(end)) {
+                refuse(place_ + " clamp", fault);
+            }
+        }
+        if (!(driver_.low <= 0.0f && driver_.high >= 0.0f)) {
             refuse(place_ + " clamp", "0, which the rest pose has, does not lie between its numbers");
         }
     }
@@ -237,33 +242,35 @@ std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, 
     return drivers;
 }
 
-void checkDrivers(const Document& document, const Skeleton& skeleton, const SpringBones& springs,
-                  std::span<PartCage> parts, Warnings& warnings) {
-    std::vector<uint8_t> swings(skeleton.nodes.size(), 0);
-    for (const Spring& spring : springs.springs) {
-        const size_t joints = spring.joints.size();
-        for (size_t j = 0; j < joints && (spring.isTree || j + 1 < joints); ++j) {
-            swings[spring.joints[j].node] = 1;
+void checkDrivers(const Document& document, const Character& character, std::span<PartCage> parts, Warnings& warnings) {
+    std::vector<bool> swings(character.skeleton.nodes.size(), false);
+    for (const Spring& spring : character.springBones.springs) {
+        for (size_t j = 0; j < spring.swingingCount(); ++j) {
+            swings[spring.joints[j].node] = true;
         }
     }
+    const std::vector<size_t> owners = targetOwners(parts, character);
     size_t work = 0;
-    for (PartCage& part : parts) {
+    for (size_t p = 0; p < parts.size(); ++p) {
+        PartCage& part = parts[p];
+        if (owners[p] != p) {
+            part.drivers = parts[owners[p]].drivers;
+            continue;
+        }
         std::vector<PoseDriver> kept;
         for (PoseDriver& driver : part.drivers) {
             document.leniency->leaveOut([&] {
                 const std::string place = nameOf(part, driver);
                 for (const DriverInput& input : driver.inputs) {
-                    if (swings[input.node] != 0) {
+                    if (swings[input.node]) {
                         refuse(place, at("node", input.node) + " swings by a spring, after drivers have looked at it");
                     }
                 }
-                const size_t own = driver.inputs.size() * (driver.poseCount() + 1);
-                if (work + own > kMaxDriverWork) {
-                    refuse(place,
-                           "drivers have more than " + std::to_string(kMaxDriverWork) + " rotations of poses together");
+                if (work + driverWork(driver) > kMaxDriverWork) {
+                    refuse(place, tooMuchDriverWork());
                 }
-                work += own;
                 checkSolution(driver, place, warnings);
+                work += driverWork(driver);
                 kept.push_back(std::move(driver));
             });
         }

@@ -16,8 +16,8 @@ namespace supple::cage::gltf {
                                                   const Skeleton& skeleton);
 
 /// Leaves out those that look at joints of springs, which swing after drivers have looked, those without a solution,
-/// and what all parts have together beyond kMaxDriverWork. Warns of poses that are hard to tell apart.
-void checkDrivers(const Document& document, const Skeleton& skeleton, const SpringBones& springs,
-                  std::span<PartCage> parts, Warnings& warnings);
+/// and what all parts have together beyond kMaxDriverWork. Warns of poses that are hard to tell apart. Drivers of parts
+/// that will share their morph targets count once. The character has its nodes, springs and clips.
+void checkDrivers(const Document& document, const Character& character, std::span<PartCage> parts, Warnings& warnings);
 
 } // namespace supple::cage::gltf

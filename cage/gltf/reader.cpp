@@ -198,7 +198,6 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
     }
     std::vector<UnplacedExpression> expressions = readExpressions(document, targetCounts, warnings);
     character.springBones = readSpringBones(document, character.skeleton, warnings);
-    checkDrivers(document, character.skeleton, character.springBones, parts, warnings);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
         leniency.gather([&] {
@@ -209,6 +208,7 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
             takeClips(std::move(set), parts, character);
         });
     }
+    checkDrivers(document, character, parts, warnings);
     leniency.raise();
     for (Damage& damage : leniency.takeDamages()) {
         character.damages.push_back(std::move(damage));

@@ -1,5 +1,5 @@
-// Pose pass, for groups whose file has pose drivers, before springs swing: what they add to the morph weights that clips or the
-// host have set. One invocation for every four weights that some driver adds to, and pose.
+// Pose pass, for groups whose file has pose drivers: adds what these set to the morph weights that clips or the host have set.
+// Springs swing afterwards. One invocation for every four weights that some driver adds to, and pose.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"

@@ -39,7 +39,7 @@ vec4 drivenShare(uint share) {
     uint inputs = min(head.x, kMaxDriverInputs);
     vec4 turns[kMaxDriverInputs];
     for (uint i = 0u; i < inputs; ++i) turns[i] = driverTurn(head.y + kDriverInputElements * i);
-    float inverseWidth = uintBitsToFloat(tail.y);
+    float inverseSigma2 = uintBitsToFloat(tail.y);
     SUPPLE_PRECISE vec4 sum = vec4(0.0f);
     for (uint pose = 0u; pose < head.z; ++pose) {
         SUPPLE_PRECISE float squares = 0.0f;
@@ -47,7 +47,7 @@ vec4 drivenShare(uint share) {
             float weight = uintBitsToFloat(table(head.y + kDriverInputElements * i).w);
             squares = squares + weight * squaredSine(turns[i], tableFloats(head.w + inputs * pose + i));
         }
-        SUPPLE_PRECISE float root = recip(1.0f + squares * inverseWidth);
+        SUPPLE_PRECISE float root = recip(1.0f + squares * inverseSigma2);
         SUPPLE_PRECISE float kernel = root * root;
         sum = sum + tableFloats(tail.x + pose) * kernel;
     }

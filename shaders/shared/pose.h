@@ -47,7 +47,7 @@
 //   drivers    if morph weights follow from joints, one element from `drivers` on: (quads, 0, 0, 0); then
 //   quad       one element each: (four morph weights by their number, first, end of its shares, 0)
 //   share      kShareElements each, what a driver sets of a quad: (inputs, their first element, poses, first of their
-//              rotations); the least that it sets, by weight; the most; (first coefficient, 1 / the width as a float, 0, 0)
+//              rotations); the least that it sets, by weight; the most; (first coefficient, 1 / sigma^2 as a float, 0, 0)
 //   input      kDriverInputElements each: (node, its number among those that drivers look at, kTurn part, weight as a
 //              float); what undoes its rotation in the rest pose; (axis, 0)
 //   rotation   one element each, pose after pose, for every input

@@ -1,4 +1,5 @@
 // Pose drivers of SUPPLE_deformers: what is read, and every fault by its name.
+#include "cage/parts.h"
 #include "cage/solved_driver.h"
 #include "tests/cage/gltf/reading.h"
 
@@ -91,6 +92,7 @@ TEST(GltfDrivers, FaultsAreNamed) {
     is(but(R"("node":1,)", ""), " inputs[0]: node is missing");
     is(but(R"("node":1)", R"("node":2)"), " inputs[0] node: node 2 has a matrix, which nothing turns");
     is(but(R"("swing")", R"("bend")"), R"( inputs[0] part: "bend" is not allowed)");
+    is(but(R"("swing")", R"("")"), R"( inputs[0] part: "" is not allowed)");
     is(but(R"("axis":[0,2,0],)", ""), " inputs[0]: axis is missing");
     is(but(R"([0,2,0])", R"([0,0,0])"), " inputs[0] axis: has no direction");
     is(but(R"([0,2,0])", R"([0,2])"), " inputs[0] axis: 2 numbers instead of 3");
@@ -108,6 +110,7 @@ TEST(GltfDrivers, FaultsAreNamed) {
     is(but(R"("values":4)", R"("values":7)"), " values: 65 for 2 poses of 2 targets");
     is(but(R"("width":1.5)", R"("width":-1)"), " width: not a number from 0.01 to 100");
     is(but(R"([-0.5,2])", R"([0.5,2])"), " clamp: 0, which the rest pose has, does not lie between its numbers");
+    is(but(R"([-0.5,2])", R"([-2e9,2])"), " clamp: beyond 1e+09");
     is(but(R"([-0.5,2])", R"([-0.5])"), " clamp: 1 numbers instead of 2");
     EXPECT_EQ(
         messageOf(but(R"("axis":[0,2,0])", R"("axis":[0,0,1])")),
@@ -156,27 +159,53 @@ TEST(GltfDrivers, JointsThatSwingAreRefused) {
     EXPECT_EQ(readWell(b, kStrict).drivers.size(), 1u) << "the last joint of a spring is a tail alone";
 }
 
-TEST(GltfDrivers, ManyAreBounded) {
-    std::string many;
-    for (int i = 0; i < 6000; ++i) {
-        many += (i == 0 ? "" : ",") + kDriver;
+std::string timesOver(const std::string& one, int times) {
+    std::string list = one;
+    for (int i = 1; i < times; ++i) {
+        list += "," + one;
     }
-    const Character c = readWell(driven("[" + many + "]").glb());
-    EXPECT_EQ(c.drivers.size(), kMaxDriverWork / 3);
+    return list;
+}
+
+TEST(GltfDrivers, ManyAreBounded) {
+    const Character c = readWell(driven("[" + timesOver(kDriver, 3000) + "]").glb());
+    EXPECT_EQ(driverWork(c.drivers.at(0)), 2u * 3 * 4);
+    EXPECT_EQ(c.drivers.size(), kMaxDriverWork / 24);
     EXPECT_EQ(c.warnings.size(), 1u) << "of alike lines the first";
 }
 
-TEST(GltfDrivers, PartsShareTargetsOnlyIfTheyHaveTheSame) {
-    const auto both = [](const std::string& second) {
-        GltfBuilder b = driven("[" + kDriver + "]");
-        const auto named = [](const std::string& drivers) {
-            return R"({"extras":{"targetNames":["a","b"]},"extensions":{"SUPPLE_deformers":{"drivers":)" + drivers +
-                   R"(}},"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1},{"POSITION":2}]}]})";
-        };
-        b.nodes = R"([{"name":"body","mesh":0},{"name":"forearm"},{"name":"coat","mesh":1,"translation":[9,0,0]}])";
-        b.meshes = "[" + named("[" + kDriver + "]") + "," + named(second) + "]";
-        return b;
+/// Two meshes of the same shape, at two nodes. Their targets have names, or not.
+GltfBuilder twoMeshes(const std::string& first, const std::string& second, bool names = true) {
+    GltfBuilder b = driven("[" + kDriver + "]");
+    const auto mesh = [&](const std::string& drivers) {
+        return std::string("{") + (names ? R"("extras":{"targetNames":["a","b"]},)" : "") +
+               R"("extensions":{"SUPPLE_deformers":{"drivers":)" + drivers +
+               R"(}},"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1},{"POSITION":2}]}]})";
     };
+    b.nodes = R"([{"name":"body","mesh":0},{"name":"forearm"},{"name":"coat","mesh":1,"translation":[9,0,0]}])";
+    b.meshes = "[" + mesh(first) + "," + mesh(second) + "]";
+    return b;
+}
+
+TEST(GltfDrivers, PartsWithTheSameCountOnce) {
+    const std::string many = "[" + timesOver(kDriver, 1500) + "]";
+    const Character shared = readWell(twoMeshes(many, many));
+    EXPECT_EQ(shared.drivers.size(), 1500u);
+    EXPECT_EQ(shared.morphs.targets.size(), 2u);
+    EXPECT_EQ(shared.warnings, Strings());
+    const Character nameless = readWell(twoMeshes(many, many, false));
+    EXPECT_EQ(nameless.morphs.targets.size(), 4u) << "they do not share";
+    EXPECT_EQ(nameless.drivers.size(), kMaxDriverWork / 24);
+    EXPECT_EQ(nameless.warnings.size(), 1u);
+    // What is left out of one is left out of both: they share all the same.
+    const std::string wrong = "[" + kDriver + "," + replaced(kDriver, R"([0,2,0])", R"([0,0,1])") + "]";
+    const Character less = readWell(twoMeshes(wrong, wrong));
+    EXPECT_EQ(less.drivers.size(), 1u);
+    EXPECT_EQ(less.morphs.targets.size(), 2u);
+}
+
+TEST(GltfDrivers, PartsShareTargetsOnlyIfTheyHaveTheSame) {
+    const auto both = [](const std::string& second) { return twoMeshes("[" + kDriver + "]", second); };
     const Character same = readWell(both("[" + kDriver + "]"));
     EXPECT_EQ(same.morphs.targets.size(), 2u);
     EXPECT_EQ(same.drivers.size(), 1u);
@@ -186,6 +215,12 @@ TEST(GltfDrivers, PartsShareTargetsOnlyIfTheyHaveTheSame) {
     const Character other = readWell(both("[" + replaced(kDriver, R"("width":1.5)", R"("width":1)") + "]"));
     ASSERT_EQ(other.drivers.size(), 2u);
     EXPECT_EQ(other.drivers[1].targets, (std::vector<uint32_t>{3, 2}));
+    for (size_t part = 0; part < 2; ++part) {
+        const Character taken = takePart(other, part);
+        ASSERT_EQ(taken.drivers.size(), 1u);
+        EXPECT_EQ(taken.drivers[0].width, part == 0 ? 1.5f : 1.0f);
+        EXPECT_EQ(taken.drivers[0].targets, (std::vector<uint32_t>{1, 0})) << "of the part's own";
+    }
 }
 
 } // namespace
