@@ -1,5 +1,6 @@
 #include "skinning/clip_bounds.h"
 
+#include "cage/solved_driver.h"
 #include "skinning/chord.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 constexpr int kMostHalvings = 8;
 /// Poses on the device are floats: of the products that lead to a vertex, and of the extent (docs/playback.md).
 constexpr double kProductSlack = 1e-6, kExtentSlack = 2e-5;
+/// Of the coefficients of a driver: what is off where they cancel out.
+constexpr double kDriverSlack = 1e-5;
 
 /// Finds the box of intervals, one after the other.
 class BoundsFinder {
@@ -33,14 +36,8 @@ public:
         }
         joints_.resize(skin.joints.size());
         placed_.resize(positions_.size());
-        driven_.resize(character.morphs.targets.size());
-        if (clip != nullptr) { // in the rest pose, drivers add nothing
-            for (const cage::PoseDriver& driver : character.drivers) {
-                for (const uint32_t target : driver.targets) {
-                    driven_[target].low += static_cast<double>(driver.low);
-                    driven_[target].high += static_cast<double>(driver.high);
-                }
-            }
+        takeDrivers(clip == nullptr);
+        if (clip != nullptr) {
             steps_ = std::any_of(clip->channels.begin(), clip->channels.end(), [](const cage::Channel& channel) {
                 return channel.interpolation == cage::Interpolation::step;
             });
@@ -95,6 +92,28 @@ private:
         uint32_t joint = 0;
     };
 
+    /// They add what they will, between their ends. In the rest pose that is 0, but for what floats leave of it.
+    void takeDrivers(bool rests) {
+        driven_.resize(character_.morphs.targets.size());
+        for (const cage::PoseDriver& driver : character_.drivers) {
+            const Result<cage::SolvedDriver> solved = rests ? cage::solveDriver(driver) : Error{};
+            for (size_t t = 0; t < driver.targets.size(); ++t) {
+                const double most = solved ? kDriverSlack * sumOfCoefficients(*solved, t, driver.targets.size())
+                                           : std::numeric_limits<double>::infinity();
+                Driven& own = driven_[driver.targets[t]];
+                own.low += std::max(static_cast<double>(driver.low), -most);
+                own.high += std::min(static_cast<double>(driver.high), most);
+            }
+        }
+    }
+    static double sumOfCoefficients(const cage::SolvedDriver& solved, size_t target, size_t targets) {
+        double sum = 0.0;
+        for (size_t i = target; i < solved.coefficients.size(); i += targets) {
+            sum += std::abs(static_cast<double>(solved.coefficients[i]));
+        }
+        return sum;
+    }
+
     template <class F>
     void forInfluences(size_t vertex, F&& visit) const {
         const cage::SkinWeights& weights = character_.weights;
@@ -143,7 +162,6 @@ private:
     void morph() {
         morphs_ = false;
         for (size_t t = 0; t < character_.morphs.targets.size(); ++t) {
-            // Drivers add what they will, between their ends.
             const double middle = 0.5 * (driven_[t].low + driven_[t].high);
             const double weights[2] = {pose_.weights[0][t] + middle, pose_.weights[1][t] + middle};
             const double error = pose_.weightErrors[t] + (driven_[t].high - middle);

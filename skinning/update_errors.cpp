@@ -1,8 +1,7 @@
 #include "skinning/update_errors.h"
 
 #include "shaders/shared/pose.h"
-#include "skinning/driver_table.h"
-#include "skinning/driver_twin.h"
+#include "skinning/driven_weights.h"
 #include "skinning/pose.h"
 #include "skinning/pose_distance.h"
 
@@ -26,11 +25,9 @@ constexpr uint32_t kAllAxes = kRootGround | kRootHeight | kRootYaw;
 /// errors are those of what lies between two frames.
 class UpdateMeasurement {
 public:
-    explicit UpdateMeasurement(const cage::Character& character)
-        : character_(character), root_(findRoot(character)), distance_(character),
-          globals_(character.skeleton.nodes.size()),
-          drivers_(buildDriverTable(character, std::vector<uint32_t>(globals_.size(), 0), 0)),
-          turns_(drivers_.nodes.size()), driven_((character.morphs.targets.size() + 3) / 4) {}
+    UpdateMeasurement(const cage::Character& character, const DriverTable& drivers)
+        : character_(character), root_(findRoot(character)), distance_(character), driven_(drivers),
+          globals_(character.skeleton.nodes.size()) {}
 
     UpdateFacts take() {
         UpdateFacts facts;
@@ -60,23 +57,7 @@ private:
         distance_.globalsOf(pose_, globals_);
         distance_.place(globals_, frame.points);
         frame.weights = pose_.morphWeights;
-        drive(frame.weights);
-    }
-
-    /// Adds what drivers do, of the pose.
-    void drive(std::vector<double>& weights) {
-        if (drivers_.quads == 0) {
-            return;
-        }
-        for (size_t i = 0; i < turns_.size(); ++i) {
-            const glm::dquat& q = pose_.locals[drivers_.nodes[i]].rotation;
-            turns_[i] = glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
-        }
-        std::ranges::fill(driven_, glm::vec4(0.0f));
-        addDriven(drivers_.words, 0, turns_, driven_);
-        for (size_t t = 0; t < weights.size(); ++t) {
-            weights[t] += static_cast<double>(driven_[t / 4][static_cast<int>(t % 4)]);
-        }
+        driven_.addTo(pose_, frame.weights);
     }
 
     /// Of what lies `part` of the way from one frame to another, from a third.
@@ -162,10 +143,9 @@ private:
     const cage::Character& character_;
     uint32_t root_ = cage::kNone;
     PoseDistance distance_;
+    DrivenWeights driven_;
     Pose pose_;
     std::vector<glm::dmat4> globals_;
-    DriverTable drivers_;
-    std::vector<glm::vec4> turns_, driven_;
     std::array<Frame, kFrames> frames_;
     size_t samplesLeft_ = kMostMeasured;
 };
@@ -187,7 +167,11 @@ bool UpdateFacts::closes(uint32_t clip, const RootSelection& taken) const {
 }
 
 UpdateFacts measureUpdates(const cage::Character& character) {
-    return UpdateMeasurement(character).take();
+    return measureUpdates(character, buildDriverTable(character));
+}
+
+UpdateFacts measureUpdates(const cage::Character& character, const DriverTable& drivers) {
+    return UpdateMeasurement(character, drivers).take();
 }
 
 } // namespace supple::skinning
