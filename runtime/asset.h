@@ -80,6 +80,8 @@ struct Asset {
     tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// Some morph weights follow from joints, and move something.
+    [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
     /// Sees to it that `updates` is there.
     void measureUpdates();
     /// Sees to it that what a way of skinning needs is there.

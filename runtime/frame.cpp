@@ -328,6 +328,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::modifiers>, recordPose<Playback::Part::modifiers>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::drivers>, recordPose<Playback::Part::drivers>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::springs>, recordPose<Playback::Part::springs>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::mix>, recordPose<Playback::Part::mix>},

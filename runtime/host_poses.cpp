@@ -34,6 +34,9 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
+    if (asset.hasDrivers()) {
+        drivers_ = HostDrivers(character, instanceCount);
+    }
     if (modifiers || springs) {
         const skinning::ClipTable& table = *asset.clipTable;
         modifiers_ = InstanceModifiers(modifiers ? instanceCount : 0, 0);
@@ -98,6 +101,7 @@ void HostPoses::setPose(uint32_t instance) {
         modify(instance);
         return;
     }
+    drivers_.setLocals(instance, pose);
     skinning::posePalette(asset_->character, pose, memory_.nodes, palette(instance));
     skinning::jointTransforms(asset_->character.skin, memory_.nodes, joints(instance));
     finishPalette(instance);
@@ -133,6 +137,7 @@ void HostPoses::modify(uint32_t instance) {
     }
     twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
                      std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    drivers_.setLocals(instance, *asset_->clipTable, twin_.locals());
     springs_.setPose(instance, twin_.locals());
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> placed = joints(instance);
@@ -170,6 +175,7 @@ void HostPoses::setBindPose(uint32_t instance) {
     std::fill(own.begin(), own.end(), skinning::toAffine(glm::mat4(1.0f)));
     std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
+    drivers_.setBindPose(instance);
     forgetLocals(instance);
     springs_.setBindPose(instance);
     finishPalette(instance);
@@ -222,6 +228,7 @@ void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDes
         setWeights(instance,
                    desc.morphWeights != nullptr ? desc.morphWeights : asset_->character.morphs.weights.data());
     }
+    drivers_.setJoints(instance, own);
     forgetLocals(instance);
     springs_.setJoints(instance, own);
     finishPalette(instance);
@@ -253,6 +260,7 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
                                      : asset_->jointFrames.rest[j];
         target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
     }
+    drivers_.setJoints(instance, own);
     springs_.setJoints(instance, own);
     finishPalette(instance);
 }
@@ -315,6 +323,7 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
         std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
         std::copy_n(other.joints_.begin(), joints, joints_.begin());
         std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
+        drivers_.takeOver(other.drivers_, count);
         if (keepsLocals()) {
             if (takesModifiers()) {
                 modifiers_.takeOver(other.modifiers_, count);
@@ -328,14 +337,17 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
     }
 }
 
+std::span<const float> HostPoses::weightsOf(uint32_t instance) const {
+    const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+    return drivers_.shown(instance, std::span(weights).subspan(instance * targetCount_, targetCount_));
+}
+
 std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
     if (hasSprings()) {
         return std::nullopt;
     }
-    const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
     const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
-    const skinning::Box linear =
-        skinning::paletteBounds(reach, own, std::span(weights).subspan(instance * targetCount_, targetCount_));
+    const skinning::Box linear = skinning::paletteBounds(reach, own, weightsOf(instance));
     return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
 }
 
@@ -354,13 +366,12 @@ void HostPoses::write(uint64_t frame, double time, uint32_t count, std::byte* ta
     const size_t joints = layout_.jointCount;
     springs_.setTime(frame, time);
     for (uint32_t instance = 0; instance < count; ++instance) {
-        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
         skinning::InstancePose pose;
         pose.palette = std::span(palettes_).subspan(instance * joints, joints);
         if (!rotations_.empty()) {
             pose.rotations = std::span(rotations_).subspan(instance * joints, joints);
         }
-        pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
+        pose.morphWeights = weightsOf(instance);
         pose.transform = placement(instance);
         if (hasSprings()) {
             swing(instance, pose);

@@ -3,6 +3,7 @@
 
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/host_drivers.h"
 #include "runtime/host_springs.h"
 #include "runtime/instance_modifiers.h"
 #include "skinning/deform_kernels.h"
@@ -122,6 +123,8 @@ private:
         return placed;
     }
     void finishPalette(uint32_t instance);
+    /// Morph weights as they are shown, until the next call.
+    [[nodiscard]] std::span<const float> weightsOf(uint32_t instance) const;
     [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
     [[nodiscard]] std::span<glm::mat4> joints(uint32_t instance);
 
@@ -142,6 +145,7 @@ private:
     std::vector<uint64_t> versions_; ///< rise whenever something of the instance is set
     uint64_t originVersion_ = 1;
     skinning::PoseMemory memory_;
+    HostDrivers drivers_;
 
     // Where instances may have modifiers, or springs.
     static constexpr uint32_t kStateElements =

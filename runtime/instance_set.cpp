@@ -26,7 +26,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
-        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs});
+        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs, desc.asset->hasDrivers()});
     }
     if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers || desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);

@@ -380,7 +380,8 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     forget(slot);
     skinning::PlaybackState own = states_.state(slot);
-    if (weights == nullptr && own.morphWeights() != nullptr) { // ends that were posed meanwhile have the host's
+    // Ends that were posed meanwhile have the host's. With drivers, they have what these add to the weights of then.
+    if (hasDrivers() || (weights == nullptr && own.morphWeights() != nullptr)) {
         rates_.forget(slot);
     }
     own.setMorphWeights(weights, push_.morphCount);
@@ -541,6 +542,8 @@ bool Playback::has(Part part) const {
         return posed && (roots_ || plants_);
     case Part::modifiers:
         return posed && modifies_;
+    case Part::drivers:
+        return posed && hasDrivers();
     case Part::springs:
         return hasSprings() && list_.swingingCount() > 0;
     case Part::mix:
@@ -569,7 +572,8 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
         const PoseList::Window& own = list_.window(window);
         const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
         push.firstInstance = run.first;
-        push.instanceCount = part == Part::palette ? own.shown : part == Part::springs ? own.swinging.count : run.count;
+        const bool shownAlone = part == Part::palette || part == Part::drivers;
+        push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
         push.shown = own.shown;
         push.springWords = own.swinging.first;
@@ -591,6 +595,9 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
         break;
     case Part::modifiers:
         kernels_->recordModifiers(dispatches, sets_[window], push);
+        break;
+    case Part::drivers:
+        kernels_->recordDrivers(dispatches, sets_[window], asset_->clipTable->drivenQuads, push);
         break;
     case Part::springs:
         kernels_->recordSprings(dispatches, sets_[window], push);
@@ -618,6 +625,10 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     if (takesModifiers()) {
         dispatches.computeBarrier();
         kernels_->recordModifiers(dispatches, set, none);
+    }
+    if (hasDrivers()) {
+        dispatches.computeBarrier();
+        kernels_->recordDrivers(dispatches, set, asset_->clipTable->drivenQuads, none);
     }
     if (hasSprings()) {
         dispatches.computeBarrier();

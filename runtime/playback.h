@@ -75,6 +75,8 @@ public:
     [[nodiscard]] bool takesTransitions() const { return states_.haveTransitions(); }
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
     [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
+    /// Some morph weights follow from joints, beside what clips and the host make of them.
+    [[nodiscard]] bool hasDrivers() const { return push_.drivers != 0; }
     /// A frame poses what listPoses() has listed, not all that the group works on.
     [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
@@ -160,8 +162,8 @@ public:
         return list_.recordUpload(*device_, commandBuffer, frame);
     }
 
-    enum class Part { locals, roots, modifiers, springs, palette, mix };
-    static constexpr uint32_t kParts = 6;
+    enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
+    static constexpr uint32_t kParts = 7;
     /// A part of the pass over the instances of a window.
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.

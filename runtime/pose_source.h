@@ -70,7 +70,7 @@ public:
                                   uint32_t /*end*/) {
         return {};
     }
-    /// The pose pass has six parts with a barrier between each two. Whether the source has this one.
+    /// The pose pass has seven parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {

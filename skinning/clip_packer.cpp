@@ -1,8 +1,10 @@
 #include "skinning/clip_packer.h"
 
 #include "cage/message.h"
+#include "cage/solved_driver.h"
 #include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
+#include "skinning/driven_weights.h"
 #include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 #include "skinning/pose_distance.h"
@@ -122,9 +124,10 @@ struct Attempt {
 class ClipPacker {
 public:
     /// `workLeft` becomes less.
-    ClipPacker(const PoseDistance& distance, const NodeOrder& order, const cage::Clip& clip, double error,
-               uint64_t& workLeft)
-        : distance_(distance), order_(order), clip_(clip), error_(error), workLeft_(workLeft) {}
+    ClipPacker(const PoseDistance& distance, const DriverTable& drivers, const NodeOrder& order, const cage::Clip& clip,
+               double error, uint64_t& workLeft)
+        : distance_(distance), driven_(drivers), hasDrivers_(drivers.quads != 0), order_(order), clip_(clip),
+          error_(error), workLeft_(workLeft) {}
 
     /// Nothing if the clip stays as it is; leftOut() may say why.
     std::optional<cage::Clip> pack() {
@@ -206,14 +209,29 @@ private:
     /// False: it would take too much memory or time.
     bool takeWork() {
         const cage::Character& character = distance_.character();
-        const size_t targets = weights_.empty() ? 0 : character.morphs.targets.size();
-        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets);
+        const size_t targets = comparesWeights() ? character.morphs.targets.size() : 0;
+        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets + driverWork());
         leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
                    : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
                    : work > workLeft_ ? "the clips before it took too long"
                                       : nullptr;
         workLeft_ -= leftOut_ == nullptr ? work : 0;
         return leftOut_ == nullptr;
+    }
+
+    /// Weights differ where a channel or a driver sets some.
+    [[nodiscard]] bool comparesWeights() const { return !weights_.empty() || hasDrivers_; }
+    [[nodiscard]] size_t driverWork() const {
+        size_t rounds = 0;
+        for (const cage::PoseDriver& driver : distance_.character().drivers) {
+            rounds += cage::driverWork(driver);
+        }
+        return rounds;
+    }
+    /// As instances show them in pose_.
+    void takeWeights(std::vector<double>& weights) {
+        weights = pose_.morphWeights;
+        driven_.addTo(pose_, weights);
     }
 
     /// The clip on its frames, and in their middles. False: it has numbers that are too large to be packed.
@@ -227,7 +245,7 @@ private:
             track.values.clear();
         }
         truth_.assign(2 * size_t{last_} + 1, std::vector<glm::dmat4>(character.skeleton.nodes.size()));
-        trueWeights_.assign(weights_.empty() ? 0 : truth_.size(), {});
+        trueWeights_.assign(comparesWeights() ? truth_.size() : 0, {});
         for (uint32_t k = 0; k < truth_.size(); ++k) {
             sampleClip(character, clip_, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, truth_[k]);
@@ -235,8 +253,8 @@ private:
                 leftOut_ = "its numbers are too large";
                 return false;
             }
-            if (!weights_.empty()) {
-                trueWeights_[k] = pose_.morphWeights;
+            if (comparesWeights()) {
+                takeWeights(trueWeights_[k]);
             }
             if (k % 2 == 0) {
                 takeFrame();
@@ -470,8 +488,9 @@ private:
             sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, globals);
             double own = distance_.between(globals, truth_[k], vertices);
-            if (!weights_.empty()) {
-                own += between(0, pose_.morphWeights, trueWeights_[k]) / distance_.extent();
+            if (comparesWeights()) {
+                takeWeights(shownWeights_);
+                own += between(0, shownWeights_, trueWeights_[k]) / distance_.extent();
             }
             worst = std::max(worst, own);
         }
@@ -506,6 +525,8 @@ private:
     }
 
     const PoseDistance& distance_;
+    DrivenWeights driven_;
+    bool hasDrivers_;
     const NodeOrder& order_;
     const cage::Clip& clip_;
     double error_;
@@ -517,6 +538,7 @@ private:
     std::vector<Channel> rest_;                  ///< channels that are never packed
     std::vector<std::vector<glm::dmat4>> truth_; ///< by half frame
     std::vector<std::vector<double>> trueWeights_;
+    std::vector<double> shownWeights_;
     Pose pose_;
 };
 
@@ -530,11 +552,13 @@ std::vector<std::string> packClips(cage::Character& character, double error) {
     const uint32_t root = findRoot(character);
     std::vector<std::optional<cage::Clip>> packed;
     {
-        const PoseDistance distance(character);
+        PoseDistance distance(character);
+        distance.takeDrivers();
+        const DriverTable drivers = buildDriverTable(character);
         const NodeOrder order = nodeOrder(character);
         uint64_t workLeft = kMostWork;
         for (const cage::Clip& clip : character.clips) {
-            ClipPacker packer(distance, order, clip, error, workLeft);
+            ClipPacker packer(distance, drivers, order, clip, error, workLeft);
             std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
             const size_t bytes = clipBytes(order, clip);
             if (own && clipBytes(order, *own) < bytes) {

@@ -3,6 +3,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/contacts.h"
+#include "skinning/driver_table.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
 #include "skinning/split_time.h"
@@ -261,9 +262,17 @@ uint32_t ClipTable::footNumber(uint32_t place) const {
 NodeOrder nodeOrder(const cage::Character& character) {
     const cage::Skeleton& skeleton = character.skeleton;
     std::vector<bool> moves(skeleton.nodes.size(), false);
-    for (const uint32_t joint : character.skin.joints) {
-        for (uint32_t node = joint; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
+    const auto take = [&](uint32_t node) {
+        for (; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
             moves[node] = true;
+        }
+    };
+    for (const uint32_t joint : character.skin.joints) {
+        take(joint);
+    }
+    for (const cage::PoseDriver& driver : character.drivers) {
+        for (const cage::DriverInput& input : driver.inputs) {
+            take(input.node);
         }
     }
     NodeOrder order;
@@ -317,6 +326,7 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putClips();
     builder.putContacts();
     putSprings(character, table);
+    putDrivers(character, table);
     return table;
 }
 

@@ -63,6 +63,7 @@ public:
                 take(channel);
             }
         }
+        takeDrivers();
         for (const uint32_t node : character_.skeleton.parentsFirst) {
             place(node);
         }
@@ -121,6 +122,15 @@ private:
             forHull(channel, [&](std::span<const double> value) {
                 range.scale = std::max({range.scale, std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
             });
+        }
+    }
+
+    /// They add to what clips have.
+    void takeDrivers() {
+        for (const cage::PoseDriver& driver : character_.drivers) {
+            for (const uint32_t target : driver.targets) {
+                weights_[target] += static_cast<double>(std::max(-driver.low, driver.high));
+            }
         }
     }
 

@@ -48,6 +48,7 @@ constexpr Checked kShaders[] = {
     {"pose/roots.comp", "local"},
     {"pose/roots.comp", "held"},
     {"pose/modify.comp", "local"},
+    {"pose/drivers.comp", "weights"},
     {"pose/palette.comp", "element"},
     {"pose/mix.comp", "rows"},
     {"pose/mix.comp", "rotation"},

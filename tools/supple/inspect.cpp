@@ -11,6 +11,7 @@
 #include "tools/supple/command.h"
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
+#include "tools/supple/inspect_drivers.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
 #include "tools/supple/memory_report.h"
@@ -315,6 +316,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     for (const cage::Expression& expression : character.expressions) {
         json["expressions"].push_back({{"name", expression.name}, {"morphTargets", expression.targets.size()}});
     }
+    json["drivers"] = driversToJson(character);
     json["springs"] = Json::array();
     for (const cage::Spring& spring : character.springBones.springs) {
         json["springs"].push_back({{"name", spring.name}, {"joints", spring.joints.size()}});
@@ -498,6 +500,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("", "set " + cage::quoted(name) + ": " + std::to_string(edges) + (edges == 1 ? " edge" : " edges"));
     }
     printLine("morph targets", std::to_string(character.morphs.targets.size()));
+    if (!character.drivers.empty()) {
+        printLine("pose drivers", std::to_string(character.drivers.size()));
+    }
+    for (const std::string& line : driverLines(character)) {
+        printLine("", line);
+    }
     printVrm(character);
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");

@@ -1153,7 +1153,8 @@ SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleInstance 
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleInstance instance, const float* jointMatrices,
                                             uint32_t jointCount);
 /** Sets an instance's morph weights (morphTargetCount values). They replace the weights of all its poses, until you
- * pass null. Errors: morphTargetCount is not the asset's, a weight is not finite. */
+ * pass null; pose drivers of the file (docs/pose_drivers.md) add to them. Errors: morphTargetCount is not the asset's,
+ * a weight is not finite. */
 SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInstance instance, const float* weights,
                                               uint32_t morphTargetCount);
 
