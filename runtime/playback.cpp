@@ -310,7 +310,22 @@ void Playback::forgetEndsWith(uint32_t mask) {
     }
 }
 
+void Playback::takeSegments() {
+    const uint64_t version = asset_->stream != nullptr ? asset_->stream->version() : 0;
+    if (segmentVersion_ != version) {
+        segmentVersion_ = version;
+        evaluated_ = kNoSlot;
+        rates_.forgetAll();
+    }
+}
+
+void Playback::takeStep() {
+    takeSegments();
+    steps_.take(time_);
+}
+
 void Playback::evaluate(uint32_t slot) {
+    takeSegments();
     if (evaluated_ == slot) {
         return;
     }

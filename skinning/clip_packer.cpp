@@ -113,6 +113,13 @@ struct Track {
     [[nodiscard]] bool isRotation() const { return channel->path == ChannelPath::rotation; }
 };
 
+/// How far packing may move a vertex, as parts of the extent.
+struct PackErrors {
+    double fine = 0.0;
+    double coarse = 0.0; ///< of coarse twins; not more than `fine`: there is none
+    [[nodiscard]] bool wantTwins() const { return coarse > fine; }
+};
+
 /// What a clip becomes with some budget.
 struct Attempt {
     PackedClip packed;
@@ -122,9 +129,9 @@ struct Attempt {
 class ClipPacker {
 public:
     /// `workLeft` becomes less.
-    ClipPacker(const PoseDistance& distance, const NodeOrder& order, const cage::Clip& clip, double error,
+    ClipPacker(const PoseDistance& distance, const NodeOrder& order, const cage::Clip& clip, const PackErrors& errors,
                uint64_t& workLeft)
-        : distance_(distance), order_(order), clip_(clip), error_(error), workLeft_(workLeft) {}
+        : distance_(distance), order_(order), clip_(clip), errors_(errors), workLeft_(workLeft) {}
 
     /// Nothing if the clip stays as it is; leftOut() may say why.
     std::optional<cage::Clip> pack() {
@@ -138,8 +145,9 @@ public:
             if (!takeWork() || !follow()) {
                 return std::nullopt;
             }
-            if (std::optional<cage::Clip> packed = search()) {
-                return packed;
+            if (std::optional<Found> fine = search(errors_.fine, [&](double budget) { return attempt(budget); })) {
+                addTwin(*fine);
+                return std::move(fine->clip);
             }
         }
         return std::nullopt;
@@ -207,7 +215,8 @@ private:
     bool takeWork() {
         const cage::Character& character = distance_.character();
         const size_t targets = weights_.empty() ? 0 : character.morphs.targets.size();
-        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets);
+        const uint64_t work =
+            uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets) * (errors_.wantTwins() ? 2 : 1);
         leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
                    : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
                    : work > workLeft_ ? "the clips before it took too long"
@@ -463,10 +472,11 @@ private:
         return clip;
     }
 
-    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices) {
+    /// Once it is more than `most`, nobody asks how much more.
+    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices, double most) {
         double worst = 0.0;
         std::vector<glm::dmat4> globals(distance_.character().skeleton.nodes.size());
-        for (uint32_t k = 0; k < truth_.size() && worst <= error_; ++k) {
+        for (uint32_t k = 0; k < truth_.size() && worst <= most; ++k) {
             sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, globals);
             double own = distance_.between(globals, truth_[k], vertices);
@@ -478,37 +488,66 @@ private:
         return worst;
     }
 
-    /// The largest budget that keeps within the error, first of some vertices, at last of all.
-    std::optional<cage::Clip> search() {
+    /// What a budget has given.
+    struct Found {
+        Attempt attempt;
+        cage::Clip clip; ///< with its words and its error
+    };
+    /// Tries make(budget) with the largest budget that keeps within the error, first of some vertices, at last of all.
+    template <class Make>
+    std::optional<Found> search(double error, Make&& make) {
         double low = 0.0, high = 0.0, part = 0.5; // budgets, in errors
         for (int i = 0; i < 10; ++i) {
-            const cage::Clip clip = decoded(attempt(part * error_ * distance_.extent()));
-            (errorOf(clip, distance_.watched()) <= error_ ? low : high) = part;
+            const cage::Clip clip = decoded(make(part * error * distance_.extent()));
+            (errorOf(clip, distance_.watched(), error) <= error ? low : high) = part;
             part = high == 0.0 ? 1.5 * part : 0.5 * (low + high);
             if (low > 0.0 && high > 0.0 && high < 1.05 * low) {
                 break;
             }
         }
         for (int i = 0; i < 12 && low > 0.0; ++i, low *= 0.93) {
-            const Attempt own = attempt(low * error_ * distance_.extent());
-            std::optional<std::vector<uint32_t>> words = packedWords(own.packed, clip_.duration, order_.nodes.size());
-            if (!words || own.packed.properties.empty()) {
+            Found own{make(low * error * distance_.extent()), {}};
+            std::optional<std::vector<uint32_t>> words =
+                packedWords(own.attempt.packed, clip_.duration, order_.nodes.size());
+            if (!words || own.attempt.packed.properties.empty()) {
                 return std::nullopt;
             }
-            cage::Clip clip = decoded(own);
-            clip.packed.error = errorOf(clip, distance_.all());
-            if (clip.packed.error <= error_) {
-                clip.packed.words = std::move(*words);
-                return clip;
+            own.clip = decoded(own.attempt);
+            own.clip.packed.error = errorOf(own.clip, distance_.all(), error);
+            if (own.clip.packed.error <= error) {
+                own.clip.packed.words = std::move(*words);
+                return own;
             }
         }
         return std::nullopt;
     }
 
+    /// Gives the clip its coarse twin, if that takes less than what it stands in for.
+    void addTwin(Found& fine) {
+        if (!errors_.wantTwins()) {
+            return;
+        }
+        const std::optional<Found> coarse = search(errors_.coarse, [&](double budget) {
+            Attempt own = attempt(budget);
+            own.rest = fine.attempt.rest; // what is not packed plays with either
+            std::erase_if(own.packed.properties, [&](const PackedProperty& property) {
+                return std::none_of(
+                    fine.attempt.packed.properties.begin(), fine.attempt.packed.properties.end(),
+                    [&](const PackedProperty& of) { return of.place == property.place && of.path == property.path; });
+            });
+            return own;
+        });
+        cage::PackedChannels& packed = fine.clip.packed;
+        if (coarse && coarse->clip.packed.words.size() < segmentWords(packed.words)) {
+            packed.coarseWords = coarse->clip.packed.words;
+            packed.coarseError = coarse->clip.packed.error;
+        }
+    }
+
     const PoseDistance& distance_;
     const NodeOrder& order_;
     const cage::Clip& clip_;
-    double error_;
+    PackErrors errors_;
     uint64_t& workLeft_;
     const char* leftOut_ = nullptr;
     uint32_t last_ = 0;
@@ -522,7 +561,7 @@ private:
 
 } // namespace
 
-std::vector<std::string> packClips(cage::Character& character, double error) {
+std::vector<std::string> packClips(cage::Character& character, double error, double coarseError) {
     std::vector<std::string> leftOut;
     if (character.clips.empty() || character.skin.joints.empty()) {
         return leftOut;
@@ -534,7 +573,7 @@ std::vector<std::string> packClips(cage::Character& character, double error) {
         const NodeOrder order = nodeOrder(character);
         uint64_t workLeft = kMostWork;
         for (const cage::Clip& clip : character.clips) {
-            ClipPacker packer(distance, order, clip, error, workLeft);
+            ClipPacker packer(distance, order, clip, {error, coarseError}, workLeft);
             std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
             const size_t bytes = clipBytes(order, clip);
             if (own && clipBytes(order, *own) < bytes) {

@@ -92,7 +92,7 @@ Status Context::makeHashes() {
     return made;
 }
 
-void Context::noteState(Recorder& recorder) const {
+void Context::noteState(Recorder& recorder) {
     if (uploads_.bounded()) {
         recorder.note(calls::SetUploadBudget{uploads_.budget()});
     }
@@ -102,6 +102,7 @@ void Context::noteState(Recorder& recorder) const {
     if (keeps_) {
         keeper_->tell(recorder);
     }
+    restartStreams(recorder);
     if (frameOpen_) {
         recorder.note(calls::BeginFrame{frame_, completedFrame_});
     }

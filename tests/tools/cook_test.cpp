@@ -65,6 +65,12 @@ TEST_F(Cook, ClipsArePackedAsCloselyAsIsAsked) {
             EXPECT_GT(clip["packed"]["ratio"], 5.0) << clip["name"];
         }
     }
+    for (const auto& clip : cook("--coarse-clip-error 1e-2")) {
+        EXPECT_LE(clip["packed"]["error"], 1e-4);
+        EXPECT_LE(clip["packed"]["twin"]["error"], 1e-2);
+        EXPECT_LT(clip["packed"]["twin"]["bytes"], clip["packed"]["segmentBytes"]);
+    }
+    EXPECT_NE(run("inspect pip.supple").out.find("coarse twin: "), std::string::npos);
     for (const auto& clip : cook("--clip-error 0")) {
         EXPECT_FALSE(clip.contains("packed"));
     }

@@ -53,7 +53,7 @@ Result<std::unique_ptr<Workbench>> Workbench::create(const SuppleContextDesc& de
 }
 
 Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
-    Result<uint64_t> asset = inside_->context->createAsset(std::move(character));
+    Result<uint64_t> asset = inside_->context->createAsset(std::move(character), 0);
     if (!asset) {
         return asset.error();
     }
@@ -68,7 +68,7 @@ std::shared_ptr<const runtime::Prepared> Workbench::prepare(cage::Character char
 }
 
 Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepared> prepared) {
-    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared));
+    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared), 0);
     if (!asset) {
         return asset.error();
     }

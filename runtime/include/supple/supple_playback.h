@@ -169,6 +169,44 @@ SUPPLE_API SuppleResult suppleGetClipMarkersBetween(SuppleContext context, Suppl
                                                     double from, double to, uint32_t flags, SuppleClipMarker* out,
                                                     uint32_t* count);
 
+/* ---------------------------------------------------------------------------------------------------- streaming */
+
+/** What a host wants of a stretch of a clip. */
+typedef enum SuppleClipUse {
+    /** It is played soon: its segments are brought to the device. They go again when segments that were asked for later
+     * need the room. */
+    SUPPLE_CLIP_REQUEST = 0,
+    SUPPLE_CLIP_PIN = 1,     /**< the same, and they stay until they are released or merely requested */
+    SUPPLE_CLIP_RELEASE = 2, /**< they go first when room is needed; what is on its way is given up */
+    SUPPLE_CLIP_USE_MAX_ENUM = 0x7FFFFFFF
+} SuppleClipUse;
+
+typedef struct SuppleClipRequest {
+    uint32_t structSize;
+    SuppleClipUse use;
+    double begin; /**< seconds into the clip: the segments from the one that has this time */
+    double end;   /**< to the one that has this time; 0: to the clip's end. What lies beyond the clip does not count */
+} SuppleClipRequest;
+
+/** Asks for segments of a clip, of an asset with a pool (SuppleAssetDesc.clipPoolBytes). Until a segment is there, its
+ * times play the clip's coarse twin. A segment has 32 frames, at most 1.4 seconds of most clips. Of clips without a
+ * twin, and of assets without a pool, all is there already, and the call does nothing.
+ *
+ * request: null asks for the whole clip. Asking again for what is there only makes it newer: a game may do so whenever
+ * a clip starts. Whoever goes on through a long clip asks for a few seconds ahead.
+ *
+ * What has been asked for before the asset's first group that plays is created is there from the beginning. Later
+ * segments go up with the frames that record groups of the asset, those that were asked for first before others: in
+ * each at most half of the upload budget (suppleSetUploadBudget), without a budget 64 KiB; they count in
+ * SuppleUploadState.frameBytes. They play from the next suppleBeginFrame on. suppleGetClipInfo tells what is there,
+ * getters of joints have the bits of what plays. suppleReloadAsset asks for the same of clips of the same name.
+ *
+ * If there is no room for a segment, because all that is there is pinned or was asked for later, it waits for some.
+ * Errors: no such clip or use; begin or end negative, not finite, or begin behind end; SUPPLE_ERROR_LIMIT: more is
+ * pinned than the pool has. */
+SUPPLE_API SuppleResult suppleRequestClip(SuppleContext context, SuppleAsset asset, uint32_t clip,
+                                          const SuppleClipRequest* request);
+
 /* ---------------------------------------------------------------------------------------------------- playback */
 
 /** One clip that an instance plays. T is the group's time (suppleSetTime). The clip's time is
