@@ -212,7 +212,8 @@ VkDeviceSize ClipStream::beginFrame(uint64_t frame, VkDeviceSize most, bool read
     if (frame == frame_) { // of another group
         return 0;
     }
-    const bool recorded = frame_ != 0 && recordedFrame_ == frame_;
+    const bool isUsed = idleFrames_ < kIdle;
+    idleFrames_ += isUsed ? 1 : 0;
     frame_ = frame;
     ready_ = ready;
     planned_.clear();
@@ -220,7 +221,7 @@ VkDeviceSize ClipStream::beginFrame(uint64_t frame, VkDeviceSize most, bool read
         return 0;
     }
     settle();
-    if (!ready || !recorded) { // copies would wait for nobody
+    if (!ready || !isUsed) {
         return 0;
     }
     meet();
@@ -254,6 +255,7 @@ VkDeviceSize ClipStream::record(const gpu::Device& device, VkCommandBuffer comma
                                 uint64_t frame) {
     const bool works = hasWork(frame);
     recordedFrame_ = frame;
+    idleFrames_ = 0;
     if (!works) {
         return 0;
     }
@@ -279,6 +281,7 @@ void ClipStream::cancelFrame(uint64_t frame) {
         return;
     }
     recordedFrame_ = 0;
+    idleFrames_ = kIdle;
     for (const uint32_t s : written_) {
         if (!segments_[s].due) {
             segments_[s].due = true;
@@ -334,6 +337,7 @@ std::vector<ClipRequest> ClipStream::restart() {
         letGo(s);
     }
     recordedFrame_ = 0;
+    idleFrames_ = kIdle;
     for (const ClipRequest& own : asked) {
         (void)request(own); // it has been pinned before
     }

@@ -77,6 +77,8 @@ private:
     };
     static constexpr uint64_t kNowhere = ~uint64_t{0};
     static constexpr VkDeviceSize kElement = 16;
+    /// From so many idle frames on, copies would keep bytes from others for nobody.
+    static constexpr uint32_t kIdle = 8;
 
     [[nodiscard]] VkDeviceSize bytes(size_t s) const { return whole_->streamedSegments[s].size() * kElement; }
     [[nodiscard]] const skinning::StreamedClip* find(uint32_t clip) const;
@@ -104,6 +106,7 @@ private:
     std::vector<uint32_t> planned_;       ///< segments that the frame copies
     uint64_t stamp_ = 0, version_ = 1;
     uint64_t frame_ = 0, recordedFrame_ = 0;
+    uint32_t idleFrames_ = kIdle; ///< that have begun since a frame recorded the asset
     bool started_ = false;
     bool ready_ = false; ///< when the frame began, the device had the table
 };

@@ -68,8 +68,8 @@ std::vector<std::vector<uint8_t>> chunksOf(const uint8_t* data, size_t size) {
     for (size_t at = 0; at + sizeof(runtime::ChunkHead) <= size;) {
         runtime::ChunkHead head;
         std::memcpy(&head, data + at, sizeof head);
-        const size_t padded = (size_t{head.bytes} + runtime::kChunkAlignment - 1) / runtime::kChunkAlignment *
-                              runtime::kChunkAlignment;
+        const size_t padded =
+            (size_t{head.bytes} + runtime::kChunkAlignment - 1) / runtime::kChunkAlignment * runtime::kChunkAlignment;
         if (padded > size - at - sizeof head) {
             break;
         }

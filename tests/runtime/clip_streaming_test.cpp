@@ -65,8 +65,8 @@ uint64_t residentIn(CrowdContext& context, SuppleAsset asset, uint32_t clips) {
     return sum;
 }
 
-SuppleResult request(CrowdContext& context, SuppleAsset asset, uint32_t clip,
-                     SuppleClipUse use = SUPPLE_CLIP_REQUEST, double begin = 0.0, double end = 0.0) {
+SuppleResult request(CrowdContext& context, SuppleAsset asset, uint32_t clip, SuppleClipUse use = SUPPLE_CLIP_REQUEST,
+                     double begin = 0.0, double end = 0.0) {
     const SuppleClipRequest request{sizeof request, use, begin, end};
     return suppleRequestClip(context.handle(), asset, clip, &request);
 }

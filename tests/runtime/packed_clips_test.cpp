@@ -102,8 +102,7 @@ TEST(PackedFiles, AreReadAsTheyWereWritten) {
     const Result<std::shared_ptr<runtime::Prepared>> unlike =
         runtime::readCooked(runtime::writeCooked(*runtime::Prepared::of(mixed), ""), "wren.supple");
     ASSERT_FALSE(unlike.ok());
-    EXPECT_NE(unlike.error().message.find("clip walk: its coarse twin: "), std::string::npos)
-        << unlike.error().message;
+    EXPECT_NE(unlike.error().message.find("clip walk: its coarse twin: "), std::string::npos) << unlike.error().message;
     // Words that say something else are refused, with the file's name.
     packed.clips[1].packed.words[1] += 1;
     const std::vector<std::byte> spoiled = runtime::writeCooked(*runtime::Prepared::of(packed), "");

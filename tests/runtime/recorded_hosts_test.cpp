@@ -18,18 +18,16 @@ namespace {
 
 class RecordedHosts : public CrowdContexts {};
 
-constexpr uint32_t kHostGroups = 3, kHostFrames = 12;
+constexpr uint32_t kBusyGroups = 3, kBusyFrames = 12;
 
 /// A group that plays, one that the host poses, and one of fragments.
-struct HostOfGroups {
-    explicit HostOfGroups(SuppleContext ofHost, uint32_t capacity = 3) : context(ofHost) {
+struct BusyHost {
+    explicit BusyHost(SuppleContext ofHost, uint32_t capacity = 3) : context(ofHost) {
         SuppleAsset asset{};
         EXPECT_EQ(createTube(context, asset), SUPPLE_OK);
-        const SuppleGroupDesc descs[kHostGroups] = {
+        const SuppleGroupDesc descs[kBusyGroups] = {
             {.capacity = capacity, .scheme = SUPPLE_SCHEME_PM, .poseSource = SUPPLE_POSES_PLAYBACK},
-            {.capacity = capacity,
-             .scheme = SUPPLE_SCHEME_CATMULL_CLARK,
-             .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
+            {.capacity = capacity, .scheme = SUPPLE_SCHEME_CATMULL_CLARK, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION},
             {.capacity = capacity, .scheme = SUPPLE_SCHEME_FRAGMENTS}};
         for (const SuppleGroupDesc& desc : descs) {
             groups.push_back(createGroup(context, asset, desc));
@@ -89,7 +87,7 @@ void expectReplayed(SuppleContext context, Recorded& recorded) {
     ASSERT_EQ(suppleStopRecording(context), SUPPLE_OK);
     const ReadRecording own = read(recorded.bytes);
     EXPECT_TRUE(own.ended);
-    EXPECT_GE(own.hashes.size(), size_t{3} * kHostGroups * kHostFrames) << "three stages of each group and frame";
+    EXPECT_GE(own.hashes.size(), size_t{3} * kBusyGroups * kBusyFrames) << "three stages of each group and frame";
     for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
         tools::Replayer::Options options;
         options.mapping = mapping;
@@ -102,16 +100,16 @@ TEST_F(RecordedHosts, OnSeveralThreads) {
     LoggedContext context(*testDevice());
     Recorded recorded;
     ASSERT_EQ(recorded.start(context.handle()), SUPPLE_OK);
-    HostOfGroups host(context.handle());
+    BusyHost host(context.handle());
     std::vector<std::unique_ptr<Recorder>> recorders;
-    for (uint32_t g = 0; g <= kHostGroups; ++g) {
+    for (uint32_t g = 0; g <= kBusyGroups; ++g) {
         recorders.push_back(std::make_unique<Recorder>(context.device()));
     }
-    std::barrier ready(kHostGroups + 1), done(kHostGroups + 1);
+    std::barrier ready(kBusyGroups + 1), done(kBusyGroups + 1);
     std::vector<std::jthread> threads;
-    for (uint32_t g = 0; g < kHostGroups; ++g) {
+    for (uint32_t g = 0; g < kBusyGroups; ++g) {
         threads.emplace_back([&, g] {
-            for (uint32_t frame = 1; frame <= kHostFrames; ++frame) {
+            for (uint32_t frame = 1; frame <= kBusyFrames; ++frame) {
                 ready.arrive_and_wait();
                 host.change(g, frame);
                 EXPECT_EQ(context.record(recorders[g]->begin(), {&host.groups[g].group, 1}), SUPPLE_OK);
@@ -120,14 +118,14 @@ TEST_F(RecordedHosts, OnSeveralThreads) {
             }
         });
     }
-    for (uint32_t frame = 1; frame <= kHostFrames; ++frame) {
+    for (uint32_t frame = 1; frame <= kBusyFrames; ++frame) {
         context.beginFrame();
-        EXPECT_EQ(suppleRecordUploads(context.handle(), recorders[kHostGroups]->begin()), SUPPLE_OK);
-        recorders[kHostGroups]->end();
+        EXPECT_EQ(suppleRecordUploads(context.handle(), recorders[kBusyGroups]->begin()), SUPPLE_OK);
+        recorders[kBusyGroups]->end();
         ready.arrive_and_wait();
         done.arrive_and_wait();
-        std::vector<VkCommandBuffer> commands = {recorders[kHostGroups]->handle()};
-        for (uint32_t g = kHostGroups; g-- > 0;) {
+        std::vector<VkCommandBuffer> commands = {recorders[kBusyGroups]->handle()};
+        for (uint32_t g = kBusyGroups; g-- > 0;) {
             commands.push_back(recorders[g]->handle());
         }
         VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
@@ -146,18 +144,18 @@ TEST_F(RecordedHosts, WithFramesInFlight) {
     LoggedContext context(*testDevice(), [](SuppleContextDesc& desc) { desc.framesInFlight = kInFlight; });
     Recorded recorded;
     ASSERT_EQ(recorded.start(context.handle()), SUPPLE_OK);
-    HostOfGroups host(context.handle());
+    BusyHost host(context.handle());
     const std::vector<SuppleGroup> groups = host.handles();
     std::vector<std::unique_ptr<Commands>> commands;
     for (uint32_t i = 0; i < kInFlight; ++i) {
         commands.push_back(std::make_unique<Commands>(context.device()));
     }
-    for (uint64_t frame = 1; frame <= kHostFrames; ++frame) {
+    for (uint64_t frame = 1; frame <= kBusyFrames; ++frame) {
         Commands& own = *commands[frame % kInFlight];
         own.wait(); // of frame - kInFlight
         const uint64_t completed = frame > kInFlight ? frame - kInFlight : 0;
         ASSERT_EQ(suppleBeginFrame(context.handle(), frame, completed), SUPPLE_OK);
-        for (uint32_t g = 0; g < kHostGroups; ++g) {
+        for (uint32_t g = 0; g < kBusyGroups; ++g) {
             host.change(g, static_cast<uint32_t>(frame));
         }
         own.record([&](VkCommandBuffer buffer) { EXPECT_EQ(context.record(buffer, groups), SUPPLE_OK); });
@@ -166,7 +164,7 @@ TEST_F(RecordedHosts, WithFramesInFlight) {
     for (const std::unique_ptr<Commands>& own : commands) {
         own->wait();
     }
-    ASSERT_EQ(suppleBeginFrame(context.handle(), kHostFrames + 1, kHostFrames), SUPPLE_OK);
+    ASSERT_EQ(suppleBeginFrame(context.handle(), kBusyFrames + 1, kBusyFrames), SUPPLE_OK);
     expectReplayed(context.handle(), recorded);
 }
 
@@ -178,9 +176,9 @@ TEST_F(RecordedHosts, WithAQueueFamilyForDraws) {
     });
     Recorded recorded;
     ASSERT_EQ(recorded.start(context.handle()), SUPPLE_OK);
-    HostOfGroups host(context.handle());
-    for (uint32_t frame = 1; frame <= kHostFrames; ++frame) {
-        for (uint32_t g = 0; g < kHostGroups; ++g) {
+    BusyHost host(context.handle());
+    for (uint32_t frame = 1; frame <= kBusyFrames; ++frame) {
+        for (uint32_t g = 0; g < kBusyGroups; ++g) {
             host.change(g, frame);
         }
         context.evaluate(host.handles());

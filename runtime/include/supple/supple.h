@@ -600,8 +600,8 @@ typedef struct SupplePartInfo {
 /** An animation clip. */
 typedef struct SuppleClipInfo {
     uint32_t structSize;
-    const char* name;   /**< lives as long as the asset */
-    double duration;    /**< seconds */
+    const char* name; /**< lives as long as the asset */
+    double duration;  /**< seconds */
     /** That it takes on the device, with its coarse twin and all its segments, beside key times that it shares with
      * other clips. */
     uint64_t byteCount;

@@ -181,11 +181,12 @@ typedef enum SuppleClipUse {
     SUPPLE_CLIP_USE_MAX_ENUM = 0x7FFFFFFF
 } SuppleClipUse;
 
+/** A stretch of a clip, and what is wanted of it. */
 typedef struct SuppleClipRequest {
     uint32_t structSize;
-    SuppleClipUse use;
-    double begin; /**< seconds into the clip: the segments from the one that has this time */
-    double end;   /**< to the one that has this time; 0: to the clip's end. What lies beyond the clip does not count */
+    SuppleClipUse use; /**< 0: its segments are brought to the device */
+    double begin;      /**< seconds into the clip: the segments from the one that has this time */
+    double end; /**< to the one that has this time; 0: to the clip's end. What lies beyond the clip does not count */
 } SuppleClipRequest;
 
 /** Asks for segments of a clip, of an asset with a pool (SuppleAssetDesc.clipPoolBytes). Until a segment is there, its
