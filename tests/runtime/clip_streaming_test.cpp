@@ -20,7 +20,7 @@ class StreamedClips : public CrowdContexts {};
 
 constexpr double kFine = 1e-4, kCoarse = 1e-2;
 constexpr uint64_t kWholePool = uint64_t{1} << 30;
-constexpr uint32_t kMostFrames = 4000;
+constexpr uint32_t kMostAwaited = 4000;
 
 /// A cooked file whose clips have coarse twins.
 const std::vector<std::byte>& twinned(const std::string& file) {
@@ -79,7 +79,7 @@ uint64_t frameBytesOf(const CrowdContext& context) {
 }
 
 /// How far joints of two groups' instances are apart at most.
-double apart(const PlayedGroup& a, const PlayedGroup& b, uint32_t instances) {
+double jointsApart(const PlayedGroup& a, const PlayedGroup& b, uint32_t instances) {
     double most = 0.0;
     for (uint32_t i = 0; i < instances; ++i) {
         for (uint32_t j = 0; j < a.character().skin.joints.size(); ++j) {
@@ -118,7 +118,7 @@ TEST_F(StreamedClips, PlayTheirTwinsUntilTheyAreThere) {
             for (const double time : {0.0, 0.35, 1.0, 17.3}) {
                 EXPECT_EQ(streamed.run(time), 0u) << time;
                 EXPECT_EQ(whole.run(time), 0u) << time;
-                const double off = apart(streamed, whole, 3);
+                const double off = jointsApart(streamed, whole, 3);
                 EXPECT_GT(off, 0.0);
                 EXPECT_LT(off, 1.5 * kCoarse * streamed.extent());
             }
@@ -131,7 +131,7 @@ TEST_F(StreamedClips, PlayTheirTwinsUntilTheyAreThere) {
             EXPECT_EQ(streamed.run(2.1), 0u);
             EXPECT_EQ(whole.run(2.1), 0u);
             EXPECT_EQ(residentIn(own, asset, clips), all);
-            EXPECT_EQ(apart(streamed, whole, 3), 0.0);
+            EXPECT_EQ(jointsApart(streamed, whole, 3), 0.0);
             EXPECT_EQ(streamed.poses, whole.poses);
         }
     }
@@ -163,7 +163,7 @@ TEST_F(StreamedClips, ComeByTheBudgetOfUploads) {
         const uint64_t wanted = infoOf(own, asset, 0).segmentBytes;
         EXPECT_EQ(request(own, asset, 0), SUPPLE_OK);
         uint64_t sum = 0, frames = 0;
-        while (infoOf(own, asset, 0).residentBytes < wanted && frames < kMostFrames) {
+        while (infoOf(own, asset, 0).residentBytes < wanted && frames < kMostAwaited) {
             ++frames;
             const bool looks = frames % 16 == 1; // comparing takes longest
             if (looks) {
