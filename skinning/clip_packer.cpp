@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace supple::skinning {
 namespace {
@@ -153,6 +154,8 @@ public:
         return std::nullopt;
     }
     [[nodiscard]] const char* leftOut() const { return leftOut_; }
+    /// Why the clip has no twin, if it was to get one and is packed.
+    [[nodiscard]] const char* twinLeftOut() const { return twinLeftOut_; }
 
 private:
     /// Those that are packed: the last one of a property counts.
@@ -215,8 +218,7 @@ private:
     bool takeWork() {
         const cage::Character& character = distance_.character();
         const size_t targets = weights_.empty() ? 0 : character.morphs.targets.size();
-        const uint64_t work =
-            uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets) * (errors_.wantTwins() ? 2 : 1);
+        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets);
         leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
                    : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
                    : work > workLeft_ ? "the clips before it took too long"
@@ -527,6 +529,10 @@ private:
         if (!errors_.wantTwins()) {
             return;
         }
+        if (!takeWork()) {
+            twinLeftOut_ = std::exchange(leftOut_, nullptr);
+            return;
+        }
         const std::optional<Found> coarse = search(errors_.coarse, [&](double budget) {
             Attempt own = attempt(budget);
             own.rest = fine.attempt.rest; // what is not packed plays with either
@@ -541,6 +547,8 @@ private:
         if (coarse && coarse->clip.packed.words.size() < segmentWords(packed.words)) {
             packed.coarseWords = coarse->clip.packed.words;
             packed.coarseError = coarse->clip.packed.error;
+        } else {
+            twinLeftOut_ = coarse ? "it would take as much as the segments" : "none keeps within the error";
         }
     }
 
@@ -549,7 +557,7 @@ private:
     const cage::Clip& clip_;
     PackErrors errors_;
     uint64_t& workLeft_;
-    const char* leftOut_ = nullptr;
+    const char *leftOut_ = nullptr, *twinLeftOut_ = nullptr;
     uint32_t last_ = 0;
     std::vector<Track> tracks_;
     std::vector<WeightTrack> weights_;
@@ -576,13 +584,19 @@ std::vector<std::string> packClips(cage::Character& character, double error, dou
             ClipPacker packer(distance, order, clip, {error, coarseError}, workLeft);
             std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
             const size_t bytes = clipBytes(order, clip);
-            if (own && clipBytes(order, *own) < bytes) {
+            // Its twin is beside what it takes itself.
+            if (own && clipBytes(order, *own) - own->packed.coarseWords.size() * sizeof(uint32_t) < bytes) {
                 own->packed.unpackedBytes = bytes;
             } else {
                 own.reset();
             }
             if (packer.leftOut() != nullptr) {
                 leftOut.push_back("clip " + cage::quoted(clip.name) + " is not packed: " + packer.leftOut());
+            }
+            const bool isDone = coarseError > error && !clip.packed.words.empty() && clip.packed.coarseWords.empty();
+            const char* const noTwin = isDone ? "it is packed already" : own ? packer.twinLeftOut() : nullptr;
+            if (noTwin != nullptr) {
+                leftOut.push_back("clip " + cage::quoted(clip.name) + " has no coarse twin: " + noTwin);
             }
         }
     }

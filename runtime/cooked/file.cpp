@@ -94,9 +94,12 @@ Status checkTwin(const cage::Clip& clip, size_t nodeCount) {
     if (!twin) {
         return twin.error();
     }
-    return skinning::areTwins(clip.packed.words, words)
+    if (!skinning::areTwins(clip.packed.words, words)) {
+        return Error{ErrorCode::asset, "it has other frames than the clip"};
+    }
+    return skinning::segmentWords(clip.packed.words) > 0
                ? success()
-               : Status(Error{ErrorCode::asset, "it has other frames than the clip"});
+               : Status(Error{ErrorCode::asset, "the clip has no segments that it could stand in for"});
 }
 
 /// Gives packed clips of a character that is sound their channels. Whether there are any.

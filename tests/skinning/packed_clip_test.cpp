@@ -324,6 +324,24 @@ TEST(PackedClips, HaveCoarseTwins) {
     }
 }
 
+/// A twin is beside a clip: whether it is worth it says nothing of the clip.
+TEST(PackedClips, StayPackedWithoutATwin) {
+    cage::Character packed = test::readCharacter(test::kPip);
+    (void)packClips(packed, 1e-4);
+    cage::Character close = test::readCharacter(test::kPip), again = packed;
+    const std::vector<std::string> told = packClips(close, 1e-4, 1.001e-4), toldAgain = packClips(again, 1e-4, 1e-2);
+    uint32_t without = 0;
+    for (size_t c = 0; c < packed.clips.size(); ++c) {
+        EXPECT_EQ(close.clips[c].packed.words, packed.clips[c].packed.words);
+        without += close.clips[c].packed.coarseWords.empty() ? 1 : 0;
+        EXPECT_EQ(toldAgain.at(c), "clip \"" + packed.clips[c].name + "\" has no coarse twin: it is packed already");
+    }
+    EXPECT_EQ(without, packed.clips.size());
+    ASSERT_EQ(told.size(), without);
+    EXPECT_EQ(told[0],
+              "clip \"" + packed.clips[0].name + "\" has no coarse twin: it would take as much as the segments");
+}
+
 TEST(PackedClips, HaveTheirSegmentsBehindAllElse) {
     cage::Character packed = test::readCharacter(test::kPip);
     (void)packClips(packed, 1e-4, 1e-2);

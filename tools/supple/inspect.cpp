@@ -588,9 +588,12 @@ int runInspect(const InspectOptions& options) {
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
-    if (options.packing.error > 0.0) {
-        for (std::string& warning :
-             skinning::packClips(file->character, options.packing.error, options.packing.coarseError)) {
+    const auto [error, coarseError] = options.packing;
+    if (coarseError > 0.0 && !(error > 0.0 && coarseError > error)) {
+        return fail(kExitUsage, "--coarse-clip-error needs a --clip-error, and must be more than that");
+    }
+    if (error > 0.0) {
+        for (std::string& warning : skinning::packClips(file->character, error, coarseError)) {
             file->character.warnings.push_back(std::move(warning));
         }
     }
