@@ -190,12 +190,14 @@ void Asset::streamClips(uint64_t poolBytes) {
 }
 
 Status Asset::makeClips(const gpu::Device& device) {
-    if (!clips.empty()) {
+    // As long as no group has been created, the table may become another one.
+    const bool isCurrent = stream == nullptr || stream->isStarted() || clipsVersion == stream->version();
+    if (!clips.empty() && isCurrent) {
         return success();
     }
     const std::shared_ptr<const skinning::ClipTable> table =
         stream != nullptr ? std::shared_ptr<const skinning::ClipTable>(stream, &stream->table()) : wholeClips();
-    const Words words = stream != nullptr ? std::make_shared<const std::vector<uint32_t>>(stream->start())
+    const Words words = stream != nullptr ? std::make_shared<const std::vector<uint32_t>>(stream->words())
                                           : wordsIn(table, table->words);
     Result<gpu::StaticBuffers> made = upload(device, "", "clip tables", words);
     if (!made) {
@@ -203,7 +205,14 @@ Status Asset::makeClips(const gpu::Device& device) {
     }
     clips = std::move(*made);
     clipTable = table;
+    clipsVersion = stream != nullptr ? stream->version() : 0;
     return success();
+}
+
+void Asset::startStream() {
+    if (stream != nullptr && !clips.empty()) {
+        stream->start();
+    }
 }
 
 void Asset::measureUpdates() {

@@ -53,6 +53,7 @@ struct Asset {
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
     std::shared_ptr<ClipStream> stream;                   ///< null: all segments of clips are on the device
+    uint64_t clipsVersion = 0;                            ///< stream->version() that they were made of
     uint64_t clipPoolBytes = 0;                           ///< SuppleAssetDesc
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
@@ -86,6 +87,8 @@ struct Asset {
     void streamClips(uint64_t poolBytes);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// A group that may read the clips has been created: from now on segments come with frames.
+    void startStream();
     /// Sees to it that `updates` is there.
     void measureUpdates();
     /// Sees to it that what a way of skinning needs is there.

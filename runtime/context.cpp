@@ -233,7 +233,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
-    streamClips();
+    planStreams();
     return success();
 }
 
@@ -292,7 +292,7 @@ Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared, 
 
 Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset, uint64_t clipPoolBytes) {
     if (asset) {
-        (*asset)->streamClips(clipPoolBytes);
+        streamClips(**asset, clipPoolBytes);
     }
     return asset ? Result<uint64_t>(assets.insert(std::move(*asset))) : asset.error();
 }
@@ -347,6 +347,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     tellNotes(**group);
     tellBuiltLate(*asset);
     makeRoom(retired_, groups.slotCount() + 1);
+    asset->startStream();
     return groups.insert(std::move(*group));
 }
 
@@ -510,10 +511,8 @@ Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_
     }
     const std::shared_ptr<Asset> before = assets.find(id), asset = std::move(*made);
     const AssetMatch match = AssetMatch::of(before->character, asset->character);
-    asset->streamClips(clipPoolBytes);
-    if (before->stream != nullptr && asset->stream != nullptr) {
-        asset->stream->takeOver(*before->stream, match.clips);
-    }
+    streamClips(*asset, clipPoolBytes);
+    takeOverRequests(*before, *asset, match.clips);
     Result<std::vector<Remade>> remade =
         remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
                 [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, asset, match});
@@ -527,6 +526,7 @@ Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_
         tellNotes(*own.group);
     }
     tellBuiltLate(*asset);
+    asset->startStream();
     replace(*remade);
     assets.replace(id, asset);
     return success();

@@ -102,6 +102,8 @@ public:
     [[nodiscard]] Result<uint64_t> createAsset(std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
+    /// ClipStream::request, if the asset's clips are streamed.
+    [[nodiscard]] Status requestClip(Asset& asset, const ClipRequest& request);
     /// Makes the group anew with another capacity, and those that follow it.
     [[nodiscard]] Status setCapacity(uint64_t group, uint32_t capacity);
     /// Puts a new version into the place of an asset, and makes its groups anew. If that fails nothing changes.
@@ -135,8 +137,12 @@ public:
 private:
     /// Makes ready for the hashes of a recording.
     [[nodiscard]] Status makeHashes();
+    struct AskedClip {
+        uint64_t asset = 0;
+        ClipRequest request;
+    };
     /// What a recording that begins now has to know, as calls that bring it about.
-    void noteState(Recorder& recorder);
+    void noteState(Recorder& recorder, std::span<const AskedClip> asked) const;
     /// Hands the hashes of complete frames to the recording.
     void noteHashes(uint64_t completedFrame) noexcept;
     /// Calls note(Recorder&) if the context is being recorded.
@@ -174,13 +180,20 @@ private:
     [[nodiscard]] Status reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_t clipPoolBytes);
     template <class F>
     void forStreams(F&& visit) const; ///< visit(Asset&), if its clips are streamed; those too that only groups hold
-    void streamClips();               ///< the open frame has begun
-    /// Segments of clips that the open frame copies; the bytes. Under uploading_.
-    VkDeviceSize recordStream(VkCommandBuffer commandBuffer, Asset& asset);
-    /// Those of all assets, behind a barrier; whether there are any. Under uploading_.
+    void streamClips(Asset& asset, uint64_t poolBytes) const; ///< Asset::streamClips, with a warning
+    void planStreams();                                       ///< the open frame has begun
+    /// Segments of the group's clips that the open frame copies; the bytes. `statics`: bytes of the group that have
+    /// been recorded without a barrier behind them. Under uploading_.
+    VkDeviceSize recordStream(VkCommandBuffer commandBuffer, Group& group, VkDeviceSize statics);
+    /// Those of all groups, behind a barrier; whether there are any. Under uploading_.
     bool recordStreams(VkCommandBuffer commandBuffer);
-    /// Makes all of them ask for their segments anew, and notes that.
-    void restartStreams(Recorder& recorder);
+    /// What is asked for of all assets.
+    [[nodiscard]] std::vector<AskedClip> askedClips() const;
+    void noteClips(Recorder& recorder, std::span<const AskedClip> asked) const;
+    /// Asks for the same of another version of the asset. `clips`: by number before, the number then or kNone.
+    void takeOverRequests(const Asset& before, Asset& asset, std::span<const uint32_t> clips);
+    /// Lets all segments go, and asks for these.
+    void restartStreams(std::span<const AskedClip> asked);
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none
@@ -226,6 +239,8 @@ private:
     gpu::TaskRooms taskRooms_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
     gpu::Uploads uploads_;
+    uint64_t clipStamp_ = 0;           ///< ClipRequest, of the last
+    std::vector<Asset*> streams_;      ///< memory of planStreams
     mutable uint64_t statesAsked_ = 0; ///< gpu::StaticCount::number
     /// Destroyed by the host, perhaps still in flight. Frames that do not record a group may draw it all the same: so
     /// it is in use up to the frame in which it was destroyed.
@@ -307,9 +322,6 @@ void Context::forStreams(F&& visit) const {
     };
     assets.forEach(visitAsset);
     groups.forEach([&](const Group& group) { visitAsset(*group.sharedAsset()); });
-    for (const Retired<Group>& group : retired_) {
-        visitAsset(*group.object->sharedAsset());
-    }
 }
 
 template <class F>

@@ -596,7 +596,7 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
     const std::scoped_lock lock(uploading_);
     VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
-    bytes += recordStream(commandBuffer, *group.sharedAsset());
+    bytes += recordStream(commandBuffer, group, bytes);
     return {bytes, !group.staticsPending()};
 }
 

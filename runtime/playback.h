@@ -207,7 +207,8 @@ private:
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot); ///< what plays there, or where it stands, has changed
     void takeSegments();        ///< other segments of clips may play since then
-    void forgetEndsWith(uint32_t mask);
+    template <class Holds>
+    void forgetEndsOf(Holds&& holds); ///< of instances that have a layer for which holds(PlaybackLayer)
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;

@@ -58,8 +58,7 @@ SuppleResult suppleRequestClip(SuppleContext handle, SuppleAsset asset, uint32_t
         if (const std::optional<Error> fault = faultOf(request)) {
             return refused(fault->code, fault->message);
         }
-        const Status taken =
-            found.stream != nullptr ? found.stream->request(inParts(clip, clips[clip].duration, request)) : success();
+        const Status taken = context.requestClip(found, inParts(clip, clips[clip].duration, request));
         return taken ? noted(context, calls::RequestClip{asset, clip, request})
                      : refused(taken.error().code, "clip " + clips[clip].name + ": " + taken.error().message);
     });

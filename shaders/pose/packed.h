@@ -105,7 +105,8 @@ Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
     uvec4 sections = table(head + 1u);
     PackedTime at = packedTime(table(head), tableFloats(head + 2u).y, time);
     uvec4 segment = table(sections.w + at.segment);
-    for (uint twin = segment.w; twin != 0u; twin = 0u) { // the segment is missing; its twin has the same frames
+    // The segment is missing; its twin has the same frames. A loop, so that lavapipe can leave it out.
+    for (uint twin = segment.w; twin != 0u; twin = 0u) {
         sections = table(twin + 1u);
         segment = table(sections.w + at.segment);
     }

@@ -8,6 +8,7 @@
 #include "tests/support/sample_assets.h"
 
 #include <algorithm>
+#include <functional>
 #include <gtest/gtest.h>
 #include <memory>
 #include <random>
@@ -436,6 +437,207 @@ TEST_F(StreamedClips, AreReplayed) {
         EXPECT_EQ(expectSame(read.hashes, replay(*testDevice(), recorded.bytes)), read.hashes.size()) << late;
         EXPECT_EQ(expectSame(read.hashes, replay(*testDevice(), recorded.bytes, wide)), read.hashes.size()) << late;
     }
+}
+
+SuppleResult recordUploads(CrowdContext& context, Commands& commands) {
+    SuppleResult result = SUPPLE_OK;
+    commands.record([&](VkCommandBuffer buffer) { result = suppleRecordUploads(context.handle(), buffer); });
+    return result;
+}
+/// With two frames in flight.
+void beginNext(CrowdContext& context) {
+    ++context.frame;
+    EXPECT_EQ(suppleBeginFrame(context.handle(), context.frame, context.frame - 2), SUPPLE_OK);
+}
+
+/// The host records uploads alone, and lets groups and the asset go while frames are in flight.
+TEST_F(StreamedClips, GoUpWithTheHostsUploads) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = createStreamed(own, kWren, kWholePool);
+    Commands flights[2]{Commands(own.device()), Commands(own.device())};
+    const auto fly = [&](const std::function<void()>& behind = {}) {
+        beginNext(own);
+        Commands& commands = flights[own.frame % 2];
+        commands.wait();
+        EXPECT_EQ(recordUploads(own, commands), SUPPLE_OK);
+        commands.submit();
+        if (behind) {
+            behind();
+        }
+    };
+    {
+        PlayedGroup group(own, playedGroup(asset, 1, 0)), other(own, playedGroup(asset, 1, 0));
+        group.play(0, 2, 0.0);
+        other.play(0, 3, 0.1);
+        EXPECT_EQ(group.run(0.0), 0u);
+        own.beginFrame();
+        ASSERT_EQ(suppleSetUploadBudget(own.handle(), 3000), SUPPLE_OK);
+        EXPECT_EQ(request(own, asset, 2), SUPPLE_OK);
+        for (uint32_t frame = 0; frame < 40; ++frame) {
+            fly();
+        }
+        EXPECT_EQ(infoOf(own, asset, 2).residentBytes, infoOf(own, asset, 2).segmentBytes);
+        for (Commands& commands : flights) {
+            commands.wait();
+        }
+        EXPECT_EQ(group.run(0.1), 0u);
+        EXPECT_EQ(other.run(0.1), 0u) << "another group of the asset";
+        EXPECT_EQ(request(own, asset, 3), SUPPLE_OK);
+        own.beginFrame();
+        fly();
+        fly([&] {
+            group.crowd.end();
+            other.crowd.end();
+        });
+    }
+    EXPECT_EQ(request(own, asset, 4), SUPPLE_OK);
+    fly(); // it has no groups
+    EXPECT_EQ(frameBytesOf(own), 0u);
+    fly([&] { EXPECT_EQ(suppleDestroyAsset(own.handle(), asset), SUPPLE_OK); });
+    for (uint32_t frame = 0; frame < 4; ++frame) {
+        fly();
+    }
+    for (Commands& commands : flights) {
+        commands.wait();
+    }
+    own.beginFrame();
+}
+
+/// Groups, asset and segments go at once, and the frames before are in flight.
+TEST_F(StreamedClips, AreLeftAloneBehindAReload) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = createStreamed(own, kWren, kWholePool);
+    PlayedGroup group(own, playedGroup(asset, 1, 0));
+    group.play(0, 2, 0.0);
+    EXPECT_EQ(group.run(0.0), 0u);
+    Commands flights[2]{Commands(own.device()), Commands(own.device())};
+    for (uint32_t frame = 0; frame < 8; ++frame) {
+        EXPECT_EQ(request(own, asset, frame % 6, frame % 2 == 0 ? SUPPLE_CLIP_REQUEST : SUPPLE_CLIP_RELEASE),
+                  SUPPLE_OK);
+        beginNext(own);
+        Commands& commands = flights[own.frame % 2];
+        commands.wait();
+        EXPECT_EQ(recordUploads(own, commands), SUPPLE_OK);
+        commands.submit();
+        if (frame == 4) {
+            const SuppleAssetDesc anew = describe(kWren, kWholePool);
+            ASSERT_EQ(suppleReloadAsset(own.handle(), asset, &anew), SUPPLE_OK);
+        }
+    }
+    for (Commands& commands : flights) {
+        commands.wait();
+    }
+    EXPECT_EQ(group.run(0.3), 0u);
+}
+
+/// Whatever the order in which assets were created.
+TEST_F(StreamedClips, OfSeveralAssetsComeInTheOrderOfTheRequests) {
+    const ValidationGuard guard;
+    for (const bool firstComesFirst : {false, true}) {
+        CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+        const SuppleAsset assets[2] = {createStreamed(own, kPip, kWholePool), createStreamed(own, kWren, kWholePool)};
+        PlayedGroup pip(own, playedGroup(assets[0], 1, 0)), wren(own, playedGroup(assets[1], 1, 0));
+        pip.play(0, 0, 0.0);
+        wren.play(0, 0, 0.0);
+        EXPECT_EQ(pip.run(0.0), 0u);
+        EXPECT_EQ(wren.run(0.0), 0u);
+        ASSERT_EQ(suppleSetUploadBudget(own.handle(), 1000), SUPPLE_OK);
+        const SuppleAsset early = assets[firstComesFirst ? 0 : 1], late = assets[firstComesFirst ? 1 : 0];
+        EXPECT_EQ(request(own, early, 0), SUPPLE_OK);
+        EXPECT_EQ(request(own, late, 0), SUPPLE_OK);
+        const uint64_t all = infoOf(own, early, 0).segmentBytes;
+        const SuppleGroup groups[2] = {pip.crowd.group(), wren.crowd.group()};
+        uint64_t before = 0, frames = 0;
+        while (infoOf(own, early, 0).residentBytes < all && frames < kMostAwaited) {
+            before = infoOf(own, late, 0).residentBytes;
+            own.run(groups);
+            EXPECT_LE(frameBytesOf(own), 500u);
+            ++frames;
+        }
+        EXPECT_EQ(before, 0u);
+        for (; infoOf(own, late, 0).residentBytes < infoOf(own, late, 0).segmentBytes && frames < kMostAwaited;
+             ++frames) {
+            own.run(groups);
+        }
+        EXPECT_LT(frames, kMostAwaited);
+        EXPECT_EQ(pip.run(0.2), 0u);
+        EXPECT_EQ(wren.run(0.2), 0u);
+    }
+}
+
+/// Poses of update rates stay if other clips change.
+TEST_F(StreamedClips, MakeOnlyThosePosesAnewThatPlayThem) {
+    const ValidationGuard guard;
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = createStreamed(own, kPip, kWholePool);
+    PlayedGroup group(own, playedGroup(asset, 2, SUPPLE_GROUP_UPDATE_RATES));
+    for (uint32_t i = 0; i < 2; ++i) {
+        SupplePlaybackDesc desc{};
+        desc.updateInterval = 8;
+        group.play(i, i, 0.3, desc);
+    }
+    const auto posesOfFrame = [&] {
+        EXPECT_EQ(group.run(0.01), 0u);
+        return group.group().poses().playback()->poseCount(group.group().windows());
+    };
+    EXPECT_EQ(posesOfFrame(), 4u);
+    EXPECT_EQ(posesOfFrame(), 0u);
+    for (const uint32_t clip : {2u, 1u, 0u}) {
+        EXPECT_EQ(request(own, asset, clip), SUPPLE_OK);
+        EXPECT_EQ(posesOfFrame(), 0u) << "it is on its way";
+        EXPECT_EQ(posesOfFrame(), clip < 2 ? 2u : 0u) << clip;
+        EXPECT_EQ(posesOfFrame(), 0u);
+    }
+}
+
+/// In a frame that the host then cancels, a recording begins, and what it has let go is on the device in the next.
+TEST_F(StreamedClips, AreReplayedFromAFrameThatIsCancelled) {
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+    const SuppleAsset asset = createStreamed(own, kWren, kWholePool);
+    PlayedGroup group(own, playedGroup(asset, 1, 0));
+    group.play(0, 1, 0.0);
+    EXPECT_EQ(group.run(0.0), 0u);
+    EXPECT_EQ(request(own, asset, 1), SUPPLE_OK);
+    EXPECT_EQ(group.run(0.1), 0u);
+    EXPECT_EQ(group.run(0.2), 0u);
+    EXPECT_GT(infoOf(own, asset, 1).residentBytes, 0u);
+    own.beginFrame();
+    Commands dropped(own.device());
+    EXPECT_EQ(recordUploads(own, dropped), SUPPLE_OK);
+    Recorded recorded;
+    ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
+    EXPECT_EQ(infoOf(own, asset, 1).residentBytes, 0u);
+    EXPECT_EQ(suppleCancelFrame(own.handle()), SUPPLE_OK);
+    for (uint32_t frame = 0; frame < 5; ++frame) {
+        EXPECT_EQ(group.run(0.2 + 0.1 * frame), 0u);
+    }
+    EXPECT_EQ(infoOf(own, asset, 1).residentBytes, infoOf(own, asset, 1).segmentBytes);
+    own.beginFrame();
+    ASSERT_EQ(suppleStopRecording(own.handle()), SUPPLE_OK);
+    const ReadRecording read = test::read(recorded.bytes);
+    EXPECT_EQ(expectSame(read.hashes, replay(*testDevice(), recorded.bytes)), read.hashes.size());
+}
+
+/// A recording that cannot begin changes nothing.
+TEST_F(StreamedClips, StayIfARecordingIsRefused) {
+    CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+    const SuppleAsset asset = createStreamed(own, kPip, kWholePool);
+    PlayedGroup group(own, playedGroup(asset, 1, 0));
+    group.play(0, 0, 0.0);
+    EXPECT_EQ(request(own, asset, 0), SUPPLE_OK);
+    for (const double time : {0.0, 0.1, 0.2}) {
+        EXPECT_EQ(group.run(time), 0u);
+    }
+    const uint64_t there = infoOf(own, asset, 0).residentBytes;
+    EXPECT_EQ(there, infoOf(own, asset, 0).segmentBytes);
+    own.beginFrame();
+    Recorded recorded;
+    recorded.refusedAfter = 0;
+    EXPECT_NE(recorded.start(own.handle()), SUPPLE_OK);
+    EXPECT_EQ(infoOf(own, asset, 0).residentBytes, there);
+    EXPECT_EQ(group.run(0.3), 0u);
 }
 
 } // namespace

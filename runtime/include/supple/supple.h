@@ -524,8 +524,9 @@ typedef struct SuppleAssetDesc {
     /** Also with `prepared`; not for supplePrepare. Bytes of device memory for segments of clips that have a coarse
      * twin (SupplePrepareDesc.coarseClipError): the device then has those segments that suppleRequestClip has asked
      * for, and what lacks its segments plays the twin (docs/playback.md, "Streaming"). There is room for the largest
-     * segment, however few bytes these are, and for no more than all segments. 0: all segments are there from the
-     * beginning. */
+     * segment, however few bytes these are, and for no more than all segments. Clips without a twin are there as a
+     * whole; if no clip has one, a warning says that this is of no use. suppleReloadAsset takes what is given there. 0:
+     * all segments are there from the beginning. */
     uint64_t clipPoolBytes;
 } SuppleAssetDesc;
 
@@ -602,8 +603,8 @@ typedef struct SuppleClipInfo {
     uint32_t structSize;
     const char* name; /**< lives as long as the asset */
     double duration;  /**< seconds */
-    /** That it takes on the device, with its coarse twin and all its segments, beside key times that it shares with
-     * other clips. */
+    /** That it takes on the device if all its segments are there, with its coarse twin, beside key times that it shares
+     * with other clips. With a pool the segments are in that: then it takes byteCount - segmentBytes beside it. */
     uint64_t byteCount;
     /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip
      * is not packed. */
@@ -612,7 +613,8 @@ typedef struct SuppleClipInfo {
     double coarseError;
     uint64_t segmentBytes; /**< that its segments take, of byteCount; 0 without a twin */
     /** Of these, those of segments that groups play in the next suppleRecord; for the others they play the twin. All of
-     * them, if the asset has no pool (SuppleAssetDesc.clipPoolBytes). */
+     * them, if the asset has no pool (SuppleAssetDesc.clipPoolBytes). The sum over all clips of an asset is what its
+     * pool holds. */
     uint64_t residentBytes;
 } SuppleClipInfo;
 
