@@ -159,6 +159,10 @@ struct PackedChannels {
     uint32_t channelCount = 0;   ///< the first so many channels of the clip are what the words say
     double error = 0.0;          ///< how far this moves a vertex at most, as a part of the extent
     uint64_t unpackedBytes = 0;  ///< what the clip took in the clip table before
+    /// The coarse twin, if the clip has one: the same frames in fewer bits. It plays while segments of the clip are
+    /// missing on the device.
+    std::vector<uint32_t> coarseWords;
+    double coarseError = 0.0; ///< as `error`
 };
 
 struct Clip {

@@ -333,7 +333,8 @@ void Check::clips() {
         const Clip& clip = character_.clips[c];
         const std::string name = at("clip", c) + " ";
         require(std::isfinite(clip.duration) && clip.duration >= 0.0, name + "has no duration");
-        require(std::isfinite(clip.packed.error), name + "is packed with no finite error");
+        require(std::isfinite(clip.packed.error) && std::isfinite(clip.packed.coarseError),
+                name + "is packed with no finite error");
         for (size_t i = 0; i < clip.channels.size(); ++i) {
             channel(clip.channels[i], name + at("channel", i) + ": ");
         }

@@ -233,6 +233,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
+    planStreams();
     return success();
 }
 
@@ -256,6 +257,7 @@ Status Context::cancelFrame() {
     }
     frameOpen_ = false;
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
+    forStreams([this](Asset& asset) { asset.stream->cancelFrame(frame_); });
     uploads_.cancelFrame();
     timings.cancelFrame();
     if (hashes_ != nullptr) {
@@ -279,16 +281,19 @@ void Context::tellWarnings(const cage::Character& character) const {
     }
 }
 
-Result<uint64_t> Context::createAsset(cage::Character character) {
+Result<uint64_t> Context::createAsset(cage::Character character, uint64_t clipPoolBytes) {
     tellWarnings(character);
-    return keep(Asset::create(*device_, std::move(character)));
+    return keep(Asset::create(*device_, std::move(character)), clipPoolBytes);
 }
 
-Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared) {
-    return keep(Asset::create(*device_, std::move(prepared)));
+Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes) {
+    return keep(Asset::create(*device_, std::move(prepared)), clipPoolBytes);
 }
 
-Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset) {
+Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset, uint64_t clipPoolBytes) {
+    if (asset) {
+        streamClips(**asset, clipPoolBytes);
+    }
     return asset ? Result<uint64_t>(assets.insert(std::move(*asset))) : asset.error();
 }
 
@@ -342,6 +347,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     tellNotes(**group);
     tellBuiltLate(*asset);
     makeRoom(retired_, groups.slotCount() + 1);
+    asset->startStream();
     return groups.insert(std::move(*group));
 }
 
@@ -491,20 +497,22 @@ Status Context::setCapacity(uint64_t id, uint32_t capacity) {
     return success();
 }
 
-Status Context::reloadAsset(uint64_t id, cage::Character character) {
-    return reload(id, Asset::create(*device_, std::move(character)));
+Status Context::reloadAsset(uint64_t id, cage::Character character, uint64_t clipPoolBytes) {
+    return reload(id, Asset::create(*device_, std::move(character)), clipPoolBytes);
 }
 
-Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared) {
-    return reload(id, Asset::create(*device_, std::move(prepared)));
+Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes) {
+    return reload(id, Asset::create(*device_, std::move(prepared)), clipPoolBytes);
 }
 
-Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made) {
+Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_t clipPoolBytes) {
     if (!made) {
         return made.error();
     }
     const std::shared_ptr<Asset> before = assets.find(id), asset = std::move(*made);
     const AssetMatch match = AssetMatch::of(before->character, asset->character);
+    streamClips(*asset, clipPoolBytes);
+    takeOverRequests(*before, *asset, match.clips);
     Result<std::vector<Remade>> remade =
         remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
                 [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, asset, match});
@@ -518,6 +526,7 @@ Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made) {
         tellNotes(*own.group);
     }
     tellBuiltLate(*asset);
+    asset->startStream();
     replace(*remade);
     assets.replace(id, asset);
     return success();

@@ -596,7 +596,8 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
     const std::scoped_lock lock(uploading_);
-    const VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+    VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+    bytes += recordStream(commandBuffer, group, bytes);
     return {bytes, !group.staticsPending()};
 }
 
@@ -612,6 +613,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
             recorded = true;
         }
     });
+    recorded = recordStreams(commandBuffer) || recorded;
     if (recorded) {
         gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kUploaded);
     }

@@ -152,19 +152,36 @@ void Playback::forget(uint32_t slot) {
     }
 }
 
-void Playback::forgetEndsWith(uint32_t mask) {
+template <class Holds>
+void Playback::forgetEndsOf(Holds&& holds) {
     skinning::PlaybackState::Layers memory;
     for (uint32_t slot = 0; takesUpdateRates() && slot < capacity_; ++slot) {
         const skinning::PlaybackState own = states_.state(slot);
         const skinning::PlaybackDesc desc =
             own.inBindPose() ? skinning::PlaybackDesc{} : own.read(*asset_->clipTable, memory);
-        if (std::ranges::any_of(desc.layers, [&](const auto& layer) { return layer.mask == mask; })) {
+        if (std::ranges::any_of(desc.layers, holds)) {
             rates_.forget(slot);
         }
     }
 }
 
+void Playback::takeSegments() {
+    const ClipStream* const stream = asset_->stream.get();
+    if (stream == nullptr || segmentVersion_ == stream->version()) {
+        return;
+    }
+    forgetEndsOf([&](const auto& layer) { return stream->versionOf(layer.clip) > segmentVersion_; });
+    segmentVersion_ = stream->version();
+    evaluated_ = kNoSlot;
+}
+
+void Playback::takeStep() {
+    takeSegments();
+    steps_.take(time_);
+}
+
 void Playback::evaluate(uint32_t slot) {
+    takeSegments();
     if (evaluated_ == slot) {
         return;
     }
@@ -391,7 +408,7 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
     masks_.set(mask, joints, morphs);
     evaluated_ = kNoSlot;
-    forgetEndsWith(mask);
+    forgetEndsOf([mask](const auto& layer) { return layer.mask == mask; });
 }
 
 void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& match) {

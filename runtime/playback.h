@@ -137,7 +137,7 @@ public:
 
     // If listsPoses(), in each frame, before its parts of the pass. The interval of an instance whose size on the
     // screen decides is chosen with setSize(); until then it is posed in every frame.
-    void takeStep() { steps_.take(time_); } ///< a recording begins
+    void takeStep(); ///< a recording begins
     /// Whether setSize() is waited for.
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.asked(slot) == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
@@ -208,7 +208,9 @@ private:
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot); ///< what plays there, or where it stands, has changed
-    void forgetEndsWith(uint32_t mask);
+    void takeSegments();        ///< other segments of clips may play since then
+    template <class Holds>
+    void forgetEndsOf(Holds&& holds); ///< of instances that have a layer for which holds(PlaybackLayer)
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
@@ -232,6 +234,7 @@ private:
     uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
     skinning::PoseTwin twin_, laterTwin_;
     PoseSpan evaluatedSpan_;
+    uint64_t segmentVersion_ = 0; ///< ClipStream::version() of what is posed
 
     UpdateRates rates_;
     TimeSteps steps_;

@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace supple::skinning {
 namespace {
@@ -115,6 +116,13 @@ struct Track {
     [[nodiscard]] bool isRotation() const { return channel->path == ChannelPath::rotation; }
 };
 
+/// How far packing may move a vertex, as parts of the extent.
+struct PackErrors {
+    double fine = 0.0;
+    double coarse = 0.0; ///< of coarse twins; not more than `fine`: there is none
+    [[nodiscard]] bool wantTwins() const { return coarse > fine; }
+};
+
 /// What a clip becomes with some budget.
 struct Attempt {
     PackedClip packed;
@@ -125,9 +133,9 @@ class ClipPacker {
 public:
     /// `workLeft` becomes less.
     ClipPacker(const PoseDistance& distance, const DriverTable& drivers, const NodeOrder& order, const cage::Clip& clip,
-               double error, uint64_t& workLeft)
+               const PackErrors& errors, uint64_t& workLeft)
         : distance_(distance), driven_(drivers), hasDrivers_(drivers.quads != 0), order_(order), clip_(clip),
-          error_(error), workLeft_(workLeft) {}
+          errors_(errors), workLeft_(workLeft) {}
 
     /// Nothing if the clip stays as it is; leftOut() may say why.
     std::optional<cage::Clip> pack() {
@@ -141,13 +149,16 @@ public:
             if (!takeWork() || !follow()) {
                 return std::nullopt;
             }
-            if (std::optional<cage::Clip> packed = search()) {
-                return packed;
+            if (std::optional<Found> fine = search(errors_.fine, [&](double budget) { return attempt(budget); })) {
+                addTwin(*fine);
+                return std::move(fine->clip);
             }
         }
         return std::nullopt;
     }
     [[nodiscard]] const char* leftOut() const { return leftOut_; }
+    /// Why the clip has no twin, if it was to get one and is packed.
+    [[nodiscard]] const char* twinLeftOut() const { return twinLeftOut_; }
 
 private:
     /// Those that are packed: the last one of a property counts.
@@ -481,10 +492,11 @@ private:
         return clip;
     }
 
-    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices) {
+    /// Once it is more than `most`, nobody asks how much more.
+    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices, double most) {
         double worst = 0.0;
         std::vector<glm::dmat4> globals(distance_.character().skeleton.nodes.size());
-        for (uint32_t k = 0; k < truth_.size() && worst <= error_; ++k) {
+        for (uint32_t k = 0; k < truth_.size() && worst <= most; ++k) {
             sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, globals);
             double own = distance_.between(globals, truth_[k], vertices);
@@ -497,31 +509,66 @@ private:
         return worst;
     }
 
-    /// The largest budget that keeps within the error, first of some vertices, at last of all.
-    std::optional<cage::Clip> search() {
+    /// What a budget has given.
+    struct Found {
+        Attempt attempt;
+        cage::Clip clip; ///< with its words and its error
+    };
+    /// Tries make(budget) with the largest budget that keeps within the error, first of some vertices, at last of all.
+    template <class Make>
+    std::optional<Found> search(double error, Make&& make) {
         double low = 0.0, high = 0.0, part = 0.5; // budgets, in errors
         for (int i = 0; i < 10; ++i) {
-            const cage::Clip clip = decoded(attempt(part * error_ * distance_.extent()));
-            (errorOf(clip, distance_.watched()) <= error_ ? low : high) = part;
+            const cage::Clip clip = decoded(make(part * error * distance_.extent()));
+            (errorOf(clip, distance_.watched(), error) <= error ? low : high) = part;
             part = high == 0.0 ? 1.5 * part : 0.5 * (low + high);
             if (low > 0.0 && high > 0.0 && high < 1.05 * low) {
                 break;
             }
         }
         for (int i = 0; i < 12 && low > 0.0; ++i, low *= 0.93) {
-            const Attempt own = attempt(low * error_ * distance_.extent());
-            std::optional<std::vector<uint32_t>> words = packedWords(own.packed, clip_.duration, order_.nodes.size());
-            if (!words || own.packed.properties.empty()) {
+            Found own{make(low * error * distance_.extent()), {}};
+            std::optional<std::vector<uint32_t>> words =
+                packedWords(own.attempt.packed, clip_.duration, order_.nodes.size());
+            if (!words || own.attempt.packed.properties.empty()) {
                 return std::nullopt;
             }
-            cage::Clip clip = decoded(own);
-            clip.packed.error = errorOf(clip, distance_.all());
-            if (clip.packed.error <= error_) {
-                clip.packed.words = std::move(*words);
-                return clip;
+            own.clip = decoded(own.attempt);
+            own.clip.packed.error = errorOf(own.clip, distance_.all(), error);
+            if (own.clip.packed.error <= error) {
+                own.clip.packed.words = std::move(*words);
+                return own;
             }
         }
         return std::nullopt;
+    }
+
+    /// Gives the clip its coarse twin, if that takes less than what it stands in for.
+    void addTwin(Found& fine) {
+        if (!errors_.wantTwins()) {
+            return;
+        }
+        if (!takeWork()) {
+            twinLeftOut_ = std::exchange(leftOut_, nullptr);
+            return;
+        }
+        const std::optional<Found> coarse = search(errors_.coarse, [&](double budget) {
+            Attempt own = attempt(budget);
+            own.rest = fine.attempt.rest; // what is not packed plays with either
+            std::erase_if(own.packed.properties, [&](const PackedProperty& property) {
+                return std::none_of(
+                    fine.attempt.packed.properties.begin(), fine.attempt.packed.properties.end(),
+                    [&](const PackedProperty& of) { return of.place == property.place && of.path == property.path; });
+            });
+            return own;
+        });
+        cage::PackedChannels& packed = fine.clip.packed;
+        if (coarse && coarse->clip.packed.words.size() < segmentWords(packed.words)) {
+            packed.coarseWords = coarse->clip.packed.words;
+            packed.coarseError = coarse->clip.packed.error;
+        } else {
+            twinLeftOut_ = coarse ? "it would take as much as the segments" : "none keeps within the error";
+        }
     }
 
     const PoseDistance& distance_;
@@ -529,9 +576,9 @@ private:
     bool hasDrivers_;
     const NodeOrder& order_;
     const cage::Clip& clip_;
-    double error_;
+    PackErrors errors_;
     uint64_t& workLeft_;
-    const char* leftOut_ = nullptr;
+    const char *leftOut_ = nullptr, *twinLeftOut_ = nullptr;
     uint32_t last_ = 0;
     std::vector<Track> tracks_;
     std::vector<WeightTrack> weights_;
@@ -544,7 +591,7 @@ private:
 
 } // namespace
 
-std::vector<std::string> packClips(cage::Character& character, double error) {
+std::vector<std::string> packClips(cage::Character& character, double error, double coarseError) {
     std::vector<std::string> leftOut;
     if (character.clips.empty() || character.skin.joints.empty()) {
         return leftOut;
@@ -558,16 +605,22 @@ std::vector<std::string> packClips(cage::Character& character, double error) {
         const NodeOrder order = nodeOrder(character);
         uint64_t workLeft = kMostWork;
         for (const cage::Clip& clip : character.clips) {
-            ClipPacker packer(distance, drivers, order, clip, error, workLeft);
+            ClipPacker packer(distance, drivers, order, clip, {error, coarseError}, workLeft);
             std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
             const size_t bytes = clipBytes(order, clip);
-            if (own && clipBytes(order, *own) < bytes) {
+            // Its twin is beside what it takes itself.
+            if (own && clipBytes(order, *own) - own->packed.coarseWords.size() * sizeof(uint32_t) < bytes) {
                 own->packed.unpackedBytes = bytes;
             } else {
                 own.reset();
             }
             if (packer.leftOut() != nullptr) {
                 leftOut.push_back("clip " + cage::quoted(clip.name) + " is not packed: " + packer.leftOut());
+            }
+            const bool isDone = coarseError > error && !clip.packed.words.empty() && clip.packed.coarseWords.empty();
+            const char* const noTwin = isDone ? "it is packed already" : own ? packer.twinLeftOut() : nullptr;
+            if (noTwin != nullptr) {
+                leftOut.push_back("clip " + cage::quoted(clip.name) + " has no coarse twin: " + noTwin);
             }
         }
     }

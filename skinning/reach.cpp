@@ -1,6 +1,7 @@
 #include "skinning/reach.h"
 
 #include "skinning/chord.h"
+#include "skinning/coarse_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -58,9 +59,11 @@ public:
 
     [[nodiscard]] Reach find() {
         takeRest();
+        const NodeOrder order = nodeOrder(character_);
         for (const cage::Clip& clip : character_.clips) {
-            for (const cage::Channel& channel : clip.channels) {
-                take(channel);
+            take(clip);
+            if (const std::optional<cage::Clip> twin = coarseClip(order, clip)) {
+                take(*twin);
             }
         }
         takeDrivers();
@@ -99,6 +102,11 @@ private:
         }
     }
 
+    void take(const cage::Clip& clip) {
+        for (const cage::Channel& channel : clip.channels) {
+            take(channel);
+        }
+    }
     void take(const cage::Channel& channel) {
         if (channel.path == cage::ChannelPath::weights) {
             forHull(channel, [&](std::span<const double> value) {

@@ -51,6 +51,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleUploadState)                                                                                               \
     X(SupplePlaybackDesc)                                                                                              \
     X(SuppleRecordingDesc)                                                                                             \
+    X(SuppleClipRequest)                                                                                               \
     X(SuppleMaskDesc)                                                                                                  \
     X(SuppleJointMatricesDesc)                                                                                         \
     X(SuppleModifiersDesc)                                                                                             \

@@ -66,7 +66,7 @@ void fields(A& a, T& marker) {
 template <class A, Is<Clip> T>
 void fields(A& a, T& clip) {
     a(clip.name, clip.duration, clip.markers, clip.sharpness, clip.packed.words, clip.packed.error,
-      clip.packed.unpackedBytes);
+      clip.packed.unpackedBytes, clip.packed.coarseWords, clip.packed.coarseError);
     // What is packed is there already.
     a.rest(clip.channels, clip.packed.channelCount);
 }

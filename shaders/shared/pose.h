@@ -23,7 +23,9 @@
 //              nodes (those that change + 65536 * constants)
 //   constants  two words each: three numbers of 20 bits with a sign, and in the last 4 bits (27 - their exponent) / 2
 //   statics    a word for every property that changes: its reference, 3 times 9 bits; its exponent + 8
-//   segment    (first record, first element of its data, frames, 0)
+//   segment    (first record, first element of its data, frames, 0). While a segment of a clip with a coarse twin is
+//              missing, the last is the first element of the twin: a packed clip of the same frames, whose nodes' elements
+//              are not read; the first two then mean nothing
 //   record     of a property in a segment: (frames that are knots, a bit each; of x, y and z: the lowest number, 20 bits with a
 //              sign, the bits of each number, 5, and 7 bits of where the first knot begins in the data, in bits)
 //   data       knot after knot x, y and z, and the knot at the segment's end last

@@ -408,6 +408,7 @@ private:
     void ask() {
         get<SuppleAssetInfo>("suppleGetAssetInfo", [&](auto* out) { return suppleGetAssetInfo(handle(), tube_, out); });
         get<SupplePartInfo>("suppleGetPartInfo", [&](auto* out) { return suppleGetPartInfo(handle(), tube_, 0, out); });
+        call("suppleRequestClip", [&] { return suppleRequestClip(handle(), tube_, 0, nullptr); });
         get<SuppleClipInfo>("suppleGetClipInfo", [&](auto* out) { return suppleGetClipInfo(handle(), tube_, 0, out); });
         get<SuppleJointInfo>("suppleGetJointInfo",
                              [&](auto* out) { return suppleGetJointInfo(handle(), tube_, 0, out); });

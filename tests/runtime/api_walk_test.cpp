@@ -1100,6 +1100,34 @@ void creaseSets(Rows& r) {
              [=](World& w) { return clip(w, w.mine.asset, 0); });
 }
 
+void streaming(Rows& r) {
+    constexpr const char* kRequest = "suppleRequestClip";
+    r.assets(kRequest, [](World&, SuppleContext c, SuppleAsset a) { return suppleRequestClip(c, a, 0, nullptr); });
+    r.description<SuppleClipRequest>(
+        kRequest, "request", [](World&) { return SuppleClipRequest{sizeof(SuppleClipRequest)}; },
+        [](World& w, const SuppleClipRequest* request) {
+            return suppleRequestClip(w.handle(), w.mine.asset, 0, request);
+        },
+        false);
+    r.refuse(kRequest, "no such clip", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleRequestClip(w.handle(), w.mine.asset, kClips, nullptr); });
+    const auto wrong = [&](const char* what, int message, const std::function<void(SuppleClipRequest&)>& spoil) {
+        r.refuse(kRequest, what, message, [=](World& w) {
+            SuppleClipRequest request{sizeof(SuppleClipRequest)};
+            spoil(request);
+            return suppleRequestClip(w.handle(), w.mine.asset, 0, &request);
+        });
+    };
+    wrong("use", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) { d.use = SUPPLE_CLIP_USE_MAX_ENUM; });
+    wrong("begin negative", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) { d.begin = -1.0; });
+    wrong("end before begin", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) {
+        d.begin = 0.5;
+        d.end = 0.25;
+    });
+    wrong("end infinite", SUPPLE_MESSAGE_NOT_FINITE,
+          [](SuppleClipRequest& d) { d.end = std::numeric_limits<double>::infinity(); });
+}
+
 void markers(Rows& r) {
     constexpr const char* kAll = "suppleGetClipMarkers";
     constexpr const char* kBetween = "suppleGetClipMarkersBetween";
@@ -1196,6 +1224,7 @@ void assetGetters(Rows& r) {
             return suppleGetClipBounds(w.handle(), w.mine.asset, clip, w.plain<SuppleBounds>());
         });
     }
+    streaming(r);
     markers(r);
     creaseSets(r);
 

@@ -114,7 +114,7 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     uint64_t different = 0, frame = 0;
     for (const uint32_t rate : {5u, 7u, 11u}) {
         Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "mutation");
-        Result<uint64_t> asset = (*context)->createAsset(std::move(*character));
+        Result<uint64_t> asset = (*context)->createAsset(std::move(*character), 0);
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = {*asset};

@@ -92,7 +92,7 @@ std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character,
                                                       uint32_t vertexBudget) {
     camera_.vertexBudget = vertexBudget;
     context_->views.find(view_)->setCamera(camera_);
-    const Result<uint64_t> asset = context_->createAsset(std::move(character));
+    const Result<uint64_t> asset = context_->createAsset(std::move(character), 0);
     if (!asset.ok()) {
         ADD_FAILURE() << asset.error().message;
         return std::nullopt;

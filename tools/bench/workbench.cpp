@@ -54,7 +54,7 @@ Result<std::unique_ptr<Workbench>> Workbench::create(const SuppleContextDesc& de
 }
 
 Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
-    Result<uint64_t> asset = inside_->context->createAsset(std::move(character));
+    Result<uint64_t> asset = inside_->context->createAsset(std::move(character), 0);
     if (!asset) {
         return asset.error();
     }
@@ -97,7 +97,7 @@ Result<std::function<void()>> Workbench::cpuGrid(cage::Character character, Supp
 }
 
 Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepared> prepared) {
-    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared));
+    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared), 0);
     if (!asset) {
         return asset.error();
     }

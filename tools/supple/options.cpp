@@ -267,11 +267,17 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
         ->capture_default_str();
 }
 
-void bindClipError(CLI::App& command, double& error) {
+void bindClipPacking(CLI::App& command, ClipPacking& packing) {
     command
-        .add_option("--clip-error", error,
+        .add_option("--clip-error", packing.error,
                     "How far packing a clip may move a vertex, as a part of the character's extent; 0: clips are not "
                     "packed")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("EXTENTS")
+        ->capture_default_str();
+    command
+        .add_option("--coarse-clip-error", packing.coarseError,
+                    "How far the coarse twin of a clip may be from it, for clips that are streamed; 0: there is none")
         ->check(CLI::Range(0.0, 0.1))
         ->type_name("EXTENTS")
         ->capture_default_str();

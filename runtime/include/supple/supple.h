@@ -505,7 +505,8 @@ typedef struct SuppleAssetDesc {
      * files: small files can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it
      * names. A file that needs more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
-    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize must be 0.
+    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize and
+     * clipPoolBytes must be 0.
      * It need not outlive the call. */
     SupplePrepared prepared;
     const SuppleCharacterDesc* character; /**< instead of bytes or cage */
@@ -520,6 +521,13 @@ typedef struct SuppleAssetDesc {
      * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset
      * does not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
     const SuppleJointPair* jointPairs;
+    /** Also with `prepared`; not for supplePrepare. Bytes of device memory for segments of clips that have a coarse
+     * twin (SupplePrepareDesc.coarseClipError): the device then has those segments that suppleRequestClip has asked
+     * for, and what lacks its segments plays the twin (docs/playback.md, "Streaming"). There is room for the largest
+     * segment, however few bytes these are, and for no more than all segments. Clips without a twin are there as a
+     * whole; if no clip has one, a warning says that this is of no use. suppleReloadAsset takes what is given there. 0:
+     * all segments are there from the beginning. */
+    uint64_t clipPoolBytes;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -593,12 +601,21 @@ typedef struct SupplePartInfo {
 /** An animation clip. */
 typedef struct SuppleClipInfo {
     uint32_t structSize;
-    const char* name;   /**< lives as long as the asset */
-    double duration;    /**< seconds */
-    uint64_t byteCount; /**< that it takes on the device, beside key times that it shares with other clips */
+    const char* name; /**< lives as long as the asset */
+    double duration;  /**< seconds */
+    /** That it takes on the device if all its segments are there, with its coarse twin, beside key times that it shares
+     * with other clips. With a pool the segments are in that: then it takes byteCount - segmentBytes beside it. */
+    uint64_t byteCount;
     /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip
      * is not packed. */
     double packedError;
+    /** The same of its coarse twin (SupplePrepareDesc.coarseClipError); 0: the clip has none, and is never streamed. */
+    double coarseError;
+    uint64_t segmentBytes; /**< that its segments take, of byteCount; 0 without a twin */
+    /** Of these, those of segments that groups play in the next suppleRecord; for the others they play the twin. All of
+     * them, if the asset has no pool (SuppleAssetDesc.clipPoolBytes). The sum over all clips of an asset is what its
+     * pool holds. */
+    uint64_t residentBytes;
 } SuppleClipInfo;
 
 /** A box with sides along the axes. min is greater than max where there is nothing. */
