@@ -97,6 +97,19 @@ public:
         return found;
     }
 
+protected:
+    [[nodiscard]] bool hasFlatCorners(uint32_t patch) const override {
+        const auto& flat = flatCorners_[patch];
+        return patches()[patch].patchClass != PatchClass::polar &&
+               std::find(flat.begin(), flat.end(), true) != flat.end();
+    }
+    [[nodiscard]] bool isFlatCorner(const Place& place) const override {
+        FoundPlace found;
+        found.place = place;
+        holdOffCorners(found);
+        return found.held;
+    }
+
 private:
     /// What a face became.
     struct FaceOf {
