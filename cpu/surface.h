@@ -76,9 +76,10 @@ protected:
         return {};
     }
 
-    /// Whether a patch has corners where du and dv are parallel, though rounding may leave them a normal.
-    [[nodiscard]] virtual bool hasFlatCorners(uint32_t /*patch*/) const { return false; }
-    [[nodiscard]] virtual bool isFlatCorner(const Place& /*place*/) const { return false; }
+    /// Whether a patch has samples where du and dv are parallel or zero, though rounding may leave them a normal.
+    [[nodiscard]] virtual bool hasFlatPlaces(uint32_t /*patch*/) const { return false; }
+    /// Whether a sample of such a patch is one.
+    [[nodiscard]] virtual bool isFlat(const Place& /*place*/) const { return false; }
 
 private:
     void slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const GridOutput& out) const;

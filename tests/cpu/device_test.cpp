@@ -113,7 +113,7 @@ TEST(CpuEqualsDevice, Pm) {
     }
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_PM;
-    compareCages("P_m", options, {}, everyNth(cages, 3), {8, 5, 12}, 180.0);
+    compareCages("P_m", options, {}, everyNth(cages, 3), {8, 5, 12}, 5.0);
 }
 
 TEST(CpuEqualsDevice, CatmullClark) {
