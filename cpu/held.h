@@ -12,8 +12,8 @@ namespace supple::cpu {
 
 /// So far from a corner that is not regular derivatives are taken, in the parameters of a quad or a triangle.
 inline constexpr double kBesideCorner = 0x1p-30;
-/// The same where they come to a limit only slowly: charts, apexes, and a face alone between the two halves of a crease,
-/// whose sides are parallel at their corner.
+/// The same where they come to a limit only slowly: charts, apexes, and a face alone between the two halves of a
+/// crease, whose sides are parallel at their corner.
 inline constexpr double kBesideSlowCorner = 1.0 / 1024.0;
 
 /// Nearer than `distance` to a corner, the derivatives are those on the ray from the corner through the place; at the

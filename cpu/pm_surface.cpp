@@ -81,7 +81,7 @@ public:
             return found;
         }
         const uint32_t patch = face.patch - 1;
-        if (patches()[patch].patchClass == PatchClass::polar) {
+        if (isPolar(patch)) {
             found.place = polarPlace(point, face.firstCorner, 0.0);
             // It ends in a point, where its u means nothing.
             found.held = 1.0 - found.place.y < kBesideSlowCorner;
@@ -97,6 +97,21 @@ public:
         return found;
     }
 
+protected:
+    [[nodiscard]] bool hasFlatPlaces(uint32_t patch) const override {
+        const auto& flat = flatCorners_[patch];
+        return isPolar(patch) || std::find(flat.begin(), flat.end(), true) != flat.end();
+    }
+    [[nodiscard]] bool isFlat(const Place& place) const override {
+        if (isPolar(place.piece)) {
+            return place.y == 1.0; // the apex
+        }
+        FoundPlace found;
+        found.place = place;
+        holdOffCorners(found);
+        return found.held;
+    }
+
 private:
     /// What a face became.
     struct FaceOf {
@@ -104,6 +119,7 @@ private:
         uint8_t firstCorner = 0;
     };
 
+    [[nodiscard]] bool isPolar(uint32_t patch) const { return patches()[patch].patchClass == PatchClass::polar; }
     /// Of a patch alone between the two halves of a crease: there du and dv are parallel.
     void holdOffCorners(FoundPlace& found) const {
         const uint32_t sides = patches()[found.place.piece].cornerCount;

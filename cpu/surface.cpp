@@ -56,7 +56,7 @@ void Surface::grid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate
         }
         for (; patch < behind; ++patch) {
             const uint32_t samples = samplesOf(patch, rate);
-            if (!out.normals.empty() && (fast.patches == 0 || fast.lacksNormals)) {
+            if (!out.normals.empty() && (fast.patches == 0 || fast.lacksNormals || hasFlatPlaces(patch))) {
                 mendNormals(pose, patch, rate, out.normals.subspan(vertex, samples));
             }
             vertex += samples;
@@ -84,7 +84,11 @@ void Surface::slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const Gr
 }
 
 void Surface::mendNormals(const Pose& pose, uint32_t patch, uint32_t rate, std::span<glm::vec3> normals) const {
+    const bool flatPlaces = hasFlatPlaces(patch);
     for (uint32_t sample = 0; sample < normals.size(); ++sample) {
+        if (flatPlaces && isFlat(placeOfSample(patch, rate, sample, 0.0))) {
+            normals[sample] = glm::vec3(0.0f);
+        }
         if (normals[sample] == glm::vec3(0.0f)) {
             normals[sample] = glm::vec3(pose.limitNormal(placeOfSample(patch, rate, sample, 0.0)));
         }

@@ -76,6 +76,11 @@ protected:
         return {};
     }
 
+    /// Whether a patch has samples where du and dv are parallel or zero, though rounding may leave them a normal.
+    [[nodiscard]] virtual bool hasFlatPlaces(uint32_t /*patch*/) const { return false; }
+    /// Whether a sample of such a patch is one.
+    [[nodiscard]] virtual bool isFlat(const Place& /*place*/) const { return false; }
+
 private:
     void slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const GridOutput& out) const;
     /// Gives a sample without a normal that of the limit, or of a place inside.

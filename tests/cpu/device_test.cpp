@@ -52,15 +52,17 @@ void compare(GpuSurface& gpu, CpuGroup& cpu, const std::string& name, Worst& wor
     raise(worst.position, position);
 }
 
-void report(const char* scheme, const Worst& worst) {
+/// `most`: of all normals, in degrees.
+void report(const char* scheme, const Worst& worst, double most) {
     std::printf("%s: positions %.1e of the extent; normals %.2f degrees, %zu of %zu beyond 1\n", scheme, worst.position,
                 worst.degrees, worst.beyond, worst.vertices);
     EXPECT_GT(worst.vertices, 900u);
-    EXPECT_LE(worst.beyond, worst.vertices / 40); // beside creases and corners where normals are taken a little inside
+    EXPECT_LE(worst.degrees, most) << scheme;
+    EXPECT_LE(worst.beyond, worst.vertices / 200); // at corners where the limit has no normal, and one is taken inside
 }
 
 void compareCages(const char* label, GpuOptions gpu, CpuOptions cpu, const std::vector<SubdivisionCage>& cages,
-                  std::initializer_list<uint32_t> rates) {
+                  std::initializer_list<uint32_t> rates, double most) {
     host::Device* device = testDevice();
     ASSERT_NE(device, nullptr);
     cpu.scheme = gpu.scheme;
@@ -75,7 +77,7 @@ void compareCages(const char* label, GpuOptions gpu, CpuOptions cpu, const std::
         CpuGroup group(entry.cage, cpu);
         ASSERT_NO_FATAL_FAILURE(compare(own, group, entry.name, worst));
     }
-    report(label, worst);
+    report(label, worst, most);
 }
 
 std::vector<SubdivisionCage> quadCages() {
@@ -99,9 +101,9 @@ std::vector<SubdivisionCage> everyNth(const std::vector<SubdivisionCage>& all, s
 TEST(CpuEqualsDevice, PRep) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_PREP;
-    compareCages("p-rep", options, {}, quadCages(), {8, 5, 13, 1});
+    compareCages("p-rep", options, {}, quadCages(), {8, 5, 13, 1}, 0.1);
     options.corners = SUPPLE_CORNERS_SMOOTH;
-    compareCages("p-rep with smooth corners", options, {}, {{"open grid", perturbed(grid(4, 3), 0.1f, 4)}}, {8});
+    compareCages("p-rep with smooth corners", options, {}, {{"open grid", perturbed(grid(4, 3), 0.1f, 4)}}, {8}, 5.0);
 }
 
 TEST(CpuEqualsDevice, Pm) {
@@ -111,25 +113,26 @@ TEST(CpuEqualsDevice, Pm) {
     }
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_PM;
-    compareCages("P_m", options, {}, everyNth(cages, 3), {8, 5, 12});
+    compareCages("P_m", options, {}, everyNth(cages, 3), {8, 5, 12}, 5.0);
 }
 
 TEST(CpuEqualsDevice, CatmullClark) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
-    compareCages("Catmull-Clark", options, {}, everyNth(subdivisionZoo(), 3), {8, 6, 16});
+    compareCages("Catmull-Clark", options, {}, everyNth(subdivisionZoo(), 3), {8, 6, 16}, 0.1);
 }
 
 TEST(CpuEqualsDevice, Loop) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_LOOP;
-    compareCages("Loop", options, {}, everyNth(subdivisionZoo(), 3, 1), {8, 5, 16});
+    compareCages("Loop", options, {}, everyNth(subdivisionZoo(), 3, 1), {8, 5, 16}, 0.1);
 }
 
 TEST(CpuEqualsDevice, Blend) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_BLEND;
-    compareCages("blend", options, {}, everyNth(subdivisionZoo(), 4), {8, 6});
+    // Beside charts that are points or curves surfaces may fold.
+    compareCages("blend", options, {}, everyNth(subdivisionZoo(), 4), {8, 6}, 180.0);
 }
 
 /// Without creases, or with endless ones that go on.
@@ -156,9 +159,9 @@ std::vector<SubdivisionCage> withoutSemiSharp(const std::vector<SubdivisionCage>
 TEST(CpuEqualsDevice, Fragments) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_FRAGMENTS;
-    compareCages("fragments", options, {}, withoutSemiSharp(subdivisionZoo()), {8, 16});
+    compareCages("fragments", options, {}, withoutSemiSharp(subdivisionZoo()), {8, 16}, 2.0);
     options.rules = SUPPLE_RULES_LOOP;
-    compareCages("fragments by Loop's rules", options, {}, withoutSemiSharp(subdivisionZoo()), {8, 4});
+    compareCages("fragments by Loop's rules", options, {}, withoutSemiSharp(subdivisionZoo()), {8, 4}, 8.0);
 }
 
 TEST(CpuEqualsDevice, CharactersInAPose) {
@@ -178,7 +181,7 @@ TEST(CpuEqualsDevice, CharactersInAPose) {
             CpuGroup group(path, cpu);
             Worst worst;
             ASSERT_NO_FATAL_FAILURE(compare(own, group, path, worst));
-            report(file, worst);
+            report(file, worst, scheme == SUPPLE_SCHEME_BLEND ? 8.0 : 0.2);
         }
     }
 }

@@ -606,7 +606,9 @@ private:
         call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
     }
 
-    [[nodiscard]] SuppleContext handle() const { return context_.handle(); }
+    [[nodiscard]] SuppleContext handle() const {
+        return context_.handle();
+    }
 
     static constexpr size_t kGroups = 7, kPlayed = 3, kSeen = 6;
     const MakeCall& make_;
