@@ -126,29 +126,32 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
 }
 
 /// Makes the kernels that a group needs of a range, and returns that of the rate it has now. The rate of a group with
-/// an indexed mesh stays. If nobody knows yet how many instances there are, all that they may need are made.
+/// an indexed mesh stays; others have a kernel for any rate, for those that are set later. If nobody knows yet how many
+/// instances there are, all that they may need are made.
 gpu::Kernel evaluateKernel(ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
     const PatchClass patchClass = range.patchClass;
     const bool indexed = builder.tables.hasIndexedMesh(), isUnknown = builder.options.instances == 0;
     const bool prefersLane = prefersLanePatch(builder, range, format);
     const uint32_t rate = builder.options.rate, ownRate = ownRatePays(builder, patchClass) ? rate : 0;
+    gpu::Kernel any;
+    if (!indexed) {
+        any = evaluateKernel(builder, patchClass, format, 0, false);
+    }
+    gpu::Kernel own = any; // of the rate that the group begins with
     const struct {
         bool isNeeded;
-        uint32_t rate; // 0: any
+        uint32_t rate;
         bool lanePatch;
-    } forms[] = {
-        {!indexed, 0, false}, // for rates that are set later
+    } ownRates[] = {
         {!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition)), ownRate, false},
         {prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format)), rate, true},
     };
-    gpu::Kernel first, last; // the last one is that of the rate the group begins with
-    for (const auto& form : forms) {
-        if (form.isNeeded) {
-            last = evaluateKernel(builder, patchClass, format, form.rate, form.lanePatch);
-            first = &form == forms ? last : first;
+    for (const auto& kernel : ownRates) {
+        if (kernel.isNeeded) {
+            own = evaluateKernel(builder, patchClass, format, kernel.rate, kernel.lanePatch);
         }
     }
-    return indexed || isAtOwnRate(builder) ? last : first;
+    return indexed || isAtOwnRate(builder) ? own : any;
 }
 
 void addEvaluate(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass, size_t range) {
@@ -359,6 +362,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
     for (uint32_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const PatchClassRow& row = rowOf(range.patchClass);
+        const uint32_t lines = builder.device.mapping.wide && hasLines(range.patchClass) ? VK_TRUE : VK_FALSE;
         auto push = pushFor<LevelsPush>(range.section);
         push.firstPatch = range.firstPatch;
         push.run = r;
@@ -369,19 +373,19 @@ void addRangesAtLevels(ProgramBuilder& builder) {
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
                                                        {kVertexFormatConstant, pass.format},
                                                        {kTangentsConstant, tangentsConstant(builder, pass.format)},
-                                                       {kCornerNormalsConstant, cornerNormals(builder)}},
+                                                       {kCornerNormalsConstant, cornerNormals(builder)},
+                                                       {kLinesConstant, lines}},
                                                       std::string("supple evaluate at levels, ") + row.name);
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
         }
         if (builder.options.attributes) {
             const AttributeKernel own = attributeKernel(builder.tables, range.patchClass, true);
-            const gpu::Kernel kernel =
-                builder.kernel(SetKind::attributes, own.kernel,
-                               {{kKindConstant, own.kind},
-                                {kSemiSharpConstant, semiSharpUvs(builder)},
-                                {kLinesConstant, hasLines(range.patchClass) ? VK_TRUE : VK_FALSE},
-                                {kOutputsConstant, outputsOf(builder)}},
-                               std::string("supple attributes at levels, ") + row.name);
+            const gpu::Kernel kernel = builder.kernel(SetKind::attributes, own.kernel,
+                                                      {{kKindConstant, own.kind},
+                                                       {kSemiSharpConstant, semiSharpUvs(builder)},
+                                                       {kLinesConstant, lines},
+                                                       {kOutputsConstant, outputsOf(builder)}},
+                                                      std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;
             push.smoothUvs = range.smoothUvs;
             builder.add(builder.program.attributes, SetKind::attributes, kernel, builder.lanes(push.count), push, r);

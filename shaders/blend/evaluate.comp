@@ -22,7 +22,6 @@ const uint kParts = 4u * kChartCoefficients; // coefficients
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
 const bool kRegular = kClass == kBlendRegularPatch;
-const bool kLines = kRegular;
 #include "shaders/evaluate/harness.glsl"
 
 #include "shaders/evaluate/pairs.glsl"
@@ -245,16 +244,17 @@ void evaluateLine(const PatchPlace at, uint place, uint n) {
     RegularRow row = collapseRegular(net, alongOf(localPair(place, 1u, j, last)));
     RegularBorder border = bottomBorder(net);
     LodPattern along = localPattern(place, isSide ? 2u + side : 0u);
-    uvec2 samples = isSide ? samplesOfSide(side, last) : uvec2(j * (last + 1u) + 1u, 1u);
+    SampleRow samples = innerRowOf(j, last, false);
+    if (isSide) samples = sideRowOf(side, last);
     do {
         Along u = alongOf(lodPair(along, k, last));
         regularSample(row, u, position, du, dv);
         if (isSide) position = onBorder(border, u);
         turnBack(side, du, dv);
         Frame frame = checkedFrame(diagonal, other, frameOf(du, dv));
-        uint vertex = at.vertex + samples.x;
+        uint vertex = at.vertex + samples.first;
         storeSurfaceVertex(vertex, vertex, at.empty ? vec3(0.0) : position, frame);
-        samples.x += samples.y;
+        samples.first += samples.step;
     } while (++k < last);
 }
 void evaluateLines() {

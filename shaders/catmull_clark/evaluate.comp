@@ -16,7 +16,6 @@ const uint kParts = kNetPoints;
 #else
 #define OWN_WIDE
 #endif
-const bool kLines = false;
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"

@@ -31,7 +31,6 @@ const bool kRings = false;
 #endif
 const uint kForm = !kRings ? kLodQuadForm : kDomain == kTriangleDomain ? kLodTriangleForm
                    : kDomain == kPentagonDomain ? kLodPentagonForm : kLodQuadRingsForm;
-layout(constant_id = kLinesConstant) const bool kLines = false;
 #include "shaders/lod/record.glsl"
 layout(constant_id = kOutputsConstant) const uint kOutputs = 0u; // kOutputUvs1, .. where they are written
 layout(constant_id = kSectorsConstant) const bool kSectors = false;
@@ -380,8 +379,8 @@ Slopes lodSlopes(uint place, LodRecord r, Corners c, uint index) {
     return sectorSlopes(c, at.side, ringWeights(place, r.capacity, at, along));
 }
 
-// Of a record that has more samples than a workgroup has lanes, all lanes take some; else there is one for each sample of as many
-// records as possible.
+// Of a record that has more samples than a workgroup has lanes, all lanes take some. Else a lane takes one sample of a record at a time,
+// and the workgroup as many records at once as it has lanes for.
 void evaluateWideLod(uint form) {
     Share share = lodShareOfGroup(form);
     loadRecords(share);

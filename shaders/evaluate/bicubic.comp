@@ -4,8 +4,8 @@
 //
 //   whole_patches.glsl   at a rate a lane takes a patch
 //   net_rows.glsl        at a rate a lane of the wide mapping takes a row, where there are few patches
-//   lines.glsl           at levels a lane of the wide mapping takes a side or a column of samples inside, one of the narrow mapping a
-//                        patch
+//   lines.glsl           at levels a lane of the wide mapping takes a side or a column of samples inside, of polar patches a row; one of
+//                        the narrow mapping takes a patch
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -17,7 +17,6 @@
 #include "shaders/shared/lod.h"
 
 const uint kForm = kLodQuadForm;
-const bool kLines = true;
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"

@@ -6,7 +6,6 @@
 // Before the include, a scheme includes tables.glsl and defines
 //   kRecordElements   table elements per patch
 //   kForm             the form of its grids at levels
-//   kLines            whether lanes take lines of samples there (kRunHasLines)
 //   kParts            wide mapping: parts per patch
 //   OWN_WIDE          a macro, if its own evaluateWide() is faster than evaluateWideSamples()
 //   CHOOSES_WIDE      a macro, if its own evaluateWide() chooses between that and another way
@@ -82,7 +81,7 @@ Share shareOfGroup() {
 #else
 Share shareOfGroup() {
     uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
-    return Share(first, first < total ? min(push.patchesPerGroup, total - first) : 0u, push.samples, push.rate + 1u);
+    return Share(first, first < total ? min(push.patchesPerGroup, total - first) : 0u, push.samples, push.rate + 1u, 0u);
 }
 #define PATCH_IN_PLACE(share, place) placeOf(share.first + (place))
 #endif

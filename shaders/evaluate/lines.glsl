@@ -48,7 +48,7 @@ void sideSample(Row row, uint side, vec2 u, out vec3 position, out Frame frame) 
 // Loops are tested at the bottom: one tested at the top costs lavapipe one more time round with nothing to do.
 void evaluateSide(const PatchPlace at, Row row, uint side, LodPattern pattern, uvec4 slots) {
     uint k = 0u;
-    uvec2 samples = samplesOfSide(side, at.capacity);
+    SampleRow samples = sideRowOf(side, at.capacity);
     bool isApex = kPolar && side == 2u;
     do {
         vec3 position;
@@ -56,8 +56,8 @@ void evaluateSide(const PatchPlace at, Row row, uint side, LodPattern pattern, u
         sideSample(row, side, lodPair(pattern, k, at.capacity), position, frame);
         if (isApex) position = row.g[0];
         if (kCornerNormals && k == 0u) frame = withCornerNormal(frame, side, slots, at.base);
-        storeSample(at, samples.x, position, frame);
-        samples.x += samples.y;
+        storeSample(at, samples.first, position, frame);
+        samples.first += samples.step;
     } while (++k < at.capacity);
 }
 
@@ -86,8 +86,8 @@ Frame turned(Frame f) { return kColumns ? Frame(f.dv, f.du, -f.normal) : f; }
 // Line n inside of a patch, n = 1 .. capacity - 1. Capacities are odd, so no sample is its own mirror image. `c`: transposed, where
 // lines are columns.
 void evaluateLine(const PatchPlace at, Patch c, uint n, LodPattern across, LodPattern along) {
-    uint last = at.capacity, width = last + 1u, step = kColumns ? width : 1u, near = (kColumns ? n : n * width) + step;
-    uint far = near + (last - 2u) * step, k = 1u;
+    SampleRow samples = innerRowOf(n, at.capacity, kColumns);
+    uint last = at.capacity, near = samples.first, far = near + (last - 2u) * samples.step, k = 1u;
     Row row = collapse(c, lodPair(across, n, last), kInnerRow);
     PointHalves points = pointHalves(row);
     SlopeHalves slopes = slopeHalves(row);
@@ -97,8 +97,8 @@ void evaluateLine(const PatchPlace at, Patch c, uint n, LodPattern across, LodPa
         mirroredSamples(row, points, slopes, lodPair(along, k, last), true, position, frame, farPosition, farFrame);
         storeSample(at, near, position, turned(frame));
         storeSample(at, far, farPosition, turned(farFrame));
-        near += step;
-        far -= step;
+        near += samples.step;
+        far -= samples.step;
     } while (2u * ++k < last);
 }
 uint acrossPattern() { return kColumns ? 0u : 1u; }
@@ -115,18 +115,24 @@ void evaluateSideOf(const PatchPlace at, uint place, uint side) {
     Row row = sideRow(loadCorner(at, net, side), loadCorner(at, net, (side + 1u) & 3u), side == 2u, h);
     evaluateSide(at, row, side, localPattern(place, 2u + side), normalSlots(at.record));
 }
+// Sides begin with a subgroup of 32 lanes where there is room for that. Fewer subgroups then run both loops.
+uint firstSideLane(uint inside, uint count) {
+    uint rounded = (inside + 31u) & ~31u;
+    return rounded + 4u * count <= gl_WorkGroupSize.x ? rounded : inside;
+}
 void evaluateWide() {
     Share share = shareOfGroup();
-    uint lines = share.side - 2u, inside = share.count * lines, lane = gl_LocalInvocationID.x;
+    uint lines = share.side - 2u, inside = share.count * lines, sides = firstSideLane(inside, share.count);
+    uint lane = gl_LocalInvocationID.x;
     if (lane < inside) {
         uint place = lane / lines, n = lane - place * lines + 1u;
         PatchPlace at = PATCH_IN_PLACE(share, place);
         Patch c = loadPatch(at);
         if (kColumns) c = transposed(c);
         evaluateLine(at, c, n, localPattern(place, acrossPattern()), localPattern(place, 1u - acrossPattern()));
-    } else if (lane < inside + 4u * share.count) {
-        uint place = (lane - inside) / 4u;
-        evaluateSideOf(PATCH_IN_PLACE(share, place), place, (lane - inside) & 3u);
+    } else if (lane >= sides && lane < sides + 4u * share.count) {
+        uint place = (lane - sides) / 4u;
+        evaluateSideOf(PATCH_IN_PLACE(share, place), place, (lane - sides) & 3u);
     }
 }
 #else

@@ -3,7 +3,7 @@
 #include "shaders/lod/lod.glsl"
 #include "shaders/lod/pattern.glsl"
 
-// Before the include: kForm, of the grids, and kLines, whether runs have lines (kRunHasLines).
+// Before the include: kForm, of the grids.
 
 // Records of a view, else all patches at one rate. A macro: what either does without need not be compiled when a pipeline
 // is made.
@@ -12,6 +12,7 @@ const bool kLod = true;
 #else
 const bool kLod = false;
 #endif
+layout(constant_id = kLinesConstant) const bool kLines = false; // wide mapping: lanes take lines of samples (kRunHasLines)
 
 struct LodRecord {
     uint patchIndex; // of the range
@@ -44,14 +45,7 @@ LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
     return lodPattern((k & 1u) == 0u ? two.xy : two.zw, capacityIndex);
 }
 
-// The samples of a side of a grid of rows, from its first corner up to the next: the number of the first one, and the step to the next.
-uvec2 samplesOfSide(uint side, uint capacity) {
-    uint width = capacity + 1u, step = (side & 1u) == 0u ? 1u : width;
-    uint first = side == 0u ? 0u : side == 1u ? capacity : side == 2u ? width * width - 1u : capacity * width;
-    return uvec2(first, side < 2u ? step : 0u - step);
-}
-
-// Directions along such a side and inwards, as those along u and v.
+// Directions along a side of a grid of rows and inwards, as those along u and v.
 void turnBack(uint side, inout vec3 along, inout vec3 inwards) {
     bool isUpright = (side & 1u) != 0u;
     float signU = SELECT(side == 1u || side == 2u, -1.0, 1.0), signV = SELECT(side >= 2u, -1.0, 1.0);
@@ -65,11 +59,6 @@ void turnBack(uint side, inout vec3 along, inout vec3 inwards) {
 struct RingSample {
     uint ring, side, k;
 };
-// Samples before a ring of a patch of m sides, and before a side of the ring.
-uint ringStart(uint m, uint ring, uint capacity) { return m * ring * (capacity + 1u - ring); }
-uint ringSideStart(uint m, uint ring, uint side, uint capacity) {
-    return ringStart(m, ring, capacity) + side * (capacity - 2u * ring);
-}
 RingSample ringSample(uint m, uint capacity, uint index) {
     uint ring = 0u;
     for (; ring < (capacity + 1u) / 2u && ringStart(m, ring + 1u, capacity) <= index; ++ring) {}
@@ -94,13 +83,13 @@ uint lodRecordOfLane() {
 
 // Wide mapping: what a workgroup takes of a dispatch. At levels, some records of one bucket.
 struct Share {
-    uint first, count, samples, side;
+    uint first, count, samples, side, capacityIndex;
 };
 #ifdef LEVELS
 Share lodShareOfGroup(uint form) {
     uint at = lodDispatchWord();
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), push.runs * kCapacityCount);
-    Share share = Share(0u, 0u, 1u, 1u);
+    Share share = Share(0u, 0u, 1u, 1u, 0u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
     uint buckets = SUPPLE_LOD_BUCKETS(push.runs) + 4u * first;
     uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
@@ -111,7 +100,8 @@ Share lodShareOfGroup(uint form) {
     }
     uint bucket = buckets + 4u * b;
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
-    uint capacity = capacityOf(b % kCapacityCount);
+    share.capacityIndex = b % kCapacityCount;
+    uint capacity = capacityOf(share.capacityIndex);
     share.samples = formSamples(form, capacity);
     share.side = capacity + 1u; // of a grid of rows
     uint each = recordsOfGroup(gl_WorkGroupSize.x, kLines, form, capacity);
@@ -128,15 +118,15 @@ shared uvec4 localHeads[kMostRecords];
 shared uvec2 localPatternBits[6u * kMostRecords];
 shared vec2 localPatternWidths[6u * kMostRecords];
 
-// To be called by all lanes.
+// To be called by all lanes. Records have the capacity of their bucket: lanes count lines and samples by it, and their loops must end
+// whatever the records' own words are.
 void loadRecords(Share share) {
     for (uint n = gl_LocalInvocationID.x; n < 6u * share.count; n += gl_WorkGroupSize.x) {
         uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.first + place);
-        uvec4 head = lodElement(at);
-        LodPattern p = recordPattern(at, k, min(head.w, kCapacityCount - 1u));
+        LodPattern p = recordPattern(at, k, share.capacityIndex);
         localPatternBits[n] = uvec2(p.full, p.fresh);
         localPatternWidths[n] = vec2(p.part, p.inverse);
-        if (k == 0u) localHeads[place] = head;
+        if (k == 0u) localHeads[place] = uvec4(lodElement(at).xyz, share.capacityIndex);
     }
     barrier();
 }
@@ -149,8 +139,7 @@ LodPattern localPattern(uint place, uint k) {
 }
 vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
 
-// The line of a lane where grids have rings: line n of as many as a sector of a patch has. It has the samples n, n + lines, .. of the
-// sector's side, and behind it rings n + 1 and (capacity - 1) / 2 - n, so all have about as many samples as a side.
+// The line of a lane where grids have rings: line n of as many as a sector of a patch has.
 struct RingLine {
     uint place, sector, n, lines;
 };

@@ -1,16 +1,11 @@
 // Runs and buckets of a view (shared/lod.h): what their words say, for whoever has read them.
-#include "shaders/shared/lod.h"
+#include "shaders/lod/lines.h"
 #include "shaders/shared/surface.h"
 
 uint capacityOf(uint index) { return SUPPLE_LOD_CAPACITY(index); }
-uint formSides(uint form) { return form == kLodTriangleForm ? 3u : form == kLodPentagonForm ? 5u : 4u; }
 uint formSamples(uint form, uint capacity) { return formSides(form) * (capacity + 1u) * (capacity + 1u) / 4u; }
-// Lines of samples of a patch, about as long as a side: of a grid of rows the sides and the lines inside that run across it; of a
-// grid of rings, so many in each sector.
-uint ringLines(uint capacity) { return max((capacity + 1u) / 4u, 1u); }
-uint linesOf(uint form, uint capacity) { return form == kLodQuadForm ? capacity + 3u : formSides(form) * ringLines(capacity); }
-// Wide mapping: the records of a bucket that a workgroup of so many lanes takes. It has a lane for each of their samples, or of their
-// lines.
+// Wide mapping: the records of a bucket that a workgroup of so many lanes takes. It has a lane for each of their lines, or, if one
+// record has no more samples than there are lanes, for each of their samples.
 uint recordsOfGroup(uint lanes, bool hasLines, uint form, uint capacity) {
     return hasLines ? clamp(lanes / linesOf(form, capacity), 1u, kMaxRecordsPerGroup)
                     : clamp(lanes / formSamples(form, capacity), 1u, kMaxPatchesPerGroup);

@@ -22,7 +22,6 @@ const bool kIrregular = kClass != kLoopRegularPatch, kSemiSharp = kClass == kLoo
 const uint kRecordElements = kSemiSharp ? kSharpTriangleElements : kIrregular ? kIrregularTriangleElements : kTriangleElements;
 const uint kForm = kLodTriangleForm;
 const uint kParts = kIrregular ? kTriangleNetPoints : kLeafPoints;
-const bool kLines = !kIrregular;
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/domain.glsl"
@@ -48,36 +47,40 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #include "shaders/loop/place.glsl"
 
 #ifdef WIDE
-void loadPart(uint to, const PatchPlace at, uint k) {
-    uint index = kIrregular ? triangleOf(at.record, true).first + netListPoint(at.record + kTriangleNetElement, k)
-                            : tableWord(4u * (at.record + kTriangleCageElement) + k);
-    localPoints[to] = vec4(poolPoint(at, index), 0.0);
+vec4 netPart(const PatchPlace at, uint k) {
+    uint index = triangleOf(at.record, true).first + netListPoint(at.record + kTriangleNetElement, k);
+    return vec4(poolPoint(at, index), 0.0);
 }
+#ifdef LEVELS
+void loadPart(uint to, const PatchPlace at, uint k) { localPoints[to] = netPart(at, k); }
+// Of an irregular triangle.
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     localPlace = place;
-    Triangle t = triangleOf(at.record, kIrregular);
-#ifdef LEVELS // irregular
     RingSample ring = ringSample(3u, at.capacity, index);
     vec2 along;
     vec3 w = ringWeights(place, at.capacity, ring, along);
     TrianglePoint s = ringPoint(ring.side, ring.ring == 0u, along, w);
-    uint to = ring.side;
+    irregularTriangle(at, triangleOf(at.record, true), s, ring.side, position, frame);
+    frame = ofSector(frame);
+}
 #else
+void loadPart(uint to, const PatchPlace at, uint k) {
+    localPoints[to] = kIrregular ? netPart(at, k) : vec4(poolPoint(at, tableWord(4u * (at.record + kTriangleCageElement) + k)), 0.0);
+}
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
+    localPlace = place;
+    Triangle t = triangleOf(at.record, kIrregular);
     TrianglePoint s = gridPoint(gridSample(kTriangleDomain, fixedRate(), index).xy, fixedRate());
-    const uint to = 0u;
-#endif
     if (kIrregular) {
-        irregularTriangle(at, t, s, to, position, frame);
+        irregularTriangle(at, t, s, 0u, position, frame);
     } else {
         LeafPoints points;
         [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) points.p[k] = netPoint(at, k);
         mirror(points, triangleFlags(t, kSharpTriangleSide), triangleFlags(t, kCreasedTriangleCorner));
-        regularTriangle(at, t, points, leafOf(points), s, to, position, frame);
+        regularTriangle(at, t, points, leafOf(points), s, 0u, position, frame);
     }
-#ifdef LEVELS
-    frame = ofSector(frame);
-#endif
 }
+#endif
 #endif
 #if defined(WIDE) && defined(LEVELS)
 // Of a regular triangle.
@@ -87,7 +90,7 @@ void evaluateLine(const PatchPlace at, RingLine line) {
     Leaf leaf = leafOf(points);
     LeafSide side = leafSide(points, line.sector, false, hasFlag(t, kSharpTriangleSide, line.sector));
     LodPattern inside = localPattern(line.place, 0u), border = localPattern(line.place, 1u + line.sector);
-    uint last = at.capacity, ring = line.n + 1u, far = (last - 1u) / 2u - line.n, k = line.n;
+    uint last = at.capacity, k = line.n;
     vec3 position;
     Frame frame;
     do {
@@ -101,15 +104,13 @@ void evaluateLine(const PatchPlace at, RingLine line) {
         storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
         k += line.lines;
     } while (k < last);
-    k = ring;
-    while (ring <= far) {
-        vec3 w = ringWeights(lodPair(inside, k, last), lodPair(inside, ring, last).x);
+    RingStep step = firstRingStep(line.n, last);
+    while (step.ring <= step.last) {
+        vec3 w = ringWeights(lodPair(inside, step.k, last), lodPair(inside, step.ring, last).x);
         regularTriangle(at, t, points, leaf, ringPoint(line.sector, false, vec2(0.0), w), line.sector, position, frame);
-        uint own = at.vertex + ringSideStart(3u, ring, line.sector, last) + k - ring;
+        uint own = at.vertex + ringSideStart(3u, step.ring, line.sector, last) + step.k - step.ring;
         storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
-        if (++k < last - ring) continue;
-        ring += max(far - ring, 1u);
-        k = ring;
+        step = nextRingStep(step, last - step.ring);
     }
 }
 void evaluateLines() {
@@ -118,7 +119,7 @@ void evaluateLines() {
     if (line.place < share.count) evaluateLine(PATCH_IN_PLACE(share, line.place), line);
 }
 void evaluateWide() {
-    if (kLines) evaluateLines();
+    if (kLines) evaluateLines(); // kLoopRegularPatch
     else evaluateWideSamples();
 }
 #endif

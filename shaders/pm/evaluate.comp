@@ -24,7 +24,6 @@ const uint kRecordElements = SUPPLE_PM_RECORD_ELEMENTS(kSides);
 const uint kForm = kClass == kP3Patch ? kLodTriangleForm : kClass == kP4Patch ? kLodQuadRingsForm : kLodPentagonForm;
 const uint kParts = kSides; // sectors
 const uint kDomain = kClass == kP5Patch ? kPentagonDomain : kClass == kP4Patch ? kQuadDomain : kTriangleDomain;
-const bool kLines = true;
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
@@ -82,9 +81,7 @@ vec3 weightsAtRate(uint k, uint l) {
     uint rate = fixedRate();
     return vec3(parameterPair(rate - k - l, rate).x, parameterPair(k, rate).x, parameterPair(l, rate).x);
 }
-#endif
 
-#ifndef LEVELS
 // Numbers of a sector's samples. Those of a quad are this far apart along the border and inwards.
 struct SectorNumbers {
     uint sector, first, along, inwards;
@@ -290,14 +287,14 @@ void evaluateSide(const PatchPlace at, SectorCubics c, Border border, LodPattern
 #ifdef WIDE
 // Sample k of a sector's side of a ring and its mirror image, which of the first sample is the next sector's. Capacities are odd, so none
 // is its own.
-void evaluateStep(const PatchPlace at, SectorCubics c, LodPattern inside, uint sector, uint ring, uint k) {
-    uint last = at.capacity, first = ringSideStart(kSides, ring, sector, last) - ring;
+void evaluateRingStep(const PatchPlace at, SectorCubics c, LodPattern inside, uint sector, RingStep s) {
+    uint last = at.capacity, first = ringSideStart(kSides, s.ring, sector, last) - s.ring;
     vec3 position, farPosition;
     Frame frame, farFrame;
-    vec3 w = ringWeights(lodPair(inside, k, last), lodPair(inside, ring, last).x);
+    vec3 w = ringWeights(lodPair(inside, s.k, last), lodPair(inside, s.ring, last).x);
     finishMirrored(c, w, position, frame, farPosition, farFrame);
-    keepSample(at, first + k, position, frame);
-    if (k != ring) keepSample(at, first + last - k, farPosition, farFrame);
+    keepSample(at, first + s.k, position, frame);
+    if (s.k != s.ring) keepSample(at, first + last - s.k, farPosition, farFrame);
 }
 void evaluateLine(const PatchPlace at, RingLine line) {
     uint sector = line.sector;
@@ -305,17 +302,15 @@ void evaluateLine(const PatchPlace at, RingLine line) {
     SectorSide before = loadSide(kSides, at.record, at.base, centre, sector == 0u ? kSides - 1u : sector - 1u, at.isNew);
     SectorSide own = loadSide(kSides, at.record, at.base, centre, sector, at.isNew);
     SectorSide next = loadSide(kSides, at.record, at.base, centre, sector + 1u == kSides ? 0u : sector + 1u, at.isNew);
-    Sector s = makeSector(kRay, coefficient(centre, at.isNew), before, own, next);
-    SectorCubics c = cubicsOf(halvesOf(s));
-    Border border = makeBorder(s, before, own, next, (SUPPLE_SINGULAR(innerBits) & (1u << sector)) != 0u);
+    Sector whole = makeSector(kRay, coefficient(centre, at.isNew), before, own, next);
+    SectorCubics c = cubicsOf(halvesOf(whole));
+    Border border = makeBorder(whole, before, own, next, (SUPPLE_SINGULAR(innerBits) & (1u << sector)) != 0u);
     evaluateSide(at, c, border, localPattern(line.place, 1u + sector), sector, line.n, line.lines);
     LodPattern inside = localPattern(line.place, 0u);
-    uint ring = line.n + 1u, far = (at.capacity - 1u) / 2u - line.n, k = ring;
-    while (ring <= far) {
-        evaluateStep(at, c, inside, sector, ring, k);
-        if (2u * ++k < at.capacity) continue;
-        ring += max(far - ring, 1u);
-        k = ring;
+    RingStep s = firstRingStep(line.n, at.capacity);
+    while (s.ring <= s.last) {
+        evaluateRingStep(at, c, inside, sector, s);
+        s = nextRingStep(s, (at.capacity + 1u) / 2u);
     }
 }
 void evaluateWide() {
