@@ -18,19 +18,19 @@ using runtime::ClipRequest;
 using runtime::ClipStream;
 using skinning::ClipTable;
 
-constexpr uint32_t kClips = 12, kSegments = 5, kTwin = 5, kHead = 10;
-constexpr VkDeviceSize kPlenty = VkDeviceSize{1} << 20, kNoBound = ~VkDeviceSize{0};
+constexpr uint32_t kStreamedClips = 12, kSegmentsEach = 5, kTwinElement = 5, kFirstElement = 10;
+constexpr VkDeviceSize kAmple = VkDeviceSize{1} << 20, kUnbounded = ~VkDeviceSize{0};
 
 /// Clips of as many segments, of sizes at random.
-std::shared_ptr<const ClipTable> tableOf(std::mt19937& random) {
+std::shared_ptr<const ClipTable> segmentTable(std::mt19937& random) {
     auto table = std::make_shared<ClipTable>();
-    table->segments = kHead + kClips * kSegments;
+    table->segments = kFirstElement + kStreamedClips * kSegmentsEach;
     table->words.resize(4 * size_t{table->segments});
     uint32_t end = table->segments;
-    for (uint32_t clip = 0; clip < kClips; ++clip) {
-        table->streamedClips.push_back({clip, kTwin, kSegments * 32, clip * kSegments, kSegments});
-        for (uint32_t s = 0; s < kSegments; ++s) {
-            const uint32_t size = 3 + random() % 40, element = kHead + clip * kSegments + s;
+    for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
+        table->streamedClips.push_back({clip, kTwinElement, kSegmentsEach * 32, clip * kSegmentsEach, kSegmentsEach});
+        for (uint32_t s = 0; s < kSegmentsEach; ++s) {
+            const uint32_t size = 3 + random() % 40, element = kFirstElement + clip * kSegmentsEach + s;
             table->streamedSegments.push_back({element, end, end + size / 3, end + size});
             const std::array<uint32_t, 4> words{end, end + size / 3, 32u, 0u};
             std::copy(words.begin(), words.end(), table->words.begin() + 4 * ptrdiff_t{element});
@@ -43,21 +43,22 @@ std::shared_ptr<const ClipTable> tableOf(std::mt19937& random) {
 }
 
 /// What a command buffer writes.
-struct Table {
+struct FakeTable {
     std::vector<uint32_t> words;
     std::vector<std::pair<VkDeviceSize, VkDeviceSize>> written; ///< bytes [first, end)
 };
-void VKAPI_PTR updateBuffer(VkCommandBuffer commands, VkBuffer, VkDeviceSize first, VkDeviceSize bytes,
-                            const void* from) {
-    Table& table = *reinterpret_cast<Table*>(commands);
+void VKAPI_PTR updateFake(VkCommandBuffer commands, VkBuffer, VkDeviceSize first, VkDeviceSize bytes,
+                          const void* from) {
+    FakeTable& table = *reinterpret_cast<FakeTable*>(commands);
     ASSERT_TRUE(first % 4 == 0 && bytes % 4 == 0 && bytes > 0 && bytes <= 65536);
     ASSERT_LE(first + bytes, 4 * table.words.size());
     std::memcpy(reinterpret_cast<std::byte*>(table.words.data()) + first, from, bytes);
     table.written.emplace_back(first, first + bytes);
 }
 
-struct Streamed {
-    explicit Streamed(std::mt19937& random, double part) : whole(tableOf(random)), stream(whole, poolOf(part)) {}
+struct SegmentPool {
+    explicit SegmentPool(std::mt19937& random, double part)
+        : whole(segmentTable(random)), stream(whole, poolOf(part)) {}
     [[nodiscard]] VkDeviceSize all() const { return 16 * VkDeviceSize{whole->words.size() / 4 - 2 - whole->segments}; }
     [[nodiscard]] VkDeviceSize poolOf(double part) const {
         return static_cast<VkDeviceSize>(part * static_cast<double>(all()));
@@ -78,14 +79,14 @@ struct Streamed {
     VkDeviceSize record() {
         device.written.clear();
         const VkDeviceSize bytes =
-            stream.record(gpu, reinterpret_cast<VkCommandBuffer>(&device), VK_NULL_HANDLE, frame, kNoBound);
+            stream.record(gpu, reinterpret_cast<VkCommandBuffer>(&device), VK_NULL_HANDLE, frame, kUnbounded);
         std::sort(device.written.begin(), device.written.end());
         for (size_t k = 1; k < device.written.size(); ++k) { // no barriers lie between
             EXPECT_LE(device.written[k - 1].second, device.written[k].first);
         }
         return bytes;
     }
-    void run(uint32_t frames, VkDeviceSize share = kPlenty) {
+    void run(uint32_t frames, VkDeviceSize share = kAmple) {
         for (uint32_t k = 0; k < frames; ++k) {
             begin(share);
             EXPECT_LE(record(), share);
@@ -96,14 +97,14 @@ struct Streamed {
     }
     [[nodiscard]] VkDeviceSize there() const {
         VkDeviceSize sum = 0;
-        for (uint32_t clip = 0; clip < kClips; ++clip) {
+        for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
             sum += stream.bytesOf(clip).there;
         }
         return sum;
     }
     Status requestOne(uint32_t segment, ClipRequest::Use use) {
-        const double at = (segment % kSegments + 0.5) / kSegments;
-        return request(segment / kSegments, use, at, at);
+        const double at = (segment % kSegmentsEach + 0.5) / kSegmentsEach;
+        return request(segment / kSegmentsEach, use, at, at);
     }
     /// Segments of which the device says another thing than the CPU, or that are not where it says.
     [[nodiscard]] uint32_t wrong() const {
@@ -124,13 +125,13 @@ struct Streamed {
     std::shared_ptr<const ClipTable> whole;
     ClipStream stream;
     gpu::Device gpu = withUpdates();
-    Table device;
+    FakeTable device;
     uint64_t frame = 0, stamp = 0;
 
 private:
     static gpu::Device withUpdates() {
         gpu::Device own;
-        own.vk.CmdUpdateBuffer = updateBuffer;
+        own.vk.CmdUpdateBuffer = updateFake;
         return own;
     }
 };
@@ -139,7 +140,7 @@ TEST(ClipStreams, SayTheSameAsTheDeviceInEveryFrame) {
     for (uint32_t seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
-        Streamed own(random, 1.0 / (1 + seed % 4));
+        SegmentPool own(random, 1.0 / (1 + seed % 4));
         const VkDeviceSize share = 64 + random() % 3000;
         uint32_t late = 0; // requests before the start are met at once
         for (uint32_t k = 0; k < 600; ++k) {
@@ -157,7 +158,7 @@ TEST(ClipStreams, SayTheSameAsTheDeviceInEveryFrame) {
                 const auto use = kind == 0  ? ClipRequest::Use::pinned
                                  : kind < 3 ? ClipRequest::Use::released
                                             : ClipRequest::Use::wanted;
-                (void)own.request(random() % kClips, use, begin, std::min(1.0, begin + 0.4));
+                (void)own.request(random() % kStreamedClips, use, begin, std::min(1.0, begin + 0.4));
             }
             if (late == 0 || random() % 8 == 0) { // nobody records the asset
                 continue;
@@ -183,15 +184,15 @@ TEST(ClipStreams, HaveAllThatIsPinned) {
     for (uint32_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
-        Streamed own(random, 1.0 / 3.0);
+        SegmentPool own(random, 1.0 / 3.0);
         own.start();
-        for (uint32_t clip = 0; clip < kClips; ++clip) {
+        for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
             EXPECT_TRUE(own.request(clip, ClipRequest::Use::wanted));
             own.run(3);
         }
         std::vector<uint32_t> pinned;
         for (uint32_t k = 0; k < 60; ++k) {
-            const uint32_t segment = random() % (kClips * kSegments);
+            const uint32_t segment = random() % (kStreamedClips * kSegmentsEach);
             if (own.requestOne(segment, ClipRequest::Use::pinned)) {
                 pinned.push_back(segment);
             }
@@ -206,20 +207,20 @@ TEST(ClipStreams, HaveAllThatIsPinned) {
 }
 
 TEST(ClipStreams, OfAPoolForAllHaveAll) {
-    for (const VkDeviceSize share : {kPlenty, VkDeviceSize{100}}) { // the second is less than most segments take
+    for (const VkDeviceSize share : {kAmple, VkDeviceSize{100}}) { // the second is less than most segments take
         for (uint32_t seed = 0; seed < 100; ++seed) {
             SCOPED_TRACE(seed);
             std::mt19937 random(seed);
-            Streamed own(random, 1.0);
+            SegmentPool own(random, 1.0);
             own.start();
             for (uint32_t k = 0; k < 120; ++k) {
                 own.begin(400);
                 const double begin = 0.01 * static_cast<double>(random() % 100);
                 const auto use = random() % 2 == 0 ? ClipRequest::Use::released : ClipRequest::Use::wanted;
-                EXPECT_TRUE(own.request(random() % kClips, use, begin, std::min(1.0, begin + 0.3)));
+                EXPECT_TRUE(own.request(random() % kStreamedClips, use, begin, std::min(1.0, begin + 0.3)));
                 own.record();
             }
-            for (uint32_t clip = 0; clip < kClips; ++clip) {
+            for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
                 EXPECT_TRUE(own.request(clip, ClipRequest::Use::wanted));
             }
             for (uint32_t k = 0; k < 2000 && own.there() < own.all(); ++k) {
@@ -236,10 +237,10 @@ TEST(ClipStreams, PlayWhileTheyMove) {
     uint32_t moves = 0;
     for (uint32_t seed = 0; seed < 50; ++seed) {
         std::mt19937 random(seed);
-        Streamed own(random, 0.5);
+        SegmentPool own(random, 0.5);
         own.start();
         const auto ask = [&](ClipRequest::Use use) {
-            const uint32_t segment = random() % (kClips * kSegments);
+            const uint32_t segment = random() % (kStreamedClips * kSegmentsEach);
             EXPECT_TRUE(own.requestOne(segment, use));
             return segment;
         };
@@ -253,7 +254,7 @@ TEST(ClipStreams, PlayWhileTheyMove) {
         own.run(3);
         for (uint32_t frame = 0; frame < 100; ++frame) {
             const std::vector<uint32_t> before = own.device.words;
-            const uint32_t asked = random() % (kClips * kSegments);
+            const uint32_t asked = random() % (kStreamedClips * kSegmentsEach);
             if (std::find(pinned.begin(), pinned.end(), asked) == pinned.end()) {
                 EXPECT_TRUE(own.requestOne(asked, ClipRequest::Use::wanted));
             }
@@ -271,9 +272,9 @@ TEST(ClipStreams, PlayWhileTheyMove) {
 
 TEST(ClipStreams, ComeHoweverSeldomTheAssetIsRecorded) {
     std::mt19937 random(3);
-    Streamed own(random, 1.0);
+    SegmentPool own(random, 1.0);
     own.start();
-    for (uint32_t clip = 0; clip < kClips; ++clip) {
+    for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
         EXPECT_TRUE(own.request(clip, ClipRequest::Use::wanted));
     }
     for (uint32_t k = 0; k < 400; ++k) {
@@ -287,11 +288,11 @@ TEST(ClipStreams, ComeHoweverSeldomTheAssetIsRecorded) {
 
 TEST(ClipStreams, ThatAreCancelledAfterARestartAreWrittenAgain) {
     std::mt19937 random(4);
-    Streamed own(random, 1.0);
+    SegmentPool own(random, 1.0);
     EXPECT_TRUE(own.request(0, ClipRequest::Use::wanted));
     EXPECT_TRUE(own.request(1, ClipRequest::Use::wanted));
     own.start();
-    own.begin(kPlenty);
+    own.begin(kAmple);
     own.record();
     own.stream.restart(); // their twins
     const std::vector<uint32_t> before = own.device.words;
@@ -309,13 +310,13 @@ TEST(ClipStreams, ThatAreCancelledAfterARestartAreWrittenAgain) {
 /// A clip's number says when it changed last.
 TEST(ClipStreams, TellWhichClipsHaveChanged) {
     std::mt19937 random(5);
-    Streamed own(random, 1.0);
+    SegmentPool own(random, 1.0);
     own.start();
     const uint64_t before = own.stream.version();
     EXPECT_TRUE(own.request(3, ClipRequest::Use::wanted));
     own.run(3);
     EXPECT_GT(own.stream.version(), before);
-    for (uint32_t clip = 0; clip < kClips; ++clip) {
+    for (uint32_t clip = 0; clip < kStreamedClips; ++clip) {
         EXPECT_EQ(own.stream.versionOf(clip) > before, clip == 3);
     }
 }
@@ -323,17 +324,17 @@ TEST(ClipStreams, TellWhichClipsHaveChanged) {
 /// The table is not made before a group is there: what is asked for till then is in it.
 TEST(ClipStreams, MakeTheirBeginningAnewUntilTheyStart) {
     std::mt19937 random(6);
-    Streamed own(random, 0.5);
+    SegmentPool own(random, 0.5);
     EXPECT_TRUE(own.request(0, ClipRequest::Use::wanted));
     own.device.words = own.stream.words(); // for a group that is refused
     const uint64_t version = own.stream.version();
-    for (uint32_t clip = 1; clip < kClips; ++clip) {
+    for (uint32_t clip = 1; clip < kStreamedClips; ++clip) {
         EXPECT_TRUE(own.request(clip, ClipRequest::Use::wanted));
     }
     EXPECT_NE(own.stream.version(), version);
     own.start();
     EXPECT_EQ(own.wrong(), 0u);
-    EXPECT_EQ(own.stream.bytesOf(kClips - 1).there, own.stream.bytesOf(kClips - 1).all);
+    EXPECT_EQ(own.stream.bytesOf(kStreamedClips - 1).there, own.stream.bytesOf(kStreamedClips - 1).all);
 }
 
 } // namespace

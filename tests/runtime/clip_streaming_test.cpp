@@ -457,9 +457,9 @@ TEST_F(StreamedClips, GoUpWithTheHostsUploads) {
     const SuppleAsset asset = createStreamed(own, kWren, kWholePool);
     Commands flights[2]{Commands(own.device()), Commands(own.device())};
     const auto fly = [&](const std::function<void()>& behind = {}) {
-        beginNext(own);
         Commands& commands = flights[own.frame % 2];
         commands.wait();
+        beginNext(own);
         EXPECT_EQ(recordUploads(own, commands), SUPPLE_OK);
         commands.submit();
         if (behind) {
@@ -516,9 +516,9 @@ TEST_F(StreamedClips, AreLeftAloneBehindAReload) {
     for (uint32_t frame = 0; frame < 8; ++frame) {
         EXPECT_EQ(request(own, asset, frame % 6, frame % 2 == 0 ? SUPPLE_CLIP_REQUEST : SUPPLE_CLIP_RELEASE),
                   SUPPLE_OK);
-        beginNext(own);
         Commands& commands = flights[own.frame % 2];
         commands.wait();
+        beginNext(own);
         EXPECT_EQ(recordUploads(own, commands), SUPPLE_OK);
         commands.submit();
         if (frame == 4) {
@@ -633,9 +633,11 @@ TEST_F(StreamedClips, StayIfARecordingIsRefused) {
     const uint64_t there = infoOf(own, asset, 0).residentBytes;
     EXPECT_EQ(there, infoOf(own, asset, 0).segmentBytes);
     own.beginFrame();
-    Recorded recorded;
-    recorded.refusedAfter = 0;
-    EXPECT_NE(recorded.start(own.handle()), SUPPLE_OK);
+    SuppleRecordingDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.write = [](const void*, size_t, void*) { return 0; };
+    EXPECT_EQ(suppleStartRecording(own.handle(), &desc), SUPPLE_ERROR_ARGUMENT);
+    (void)own.takeError();
     EXPECT_EQ(infoOf(own, asset, 0).residentBytes, there);
     EXPECT_EQ(group.run(0.3), 0u);
 }
