@@ -194,9 +194,16 @@ Status Asset::makeClips(const gpu::Device& device) {
     return success();
 }
 
+void Asset::makeDrivers() {
+    if (hasDrivers() && drivers == nullptr) {
+        drivers = std::make_shared<const skinning::DriverTable>(skinning::buildDriverTable(character));
+    }
+}
+
 void Asset::measureUpdates() {
     if (updates.ofClips.size() != character.clips.size()) {
-        updates = skinning::measureUpdates(character);
+        makeDrivers();
+        updates = skinning::measureUpdates(character, drivers != nullptr ? *drivers : skinning::DriverTable());
     }
 }
 
