@@ -215,9 +215,16 @@ void Asset::startStream() {
     }
 }
 
+void Asset::makeDrivers() {
+    if (hasDrivers() && drivers == nullptr) {
+        drivers = std::make_shared<const skinning::DriverTable>(skinning::buildDriverTable(character));
+    }
+}
+
 void Asset::measureUpdates() {
     if (updates.ofClips.size() != character.clips.size()) {
-        updates = skinning::measureUpdates(character);
+        makeDrivers();
+        updates = skinning::measureUpdates(character, drivers != nullptr ? *drivers : skinning::DriverTable());
     }
 }
 

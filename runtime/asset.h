@@ -7,6 +7,7 @@
 #include "runtime/clip_stream.h"
 #include "runtime/prepared.h"
 #include "skinning/contacts.h"
+#include "skinning/driver_table.h"
 #include "skinning/skinned_bounds.h"
 #include "skinning/update_errors.h"
 #include "supple/supple.h"
@@ -58,6 +59,7 @@ struct Asset {
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
     skinning::UpdateFacts updates;               ///< made for the first group with update rates
+    std::shared_ptr<const skinning::DriverTable> drivers; ///< made for the first group that asks on the CPU
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -91,6 +93,8 @@ struct Asset {
     [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
     /// A group that may read the clips has been created: from now on segments come with frames.
     void startStream();
+    /// Sees to it that `drivers` is there, if hasDrivers().
+    void makeDrivers();
     /// Sees to it that `updates` is there.
     void measureUpdates();
     /// Sees to it that what a way of skinning needs is there.

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,12 @@ namespace supple::runtime {
 /// Driving allocates nothing.
 class HostDrivers {
 public:
-    HostDrivers() = default;
-    /// The character must outlive this.
-    HostDrivers(const cage::Character& character, uint32_t instanceCount);
+    HostDrivers() = default; ///< there are none
+    /// `table`: of the character's drivers, by themselves.
+    HostDrivers(const cage::Character& character, std::shared_ptr<const skinning::DriverTable> table,
+                uint32_t instanceCount);
 
-    [[nodiscard]] bool any() const { return table_.quads != 0; }
+    [[nodiscard]] bool any() const { return table_ != nullptr && table_->quads != 0; }
 
     // What the joints of an instance are turned by. Each says it for all of its drivers.
     void setBindPose(uint32_t instance);
@@ -33,12 +35,19 @@ public:
     void setJoints(uint32_t instance, std::span<const glm::mat4> joints);
     void takeOver(const HostDrivers& other, uint32_t count);
 
-    /// The instance's weights with what drivers add, until the next call.
-    [[nodiscard]] std::span<const float> shown(uint32_t instance, std::span<const float> weights) const;
+    /// Takes the instance's weights, one a morph target, and adds what drivers do.
+    void drive(uint32_t instance, std::span<const float> weights);
+    /// What drive() has made of them.
+    [[nodiscard]] std::span<const float> weights(uint32_t instance) const {
+        return {&weights_[instance * quads_].x, targetCount_};
+    }
 
 private:
+    [[nodiscard]] std::span<const uint32_t> nodes() const {
+        return table_ != nullptr ? std::span<const uint32_t>(table_->nodes) : std::span<const uint32_t>();
+    }
     [[nodiscard]] std::span<glm::vec4> turns(uint32_t instance) {
-        return std::span(turns_).subspan(instance * table_.nodes.size(), table_.nodes.size());
+        return std::span(turns_).subspan(instance * hung_.size(), hung_.size());
     }
 
     /// How a node that drivers look at hangs on joints.
@@ -47,13 +56,17 @@ private:
         uint32_t above = cage::kNone; ///< the next joint above; kNone: there is none
         glm::dmat3 between{1.0};      ///< from there to its parent, at rest
         glm::vec4 rest{0.0f};         ///< its rotation
+        glm::dvec3 signs{1.0};        ///< of its scale at rest
     };
+    /// The rotation of a node whose joints have these matrices.
+    [[nodiscard]] static glm::vec4 turnOf(const Hung& node, std::span<const glm::mat4> joints);
 
-    skinning::DriverTable table_;
-    std::vector<Hung> hung_;       ///< by number of the node
-    std::vector<glm::vec4> turns_; ///< a run an instance: local rotations of these nodes
-    std::vector<bool> posed_;      ///< by instance: not in the bind pose
-    mutable std::vector<glm::vec4> memory_;
+    std::shared_ptr<const skinning::DriverTable> table_;
+    size_t targetCount_ = 0, quads_ = 0; ///< of morph targets, and of four of these
+    std::vector<Hung> hung_;             ///< by number of the node
+    std::vector<glm::vec4> turns_;       ///< a run an instance: local rotations of these nodes
+    std::vector<bool> posed_;            ///< by instance: not in the bind pose
+    std::vector<glm::vec4> weights_;     ///< a run an instance: with what drivers add
 };
 
 } // namespace supple::runtime

@@ -1,6 +1,7 @@
 #include "runtime/host_poses.h"
 
 #include "runtime/pose_desc.h"
+#include "skinning/rotation.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
@@ -34,8 +35,8 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
-    if (asset.hasDrivers()) {
-        drivers_ = HostDrivers(character, instanceCount);
+    if (asset.drivers != nullptr) {
+        drivers_ = HostDrivers(character, asset.drivers, instanceCount);
     }
     if (modifiers || springs) {
         const skinning::ClipTable& table = *asset.clipTable;
@@ -86,6 +87,7 @@ glm::mat4 HostPoses::jointTransform(uint32_t instance, uint32_t joint) const {
 
 void HostPoses::finishPalette(uint32_t instance) {
     ++versions_[instance];
+    drive(instance);
     if (!rotations_.empty()) {
         skinning::jointRotations(
             palette(instance),
@@ -118,9 +120,8 @@ void HostPoses::keepLocals(uint32_t instance) {
     const std::vector<uint32_t>& nodes = asset_->clipTable->nodes;
     for (size_t place = 0; place < nodes.size(); ++place) {
         const skinning::Transform& from = memory_.pose.locals[nodes[place]];
-        const glm::dquat& q = from.rotation;
-        locals_[instance * nodes.size() + place] = {glm::vec3(from.translation),
-                                                    glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)), glm::vec3(from.scale)};
+        locals_[instance * nodes.size() + place] = {glm::vec3(from.translation), skinning::floatsOf(from.rotation),
+                                                    glm::vec3(from.scale)};
     }
     hasLocals_[instance] = 1;
 }
@@ -240,6 +241,7 @@ void HostPoses::setMorphWeights(uint32_t instance, const float* weights) {
     if (weights != nullptr) {
         std::copy_n(weights, targetCount_, hostWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
     }
+    drive(instance);
 }
 
 void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match) {
@@ -335,11 +337,9 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
             springs_.takeOver(other.springs_, count);
         }
     }
-}
-
-std::span<const float> HostPoses::weightsOf(uint32_t instance) const {
-    const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
-    return drivers_.shown(instance, std::span(weights).subspan(instance * targetCount_, targetCount_));
+    for (uint32_t i = 0; i < count; ++i) {
+        drive(i);
+    }
 }
 
 std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {

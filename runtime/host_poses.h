@@ -123,8 +123,16 @@ private:
         return placed;
     }
     void finishPalette(uint32_t instance);
-    /// Morph weights as they are shown, until the next call.
-    [[nodiscard]] std::span<const float> weightsOf(uint32_t instance) const;
+    [[nodiscard]] std::span<const float> weightsWithoutDrivers(uint32_t instance) const {
+        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+        return std::span(weights).subspan(instance * targetCount_, targetCount_);
+    }
+    /// After a change of the instance's weights, or of joints that drivers look at.
+    void drive(uint32_t instance) { drivers_.drive(instance, weightsWithoutDrivers(instance)); }
+    /// Morph weights as they are shown.
+    [[nodiscard]] std::span<const float> weightsOf(uint32_t instance) const {
+        return drivers_.any() ? drivers_.weights(instance) : weightsWithoutDrivers(instance);
+    }
     [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
     [[nodiscard]] std::span<glm::mat4> joints(uint32_t instance);
 

@@ -21,8 +21,7 @@ shared::Transform transformOf(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
     const glm::dquat q = skinning::nearestRotation(linear);
     const glm::dmat3 within = glm::transpose(glm::mat3_cast(q)) * linear;
-    return {glm::vec3(m[3]), glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)),
-            glm::vec3(glm::dvec3(within[0][0], within[1][1], within[2][2]))};
+    return {glm::vec3(m[3]), skinning::floatsOf(q), glm::vec3(glm::dvec3(within[0][0], within[1][1], within[2][2]))};
 }
 
 shared::Transform between(const shared::Transform& a, const shared::Transform& b, float part) {

@@ -38,6 +38,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (!status) {
         return status.error();
     }
+    if (desc.source == SUPPLE_POSES_SET) {
+        desc.asset->makeDrivers();
+    }
     if (desc.room.updateRates) {
         desc.asset->measureUpdates();
     }

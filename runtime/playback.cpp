@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace supple::runtime {
 
@@ -395,10 +396,17 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 }
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
-    forget(slot);
     skinning::PlaybackState own = states_.state(slot);
+    const float* const before = own.morphWeights();
+    const bool areSame = weights == nullptr || before == nullptr
+                             ? weights == before
+                             : std::memcmp(weights, before, push_.morphCount * sizeof(float)) == 0;
+    if (areSame) {
+        return;
+    }
+    forget(slot);
     // Ends that were posed meanwhile have the host's. With drivers, they have what these add to the weights of then.
-    if (hasDrivers() || (weights == nullptr && own.morphWeights() != nullptr)) {
+    if (hasDrivers() || weights == nullptr) {
         rates_.forget(slot);
     }
     own.setMorphWeights(weights, push_.morphCount);

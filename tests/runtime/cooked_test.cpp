@@ -7,6 +7,7 @@
 #include "tests/support/shared_assets.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 #define XXH_INLINE_ALL
@@ -148,7 +149,14 @@ TEST(Cooked, FilesKeepPoseDrivers) {
               place + "inputs, targets, poses and values do not fit");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.targets[1] = 99; }), place + "it names no morph targets of one part");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.inputs[0].node = 99; }),
-              place + "an input names no node that turns, or is not finite");
+              place + "an input names no node that turns, or its axis has not unit length, or its weight is out of "
+                      "range");
+    for (const float length : {1e20f, 0.99f, 0.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_NE(spoiled([&](PoseDriver& d) { d.inputs[0].axis *= length; }).find("its axis has not unit length"),
+                  std::string::npos)
+            << length;
+    }
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.targets[1] = d.targets[0]; }), place + "a morph target is there twice");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.poses[0] = glm::vec4(0.0f); }),
               place + "its poses are no rotations, or its numbers are not finite");
     EXPECT_EQ(spoiled([](PoseDriver& d) { d.poses[1] = d.poses[0]; }),

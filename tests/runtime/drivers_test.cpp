@@ -1,9 +1,12 @@
 // Pose drivers on the device: the words of the CPU's, in groups of all sources of poses that carry joints.
 #include "cage/gltf/reader.h"
+#include "cage/solved_driver.h"
+#include "skinning/reach.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_group.h"
 #include "tests/support/recordings.h"
+#include "tests/support/rigged_tube.h"
 #include "tests/support/spring_files.h"
 #include "tools/gltf/writer.h"
 
@@ -81,6 +84,13 @@ void playAll(const PlayedGroup& stage) {
     stage.play(0, layers);
     layers[1].mode = SUPPLE_LAYER_BLEND;
     layers[1].weight = 0.4f;
+    const float half[] = {1.0f, 0.5f, 0.25f};
+    SuppleMaskDesc mask{};
+    mask.structSize = sizeof mask;
+    mask.mask = layers[2].mask = 1;
+    mask.jointMask = half;
+    mask.jointMaskCount = 3;
+    EXPECT_EQ(suppleSetMask(stage.handle(), stage.crowd.group(), &mask), SUPPLE_OK);
     stage.play(1, layers);
     stage.play(2, kBendClip, 0.9);
     stage.play(3, kTwistClip, 0.7);
@@ -159,6 +169,39 @@ TEST_F(Drivers, AddToWhatTheHostHasSet) {
     }
 }
 
+/// Instances whose poses the host sets.
+class SetGroup {
+public:
+    SetGroup(CrowdContext& context, SuppleAsset asset, uint32_t capacity, uint32_t flags = 0)
+        : crowd(context, descOf(asset, capacity, flags)) {
+        for (uint32_t i = 0; i < capacity; ++i) {
+            instances.push_back(crowd.spawn());
+        }
+    }
+    [[nodiscard]] SuppleContext handle() const { return crowd.context().handle(); }
+    [[nodiscard]] ArmWeights weights(uint32_t i) {
+        crowd.context().run(crowd.group());
+        const runtime::Group& own = *handle()->context->groups.find(crowd.group().id);
+        return weightsOf(own, as<float>(crowd.read(crowd.output().info.poses)), instances[i].slot);
+    }
+    void setClip(uint32_t i, uint32_t clip, double time) {
+        EXPECT_EQ(suppleSetClipPose(handle(), instances[i], clip, time), SUPPLE_OK);
+    }
+
+    Crowd crowd;
+    std::vector<SuppleInstance> instances;
+
+private:
+    static SuppleGroupDesc descOf(SuppleAsset asset, uint32_t capacity, uint32_t flags) {
+        SuppleGroupDesc desc{};
+        desc.asset = asset;
+        desc.capacity = capacity;
+        desc.flags = flags;
+        desc.scheme = SUPPLE_SCHEME_CAGE;
+        return desc;
+    }
+};
+
 TEST_F(Drivers, GoWithUpdateRatesAndSprings) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
@@ -206,6 +249,15 @@ TEST_F(Drivers, GoWithUpdateRatesAndSprings) {
             }
         }
         EXPECT_GT(weightsOf(both, 0)[1], 0.5f);
+
+        // Poses that the host sets swing after drivers have looked, too.
+        SetGroup set(own, swings, 1, SUPPLE_GROUP_SPRINGS);
+        for (uint32_t f = 0; f < 5; ++f) {
+            own.setTime(0.05 * f);
+            set.setClip(0, kBendClip, f % 2 == 0 ? 1.0 : 0.5);
+            const ArmWeights wanted = f % 2 == 0 ? ArmWeights{0, 1, 0, 0, 0} : ArmWeights{1, 0, 0, 0, 0};
+            expectNear(set.weights(0), wanted, 2e-6f, "set");
+        }
     }
 }
 
@@ -225,39 +277,6 @@ TEST_F(Drivers, GoInWindowsOfInstances) {
         EXPECT_EQ(stage.run(0.4), 0u);
     }
 }
-
-/// Instances whose poses the host sets.
-class SetGroup {
-public:
-    SetGroup(CrowdContext& context, SuppleAsset asset, uint32_t capacity, uint32_t flags = 0)
-        : crowd(context, descOf(asset, capacity, flags)) {
-        for (uint32_t i = 0; i < capacity; ++i) {
-            instances.push_back(crowd.spawn());
-        }
-    }
-    [[nodiscard]] SuppleContext handle() const { return crowd.context().handle(); }
-    [[nodiscard]] ArmWeights weights(uint32_t i) {
-        crowd.context().run(crowd.group());
-        const runtime::Group& own = *handle()->context->groups.find(crowd.group().id);
-        return weightsOf(own, as<float>(crowd.read(crowd.output().info.poses)), instances[i].slot);
-    }
-    void setClip(uint32_t i, uint32_t clip, double time) {
-        EXPECT_EQ(suppleSetClipPose(handle(), instances[i], clip, time), SUPPLE_OK);
-    }
-
-    Crowd crowd;
-    std::vector<SuppleInstance> instances;
-
-private:
-    static SuppleGroupDesc descOf(SuppleAsset asset, uint32_t capacity, uint32_t flags) {
-        SuppleGroupDesc desc{};
-        desc.asset = asset;
-        desc.capacity = capacity;
-        desc.flags = flags;
-        desc.scheme = SUPPLE_SCHEME_CAGE;
-        return desc;
-    }
-};
 
 TEST_F(Drivers, FollowPosesThatTheHostSets) {
     const ValidationGuard guard;
@@ -298,6 +317,219 @@ TEST_F(Drivers, FollowPosesThatTheHostSets) {
         stage.setClip(0, SUPPLE_REST_POSE, 0.0);
         expectNear(stage.weights(0), ArmWeights(kArmTargets, 0.0f), 2e-6f, "the rest pose");
     }
+}
+
+/// A node between the upper arm and the forearm, which is no joint, turned and grown at rest.
+constexpr uint32_t kRoll = 4;
+cage::Character armWithRoll() {
+    cage::Character arm = readArm();
+    std::vector<cage::Node>& nodes = arm.skeleton.nodes;
+    EXPECT_EQ(nodes.size(), kRoll);
+    const glm::quat turn = glm::angleAxis(0.5f, glm::vec3(0, 0, 1)), back = glm::conjugate(turn);
+    cage::Node roll = nodes[1];
+    roll.name = "roll";
+    roll.rotation = turn;
+    roll.scale = glm::vec3(2.0f);
+    nodes[1].parent = kRoll;
+    nodes[1].translation = glm::vec3(0.0f);
+    nodes[1].rotation = back;
+    nodes[1].scale = glm::vec3(0.5f);
+    nodes.push_back(roll);
+    arm.skeleton.parentsFirst = {0, 3, kRoll, 1, 2};
+    // The wrist's driver looks at the roll, which its clip turns.
+    arm.drivers[1].inputs[0].node = kRoll;
+    const auto turnAll = [](cage::Channel& channel, const glm::quat& first) {
+        for (size_t i = 0; i + 3 < channel.values.size(); i += 4) {
+            float* const v = &channel.values[i];
+            const glm::quat q = first * glm::quat(v[3], v[0], v[1], v[2]);
+            v[0] = q.x;
+            v[1] = q.y;
+            v[2] = q.z;
+            v[3] = q.w;
+        }
+    };
+    turnAll(arm.clips[kBendClip].channels[0], back);
+    turnAll(arm.clips[kTwistClip].channels[0], turn);
+    arm.clips[kTwistClip].channels[0].node = kRoll;
+    return arm;
+}
+
+/// What an instance shows whose joints stand as a clip has them.
+ArmWeights weightsByMatrices(SetGroup& stage, uint32_t clip, double time, const std::vector<glm::mat4>& changes) {
+    stage.setClip(0, clip, time);
+    std::vector<glm::mat4> matrices(changes.size());
+    for (uint32_t j = 0; j < matrices.size(); ++j) {
+        EXPECT_EQ(suppleGetJointTransform(stage.handle(), stage.instances[0], j, &matrices[j][0][0]), SUPPLE_OK);
+        matrices[j] = matrices[j] * changes[j];
+    }
+    EXPECT_EQ(suppleSetMatrixPose(stage.handle(), stage.instances[1], &matrices[0][0][0], 3), SUPPLE_OK);
+    return stage.weights(1);
+}
+
+TEST_F(Drivers, MatricesTellHowNodesAreTurned) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const std::vector<glm::mat4> asIs(3, glm::mat4(1.0f));
+    {
+        SetGroup stage(own, own.createAsset(armWithRoll()), 2);
+        stage.setClip(0, kBendClip, 1.0);
+        expectNear(stage.weights(0), {0, 1, 0, 0, 0}, 3e-6f, "through a node that is no joint");
+        expectNear(weightsByMatrices(stage, kBendClip, 1.0, asIs), {0, 1, 0, 0, 0}, 3e-6f, "by matrices");
+        stage.setClip(0, kTwistClip, 0.5);
+        EXPECT_NEAR(stage.weights(0)[3], 1.0f, 3e-6f) << "it is turned";
+        EXPECT_NEAR(weightsByMatrices(stage, kTwistClip, 0.5, asIs)[3], 0.0f, 3e-6f) << "matrices do not tell";
+    }
+    for (const glm::vec3 scale : {glm::vec3(1, 1, -1), glm::vec3(-2, 0.5f, 1), glm::vec3(-1, -1, -1)}) {
+        cage::Character mirrored = readArm();
+        mirrored.skeleton.nodes[1].scale = scale;
+        SetGroup stage(own, own.createAsset(mirrored), 2);
+        expectNear(weightsByMatrices(stage, kBendClip, 1.0, asIs), {0, 1, 0, 0, 0}, 4e-6f, "mirrored");
+        expectNear(weightsByMatrices(stage, kTwistClip, 0.5, asIs), {0, 0, 0, 1, 0}, 4e-6f, "below a mirror");
+    }
+    cage::Character turned = readArm();
+    turned.skeleton.nodes[1].rotation = glm::angleAxis(1.5f, glm::vec3(0, 0, 1));
+    SetGroup stage(own, own.createAsset(turned), 2);
+    const auto scaled = [&](const glm::vec3& by) {
+        return weightsByMatrices(stage, kBendClip, 1.5, {asIs[0], glm::scale(asIs[1], by), asIs[2]});
+    };
+    expectNear(scaled(glm::vec3(0.0f)), ArmWeights(kArmTargets, 0.0f), 3e-6f, "a point is as at rest");
+    expectNear(scaled(glm::vec3(1, 0, 0)), ArmWeights(kArmTargets, 0.0f), 3e-6f, "and so is a line");
+    stage.setClip(0, kBendClip, 1.5);
+    ArmWeights wanted = stage.weights(0);
+    EXPECT_GT(wanted[0] + wanted[1] + wanted[2], 0.1f);
+    wanted[3] = wanted[4] = 0.0f; // below what is flat
+    expectNear(scaled(glm::vec3(1, 1, 0)), wanted, 4e-6f, "a plane tells");
+}
+
+TEST_F(Drivers, AsManyAsThereMayBeAreAllDriven) {
+    const ValidationGuard guard;
+    cage::Character many = readArm(), large = many;
+    cage::PoseDriver small = many.drivers[0];
+    small.targets = {1};
+    small.poses = {small.poses[1]};
+    small.values = {1.0f};
+    const size_t count = cage::kMaxDriverWork / driverWork(small);
+    small.values[0] = 1.0f / static_cast<float>(count);
+    many.drivers.assign(count, small);
+    cage::PoseDriver full = small;
+    full.inputs = {{.node = 0}, {.node = 1}, {.node = 2}, {.node = 1, .weight = 0.5f}};
+    full.targets = {0, 1, 2, 3, 4};
+    full.poses.clear();
+    full.values.clear();
+    Noise noise(7);
+    for (size_t i = 0; i < cage::kMaxDriverPoses * 4; ++i) {
+        full.poses.push_back(glm::normalize(glm::vec4(noise(), noise(), noise(), noise())));
+    }
+    for (size_t i = 0; i < cage::kMaxDriverPoses * kArmTargets; ++i) {
+        full.values.push_back(0.01f * noise());
+    }
+    large.drivers.assign(cage::kMaxDriverWork / driverWork(full), full);
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        for (const cage::Character* const character : {&many, &large}) {
+            PlayedGroup stage(own, playedGroup(own.createAsset(*character), 9, 0));
+            ASSERT_TRUE(stage.crowd.valid());
+            for (uint32_t i = 0; i < 9; ++i) {
+                stage.play(i, i % 2, 0.2 * i);
+            }
+            stage.play(0, kBendClip, 1.0);
+            EXPECT_EQ(stage.run(0.0), 0u) << "none is lost";
+            if (character == &many) {
+                EXPECT_NEAR(weightsOf(stage, 0)[1], 1.0f, 1e-3f);
+            }
+        }
+    }
+}
+
+TEST_F(Drivers, BoxesOfInstancesHoldWhatTheySet) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    cage::Character arm = readArm();
+    for (cage::MorphTarget& target : arm.morphs.targets) {
+        for (glm::vec3& delta : target.deltas) {
+            delta = delta * 8.0f;
+        }
+    }
+    cage::Character silent = arm;
+    silent.drivers.clear();
+    const skinning::Reach reach = skinning::reachOf(arm);
+    const SuppleAsset asset = own.createAsset(arm);
+    SetGroup set(own, asset, 1), without(own, own.createAsset(silent), 1);
+    PlayedGroup played(own, playedGroup(asset, 1, 0));
+    const auto groupOf = [](const SetGroup& stage) -> runtime::Group& {
+        return *stage.handle()->context->groups.find(stage.crowd.group().id);
+    };
+    const auto outside = [&](Crowd& crowd, runtime::Group& boxed) {
+        const std::optional<skinning::Box> box = boxed.poses().boundsOf(0, reach);
+        const std::vector<float> cage = as<float>(crowd.read(crowd.output().info.deformedCage));
+        size_t count = 0;
+        for (size_t v = 0; v < arm.cage.vertexCount(); ++v) {
+            const glm::dvec3 p(cage[4 * v], cage[4 * v + 1], cage[4 * v + 2]);
+            count += glm::all(glm::lessThanEqual(box->low, p)) && glm::all(glm::greaterThanEqual(box->high, p)) ? 0 : 1;
+        }
+        return count;
+    };
+    size_t left = 0;
+    for (const double time : {0.5, 0.8, 1.0, 1.5}) {
+        set.setClip(0, kBendClip, time);
+        without.setClip(0, kBendClip, time);
+        (void)set.weights(0);
+        EXPECT_EQ(outside(set.crowd, groupOf(set)), 0u) << time;
+        left += outside(set.crowd, groupOf(without));
+        played.play(0, kBendClip, time);
+        EXPECT_EQ(played.run(0.0), 0u);
+        EXPECT_EQ(outside(played.crowd, played.group()), 0u) << time;
+    }
+    EXPECT_GT(left, 0u) << "the box without drivers would not";
+}
+
+TEST_F(Drivers, LeaveAloneWhatTheHostWritesOnTheDevice) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kArm);
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    desc.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
+    Crowd crowd(own, desc);
+    ASSERT_TRUE(crowd.valid());
+    (void)crowd.spawn();
+    const runtime::Group& group = *own.handle()->context->groups.find(crowd.group().id);
+    const skinning::PoseLayout& layout = group.instances().poseLayout();
+    std::vector<float> pose(4 * size_t{layout.stride}, 0.0f);
+    const float turned[] = {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0};
+    for (size_t joint = 0; joint < 3; ++joint) {
+        std::copy(std::begin(turned), std::end(turned), pose.begin() + static_cast<ptrdiff_t>(12 * joint));
+    }
+    pose[4 * size_t{layout.morphWeights} + 1] = 0.25f;
+    crowd.context().run(crowd.group(), [&](VkCommandBuffer commands) {
+        const host::GroupOutput output = crowd.output();
+        vkCmdUpdateBuffer(commands, output.info.poses.buffer, output.info.poses.offset, pose.size() * sizeof(float),
+                          pose.data());
+    });
+    EXPECT_EQ(weightsOf(group, as<float>(crowd.read(crowd.output().info.poses)), 0), (ArmWeights{0, 0.25f, 0, 0, 0}));
+}
+
+TEST_F(Drivers, WeightsThatStayAsTheyAreCostNoPoses) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    PlayedGroup stage(own, playedGroup(own.asset(kArm), 1, SUPPLE_GROUP_UPDATE_RATES));
+    SupplePlaybackDesc desc{};
+    desc.updateInterval = 8;
+    stage.play(0, kBendClip, 0.3, desc);
+    ArmWeights weights = {0.25f, -0.5f, 0.0f, 0.125f, 2.0f};
+    const auto posesAt = [&](double time, const float* set) {
+        EXPECT_EQ(suppleSetMorphWeights(stage.handle(), stage.instances[0], set, set != nullptr ? kArmTargets : 0),
+                  SUPPLE_OK);
+        EXPECT_EQ(stage.run(time), 0u);
+        return stage.group().poses().playback()->poseCount(stage.group().windows());
+    };
+    EXPECT_EQ(posesAt(0.010, weights.data()), 2u);
+    EXPECT_EQ(posesAt(0.011, weights.data()), 0u);
+    weights[0] = 0.5f;
+    EXPECT_EQ(posesAt(0.012, weights.data()), 2u);
+    EXPECT_EQ(posesAt(0.013, nullptr), 2u);
+    EXPECT_EQ(posesAt(0.014, nullptr), 0u);
 }
 
 TEST_F(Drivers, HostPosesWithModifiersAndPlayedOnesAgree) {
@@ -392,6 +624,9 @@ TEST_F(Drivers, AllocateNothingInFrames) {
     played.play(0, kBendClip, 0.2);
     EXPECT_EQ(played.run(0.0), 0u);
     (void)set.weights(0);
+    runtime::HostPoses& poses = *set.handle()->context->groups.find(set.crowd.group().id)->poses().host();
+    runtime::Playback& playback = *played.group().poses().playback();
+    std::vector<std::byte> bytes(2 * poses.instanceBytes());
     const float weights[kArmTargets] = {0.25f, -0.5f, 0.0f, 0.125f, 2.0f};
     bool good = true;
     const uint64_t before = allocationsCounted();
@@ -403,6 +638,10 @@ TEST_F(Drivers, AllocateNothingInFrames) {
         good = good && suppleSetMorphWeights(played.handle(), played.instances[0], weights, kArmTargets) == SUPPLE_OK;
         float m[16];
         good = good && suppleGetJointTransform(played.handle(), played.instances[0], 1, m) == SUPPLE_OK;
+        // What frames do.
+        poses.write(1000 + i, 0.01 * i, 2, bytes.data());
+        playback.setTime(0.01 * i);
+        playback.listPoses(1000 + i, played.group().windows(), 2, [](uint32_t) { return true; });
     }
     EXPECT_TRUE(good);
     EXPECT_EQ(allocationsCounted(), before);

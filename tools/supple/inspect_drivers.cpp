@@ -1,5 +1,6 @@
 #include "tools/supple/inspect_drivers.h"
 
+#include "cage/message.h"
 #include "cage/solved_driver.h"
 
 #include <cstdio>
@@ -31,13 +32,13 @@ nlohmann::ordered_json driversToJson(const cage::Character& character) {
 std::vector<std::string> driverLines(const cage::Character& character) {
     std::vector<std::string> lines;
     for (const cage::PoseDriver& driver : character.drivers) {
-        std::string line = driver.name + "  ";
+        std::string line = (driver.name.empty() ? "nameless" : driver.name) + "  ";
         for (const cage::DriverInput& input : driver.inputs) {
             line += std::string(&input == driver.inputs.data() ? "" : ", ") + cage::turnPartName(input.part) + " of " +
                     character.skeleton.nodes[input.node].name;
         }
-        line += ": " + std::to_string(driver.poseCount()) + " poses, " + std::to_string(driver.targets.size()) +
-                " morph targets";
+        line += ": " + cage::counted(driver.poseCount(), "pose", "poses") + ", " +
+                cage::counted(driver.targets.size(), "morph target", "morph targets");
         if (const Result<cage::SolvedDriver> solved = cage::solveDriver(driver)) {
             char text[32];
             std::snprintf(text, sizeof text, ", condition %.2g", solved->condition);
