@@ -41,9 +41,11 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     if (modifiers || springs) {
         const skinning::ClipTable& table = *asset.clipTable;
         modifiers_ = InstanceModifiers(modifiers ? instanceCount : 0, 0);
-        states_.resize(size_t{instanceCount} * 4 * kStateElements);
+        stateElements_ =
+            shared::modifiersBegin(0) + (modifiers ? shared::kMaxModifiers * shared::kModifierElements : 0);
+        states_.resize(size_t{instanceCount} * 4 * stateElements_);
         locals_.resize(instanceCount * table.nodes.size());
-        held_.resize(size_t{instanceCount} * table.footCount);
+        held_.resize(modifiers ? size_t{instanceCount} * table.footCount : 0);
         hasLocals_.resize(instanceCount, 0);
         twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
     }
@@ -72,7 +74,7 @@ std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
 }
 
 std::span<glm::vec4> HostPoses::held(uint32_t instance) {
-    const size_t feet = keepsLocals() ? asset_->clipTable->footCount : 0;
+    const size_t feet = takesModifiers() ? asset_->clipTable->footCount : 0;
     return std::span(held_).subspan(instance * feet, feet);
 }
 
@@ -136,8 +138,7 @@ void HostPoses::modify(uint32_t instance) {
     if (takesModifiers()) {
         modifiers_.place(instance, own, origin_);
     }
-    twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
-                     std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    twin_.poseLocals(stateWords(instance), std::span(locals_).subspan(instance * nodes, nodes), held(instance));
     drivers_.setLocals(instance, *asset_->clipTable, twin_.locals());
     springs_.setPose(instance, twin_.locals());
     const std::span<skinning::Affine> target = palette(instance);
@@ -269,7 +270,7 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
 
 /// Locals by node; nodes that the other version lacks are as in the rest pose. Modifiers whose nodes are there.
 void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match) {
-    if (!keepsLocals()) {
+    if (!keepsLocals() || !other.keepsLocals()) {
         return;
     }
     const skinning::ClipTable &table = *asset_->clipTable, &before = *other.asset_->clipTable;
@@ -277,7 +278,8 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
         const uint32_t node = match.nodes[before.nodes[place]];
         return node != cage::kNone ? table.places[node] : cage::kNone;
     };
-    if (takesModifiers()) {
+    const bool modified = takesModifiers() && other.takesModifiers();
+    if (modified) {
         modifiers_.takeOver(instance, state(instance), table, other.modifiers_, other.state(instance), placeHere);
     }
     if (other.hasLocals_[instance] == 0) {
@@ -292,7 +294,7 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
                 other.locals_[instance * before.nodes.size() + place];
         }
     }
-    for (uint32_t foot = 0; foot < before.footCount; ++foot) {
+    for (uint32_t foot = 0; modified && foot < before.footCount; ++foot) {
         const uint32_t here = placeHere(before.footPlace(foot));
         if (here != cage::kNone && table.isFoot(table.nodes[here])) {
             held(instance)[table.footNumber(here)] = other.held(instance)[foot];
@@ -330,9 +332,10 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
             if (takesModifiers()) {
                 modifiers_.takeOver(other.modifiers_, count);
             }
-            std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
+            std::copy_n(other.states_.begin(), size_t{count} * 4 * stateElements_, states_.begin());
             std::copy_n(other.locals_.begin(), count * asset_->clipTable->nodes.size(), locals_.begin());
-            std::copy_n(other.held_.begin(), count * size_t{asset_->clipTable->footCount}, held_.begin());
+            std::copy_n(other.held_.begin(), std::min(count * size_t{asset_->clipTable->footCount}, held_.size()),
+                        held_.begin());
             std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
             springs_.takeOver(other.springs_, count);
         }
@@ -352,18 +355,20 @@ std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinni
 }
 
 void HostPoses::swing(uint32_t instance, skinning::InstancePose& pose) {
-    springs_.swing(instance, {glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]}, pose.transform);
-    std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
-    springs_.show(swungPalette_);
-    pose.palette = swungPalette_;
-    if (!swungRotations_.empty()) {
-        skinning::jointRotations(swungPalette_, swungRotations_);
-        pose.rotations = swungRotations_;
+    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]};
+    if (!springs_.swing(instance, place, pose.transform)) {
+        return;
     }
+    std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
+    std::copy(pose.rotations.begin(), pose.rotations.end(), swungRotations_.begin());
+    springs_.show(swungPalette_, swungRotations_);
+    pose.palette = swungPalette_;
+    pose.rotations = swungRotations_;
 }
 
-void HostPoses::write(uint64_t frame, double time, uint32_t count, std::byte* target) {
+void HostPoses::write(uint64_t frame, double time, const InstanceSlots& slots, std::byte* target) {
     const size_t joints = layout_.jointCount;
+    const uint32_t count = slots.end();
     springs_.setTime(frame, time);
     for (uint32_t instance = 0; instance < count; ++instance) {
         skinning::InstancePose pose;
@@ -373,7 +378,7 @@ void HostPoses::write(uint64_t frame, double time, uint32_t count, std::byte* ta
         }
         pose.morphWeights = weightsOf(instance);
         pose.transform = placement(instance);
-        if (hasSprings()) {
+        if (slots.shows(instance)) {
             swing(instance, pose);
         }
         skinning::writePose(layout_, pose, target);

@@ -5,6 +5,7 @@
 #include "skinning/rotation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace supple::runtime {
 
@@ -89,11 +90,13 @@ void HostSprings::setJoints(uint32_t slot, std::span<const glm::mat4> joints) {
     for (const uint32_t node : skeleton.parentsFirst) {
         const uint32_t parent = skeleton.nodes[node].parent;
         const glm::dmat4 above = parent != cage::kNone ? globals_[parent] : glm::dmat4(1.0);
+        const glm::dmat4 rest = cage::localMatrix(skeleton.nodes[node]);
         const uint32_t joint = jointOfNode_[node];
-        globals_[node] =
-            joint != cage::kNone ? glm::dmat4(joints[joint]) : above * cage::localMatrix(skeleton.nodes[node]);
+        globals_[node] = joint != cage::kNone ? glm::dmat4(joints[joint]) : above * rest;
         if (places[node] != cage::kNone && isNeeded_[node]) {
-            of(posed_, slot)[places[node]] = transformOf(glm::inverse(above) * globals_[node]);
+            // Below what is flat, nothing shows where a node is.
+            const bool flat = !(std::abs(glm::determinant(glm::dmat3(above))) > 1e-30);
+            of(posed_, slot)[places[node]] = transformOf(flat ? rest : glm::inverse(above) * globals_[node]);
         }
     }
     slots_[slot].isPosed = true;
@@ -107,11 +110,12 @@ void HostSprings::setBindPose(uint32_t slot) {
 }
 
 void HostSprings::setTime(uint64_t frame, double time) {
-    time_ = time;
     if (frame_ != frame) {
+        timeBefore_ = time_;
         frame_ = frame;
         undone_.clear();
     }
+    time_ = time;
 }
 
 void HostSprings::keepForUndo(uint32_t slot) {
@@ -132,19 +136,18 @@ void HostSprings::pose(uint32_t slot, double part) {
     }
 }
 
-void HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement) {
-    Slot& own = slots_[slot];
-    swings_ = own.isPosed;
-    if (!swings_) {
-        return;
+bool HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement) {
+    if (!areTaken() || !slots_[slot].isPosed) {
+        return false;
     }
     keepForUndo(slot);
+    Slot& own = slots_[slot];
     const SpringClock::Due due = clock_.take(slot, frame_, time_, place, false);
     const std::span<glm::vec4> state = stateOf(states_, slot);
     const double span = time_ - own.time;
     for (uint32_t k = 0; k < due.count; ++k) {
-        const bool between = !due.settles && span > 0.0;
-        pose(slot, between ? (springTime(due.first + k) - own.time) / span : 1.0);
+        const bool onTheWay = !due.settles && span > 0.0 && k < due.jump; // none: behind all
+        pose(slot, onTheWay ? (springTime(due.first + k) - own.time) / span : 1.0);
         skinning::SpringTwin::Step now{shared::identity(), affineOf(placement), due.settles};
         if (due.moves && due.jump != k) {
             now.move = {due.rows[k][0], due.rows[k][1], due.rows[k][2]};
@@ -156,12 +159,16 @@ void HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4
     std::ranges::copy(of(posed_, slot), shown_.begin());
     twin_.show(state, due.part, shown_);
     shownTwin_.poseLocals(placedWords_, shown_, {});
+    return true;
 }
 
-void HostSprings::show(std::span<skinning::Affine> palette) const {
-    for (const uint32_t joint : swings_ ? std::span<const uint32_t>(hanging_) : std::span<const uint32_t>()) {
+void HostSprings::show(std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) const {
+    for (const uint32_t joint : hanging_) {
         const shared::Affine skinned = shownTwin_.skinned(joint);
         palette[joint] = {{skinned.x, skinned.y, skinned.z}};
+        if (!rotations.empty()) {
+            skinning::jointRotations(palette.subspan(joint, 1), rotations.subspan(joint, 1));
+        }
     }
 }
 
@@ -170,6 +177,7 @@ void HostSprings::cancelFrame(uint64_t frame) {
         return;
     }
     clock_.cancelFrame(frame);
+    time_ = timeBefore_;
     for (const uint32_t slot : undone_) {
         undoSlots_[slot].isPosed = slots_[slot].isPosed; // by calls since then
         slots_[slot] = undoSlots_[slot];

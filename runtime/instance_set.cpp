@@ -28,7 +28,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
         status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs, desc.asset->hasDrivers()});
     }
-    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers || desc.room.springs)) {
+    if (status && posesNodes(desc.source, desc.room.modifiers, desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);
     }
     if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {
@@ -171,7 +171,7 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
 PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time,
                                   const glm::dvec3& origin) {
     poses_->setOrigin(origin, slots_.end());
-    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_.end());
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_);
     cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
     cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame, false, slots_.end());
     return cost;

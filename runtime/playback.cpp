@@ -490,8 +490,10 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
 }
 
 VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
-    return springState_.recordUpload(commandBuffer, frame, {}) + states_.recordUpload(*device_, commandBuffer, frame) +
-           masks_.recordUpload(*device_, commandBuffer, frame);
+    VkDeviceSize bytes = springState_.recordUpload(commandBuffer, frame, {});
+    bytes += states_.recordUpload(*device_, commandBuffer, frame);
+    bytes += masks_.recordUpload(*device_, commandBuffer, frame);
+    return bytes;
 }
 
 void Playback::cancelFrame(uint64_t frame) {

@@ -638,9 +638,11 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext own(*device, mapping);
         const SuppleAsset swings = own.createAsset(swinging, "tube"), stands = own.createAsset(tube->bytes, "tube");
-        const auto created = [&](SuppleAsset asset, uint32_t capacity) {
+        const auto created = [&](SuppleAsset asset, uint32_t capacity,
+                                 SupplePoseSource source = SUPPLE_POSES_PLAYBACK) {
             SuppleGroupDesc desc = playedGroup(asset, capacity, kSprings);
             desc.structSize = sizeof desc;
+            desc.poseSource = source;
             SuppleGroup group{};
             return suppleCreateGroup(own.handle(), &desc, &group);
         };
@@ -651,6 +653,7 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
             EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_LIMIT);
         }
         EXPECT_EQ(created(stands, kMost + 1), SUPPLE_OK) << "without springs there is no list";
+        EXPECT_EQ(created(swings, kMost + 1, SUPPLE_POSES_SET), SUPPLE_OK) << "nor of poses that the host sets";
     }
     wrapped.maxTexelBufferElements = 0;
 }
