@@ -34,16 +34,7 @@ public:
     }
 
     Status findPatches(const cage::Cage& cage) {
-        FaceFinder finder;
-        finder.addAll(mesh_.cage, mesh_.sourceFaces, cage.vertexCount());
-        const Result<std::vector<PatchFace>> found = finder.find(patches());
-        if (!found) {
-            return found.error();
-        }
-        for (const PatchFace& patch : *found) {
-            places_.push_back({patch.face, turnedQuad(patch.firstCorner)});
-        }
-        return success();
+        return places_.find(mesh_.cage, mesh_.sourceFaces, cage.vertexCount(), patches(), turnedQuad);
     }
 
     [[nodiscard]] std::unique_ptr<Pose> newPose() const override;
@@ -59,10 +50,7 @@ public:
         return found;
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
-        Place place = gridPlace(surface::Domain::quad, rate, sample, inside);
-        place.piece = places_[patch].face;
-        places_[patch].turned.apply(place);
-        return place;
+        return places_.ofSample(patch, surface::Domain::quad, rate, sample, inside);
     }
 
     [[nodiscard]] const surface::blend::Mesh& mesh() const { return mesh_; }
@@ -75,7 +63,7 @@ private:
     surface::blend::Mesh mesh_;
     std::vector<surface::blend::FitMatrix> matrices_; ///< by class of charts
     QuadFaces faces_;
-    std::vector<PatchPlace> places_; ///< by patch of the tables
+    PatchPlaces places_;
 };
 
 class PosedBlend final : public Pose {

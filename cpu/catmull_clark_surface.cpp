@@ -52,20 +52,12 @@ public:
                 Turned turned = turnedQuad(face % 4);
                 turned.x *= 0.5;
                 turned.y *= 0.5;
-                places_.push_back({face / 4, turned});
+                places_.add({face / 4, turned});
             }
-        } else {
-            FaceFinder finder;
-            finder.addAll(isolation_.parent.cage, isolation_.parent.sourceFaces, cage.vertexCount());
-            const Result<std::vector<PatchFace>> found = finder.find(patches());
-            if (!found) {
-                return found.error();
-            }
-            for (const PatchFace& patch : *found) {
-                places_.push_back({patch.face, turnedQuad(patch.firstCorner)});
-            }
+            return success();
         }
-        return success();
+        return places_.find(isolation_.parent.cage, isolation_.parent.sourceFaces, cage.vertexCount(), patches(),
+                            turnedQuad);
     }
 
     [[nodiscard]] std::unique_ptr<Pose> newPose() const override;
@@ -78,10 +70,7 @@ public:
         return found;
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
-        Place place = gridPlace(surface::Domain::quad, rate, sample, inside);
-        place.piece = places_[patch].face;
-        places_[patch].turned.apply(place);
-        return place;
+        return places_.ofSample(patch, surface::Domain::quad, rate, sample, inside);
     }
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
@@ -103,7 +92,7 @@ private:
     QuadFaces faces_;
     PatchSet regular_;
     std::vector<uint32_t> patchOfQuad_;
-    std::vector<PatchPlace> places_; ///< by patch of the tables
+    PatchPlaces places_;
 };
 
 class PosedCatmullClark final : public Pose {

@@ -54,20 +54,12 @@ public:
     Status findPatches(const cage::Cage& cage, bool fragments) {
         if (fragments) {
             for (const uint32_t face : drawnFaces(isolation_.mesh.cage)) {
-                places_.push_back({face / 4, childTriangle(face % 4)});
+                places_.add({face / 4, childTriangle(face % 4)});
             }
             return success();
         }
-        FaceFinder finder;
-        finder.addAll(isolation_.parent.cage, isolation_.parent.sourceFaces, cage.vertexCount());
-        const Result<std::vector<PatchFace>> found = finder.find(patches());
-        if (!found) {
-            return found.error();
-        }
-        for (const PatchFace& patch : *found) {
-            places_.push_back({patch.face, turnedTriangle(patch.firstCorner)});
-        }
-        return success();
+        return places_.find(isolation_.parent.cage, isolation_.parent.sourceFaces, cage.vertexCount(), patches(),
+                            turnedTriangle);
     }
 
     [[nodiscard]] std::unique_ptr<Pose> newPose() const override;
@@ -88,10 +80,7 @@ public:
         return found;
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
-        Place place = gridPlace(surface::Domain::triangle, rate, sample, inside);
-        place.piece = places_[patch].face;
-        places_[patch].turned.apply(place);
-        return place;
+        return places_.ofSample(patch, surface::Domain::triangle, rate, sample, inside);
     }
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
@@ -113,7 +102,7 @@ private:
     std::vector<uint32_t> triangles_; ///< by face of the cage; cage::kNone: cut into several
     CutFaces cut_;
     std::vector<bool> holes_;
-    std::vector<PatchPlace> places_; ///< by patch of the tables
+    PatchPlaces places_;
 };
 
 class PosedLoop final : public Pose {

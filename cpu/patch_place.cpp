@@ -1,5 +1,8 @@
 #include "cpu/patch_place.h"
 
+#include "cpu/grid_places.h"
+#include "cpu/patch_faces.h"
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -28,6 +31,28 @@ Turned turnedTriangle(uint32_t firstCorner) {
     const std::array<Turned, 3> turned{
         {{}, {{1.0, 0.0}, {-1.0, -1.0}, {1.0, 0.0}}, {{0.0, 1.0}, {0.0, 1.0}, {-1.0, -1.0}}}};
     return turned[firstCorner];
+}
+
+Status PatchPlaces::find(const cage::Cage& mesh, std::span<const uint32_t> sourceFaces, uint32_t cageVertices,
+                         std::span<const surface::PatchInfo> patches, Turned (*turned)(uint32_t firstCorner)) {
+    FaceFinder finder;
+    finder.addAll(mesh, sourceFaces, cageVertices);
+    const Result<std::vector<PatchFace>> found = finder.find(patches);
+    if (!found) {
+        return found.error();
+    }
+    for (const PatchFace& patch : *found) {
+        add({patch.face, turned(patch.firstCorner)});
+    }
+    return success();
+}
+
+Place PatchPlaces::ofSample(uint32_t patch, surface::Domain domain, uint32_t rate, uint32_t sample,
+                            double inside) const {
+    Place place = gridPlace(domain, rate, sample, inside);
+    place.piece = places_[patch].face;
+    places_[patch].turned.apply(place);
+    return place;
 }
 
 std::vector<uint32_t> drawnFaces(const cage::Cage& isolated) {

@@ -624,7 +624,8 @@ TEST_F(Drivers, AllocateNothingInFrames) {
     played.play(0, kBendClip, 0.2);
     EXPECT_EQ(played.run(0.0), 0u);
     (void)set.weights(0);
-    runtime::HostPoses& poses = *set.handle()->context->groups.find(set.crowd.group().id)->poses().host();
+    runtime::Group& setGroup = *set.handle()->context->groups.find(set.crowd.group().id);
+    runtime::HostPoses& poses = *setGroup.poses().host();
     runtime::Playback& playback = *played.group().poses().playback();
     std::vector<std::byte> bytes(2 * poses.instanceBytes());
     const float weights[kArmTargets] = {0.25f, -0.5f, 0.0f, 0.125f, 2.0f};
@@ -639,7 +640,7 @@ TEST_F(Drivers, AllocateNothingInFrames) {
         float m[16];
         good = good && suppleGetJointTransform(played.handle(), played.instances[0], 1, m) == SUPPLE_OK;
         // What frames do.
-        poses.write(1000 + i, 0.01 * i, 2, bytes.data());
+        poses.write(1000 + i, 0.01 * i, setGroup.instances().slots(), bytes.data());
         playback.setTime(0.01 * i);
         playback.listPoses(1000 + i, played.group().windows(), 2, [](uint32_t) { return true; });
     }
