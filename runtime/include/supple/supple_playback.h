@@ -200,18 +200,18 @@ typedef struct SuppleClipRequest {
  * What has been asked for before the asset's first group that plays is created is there from the beginning. Later
  * segments go up with the frames that record groups of the asset or call suppleRecordUploads, those that were asked for
  * first before others: in each frame at most half of the upload budget that suppleBeginFrame finds
- * (suppleSetUploadBudget), without a budget 64 KiB, and 16 bytes for each segment that comes or goes. These bytes count in
- * SuppleUploadState.frameBytes of suppleGetUploadState, but not in those of assets and groups. Segments play from the
- * next suppleBeginFrame on. suppleGetClipInfo tells what is there, getters of joints have the bits of what plays.
+ * (suppleSetUploadBudget), without a budget 64 KiB, and 16 bytes for each segment that comes or goes. These bytes count
+ * in SuppleUploadState.frameBytes of suppleGetUploadState, but not in those of assets and groups. Segments play from
+ * the next suppleBeginFrame on. suppleGetClipInfo tells what is there, getters of joints have the bits of what plays.
  * suppleReloadAsset asks for the same of clips of the same name.
  *
- * If there is no room for a segment, because all that is there is pinned or was asked for later, it waits for some. What
- * is pinned always finds room. Segments move within the pool if what is free lies in pieces that are too small: they
- * play on meanwhile, unless the budget of a frame has no room for one of them; then its twin plays until it is there
- * again.
+ * If there is no room for a segment, because all that is there is pinned or was asked for later, it waits for some.
+ * What is pinned always finds room. Segments move within the pool if what is free lies in pieces that are too small:
+ * they play on meanwhile, unless the budget of a frame has no room for one of them; then its twin plays until it is
+ * there again.
  *
- * For one thread, as what creates assets is. Errors: no such clip or use; begin or end negative, not finite, or begin behind end; SUPPLE_ERROR_LIMIT: more is
- * pinned than the pool has. */
+ * For one thread, as what creates assets is. Errors: no such clip or use; begin or end negative, not finite, or begin
+ * behind end; SUPPLE_ERROR_LIMIT: more is pinned than the pool has. */
 SUPPLE_API SuppleResult suppleRequestClip(SuppleContext context, SuppleAsset asset, uint32_t clip,
                                           const SuppleClipRequest* request);
 
