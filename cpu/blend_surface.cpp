@@ -75,13 +75,12 @@ public:
         const surface::blend::Mesh& mesh = surface_.mesh();
         positions_.assign(cage.begin(), cage.end());
         const std::span<const glm::dvec3> positions = positions_;
-        if (const Status made = inRanges(runJobs, mesh.cage.vertexCount(), kVerticesPerJob,
-                                         [&](uint32_t begin, uint32_t end) {
-                                             for (uint32_t v = begin; v < end; ++v) {
-                                                 vertices_[v] =
-                                                     surface::applyStencil<double>(mesh.stencils, v, positions);
-                                             }
-                                         });
+        if (Status made = inRanges(runJobs, mesh.cage.vertexCount(), kVerticesPerJob,
+                                   [&](uint32_t begin, uint32_t end) {
+                                       for (uint32_t v = begin; v < end; ++v) {
+                                           vertices_[v] = surface::applyStencil<double>(mesh.stencils, v, positions);
+                                       }
+                                   });
             !made) {
             return made;
         }

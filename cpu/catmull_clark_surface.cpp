@@ -101,7 +101,7 @@ public:
         : surface_(surface), patches_(surface.regular().newPose()), limit_(surface.shape()) {}
 
     Status build(std::span<const glm::vec3> cage, const RunJobs& runJobs) override {
-        if (const Status made = surface_.regular().build(cage, runJobs, patches_); !made) {
+        if (Status made = surface_.regular().build(cage, runJobs, patches_); !made) {
             return made;
         }
         return limit_.build(cage, runJobs);

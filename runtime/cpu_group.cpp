@@ -231,7 +231,7 @@ Status CpuPose::takeCage(const std::byte* cage, size_t stride) {
 }
 
 Status CpuPose::build(const std::byte* cage, size_t stride, const cpu::RunJobs& runJobs) {
-    if (const Status taken = takeCage(cage, stride); !taken) {
+    if (Status taken = takeCage(cage, stride); !taken) {
         return taken;
     }
     built_ = false;
@@ -241,7 +241,7 @@ Status CpuPose::build(const std::byte* cage, size_t stride, const cpu::RunJobs& 
             pieces_[p][v] = cage_[part.piece->of.vertices[v]];
         }
         const std::span<const glm::vec3> own = part.piece != nullptr ? pieces_[p] : cage_;
-        if (const Status made = poses_[p]->build(own, runJobs); !made) {
+        if (Status made = poses_[p]->build(own, runJobs); !made) {
             return made;
         }
     }
@@ -253,7 +253,7 @@ Status CpuPose::evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfa
                          const cpu::RunJobs& runJobs) const {
     const auto count = static_cast<uint32_t>(points.size());
     std::atomic<uint32_t> firstBad{count};
-    const Status ran = cpu::inRanges(runJobs, count, kPointsPerJob, [&](uint32_t begin, uint32_t end) {
+    Status ran = cpu::inRanges(runJobs, count, kPointsPerJob, [&](uint32_t begin, uint32_t end) {
         for (uint32_t p = begin, some = 0; p < end; p += some) {
             some = std::min(end - p, kPointsAtATime);
             const uint32_t sound = evaluateRange(points.subspan(p, some), out + p);

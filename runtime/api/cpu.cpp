@@ -128,7 +128,7 @@ Status checkRoom(const char* what, uint64_t needed, uint32_t given) {
 
 /// Why a surface has no grid of a rate, or success.
 Status checkGrid(const runtime::CpuGroup& group, uint32_t surface, uint32_t rate) {
-    if (const Status exists = checkSurface(group, surface); !exists) {
+    if (Status exists = checkSurface(group, surface); !exists) {
         return exists;
     }
     if (rate == 0 || rate > SUPPLE_MAX_RATE) {
