@@ -23,8 +23,8 @@ inline constexpr double kMinTurnLength = 1e-6, kMaxTurnLength = 1e6;
 
 /// Rounds of the device's loops for a driver, as if no two of its targets stood in one group of four.
 [[nodiscard]] size_t driverWork(const PoseDriver& driver);
-/// Of all drivers of a character. Some Vulkan drivers end an invocation after 65,536 rounds of its loops, and count
-/// those of all lanes of a subgroup.
+/// All drivers of a character have at most so much. Some Vulkan drivers end an invocation after 65,536 rounds of its
+/// loops, and count those of all lanes of a subgroup.
 inline constexpr size_t kMaxDriverWork = 50'000;
 /// What messages say where there are more.
 [[nodiscard]] std::string tooMuchDriverWork();

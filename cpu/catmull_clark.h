@@ -35,7 +35,7 @@ class LimitSurface {
 public:
     /// `pose`: of a mesh of Catmull-Clark; must outlive this.
     explicit LimitSurface(const subdivision::LimitPose& pose) : pose_(&pose) {}
-    /// Of a mesh, which must outlive it, with the positions of the cage that it was built from.
+    /// The mesh must outlive it. The positions are those of the cage that it was built from.
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 

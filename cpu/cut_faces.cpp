@@ -35,7 +35,7 @@ glm::dvec2 cornerInPlane(uint32_t sides, uint32_t corner) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-/// Of more than four sides the middle is the origin.
+/// If there are more than four sides, the middle is the origin.
 PlanePoint pointInPlane(uint32_t sides, const FacePoint& point) {
     if (sides <= 4) {
         return {{point.a, point.b}};

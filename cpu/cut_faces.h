@@ -21,7 +21,7 @@ public:
     void add(const cage::Cage& cage, uint32_t face, uint32_t piece, std::span<const uint32_t> vertices);
 
     [[nodiscard]] bool has(uint32_t face) const { return !parts_[face].empty(); }
-    /// Of a face that has parts.
+    /// The face must have parts.
     [[nodiscard]] Place find(const FacePoint& point) const;
 
 private:

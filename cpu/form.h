@@ -18,7 +18,7 @@ public:
     };
 
     Form() = default;
-    /// Of nothing: constructions begin their sums with Point(0).
+    /// A sum of nothing: constructions begin their sums with Point(0).
     explicit Form(double /*zero*/) {}
     [[nodiscard]] static Form ofVertex(uint32_t vertex) {
         Form form;

@@ -1,19 +1,16 @@
-// Batches on the host's threads. Supple has none of its own.
+// Batches on the host's threads.
 #pragma once
 
 #include "base/result.h"
+#include "base/run_jobs.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <vector>
 
 namespace supple::cpu {
-
-/// Calls job(i) once for every i below count, in any order and on any threads, and returns when all have returned.
-using RunJobs = std::function<void(uint32_t count, const std::function<void(uint32_t)>& job)>;
 
 /// Calls work(begin, end) for ranges that cover 0..count, each of at most `most`. One range is run on this thread.
 /// Fails if a job was not run or was asked for twice, if a host asked for one that does not exist, or if one ran out of

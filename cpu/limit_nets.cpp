@@ -75,7 +75,7 @@ LimitPose::LimitPose(const LimitShape& shape) : shape_(shape), nets_(shape.keptP
     }
 }
 
-Status LimitPose::build(std::span<const glm::dvec3> positions, const cpu::RunJobs& runJobs) {
+Status LimitPose::build(std::span<const glm::dvec3> positions, const RunJobs& runJobs) {
     const std::vector<Stencils>& stencils = shape_.mesh().stencils;
     for (size_t step = 0; step < steps_.size(); ++step) {
         const std::span<const glm::dvec3> from = step == 0 ? positions : std::span<const glm::dvec3>(steps_[step - 1]);
@@ -96,7 +96,7 @@ Status LimitPose::build(std::span<const glm::dvec3> positions, const cpu::RunJob
                          });
 }
 
-Status LimitPose::build(std::span<const glm::vec3> positions, const cpu::RunJobs& runJobs) {
+Status LimitPose::build(std::span<const glm::vec3> positions, const RunJobs& runJobs) {
     given_.assign(positions.begin(), positions.end());
     return build(std::span<const glm::dvec3>(given_), runJobs);
 }

@@ -60,12 +60,12 @@ class LimitPose {
 public:
     explicit LimitPose(const LimitShape& shape);
     /// `positions`: of the cage that the mesh was built from.
-    [[nodiscard]] Status build(std::span<const glm::dvec3> positions, const cpu::RunJobs& runJobs);
-    [[nodiscard]] Status build(std::span<const glm::vec3> positions, const cpu::RunJobs& runJobs);
+    [[nodiscard]] Status build(std::span<const glm::dvec3> positions, const RunJobs& runJobs);
+    [[nodiscard]] Status build(std::span<const glm::vec3> positions, const RunJobs& runJobs);
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
-    /// Of a kept level: its origin, then its points.
+    /// A kept level: its origin, then its points.
     [[nodiscard]] std::span<const glm::dvec3> kept(uint32_t fragment, uint32_t level) const;
 
 private:

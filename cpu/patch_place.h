@@ -34,8 +34,8 @@ struct PatchPlace {
 /// By patch of a scheme's tables.
 class PatchPlaces {
 public:
-    /// Of patches of all faces of a mesh whose first vertices are the cage's. `sourceFaces`: the cage's face by face of
-    /// the mesh; none: its own. `turned`: turnedQuad or turnedTriangle.
+    /// Finds the patches of all faces of a mesh whose first vertices are the cage's. `sourceFaces`: the cage's face by
+    /// face of the mesh; none: its own. `turned`: turnedQuad or turnedTriangle.
     [[nodiscard]] Status find(const cage::Cage& mesh, std::span<const uint32_t> sourceFaces, uint32_t cageVertices,
                               std::span<const surface::PatchInfo> patches, Turned (*turned)(uint32_t firstCorner));
     void add(const PatchPlace& place) { places_.push_back(place); }

@@ -1,5 +1,6 @@
 #include "runtime/context.h"
 
+#include "runtime/run_jobs.h"
 #include "shaders/shared_count_tasks_comp.h"
 #include "surface/grid.h"
 
@@ -33,17 +34,6 @@ gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
         callbacks.free(&memory, callbacks.user);
     };
     return source;
-}
-
-gpu::RunJobs runJobsOf(const SuppleContextDesc& desc) {
-    if (desc.runJobs == nullptr) {
-        return {};
-    }
-    return [runJobs = desc.runJobs, user = desc.jobsUser](uint32_t count, const std::function<void(uint32_t)>& job) {
-        runJobs(
-            count, [](void* data, uint32_t i) { (*static_cast<const std::function<void(uint32_t)>*>(data))(i); },
-            const_cast<std::function<void(uint32_t)>*>(&job), user);
-    };
 }
 
 gpu::DeviceDesc deviceDescOf(const SuppleContextDesc& desc) {
@@ -95,7 +85,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
     context->device_->uploads = &context->uploads_;
-    context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
+    context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc.runJobs, desc.jobsUser));
     context->kernels_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
     if (const Status rooms =
             context->taskRooms_.create(d, *context->pipelines_, shared_count_tasks_comp, context->framesInFlight_);

@@ -230,7 +230,7 @@ Status CpuPose::takeCage(const std::byte* cage, size_t stride) {
     return success();
 }
 
-Status CpuPose::build(const std::byte* cage, size_t stride, const cpu::RunJobs& runJobs) {
+Status CpuPose::build(const std::byte* cage, size_t stride, const RunJobs& runJobs) {
     if (Status taken = takeCage(cage, stride); !taken) {
         return taken;
     }
@@ -250,7 +250,7 @@ Status CpuPose::build(const std::byte* cage, size_t stride, const cpu::RunJobs& 
 }
 
 Status CpuPose::evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfaceJet* out,
-                         const cpu::RunJobs& runJobs) const {
+                         const RunJobs& runJobs) const {
     const auto count = static_cast<uint32_t>(points.size());
     std::atomic<uint32_t> firstBad{count};
     Status ran = cpu::inRanges(runJobs, count, kPointsPerJob, [&](uint32_t begin, uint32_t end) {
@@ -319,7 +319,7 @@ uint32_t CpuPose::evaluateRange(std::span<const SuppleSurfacePoint> points, Supp
 }
 
 Status CpuPose::evaluateGrid(uint32_t number, uint32_t rate, float* positions, float* normals,
-                             const cpu::RunJobs& runJobs) const {
+                             const RunJobs& runJobs) const {
     const cpu::Surface& surface = *group_->parts()[number].surface;
     const auto patchCount = static_cast<uint32_t>(surface.patches().size());
     std::vector<size_t> firstVertices; // of each job

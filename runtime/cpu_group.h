@@ -61,13 +61,13 @@ public:
     [[nodiscard]] const CpuGroup& group() const { return *group_; }
     [[nodiscard]] bool isBuilt() const { return built_; }
     /// `stride`: bytes from vertex to vertex. Refuses coordinates that are not finite or too large.
-    [[nodiscard]] Status build(const std::byte* cage, size_t stride, const cpu::RunJobs& runJobs);
+    [[nodiscard]] Status build(const std::byte* cage, size_t stride, const RunJobs& runJobs);
     /// Refuses points that do not exist; then what is in `out` is undefined.
     [[nodiscard]] Status evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfaceJet* out,
-                                  const cpu::RunJobs& runJobs) const;
+                                  const RunJobs& runJobs) const;
     /// normals: null for none.
     [[nodiscard]] Status evaluateGrid(uint32_t part, uint32_t rate, float* positions, float* normals,
-                                      const cpu::RunJobs& runJobs) const;
+                                      const RunJobs& runJobs) const;
 
 private:
     Status takeCage(const std::byte* cage, size_t stride);

@@ -32,27 +32,13 @@ shared::Transform between(const shared::Transform& a, const shared::Transform& b
             a.scale + (b.scale - a.scale) * part};
 }
 
-/// By node: it swings, or hangs on one that does.
-std::vector<bool> onSwinging(const Asset& asset) {
-    const std::vector<cage::Node>& nodes = asset.character.skeleton.nodes;
-    std::vector<bool> hangs(nodes.size(), false);
-    for (const uint32_t node : asset.clipTable->swinging) {
-        hangs[node] = true;
-    }
-    for (const uint32_t node : asset.character.skeleton.parentsFirst) {
-        const uint32_t parent = nodes[node].parent;
-        hangs[node] = hangs[node] || (parent != cage::kNone && hangs[parent]);
-    }
-    return hangs;
-}
-
 } // namespace
 
 HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
     : asset_(&asset), nodeCount_(asset.clipTable->nodes.size()),
       stateElements_(skinning::SpringTwin::stateElements(*asset.clipTable)),
-      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), isNeeded_(onSwinging(asset)),
-      globals_(jointOfNode_.size()), clock_(capacity), twin_(*asset.clipTable),
+      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), globals_(jointOfNode_.size()), clock_(capacity),
+      twin_(*asset.clipTable),
       shownTwin_(*asset.clipTable,
                  skinning::PoseLayout::of(skinning::SkinningMode::linear, asset.clipTable->jointCount, 0), 0),
       placedWords_(4 * size_t{skinning::PlaybackState::elements(0, 0)}), shown_(nodeCount_),
@@ -60,16 +46,18 @@ HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
       undoBefore_(posed_.size()), undoStates_(states_.size()), undoSlots_(capacity) {
     undone_.reserve(capacity);
     const skinning::ClipTable& table = *asset.clipTable;
+    const auto flags = [&](size_t place) { return table.words[4 * place * shared::kNodeElements + 1]; };
     for (uint32_t j = 0; j < table.jointCount; ++j) {
         const uint32_t node = asset.character.skin.joints[j];
         jointOfNode_[node] = j;
-        if (isNeeded_[node]) {
+        if ((flags(table.places[node]) & shared::kNodeInChain) != 0) {
             hanging_.push_back(j);
         }
     }
-    for (size_t place = 0; place < nodeCount_; ++place) {
-        const uint32_t flags = table.words[4 * place * shared::kNodeElements + 1];
-        isNeeded_[table.nodes[place]] = isNeeded_[table.nodes[place]] || (flags & shared::kNodeOfSprings) != 0;
+    for (uint32_t place = 0; place < nodeCount_; ++place) {
+        if ((flags(place) & (shared::kNodeInChain | shared::kNodeOfSprings)) != 0) {
+            needed_.push_back(place);
+        }
     }
     skinning::PlaybackState(placedWords_).setTransform(glm::mat4(1.0f));
 }
@@ -85,19 +73,22 @@ void HostSprings::setJoints(uint32_t slot, std::span<const glm::mat4> joints) {
     if (!areTaken()) {
         return;
     }
-    const cage::Skeleton& skeleton = asset_->character.skeleton;
-    const std::vector<uint32_t>& places = asset_->clipTable->places;
-    for (const uint32_t node : skeleton.parentsFirst) {
-        const uint32_t parent = skeleton.nodes[node].parent;
-        const glm::dmat4 above = parent != cage::kNone ? globals_[parent] : glm::dmat4(1.0);
-        const glm::dmat4 rest = cage::localMatrix(skeleton.nodes[node]);
+    const std::vector<cage::Node>& nodes = asset_->character.skeleton.nodes;
+    const auto above = [&](uint32_t node) {
+        return nodes[node].parent != cage::kNone ? globals_[nodes[node].parent] : glm::dmat4(1.0);
+    };
+    for (const uint32_t node : asset_->character.skeleton.parentsFirst) {
         const uint32_t joint = jointOfNode_[node];
-        globals_[node] = joint != cage::kNone ? glm::dmat4(joints[joint]) : above * rest;
-        if (places[node] != cage::kNone && isNeeded_[node]) {
-            // Below what is flat, nothing shows where a node is.
-            const bool flat = !(std::abs(glm::determinant(glm::dmat3(above))) > 1e-30);
-            of(posed_, slot)[places[node]] = transformOf(flat ? rest : glm::inverse(above) * globals_[node]);
-        }
+        globals_[node] =
+            joint != cage::kNone ? glm::dmat4(joints[joint]) : above(node) * cage::localMatrix(nodes[node]);
+    }
+    for (const uint32_t place : needed_) {
+        const uint32_t node = asset_->clipTable->nodes[place];
+        const glm::dmat4 parent = above(node);
+        // Below what is flat, nothing shows where a node is.
+        const bool flat = !(std::abs(glm::determinant(glm::dmat3(parent))) > 1e-30);
+        of(posed_, slot)[place] =
+            transformOf(flat ? cage::localMatrix(nodes[node]) : glm::inverse(parent) * globals_[node]);
     }
     slots_[slot].isPosed = true;
 }
@@ -131,8 +122,8 @@ void HostSprings::keepForUndo(uint32_t slot) {
 
 void HostSprings::pose(uint32_t slot, double part) {
     const std::span<const shared::Transform> from = of(before_, slot), to = of(posed_, slot);
-    for (size_t i = 0; i < nodeCount_; ++i) {
-        shown_[i] = part < 1.0 ? between(from[i], to[i], static_cast<float>(part)) : to[i];
+    for (const uint32_t place : needed_) {
+        shown_[place] = part < 1.0 ? between(from[place], to[place], static_cast<float>(part)) : to[place];
     }
 }
 

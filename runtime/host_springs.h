@@ -60,7 +60,7 @@ private:
     size_t nodeCount_ = 0, stateElements_ = 0;
     std::vector<uint32_t> hanging_;     ///< joints that swing, and those below them
     std::vector<uint32_t> jointOfNode_; ///< or kNone
-    std::vector<bool> isNeeded_;        ///< by node: springs ask for its local, or what hangs on them
+    std::vector<uint32_t> needed_;      ///< places: steps ask for their locals, or they swing, or hang on such
     std::vector<glm::dmat4> globals_;   ///< memory of setJoints
     SpringClock clock_;
     double time_ = 0.0, timeBefore_ = 0.0; ///< of the last frame, and of that before

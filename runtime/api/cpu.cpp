@@ -5,6 +5,7 @@
 #include "runtime/api/entry.h"
 #include "runtime/api/patches.h"
 #include "runtime/cpu_group.h"
+#include "runtime/run_jobs.h"
 
 #include <limits>
 
@@ -38,16 +39,8 @@ struct CpuLog {
 
 namespace {
 
-/// The host's jobs as the floors below call them.
-cpu::RunJobs runJobsOf(const SuppleCpuJobs* jobs) {
-    if (jobs == nullptr || jobs->run == nullptr) {
-        return {};
-    }
-    return [run = jobs->run, user = jobs->user](uint32_t count, const std::function<void(uint32_t)>& job) {
-        run(
-            count, [](void* data, uint32_t i) { (*static_cast<const std::function<void(uint32_t)>*>(data))(i); },
-            const_cast<std::function<void(uint32_t)>*>(&job), user);
-    };
+RunJobs runJobsOf(const SuppleCpuJobs* jobs) {
+    return jobs != nullptr ? runtime::runJobsOf(jobs->run, jobs->user) : RunJobs();
 }
 
 /// Out of memory is the one thing the standard library throws at us.

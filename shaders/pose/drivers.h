@@ -38,14 +38,18 @@ vec4 drivenShare(uint share) {
     uvec4 head = table(share), tail = table(share + 3u);
     uint inputs = min(head.x, kMaxDriverInputs);
     vec4 turns[kMaxDriverInputs];
-    for (uint i = 0u; i < inputs; ++i) turns[i] = driverTurn(head.y + kDriverInputElements * i);
+    float weights[kMaxDriverInputs];
+    for (uint i = 0u; i < inputs; ++i) {
+        uint element = head.y + kDriverInputElements * i;
+        turns[i] = driverTurn(element);
+        weights[i] = uintBitsToFloat(table(element).w);
+    }
     float inverseSigma2 = uintBitsToFloat(tail.y);
     SUPPLE_PRECISE vec4 sum = vec4(0.0f);
     for (uint pose = 0u; pose < head.z; ++pose) {
         SUPPLE_PRECISE float squares = 0.0f;
         for (uint i = 0u; i < inputs; ++i) {
-            float weight = uintBitsToFloat(table(head.y + kDriverInputElements * i).w);
-            squares = squares + weight * squaredSine(turns[i], tableFloats(head.w + inputs * pose + i));
+            squares = squares + weights[i] * squaredSine(turns[i], tableFloats(head.w + inputs * pose + i));
         }
         SUPPLE_PRECISE float root = recip(1.0f + squares * inverseSigma2);
         SUPPLE_PRECISE float kernel = root * root;

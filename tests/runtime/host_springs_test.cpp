@@ -311,18 +311,9 @@ TEST_F(HostSprings, ComeAndGoWithTheAsset) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     const SuppleAsset asset = own.createAsset(withExtensions(kWren, ""), "wren");
     PosedGroup set(own, setGroup(asset, 2)), plain(own, setGroup(own.asset(kWren), 2, 0));
-    const auto reload = [&](const std::string& extensions) {
-        const std::vector<std::byte> glb = withExtensions(kWren, extensions);
-        SuppleAssetDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.name = "wren";
-        desc.bytes = glb.data();
-        desc.byteCount = glb.size();
-        EXPECT_EQ(suppleReloadAsset(own.handle(), asset, &desc), SUPPLE_OK);
-    };
     for (uint32_t step = 0; step < 60; ++step) {
         if (step == 20 || step == 40) {
-            reload(step == 20 ? kWrenSprings : std::string());
+            reloadWren(own, asset, step == 20 ? kWrenSprings : std::string());
         }
         for (PosedGroup* const group : {&set, &plain}) {
             group->poseClip(0, group->within(step / 60.0));
@@ -361,13 +352,7 @@ TEST_F(HostSprings, SettleWhereTimeJumpsOrTheAssetIsLoadedAnewAndNotInTheBindPos
     TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 40; ++step) {
         if (step == 20) {
-            const std::vector<std::byte> glb = withExtensions(kWren, kWrenSprings);
-            SuppleAssetDesc desc{};
-            desc.structSize = sizeof desc;
-            desc.name = "wren";
-            desc.bytes = glb.data();
-            desc.byteCount = glb.size();
-            EXPECT_EQ(suppleReloadAsset(both.other.handle(), both.asset, &desc), SUPPLE_OK);
+            reloadWren(both.other.crowd.context(), both.asset, kWrenSprings);
         }
         both.run(step);
         EXPECT_EQ(both.off(0) == 0.0, step < 20) << step;

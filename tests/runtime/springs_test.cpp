@@ -461,13 +461,7 @@ TEST_F(Springs, SettleWhenTheirAssetIsLoadedAnew) {
     TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 60; ++step) {
         if (step == 20) {
-            const std::vector<std::byte> glb = withExtensions(kWren, kWrenSprings);
-            SuppleAssetDesc desc{};
-            desc.structSize = sizeof desc;
-            desc.name = "wren";
-            desc.bytes = glb.data();
-            desc.byteCount = glb.size();
-            EXPECT_EQ(suppleReloadAsset(both.other.handle(), both.asset, &desc), SUPPLE_OK);
+            reloadWren(both.other.crowd.context(), both.asset, kWrenSprings);
         }
         both.run(step);
         EXPECT_EQ(both.same(0), step < 20) << step;
