@@ -109,6 +109,15 @@ void drawOverPicture(const ViewStage& stage, float aspect) {
         drawSwatches(*legend);
 }
 
+void drawAnnouncement(const std::string& text) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize, own = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 at(0.5f * (size.x - own.x), 0.5f * (size.y - own.y));
+    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    draw.AddRectFilled(ImVec2(at.x - kInset, at.y - kInset), ImVec2(at.x + own.x + kInset, at.y + own.y + kInset),
+                       IM_COL32(0, 0, 0, 200), 4.0f);
+    draw.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
 } // namespace supple::tools
 
 #endif
