@@ -44,6 +44,8 @@ public:
     /// As many workgroups as the three words there say.
     virtual void dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
                                   VkBuffer arguments, VkDeviceSize offset) = 0;
+    /// Whose dispatches come next, by a number of the caller's (gpu/kept_tasks.h).
+    virtual void setOwner(uint32_t /*owner*/) {}
     /// Records what was dispatched since the last time.
     virtual void flush() = 0;
     /// To be called when the device has written sizes, behind a barrier. Until the next call, dispatchIndirect() is
@@ -51,7 +53,7 @@ public:
     virtual void count() {}
 
     /// gpu::computeBarrier and gpu::disjointBarrier, behind all that was dispatched.
-    void computeBarrier() {
+    virtual void computeBarrier() {
         flush();
         gpu::computeBarrier(*device_, commandBuffer_);
     }

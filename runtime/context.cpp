@@ -257,6 +257,7 @@ Status Context::cancelFrame() {
     frameOpen_ = false;
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
     uploads_.cancelFrame();
+    taskRooms_.cancelFrame(frame_);
     timings.cancelFrame();
     if (hashes_ != nullptr) {
         hashes_->cancelFrame(frame_);
@@ -377,6 +378,7 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     shared.view = std::move(view);
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
+    shared.number = ++groupsMade_;
     shared.handsOver = asyncCompute_;
     shared.hashes = hashes_;
     return shared;

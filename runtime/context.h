@@ -71,6 +71,7 @@ public:
     [[nodiscard]] SuppleUploadState uploadState(Asset& asset) const;
     /// What assets, groups and views have.
     [[nodiscard]] SuppleUploadState uploadState() const;
+    [[nodiscard]] std::span<const CageStageRow> stageRows() const { return stages_.rows(); }
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
     [[nodiscard]] static SuppleSyncScope firstScope();
@@ -201,6 +202,7 @@ private:
     std::optional<uint64_t> refusedFrame_; ///< by suppleBeginFrame, since the last one that it took
     glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
+    uint64_t groupsMade_ = 0;
     std::atomic<bool> lost_ = false;
     uint32_t flags_ = 0;                      ///< SuppleContextFlags
     std::unique_ptr<CallKeeper> keeper_;      ///< null: recordings begin before anything is created

@@ -1,4 +1,5 @@
 // One frame: the table of passes (kPasses), and what walks it.
+#include "gpu/task_rewriter.h"
 #include "runtime/context.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ struct Frame {
     const gpu::Device& device;
     VkCommandBuffer commands;
     gpu::Dispatches& dispatches; ///< into it, of surfaces
+    gpu::TaskDispatches* tasks;  ///< these, if groups share them; else null
     uint64_t number = 0;
     uint32_t framesInFlight = 2;
     double time = 0.0;       ///< the host's, in seconds
@@ -59,6 +61,10 @@ struct Frame {
         return false;
     }
     void computeBarrier() const { dispatches.computeBarrier(); }
+    void numberGroups() const {
+        uint32_t next = 0;
+        forEach([&](Group& group) { group.link.number = next++; });
+    }
     /// Tells each view what its groups need (View::roomInFrame).
     void findRoom() const {
         forEach([&](Group& leader) {
@@ -318,6 +324,7 @@ struct Row {
     Work work;
     Behind behind = Behind::compute;
     bool timed = true; ///< false: part of the pass before, without label and timing
+    bool byCommands = false; ///< it records commands of its own, and nothing that groups share
 };
 
 /// The first of a frame: it finds out which groups the others are for.
@@ -333,10 +340,10 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_POSE, poses<Playback::Part::mix>, recordPose<Playback::Part::mix>},
     {SUPPLE_PASS_DEFORM, always, {}},
     {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
-    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false},
+    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false, true},
     {SUPPLE_PASS_BOUNDS,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
-     recordOcclusion},
+     recordOcclusion, Behind::compute, true, true},
     {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::sizes, false},
     {SUPPLE_PASS_LIST, isInView, recordList, Behind::arguments},
     {SUPPLE_PASS_VERTEX, constructs<Stage::vertex>, recordStage<Stage::vertex>},
@@ -345,11 +352,11 @@ constexpr Row kPasses[] = {
      Behind::nothing},
     {SUPPLE_PASS_LEVEL, isInView, recordInRounds<&Tessellation::recordEdgeLevels>},
     {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
-    {SUPPLE_PASS_SOLVE, isInView, recordSolve},
+    {SUPPLE_PASS_SOLVE, isInView, recordSolve, Behind::compute, true, true},
     {SUPPLE_PASS_PLACE, anySurface<&Tessellation::findsDepths>, recordSurface<&Tessellation::recordDepths>},
     {SUPPLE_PASS_PLACE, isInView, recordSurfaces<&Tessellation::recordPlaces>, Behind::places},
     {SUPPLE_PASS_PLACE, choosesRates, recordRates, Behind::places},
-    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},
+    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false, true},
     {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordInRounds<&Tessellation::recordDeepen>},
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
@@ -423,6 +430,7 @@ struct Timed {
 
     template <class Record>
     void operator()(const Group& group, uint32_t surface, Record&& record) const {
+        dispatches.setOwner(group.link.number);
         timing.beginPass();
         const PassCost cost = record();
         if (timing.isOpen()) {
@@ -447,6 +455,7 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
     if (!timed.timing.isOpen()) {
         surface::inRounds(frame.dispatches, [&](surface::Round& round) {
             forEachSurface([&](Group& group, uint32_t surface) {
+                frame.dispatches.setOwner(group.link.number);
                 (void)row.work.ofSurface(frame, group.surfaces()[surface], round);
             });
         });
@@ -465,10 +474,8 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
     });
 }
 
-void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
-    if (row.timed) {
-        frame.device.beginLabel(frame.commands, passName(row.pass));
-    }
+/// What a row records between its label and its barrier.
+void recordRow(const Frame& frame, const Row& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     if (row.work.ofSurface != nullptr) {
         recordEachSurface(frame, row, timed);
@@ -477,14 +484,21 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
             [&](Group& group) { timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); }); });
     }
     frame.dispatches.flush();
+}
+
+void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
+    if (row.timed) {
+        frame.device.beginLabel(frame.commands, passName(row.pass));
+    }
+    recordRow(frame, row, timing);
     if (row.timed) {
         frame.device.endLabel(frame.commands);
     }
     recordBarrier(frame, row.behind);
 }
 
-void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
-    frame.device.beginLabel(frame.commands, passName(row.pass));
+/// The same of a row of the table of cage stages.
+void recordStageRow(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     frame.forEach([&](Group& group) {
         const auto record = [&](uint32_t surface) {
@@ -499,6 +513,11 @@ void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, 
         }
     });
     frame.dispatches.flush();
+}
+
+void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
+    frame.device.beginLabel(frame.commands, passName(row.pass));
+    recordStageRow(frame, stage, row, timing);
     frame.device.endLabel(frame.commands);
     frame.computeBarrier();
 }
@@ -521,13 +540,169 @@ void recordHashes(const Frame& frame, StageHashes& hashes, bool withSurfaces) {
     recording.end();
 }
 
-/// The stages that some group has, each a pass of its own.
-void recordCageStages(const Frame& frame, std::span<const CageStageRow> rows, Timings::Recording& timing) {
-    for (size_t stage = 0; stage < rows.size(); ++stage) {
-        if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
-            recordCageStage(frame, stage, rows[stage], timing);
+/// Calls ofRow(place, row) for each row of kPasses, and ofStage(place, stage, row) for each of the cage stages among
+/// them. A place is the number in this order (gpu/kept_tasks.h).
+template <class OfRow, class OfStage>
+void forEachRow(std::span<const CageStageRow> stages, OfRow&& ofRow, OfStage&& ofStage) {
+    uint32_t place = 0;
+    for (const Row& row : kPasses) {
+        if (!row.work.isCageStages()) {
+            ofRow(place++, row);
+            continue;
+        }
+        for (size_t stage = 0; stage < stages.size(); ++stage) {
+            ofStage(place++, stage, stages[stage]);
         }
     }
+}
+bool isWanted(const Frame& frame, const Row& row) {
+    return row.wants == always || frame.any(row.wants);
+}
+
+void recordPasses(const Frame& frame, std::span<const CageStageRow> stages, Timings::Recording& timing) {
+    const auto within = [&](uint32_t place, auto&& record) {
+        if (frame.tasks != nullptr) {
+            frame.tasks->enter(place);
+        }
+        record();
+        if (frame.tasks != nullptr) {
+            frame.tasks->leave();
+        }
+    };
+    forEachRow(
+        stages,
+        [&](uint32_t place, const Row& row) {
+            if (isWanted(frame, row)) {
+                within(place, [&] { recordPass(frame, row, timing); });
+            }
+        },
+        [&](uint32_t place, size_t stage, const CageStageRow& row) {
+            if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
+                within(place, [&] { recordCageStage(frame, stage, row, timing); });
+            }
+        });
+}
+
+// Frames whose tasks are kept from an earlier one (gpu/kept_tasks.h).
+
+constexpr bool isPose(const Row& row) {
+    return row.pass == SUPPLE_PASS_POSE;
+}
+/// The places of poses: they follow each other, before the cage stages.
+constexpr uint32_t kFirstPosePlace = static_cast<uint32_t>(std::ranges::find_if(kPasses, isPose) - kPasses);
+constexpr uint32_t kLastPosePlace = kFirstPosePlace + static_cast<uint32_t>(std::ranges::count_if(kPasses, isPose)) - 1;
+static_assert(std::all_of(kPasses + kFirstPosePlace, kPasses + kLastPosePlace + 1, isPose));
+
+/// The group's tasks of the places from `first` to `last`, over those that are kept. False: there are others.
+bool rewriteTasks(const Frame& frame, Group& group, gpu::TaskRewriter rewriter, uint32_t first, uint32_t last) {
+    Group* const next = std::exchange(group.link.next, nullptr);
+    const Frame own{frame.device,         frame.commands, rewriter, nullptr,      frame.number,
+                    frame.framesInFlight, frame.time,     &group,   frame.context};
+    Timings::Recording untimed;
+    forEachRow(
+        frame.context.stageRows(),
+        [&](uint32_t place, const Row& row) {
+            if (place >= first && place <= last && !row.byCommands && isWanted(own, row)) {
+                rewriter.enter(place);
+                recordRow(own, row, untimed);
+            }
+        },
+        [&](uint32_t place, size_t stage, const CageStageRow& row) {
+            if (place >= first && place <= last && group.stages().has(stage)) {
+                rewriter.enter(place);
+                recordStageRow(own, stage, row, untimed);
+            }
+        });
+    group.link.next = next;
+    return rewriter.end(last);
+}
+
+/// Brings what is kept of a group up to date.
+bool refreshTasks(const Frame& frame, Group& group, gpu::KeptTasks::Owner& kept) {
+    const gpu::TaskOwner now = group.taskOwner();
+    const gpu::TaskOwner before = std::exchange(kept.who, now);
+    if (now.made[0] != before.made[0] || now.made[1] != before.made[1]) {
+        constexpr uint32_t kLast = gpu::KeptTasks::kPlaces - 1;
+        // Recording attributes would be taken for having them.
+        return !anySurface<&Tessellation::attributesDue>(group) &&
+               rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
+    }
+    const Playback* const playback = now.made[2] != 0 ? group.poses().playback() : nullptr;
+    if (playback == nullptr) {
+        return true;
+    }
+    if (now.made[2] != before.made[2] || playback->listsPoses()) {
+        return rewriteTasks(frame, group, {*frame.tasks, kept, kFirstPosePlace}, kFirstPosePlace, kLastPosePlace);
+    }
+    const skinning::SplitTime time = playback->splitTime();
+    static_assert(offsetof(shared::PosePush, timeHigh) == 0 && offsetof(shared::PosePush, timeLow) == sizeof(float));
+    frame.tasks->rewrite(kept, kFirstPosePlace, kLastPosePlace, 0, std::as_bytes(std::span(&time, 1)));
+    return true;
+}
+
+/// True: the frame goes on from the tasks of an earlier one, which are up to date.
+bool resumeTasks(const Frame& frame) {
+    gpu::KeptTasks* const kept = frame.tasks->kept();
+    if (kept == nullptr) {
+        return false;
+    }
+    const std::span<gpu::KeptTasks::Owner> owners = kept->owners();
+    size_t count = 0;
+    bool same = true;
+    frame.forEach([&](const Group& group) {
+        same = same && count < owners.size() && owners[count].who.id == group.number();
+        ++count;
+    });
+    same = same && count == owners.size();
+    frame.forEach([&](Group& group) { same = same && refreshTasks(frame, group, owners[group.link.number]); });
+    return same && frame.tasks->resume();
+}
+
+/// Records the tasks of all groups anew. `keeps`: for later frames.
+void beginTasks(const Frame& frame, bool keeps) {
+    frame.tasks->begin(keeps && !frame.any([](const Group& group) { return !group.keepsTasks(); }));
+    frame.forEach([&](const Group& group) { frame.tasks->addOwner(group.taskOwner()); });
+}
+
+/// Whether the barrier is among what is kept.
+constexpr bool isKept(Behind behind) {
+    return behind != Behind::uploads && behind != Behind::bounds && behind != Behind::arguments &&
+           behind != Behind::places && behind != Behind::readback;
+}
+
+void recordKeptPasses(const Frame& frame, gpu::KeptTasks& kept) {
+    Timings::Recording untimed;
+    const auto recordLabelled = [&](bool labelled, SupplePass pass, uint32_t place) {
+        if (labelled) {
+            frame.device.beginLabel(frame.commands, passName(pass));
+        }
+        frame.tasks->recordKept(place);
+        if (labelled) {
+            frame.device.endLabel(frame.commands);
+        }
+    };
+    forEachRow(
+        frame.context.stageRows(),
+        [&](uint32_t place, const Row& row) {
+            if (row.byCommands) {
+                if (isWanted(frame, row)) {
+                    recordPass(frame, row, untimed);
+                }
+                return;
+            }
+            if (!kept.uses(place)) {
+                return;
+            }
+            recordLabelled(row.timed, row.pass, place);
+            if (!isKept(row.behind)) {
+                recordBarrier(frame, row.behind);
+            }
+        },
+        [&](uint32_t place, size_t, const CageStageRow& row) {
+            if (kept.uses(place)) {
+                recordLabelled(true, row.pass, place);
+            }
+        });
 }
 
 } // namespace
@@ -675,7 +850,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
     gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, needs);
-    Frame frame{device, commandBuffer, *dispatches, frame_, framesInFlight_, desc.time, *linked, *this};
+    gpu::TaskDispatches* const tasks = dispatches.tasks();
+    Frame frame{device, commandBuffer, *dispatches, tasks, frame_, framesInFlight_, desc.time, *linked, *this};
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;
@@ -686,15 +862,21 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });
     markLeaders(groups);
     recordEmptyViews(frame, groups.second);
-    recordBarrier(frame, Behind::uploads);
     frame.groups = groups.first;
+    frame.numberGroups();
     frame.findRoom();
-    for (const Row& row : kPasses) {
-        if (row.work.isCageStages()) {
-            recordCageStages(frame, stages_.rows(), timing);
-        } else if (row.wants == always || frame.any(row.wants)) {
-            recordPass(frame, row, timing);
-        }
+    const bool resumed = tasks != nullptr && !timing.isOpen() && resumeTasks(frame);
+    if (tasks != nullptr && !resumed) {
+        beginTasks(frame, !timing.isOpen());
+    }
+    recordBarrier(frame, Behind::uploads);
+    if (resumed) {
+        recordKeptPasses(frame, *tasks->kept());
+    } else {
+        recordPasses(frame, stages_.rows(), timing);
+    }
+    if (tasks != nullptr && !resumed) {
+        tasks->end();
     }
     timing.end();
     if (recordsHashes()) {

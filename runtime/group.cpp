@@ -49,6 +49,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->view_ = shared.view;
     group->device_ = shared.device;
     group->handsOver_ = shared.handsOver;
+    group->number_ = shared.number;
     group->recipe_ = GroupRecipe(desc);
     group->desc_ = desc;
     TessellationDesc tessellation;
@@ -106,7 +107,11 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
 
 Status Group::setRate(uint32_t rate) {
     Status status = surfaces_.setRate(rate);
-    rate_ = status ? rate : rate_;
+    if (status) {
+        rate_ = rate;
+        taskNeeds_ = countTasks();
+        ++tasksVersion_;
+    }
     return status;
 }
 
@@ -206,6 +211,7 @@ Status Group::createRest(const GroupShared& shared) {
     status = status && shared.hashes != nullptr ? createHashes(shared.hashes) : status;
     if (status) {
         addMembers(shared);
+        taskNeeds_ = countTasks();
     }
     return status;
 }
@@ -382,7 +388,7 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.windowCount = windows().count();
 }
 
-gpu::TaskNeeds Group::taskNeeds() const {
+gpu::TaskNeeds Group::countTasks() const {
     const uint32_t windows = listing_.windows().count();
     const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
     gpu::TaskNeeds needs{windows * (Playback::kParts + stages), windows * (1 + stages)};
@@ -469,7 +475,24 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
+    tasksVersion_ += changed || step != pastStep_ ? 1 : 0;
+    pastStep_ = step;
     return cost;
+}
+
+gpu::TaskOwner Group::taskOwner() const {
+    gpu::TaskOwner owner{number_, {tasksVersion_, 0, 0}};
+    uint64_t& inView = owner.made[1];
+    for (const auto& surface : surfaces_) {
+        inView = inView << 1 | surface->pool();
+    }
+    if (view_ != nullptr) {
+        inView = (inView << 2 | view_->pool() << 1 | (view_->countsRates() ? 1 : 0)) << 32 | view_->roomInFrame();
+    }
+    if (!follows() && instances_->poses().playback() != nullptr) {
+        owner.made[2] = instances_->poses().playback()->tasksMade();
+    }
+    return owner;
 }
 
 bool Group::findUnseen() {
@@ -542,6 +565,7 @@ void Group::cancelFrame(uint64_t frame) {
     noDraws_.cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();
+        ++tasksVersion_;
     }
 }
 

@@ -41,6 +41,7 @@ struct GroupShared {
     std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1;              ///< of the instances
+    uint64_t number = 0;                       ///< no other group of the context ever has it
     bool handsOver = false;                    ///< to another queue family: every output is written anew in every frame
     const Group* before = nullptr;             ///< whose indices it may take over; null: none
     std::shared_ptr<const StageHashes> hashes; ///< of a recording; null: there are none
@@ -69,7 +70,13 @@ public:
     /// Without the asset's tables, the view's buffers, and the instances of another group.
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// What its passes need in a frame.
-    [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
+    [[nodiscard]] const gpu::TaskNeeds& taskNeeds() const { return taskNeeds_; }
+    /// Who records its tasks, and what they follow from in this frame: `made` is what all do, what those do that view
+    /// and pools change, and what those of poses do but for the time.
+    [[nodiscard]] gpu::TaskOwner taskOwner() const;
+    [[nodiscard]] uint64_t number() const { return number_; }
+    /// Whether tasks of a frame may stand in others.
+    [[nodiscard]] bool keepsTasks() const { return stages_.keepTasks(); }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -155,6 +162,7 @@ public:
         Group* next = nullptr;
         SuppleGroup handle{};
         bool leadsView = false; ///< it is the first group of its view
+        uint32_t number = 0;    ///< in the order of the frame
     };
     Link link;
 
@@ -167,6 +175,7 @@ private:
     /// Whether the view's pool has room for an instance.
     [[nodiscard]] Status checkPool() const;
     [[nodiscard]] Status createVisibility();
+    [[nodiscard]] gpu::TaskNeeds countTasks() const;
     /// Whether other groups draw its instances too.
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
@@ -206,6 +215,9 @@ private:
     CageStages stages_;
     Surfaces surfaces_;
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
+    gpu::TaskNeeds taskNeeds_;
+    glm::vec3 pastStep_{0.0f}; ///< of the last recording
     RecordedOnce noDraws_;
     bool outputsAsked_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see

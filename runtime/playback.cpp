@@ -890,6 +890,11 @@ skinning::PoseKernels::Locals Playback::locals() const {
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
 }
 
+uint64_t Playback::tasksMade() const {
+    const uint32_t bits = 1u | (has(Part::roots) ? 2u : 0) | (has(Part::modifiers) ? 4u : 0) | (plants_ ? 8u : 0);
+    return bits | static_cast<uint32_t>(locals()) << 4;
+}
+
 PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& windows) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);

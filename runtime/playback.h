@@ -175,6 +175,10 @@ public:
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const;
+    /// What the tasks of all parts follow from, beside windows and time; never 0.
+    [[nodiscard]] uint64_t tasksMade() const;
+    /// How their push constants (shared::PosePush) begin.
+    [[nodiscard]] skinning::SplitTime splitTime() const { return skinning::splitTime(time_); }
     /// Poses that a frame makes of these instances.
     [[nodiscard]] uint32_t poseCount(const InstanceWindows& windows) const {
         return listsPoses() ? list_.poseCount() : windows.visible;

@@ -18,7 +18,8 @@ namespace {
 static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == kLodTriangleForm &&
               SUPPLE_GRID_QUAD_RINGS == kLodQuadRingsForm && SUPPLE_GRID_PENTAGON_RINGS == kLodPentagonForm);
 static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
-static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
+static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t) &&
+              sizeof(LodCamera) == (kLodSolution - kLodCamera) * sizeof(uint32_t));
 static_assert(kLodAlignment * 4 == 256 && SUPPLE_LOD_BUCKETS(kRunStep) % kLodAlignment == 0 &&
               SUPPLE_LOD_RECORDS(kRunStep) % kLodAlignment == 0 && 4 * kLodBucketStride % kLodAlignment == 0 &&
               kLodBucketStride > kCapacityCount);
@@ -333,6 +334,8 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
         from += size;
         bytes += size;
     };
+    const LodCamera camera = levelCamera();
+    std::memcpy(&hostWords_[kLodCamera], &camera, sizeof(camera));
     const CullView cull = cullView();
     copy(cull_.buffer(), 0, &cull, sizeof(cull));
     copy(words_.buffer(), 0, hostWords_.data(), kLodSolution * VkDeviceSize{4});
