@@ -33,7 +33,7 @@ struct TaskOwner {
 /// A task of a dispatch. It stays where it is as long as it is kept.
 struct RecordedTask {
     shared::Task task{};
-    uint64_t groups = 0; ///< workgroups; unless the device knows them
+    uint64_t groups = 0;          ///< workgroups; unless the device knows them
     RecordedTask* next = nullptr; ///< of the same dispatch
     RecordedTask* nextOfOwner = nullptr;
     // What tells it from the owner's other tasks of the place, in their order.
@@ -51,8 +51,8 @@ public:
 
     struct Dispatch {
         Kernel kernel;
-        bool isCounted = false; ///< the device knows how large its tasks are
-        bool changed = false;   ///< its list is to be written anew
+        bool isCounted = false;             ///< the device knows how large its tasks are
+        bool changed = false;               ///< its list is to be written anew
         uint32_t firstEntry = 0, count = 0; ///< of its list
         uint64_t groups = 0;
         VkDeviceSize arguments = 0; ///< if isCounted: where its size stands

@@ -132,8 +132,7 @@ Status TaskRooms::reserve(const Device& device, uint64_t frame, const TaskNeeds&
 
 TaskDispatches::TaskDispatches(const Device& device, VkCommandBuffer commandBuffer, TaskRoom& room,
                                const Kernel& counts, const TaskNeeds& needs)
-    : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), needs_(needs),
-      recording_(++room.recordings_) {
+    : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), needs_(needs), recording_(++room.recordings_) {
     nextTask_ = nextList_ = room.tasksTaken_.fetch_add(needs.tasks);
     isFirst_ = nextTask_ == 0;
     nextListed_ = 2 * nextTask_;

@@ -42,8 +42,8 @@ private:
     /// What lies where in both buffers, in bytes.
     struct Offsets {
         VkDeviceSize pushes = 0, buffers = 0, lists = 0; ///< tasks come first, and each list of them has one more
-        VkDeviceSize nothing = 0;   ///< a size of no workgroups
-        VkDeviceSize arguments = 0; ///< of dispatches, on the device alone
+        VkDeviceSize nothing = 0;                        ///< a size of no workgroups
+        VkDeviceSize arguments = 0;                      ///< of dispatches, on the device alone
     };
     [[nodiscard]] std::byte* mapped(VkDeviceSize offset) const { return staging_.mapped(0) + offset; }
     [[nodiscard]] std::byte* pushOf(const RecordedTask& task) const;

@@ -67,18 +67,15 @@ struct Frame {
     }
     /// Tells each view what its groups need (View::roomInFrame).
     void findRoom() const {
-        forEach([&](Group& leader) {
-            if (!leader.link.leadsView) {
-                return;
+        forEach([](Group& group) {
+            if (group.view() != nullptr) {
+                group.link.inView = group.view()->need(group.leastVerticesOfAll(), group.poolUnitsOfAll());
             }
-            View& view = *leader.view();
-            uint64_t vertices = 0, units = 0;
-            forEach([&](Group& group) {
-                vertices += group.view() == &view ? group.leastVerticesOfAll() : 0;
-                units += group.view() == &view ? group.poolUnitsOfAll() : 0;
-            });
-            const bool fit = vertices <= view.room() && units <= view.poolUnits();
-            view.setRoomInFrame(fit ? shared::kRoomForAll : view.room());
+        });
+        forEach([](Group& leader) {
+            if (leader.link.leadsView) {
+                leader.view()->findRoom();
+            }
         });
     }
 };
@@ -112,21 +109,11 @@ Group* join(const Separated& lists) {
     *end = lists.second;
     return first;
 }
-/// The first of `groups` that belongs to the view; null: none does.
-const Group* firstOf(const Group* groups, const View* view) {
-    while (groups != nullptr && groups->view() != view) {
-        groups = groups->link.next;
-    }
-    return groups;
-}
 /// Finds the first group of each view. Those of the second list come behind all of the first.
-void markLeaders(const Separated& lists) {
+void markLeaders(const Separated& lists, uint64_t call) {
     for (Group* const list : {lists.first, lists.second}) {
         for (Group* group = list; group != nullptr; group = group->link.next) {
-            const View* const view = group->view();
-            const Group* const leads = view == nullptr ? nullptr : firstOf(lists.first, view);
-            group->link.leadsView =
-                view != nullptr && (leads != nullptr ? leads : firstOf(lists.second, view)) == group;
+            group->link.leadsView = group->view() != nullptr && group->view()->isFirstIn(call);
         }
     }
 }
@@ -218,7 +205,8 @@ PassCost recordList(const Frame& frame, Group& group) {
         frame.dispatches.disjointBarrier();
     }
     const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
-    return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll);
+    return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll,
+                                       group.link.inView);
 }
 
 template <Stage stage>
@@ -263,20 +251,18 @@ PassCost recordRates(const Frame& frame, Group& group) {
 
 /// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
 PassCost recordReadback(const Frame& frame, Group& group) {
-    if (group.link.leadsView) {
-        group.view()->recordReadback(frame.commands);
-        frame.forEach([&](Group& other) {
-            if (other.view() == group.view()) {
-                uint32_t patches = 0;
-                for (const auto& surface : other.surfaces()) {
-                    patches += surface->patchesAtLevels();
-                }
-                group.view()->recordReadback(frame.commands, other.culling()->list().buffer,
-                                             other.culling()->countOffset(),
-                                             {patches, other.leastVertices(), other.unposed()});
-            }
-        });
+    if (!group.link.leadsView) {
+        return {};
     }
+    View& view = *group.view();
+    view.recordReadback(frame.commands);
+    frame.forEach([&](Group& other) {
+        if (other.view() == &view) {
+            view.recordReadback(frame.commands, other.culling()->list().buffer, other.culling()->countOffset(),
+                                {other.patchesAtLevels(), other.leastVertices(), other.unposed()});
+        }
+    });
+    view.recordCounts(frame.commands);
     return {};
 }
 
@@ -323,7 +309,7 @@ struct Row {
     bool (*wants)(Group&);
     Work work;
     Behind behind = Behind::compute;
-    bool timed = true; ///< false: part of the pass before, without label and timing
+    bool timed = true;       ///< false: part of the pass before, without label and timing
     bool byCommands = false; ///< it records commands of its own, and nothing that groups share
 };
 
@@ -705,6 +691,23 @@ void recordKeptPasses(const Frame& frame, gpu::KeptTasks& kept) {
         });
 }
 
+/// All passes but uploads, with the barrier before them.
+void recordBehindUploads(const Frame& frame, Timings::Recording& timing) {
+    const bool resumes = frame.tasks != nullptr && !timing.isOpen() && resumeTasks(frame);
+    if (frame.tasks != nullptr && !resumes) {
+        beginTasks(frame, !timing.isOpen());
+    }
+    recordBarrier(frame, Behind::uploads);
+    if (resumes) {
+        recordKeptPasses(frame, *frame.tasks->kept());
+        return;
+    }
+    recordPasses(frame, frame.context.stageRows(), timing);
+    if (frame.tasks != nullptr) {
+        frame.tasks->end();
+    }
+}
+
 } // namespace
 
 SuppleSyncScope Context::firstScope() {
@@ -715,37 +718,34 @@ SuppleSyncScope Context::lastScope() {
     return {kLast.stages, legacyAccess(kLast.access)};
 }
 
-const char* Context::faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const {
+const char* Context::faultOfLeader(const Group& group, uint64_t call) const {
     if (!group.follows()) {
         return nullptr;
     }
-    const Group* const leader = groups.find(group.leader()).get();
+    const Group* const leader = groups.at(group.leader());
     if (leader == nullptr) {
         return "the group whose instances it draws is destroyed";
     }
-    const auto isLeader = [&](const SuppleGroup& other) { return other.id == group.leader(); };
-    const bool now = std::any_of(desc.groups, desc.groups + desc.groupCount, isLeader);
-    return now || leader->askedFrame() == frame_ ? nullptr
-                                                 : "the group whose instances it draws is not recorded in this frame";
+    return leader->link.call == call || leader->askedFrame() == frame_
+               ? nullptr
+               : "the group whose instances it draws is not recorded in this frame";
 }
 
-Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
+Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc, uint64_t call) const {
     Group* first = nullptr;
     Group** last = &first;
+    // The words are put together only where they are needed: recording allocates nothing.
+    const auto refuseOf = [](uint32_t g, const Group* group, ErrorCode code, const std::string& reason) {
+        return Error{code, "suppleRecord: " + nameOf(g, group) + ": " + reason};
+    };
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
-        // The words are put together only where they are needed: recording allocates nothing.
-        Group* const group = groups.find(desc.groups[g].id).get();
-        const auto refuse = [g, group](ErrorCode code, const std::string& reason) {
-            return Error{code, "suppleRecord: " + nameOf(g, group) + ": " + reason};
-        };
+        Group* const group = groups.at(desc.groups[g].id);
+        const auto refuse = [&](ErrorCode code, const std::string& reason) { return refuseOf(g, group, code, reason); };
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->askedFrame() == frame_) {
             return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
-        }
-        if (const char* const fault = faultOfLeader(*group, desc)) {
-            return refuse(ErrorCode::order, fault);
         }
         View* const view = group->view();
         if (view != nullptr && !view->hasCamera()) {
@@ -754,14 +754,18 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
         if (view != nullptr && view->lastRecordedFrame() == frame_) {
             return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
         }
-        for (const Group* other = first; other != nullptr; other = other->link.next) {
-            if (other == group) {
-                return refuse(ErrorCode::argument, "listed twice");
-            }
+        if (group->link.call == call) {
+            return refuse(ErrorCode::argument, "listed twice");
         }
-        group->link = {nullptr, desc.groups[g]};
+        group->link = {nullptr, desc.groups[g], call};
         *last = group;
         last = &group->link.next;
+    }
+    for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        const Group* const group = groups.at(desc.groups[g].id);
+        if (const char* const fault = faultOfLeader(*group, call)) {
+            return refuseOf(g, group, ErrorCode::order, fault);
+        }
     }
     // Whether a group is left out, those that follow it must know.
     const Separated own = separate(first, [](const Group& group) { return !group.follows(); });
@@ -769,9 +773,16 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
 }
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
+    if (group.staticsThere()) {
+        return {0, true};
+    }
     const std::scoped_lock lock(uploading_);
     const VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
-    return {bytes, !group.staticsPending()};
+    if (group.staticsPending()) {
+        return {bytes, false};
+    }
+    group.noteStaticsThere();
+    return {bytes, true};
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -834,7 +845,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if (Status open = checkOpen("suppleRecord"); !open) {
         return open;
     }
-    const Result<Group*> linked = linkGroups(desc);
+    const uint64_t call = ++recordings_;
+    const Result<Group*> linked = linkGroups(desc, call);
     if (!linked) {
         return linked.error();
     }
@@ -850,8 +862,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
     gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, needs);
-    gpu::TaskDispatches* const tasks = dispatches.tasks();
-    Frame frame{device, commandBuffer, *dispatches, tasks, frame_, framesInFlight_, desc.time, *linked, *this};
+    Frame frame{device,    commandBuffer, *dispatches, dispatches.tasks(), frame_, framesInFlight_,
+                desc.time, *linked,       *this};
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;
@@ -860,24 +872,12 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     recordPass(frame, kUploads, timing);
     const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });
-    markLeaders(groups);
+    markLeaders(groups, call);
     recordEmptyViews(frame, groups.second);
     frame.groups = groups.first;
     frame.numberGroups();
     frame.findRoom();
-    const bool resumed = tasks != nullptr && !timing.isOpen() && resumeTasks(frame);
-    if (tasks != nullptr && !resumed) {
-        beginTasks(frame, !timing.isOpen());
-    }
-    recordBarrier(frame, Behind::uploads);
-    if (resumed) {
-        recordKeptPasses(frame, *tasks->kept());
-    } else {
-        recordPasses(frame, stages_.rows(), timing);
-    }
-    if (tasks != nullptr && !resumed) {
-        tasks->end();
-    }
+    recordBehindUploads(frame, timing);
     timing.end();
     if (recordsHashes()) {
         recordHashes(frame, *hashes_, recorder_->hashesSurfacesIn(frame_));

@@ -212,6 +212,10 @@ Status Group::createRest(const GroupShared& shared) {
     if (status) {
         addMembers(shared);
         taskNeeds_ = countTasks();
+        leastVertices_ = culling_ != nullptr ? surfaces_.leastVertices() : 0;
+        for (const auto& surface : surfaces_) {
+            patchesAtLevels_ += surface->patchesAtLevels();
+        }
     }
     return status;
 }
@@ -562,6 +566,7 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
 
 void Group::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
+    staticsThere_ = false;
     noDraws_.cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();

@@ -107,7 +107,11 @@ public:
     [[nodiscard]] float boundsMargin() const;
 
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
+    [[nodiscard]] bool staticsPending() const override { return !staticsThere_ && FrameMembers::staticsPending(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    /// All are recorded. They stay, unless the frame that has them is cancelled.
+    void noteStaticsThere() { staticsThere_ = true; }
+    [[nodiscard]] bool staticsThere() const { return staticsThere_; }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
@@ -134,7 +138,9 @@ public:
     void addTransfers(Transfers& transfers, bool withView) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
-    [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
+    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
+    /// Patches of an instance that are drawn at levels.
+    [[nodiscard]] uint32_t patchesAtLevels() const { return patchesAtLevels_; }
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
     /// The same of the view's pool.
     [[nodiscard]] uint64_t poolUnitsOfAll() const {
@@ -161,8 +167,10 @@ public:
     struct Link {
         Group* next = nullptr;
         SuppleGroup handle{};
+        uint64_t call = 0;      ///< of suppleRecord, that lists it
         bool leadsView = false; ///< it is the first group of its view
         uint32_t number = 0;    ///< in the order of the frame
+        uint32_t inView = 0;    ///< the same among the groups of its view
     };
     Link link;
 
@@ -217,9 +225,10 @@ private:
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
     gpu::TaskNeeds taskNeeds_;
-    glm::vec3 pastStep_{0.0f}; ///< of the last recording
+    uint32_t leastVertices_ = 0, patchesAtLevels_ = 0; ///< in a view
+    glm::vec3 pastStep_{0.0f};                         ///< of the last recording
     RecordedOnce noDraws_;
-    bool outputsAsked_ = false;
+    bool outputsAsked_ = false, staticsThere_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 

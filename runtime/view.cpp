@@ -33,6 +33,7 @@ constexpr uint32_t kDefaultRuns = 1024;
 constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
 static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
+constexpr VkDeviceSize kSizeBytes = 2 * VkDeviceSize{kSizeRanks} * 4;
 /// Where the view's pool ends, and the solution behind it.
 constexpr VkDeviceSize kSolvedBytes = (kLodSolution - kLodPoolEnd) * VkDeviceSize{4} + sizeof(LodSolution);
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
@@ -113,8 +114,8 @@ Status View::createBuffers() {
     words_ = plan.add(
         {"supple view", wordBytes, kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     cull_ = plan.add({"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    sizes_ =
-        plan.add({"supple view, sizes", 2 * kSizeRanks * VkDeviceSize{4}, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    sizes_ = plan.add({"supple view, sizes", kSizeBytes + (countsOfView() ? 2 * maxRuns() * kCountBytes : 0),
+                       kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     streams_.plan(plan, StreamSet::ofView(desc_.flags), desc_.vertexFormat, vertices, vertices, 1);
     Status status = planPools(plan);
     status = status ? plan.create(device, gpu::MemoryKind::deviceLocal) : status;
@@ -318,6 +319,13 @@ uint32_t View::room() const {
     return budget() > padding ? budget() - padding : 0;
 }
 
+void View::findRoom() {
+    const bool fit = verticesNeeded_ <= room() && poolUnitsNeeded_ <= poolUnits();
+    roomInFrame_ = fit ? kRoomForAll : room();
+    verticesNeeded_ = poolUnitsNeeded_ = 0;
+    groupsInFrame_ = 0;
+}
+
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedBefore_ = recordedFrame_;
     recordedFrame_ = frame;
@@ -342,7 +350,7 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (endOfRuns_ > 0) {
         copy(words_.buffer(), kLodRuns * VkDeviceSize{4}, runWords_.data(), endOfRuns_ * kRunBytes);
     }
-    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0);
+    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, kSizeBytes, 0);
     return bytes;
 }
 
@@ -433,8 +441,23 @@ void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDevi
     const uint64_t place = recordedFrame_ % framesInFlight_;
     const uint32_t index = solved_[place].groups++;
     solved_[place].of[index] = group;
-    const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
-    device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+    if (!countsOfView()) {
+        const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
+        device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+    }
+}
+
+void View::recordCounts(VkCommandBuffer commandBuffer) const {
+    const uint64_t place = recordedFrame_ % framesInFlight_;
+    if (countsOfView()) {
+        const VkBufferCopy region{kSizeBytes, place * readbackBytes() + kSolvedBytes,
+                                  kCountBytes * solved_[place].groups};
+        device_->vk.CmdCopyBuffer(commandBuffer, sizes_.buffer(), readback_.buffer(0), 1, &region);
+    }
+}
+
+bool View::countsOfView() const {
+    return device_->mapping.sharesDispatches;
 }
 
 SuppleViewStatistics View::read(size_t place) const {

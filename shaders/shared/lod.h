@@ -178,7 +178,7 @@ struct LodPush {
     uint maskWords;    // an instance
     uint countsHidden; // 1: this surface of the group counts the patches that an instance hides
     uint runs;         // that the view has room for
-    LodCamera camera;  // of the view (kLodCamera). Shared dispatches leave it out
+    LodCamera camera; // View::levelCamera. Shared dispatches leave it out: kLodCamera
 };
 // What the passes that make a level of chains are told.
 struct DepthPush {
