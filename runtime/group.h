@@ -71,8 +71,8 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// What its passes need in a frame.
     [[nodiscard]] const gpu::TaskNeeds& taskNeeds() const { return taskNeeds_; }
-    /// Who records its tasks, and what they follow from in this frame: `made` is what all do, what those do that view
-    /// and pools change, and what those of poses do but for the time.
+    /// Who records its tasks, and what they follow from in this frame. `made`: tasksVersion_; what view and pools add
+    /// to that; what those of poses follow from beside their time (Playback::tasksMade), 0 without playback.
     [[nodiscard]] gpu::TaskOwner taskOwner() const;
     [[nodiscard]] uint64_t number() const { return number_; }
     /// Whether tasks of a frame may stand in others.
