@@ -139,7 +139,7 @@ Status Group::createListing(const GroupShared& shared) {
     const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
     // Texels of an instance, in the lists of instances and in that of poses.
     const StateRoom room = follows() ? StateRoom{} : instances_->room();
-    const uint32_t texels = std::max(lists, PoseList::wordsOfInstance(room.updateRates, room.springs));
+    const uint32_t texels = std::max(lists, PoseList::wordsOfInstance(room));
     if (!device.mapping.wide && uint64_t{texels} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "
@@ -460,7 +460,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     passesFrame_ = lastRecordedFrame_ = frame.number;
     bool changed = listing_.changed(slots());
-    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.origin);
+    PassCost cost =
+        follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them

@@ -17,7 +17,8 @@ skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mod
     return layout;
 }
 
-HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers)
+HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers,
+                     bool springs)
     : asset_(&asset), layout_(layout), skinned_(asset.skinnedBounds(layout.mode)) {
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
@@ -33,14 +34,19 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
-    if (modifiers) {
+    if (modifiers || springs) {
         const skinning::ClipTable& table = *asset.clipTable;
-        modifiers_ = InstanceModifiers(instanceCount, 0);
+        modifiers_ = InstanceModifiers(modifiers ? instanceCount : 0, 0);
         states_.resize(size_t{instanceCount} * 4 * kStateElements);
         locals_.resize(instanceCount * table.nodes.size());
         held_.resize(size_t{instanceCount} * table.footCount);
         hasLocals_.resize(instanceCount, 0);
         twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
+    }
+    if (springs) {
+        springs_ = HostSprings(asset, instanceCount);
+        swungPalette_.resize(layout.jointCount);
+        swungRotations_.resize(layout.hasRotations() ? layout.jointCount : 0);
     }
     for (uint32_t instance = 0; instance < instanceCount; ++instance) {
         setBindPose(instance);
@@ -54,6 +60,7 @@ void HostPoses::reset(uint32_t instance) {
         state(instance).setModifierCount(0);
     }
     setTransform(instance, glm::mat4(1.0f));
+    springs_.settle(instance);
 }
 
 std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
@@ -61,7 +68,7 @@ std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
 }
 
 std::span<glm::vec4> HostPoses::held(uint32_t instance) {
-    const size_t feet = takesModifiers() ? asset_->clipTable->footCount : 0;
+    const size_t feet = keepsLocals() ? asset_->clipTable->footCount : 0;
     return std::span(held_).subspan(instance * feet, feet);
 }
 
@@ -86,7 +93,7 @@ void HostPoses::finishPalette(uint32_t instance) {
 void HostPoses::setPose(uint32_t instance) {
     const skinning::Pose& pose = memory_.pose;
     setWeights(instance, nullptr);
-    if (takesModifiers()) {
+    if (keepsLocals()) {
         keepLocals(instance);
         modify(instance);
         return;
@@ -115,15 +122,18 @@ void HostPoses::keepLocals(uint32_t instance) {
 }
 
 void HostPoses::modify(uint32_t instance) {
-    if (!takesModifiers() || hasLocals_[instance] == 0) {
+    if (!keepsLocals() || hasLocals_[instance] == 0) {
         return;
     }
     const size_t nodes = asset_->clipTable->nodes.size();
     skinning::PlaybackState own = state(instance);
     own.setTransform(placement(instance));
-    modifiers_.place(instance, own, origin_);
+    if (takesModifiers()) {
+        modifiers_.place(instance, own, origin_);
+    }
     twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
                      std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    springs_.setPose(instance, twin_.locals());
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> placed = joints(instance);
     for (uint32_t j = 0; j < target.size(); ++j) {
@@ -161,6 +171,7 @@ void HostPoses::setBindPose(uint32_t instance) {
     std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
     forgetLocals(instance);
+    springs_.setBindPose(instance);
     finishPalette(instance);
 }
 
@@ -212,6 +223,7 @@ void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDes
                    desc.morphWeights != nullptr ? desc.morphWeights : asset_->character.morphs.weights.data());
     }
     forgetLocals(instance);
+    springs_.setJoints(instance, own);
     finishPalette(instance);
 }
 
@@ -241,12 +253,13 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
                                      : asset_->jointFrames.rest[j];
         target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
     }
+    springs_.setJoints(instance, own);
     finishPalette(instance);
 }
 
 /// Locals by node; nodes that the other version lacks are as in the rest pose. Modifiers whose nodes are there.
 void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match) {
-    if (!takesModifiers()) {
+    if (!keepsLocals()) {
         return;
     }
     const skinning::ClipTable &table = *asset_->clipTable, &before = *other.asset_->clipTable;
@@ -254,7 +267,9 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
         const uint32_t node = match.nodes[before.nodes[place]];
         return node != cage::kNone ? table.places[node] : cage::kNone;
     };
-    modifiers_.takeOver(instance, state(instance), table, other.modifiers_, other.state(instance), placeHere);
+    if (takesModifiers()) {
+        modifiers_.takeOver(instance, state(instance), table, other.modifiers_, other.state(instance), placeHere);
+    }
     if (other.hasLocals_[instance] == 0) {
         return;
     }
@@ -300,17 +315,23 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
         std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
         std::copy_n(other.joints_.begin(), joints, joints_.begin());
         std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
-        if (takesModifiers()) {
-            modifiers_.takeOver(other.modifiers_, count);
+        if (keepsLocals()) {
+            if (takesModifiers()) {
+                modifiers_.takeOver(other.modifiers_, count);
+            }
             std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
             std::copy_n(other.locals_.begin(), count * asset_->clipTable->nodes.size(), locals_.begin());
             std::copy_n(other.held_.begin(), count * size_t{asset_->clipTable->footCount}, held_.begin());
             std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
+            springs_.takeOver(other.springs_, count);
         }
     }
 }
 
-skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
+std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reach) const {
+    if (hasSprings()) {
+        return std::nullopt;
+    }
     const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
     const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
     const skinning::Box linear =
@@ -318,8 +339,20 @@ skinning::Box HostPoses::boundsOf(uint32_t instance, const skinning::Reach& reac
     return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
 }
 
-void HostPoses::write(uint32_t count, std::byte* target) const {
+void HostPoses::swing(uint32_t instance, skinning::InstancePose& pose) {
+    springs_.swing(instance, {glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]}, pose.transform);
+    std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
+    springs_.show(swungPalette_);
+    pose.palette = swungPalette_;
+    if (!swungRotations_.empty()) {
+        skinning::jointRotations(swungPalette_, swungRotations_);
+        pose.rotations = swungRotations_;
+    }
+}
+
+void HostPoses::write(uint64_t frame, double time, uint32_t count, std::byte* target) {
     const size_t joints = layout_.jointCount;
+    springs_.setTime(frame, time);
     for (uint32_t instance = 0; instance < count; ++instance) {
         const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
         skinning::InstancePose pose;
@@ -329,6 +362,9 @@ void HostPoses::write(uint32_t count, std::byte* target) const {
         }
         pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
         pose.transform = placement(instance);
+        if (hasSprings()) {
+            swing(instance, pose);
+        }
         skinning::writePose(layout_, pose, target);
         target += instanceBytes();
     }

@@ -3,6 +3,7 @@
 
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/host_springs.h"
 #include "runtime/instance_modifiers.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 namespace supple::runtime {
@@ -28,8 +30,9 @@ class HostPoses {
 public:
     HostPoses() = default;
     /// All instances in the bind pose, placed by the identity. The asset must outlive this.
-    /// `modifiers`: instances may have some; then the asset has its clip table.
-    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers);
+    /// `modifiers`, `springs`: instances may have some; then the asset has its clip table.
+    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers,
+              bool springs);
 
     [[nodiscard]] const skinning::PoseLayout& layout() const { return layout_; }
     /// What an instance takes of the buffer of poses.
@@ -53,6 +56,7 @@ public:
         ++versions_[instance];
         positions_[instance] = position;
         modifyInWorld(instance);
+        springs_.place(instance);
     }
     /// Where the coordinates of the device begin.
     void setOrigin(const glm::dvec3& origin);
@@ -68,23 +72,32 @@ public:
     /// that the other version lacks are as in the rest pose.
     void takeOver(HostPoses& other, uint32_t count, const AssetMatch& match);
 
-    /// Where the joint is, as the instance is posed and placed now.
+    [[nodiscard]] bool hasSprings() const { return springs_.areTaken(); }
+    /// Its springs see no movement from where it stood to where it stands in the next frame.
+    void teleport(uint32_t instance) { springs_.jump(instance); }
+    void settleSprings() { springs_.settleAll(); }
+
+    /// Where the joint is, as the instance is posed and placed now, without its swinging.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
 
     /// Another number whenever boundsOf() may give another box; never 0.
     [[nodiscard]] uint64_t version(uint32_t instance) const { return versions_[instance] + originVersion_; }
-    /// A box that holds the instance's cage, as it is posed and placed now.
-    [[nodiscard]] skinning::Box boundsOf(uint32_t instance, const skinning::Reach& reach) const;
+    /// A box that holds the instance's cage, as it is posed and placed now; nothing if joints of it swing.
+    [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t instance, const skinning::Reach& reach) const;
 
-    /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h.
-    void write(uint32_t count, std::byte* target) const;
+    /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h. `time`: of
+    /// the frame, by which they swing.
+    void write(uint64_t frame, double time, uint32_t count, std::byte* target);
+    void cancelFrame(uint64_t frame) { springs_.cancelFrame(frame); }
 
 private:
     void setPose(uint32_t instance); ///< from pose_
     [[nodiscard]] std::span<glm::vec4> held(uint32_t instance);
+    /// There is a palette for locals, and room for these.
+    [[nodiscard]] bool keepsLocals() const { return !hasLocals_.empty(); }
     void keepLocals(uint32_t instance);
     void forgetLocals(uint32_t instance) {
-        if (takesModifiers()) {
+        if (keepsLocals()) {
             hasLocals_[instance] = 0;
         }
     }
@@ -96,6 +109,7 @@ private:
             modify(instance);
         }
     }
+    void swing(uint32_t instance, skinning::InstancePose& pose);
     void takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match);
     [[nodiscard]] skinning::PlaybackState state(uint32_t instance) {
         const size_t words = 4 * size_t{kStateElements};
@@ -129,7 +143,7 @@ private:
     uint64_t originVersion_ = 1;
     skinning::PoseMemory memory_;
 
-    // Where instances may have modifiers.
+    // Where instances may have modifiers, or springs.
     static constexpr uint32_t kStateElements =
         shared::modifiersBegin(0) + shared::kMaxModifiers * shared::kModifierElements;
     InstanceModifiers modifiers_;
@@ -138,6 +152,9 @@ private:
     std::vector<glm::vec4> held_;           ///< where the pose's clips hold feet, one a foot of the clip table
     std::vector<uint8_t> hasLocals_;        ///< 0: the bind pose, or matrices
     skinning::PoseTwin twin_;
+    HostSprings springs_;
+    std::vector<skinning::Affine> swungPalette_; ///< of one instance
+    std::vector<glm::vec4> swungRotations_;
 };
 
 } // namespace supple::runtime

@@ -28,7 +28,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
         status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs});
     }
-    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers)) {
+    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers || desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);
     }
     if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {
@@ -165,9 +165,10 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
     transfers.add(userData_.buffer().buffer());
 }
 
-PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin) {
+PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time,
+                                  const glm::dvec3& origin) {
     poses_->setOrigin(origin, slots_.end());
-    PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_.end());
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_.end());
     cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
     cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame, false, slots_.end());
     return cost;

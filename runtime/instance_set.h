@@ -73,7 +73,7 @@ public:
     /// Takes over the instances of another set, which has no more than this one's capacity: handles, poses, places.
     void takeOver(InstanceSet& other, const AssetMatch& match);
     /// This frame's poses and user data.
-    PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, const glm::dvec3& origin);
+    PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time, const glm::dvec3& origin);
 
 private:
     /// The asset has its clip table: whether joints swing, and not too many.

@@ -46,6 +46,9 @@ VkDeviceSize InstanceState::recordUpload(VkCommandBuffer commandBuffer, uint64_t
         }
         return count * bytes_;
     };
+    if (set_ == nullptr) {
+        return 0;
+    }
     VkDeviceSize written = 0;
     std::span<const uint32_t> slots = newSlots;
     if (start_.due()) {

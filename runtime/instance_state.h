@@ -20,9 +20,10 @@ public:
     /// Takes the first `count` slots of another state, if that has as many bytes for each. Before the first recording.
     void takeOver(InstanceState& other, uint32_t count);
 
-    [[nodiscard]] VkBuffer buffer() const { return set_->buffer(0); }
+    /// Null, of no bytes, and with nothing to record, if it was not created.
+    [[nodiscard]] VkBuffer buffer() const { return set_ != nullptr ? set_->buffer(0) : VK_NULL_HANDLE; }
     [[nodiscard]] VkDeviceSize bytes() const { return bytes_; } ///< of an instance
-    [[nodiscard]] gpu::MemoryUse memoryUse() const { return set_->use(); }
+    [[nodiscard]] gpu::MemoryUse memoryUse() const { return set_ != nullptr ? set_->use() : gpu::MemoryUse{}; }
 
     /// With the uploads of a frame; the bytes. `newSlots`: rising.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, std::span<const uint32_t> newSlots);

@@ -4,13 +4,15 @@
 
 #include "base/result.h"
 #include "gpu/bound_sets.h"
-#include "gpu/memory.h"
+#include "gpu/buffer_plan.h"
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
 #include "runtime/instance_modifiers.h"
 #include "runtime/instance_state.h"
 #include "runtime/instance_windows.h"
 #include "runtime/played_bounds.h"
+#include "runtime/played_masks.h"
+#include "runtime/played_states.h"
 #include "runtime/pose_list.h"
 #include "runtime/spring_clock.h"
 #include "runtime/update_rates.h"
@@ -22,24 +24,15 @@
 #include "skinning/transition.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace supple::runtime {
-
-/// What instances may have beside layers: there is room for it.
-struct StateRoom {
-    bool modifiers = false;
-    // For instances that play on the device:
-    bool transitions = false;
-    bool updateRates = false;
-    bool springs = false; ///< some joints of the asset swing
-};
 
 /// What suppleSetPlayback says beside the layers.
 struct TransitionRequest {
@@ -67,10 +60,9 @@ public:
         StateRoom room;
     };
     Playback() = default;
-    [[nodiscard]] static Result<Playback> create(const Desc& desc);
-    /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
-    [[nodiscard]] static VkDeviceSize windowBytes(const Asset& asset, const skinning::PoseLayout& layout,
-                                                  const StateRoom& room);
+    Playback(const Playback&) = delete; // its planned buffers point into it
+    Playback& operator=(const Playback&) = delete;
+    [[nodiscard]] Status create(const Desc& desc); ///< once
 
     void reset(uint32_t slot); ///< bind pose, no morph weights of the host's, identity transform
     /// An instance in the bind pose begins at once.
@@ -80,13 +72,13 @@ public:
     [[nodiscard]] bool takesUpdateRates() const { return rates_.areTaken(); }
     /// What was asked for, or what the size on the screen has chosen.
     [[nodiscard]] uint32_t updateIntervalOf(uint32_t slot) const { return rates_.interval(slot); }
-    [[nodiscard]] bool takesTransitions() const { return transitionElements_ > 0; }
+    [[nodiscard]] bool takesTransitions() const { return states_.haveTransitions(); }
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
     [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
     /// A frame poses what listPoses() has listed, not all that the group works on.
-    [[nodiscard]] bool listsPoses() const { return takesUpdateRates() || hasSprings(); }
+    [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
-    void teleport(uint32_t slot);
+    void teleport(uint32_t slot) { springs_.jump(slot, time_); }
     /// All begin anew: tails at rest in the pose.
     void settleSprings() { springs_.settleAll(); }
     void setTransform(uint32_t slot, const glm::mat4& transform);
@@ -102,14 +94,14 @@ public:
     /// The instance must have this modifier.
     void setModifierGoal(uint32_t slot, uint32_t index, const ModifierGoal& goal);
     [[nodiscard]] bool takesModifiers() const { return modifiers_.areTaken(); }
-    [[nodiscard]] uint32_t modifierCount(uint32_t slot) { return state(slot).modifierCount(); }
+    [[nodiscard]] uint32_t modifierCount(uint32_t slot) { return states_.state(slot).modifierCount(); }
     [[nodiscard]] std::span<const uint32_t> modifierWords(uint32_t slot, uint32_t index) {
-        return modifiers_.words(state(slot), index);
+        return modifiers_.words(states_.state(slot), index);
     }
 
     /// Masks are numbered from 1; a layer's mask must have been set.
     void setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs);
-    [[nodiscard]] bool hasMask(uint32_t mask) const { return masksSet_[mask - 1] != MaskKind::none; }
+    [[nodiscard]] bool hasMask(uint32_t mask) const { return masks_.has(mask); }
 
     /// Where the joint is at the group's time, with the bits that the device has. The pose of the slot that was asked
     /// for last is kept until what plays, where it stands, the time or a mask changes.
@@ -118,11 +110,8 @@ public:
     void writePose(uint32_t slot, std::span<glm::vec4> pose);
 
     // What the device reads: of the slot, and the masks.
-    [[nodiscard]] std::span<const uint32_t> stateOf(uint32_t slot) const {
-        const size_t words = size_t{push_.stateStride} * 4;
-        return std::span(states_).subspan(slot * words, words);
-    }
-    [[nodiscard]] std::span<const float> masks() const { return masks_; }
+    [[nodiscard]] std::span<const uint32_t> stateOf(uint32_t slot) const { return states_.words(slot); }
+    [[nodiscard]] std::span<const float> masks() const { return masks_.values(); }
 
     /// A box that holds the instance's cage at the group's time, where the next recording places it; nothing if nobody
     /// knows. It is found without a pose.
@@ -130,7 +119,7 @@ public:
 
     /// Another number whenever boundsOf() may give another box; never 0.
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const {
-        return uint64_t{versions_[slot]} << 32 | bounds_.loopOf(slot, time_);
+        return uint64_t{states_.version(slot)} << 32 | bounds_.loopOf(slot, time_);
     }
 
     /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
@@ -140,7 +129,7 @@ public:
 
     /// What has changed since it was recorded last; the bytes of it.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame);
-    void beginFrame(uint64_t completedFrame);
+    void beginFrame(uint64_t completedFrame) { springState_.beginFrame(completedFrame); }
     /// The command buffers of `frame` will never run: what was recorded in it is due again.
     void cancelFrame(uint64_t frame);
 
@@ -148,7 +137,7 @@ public:
     // screen decides is chosen with setSize(); until then it is posed in every frame.
     void takeStep() { steps_.take(time_); } ///< a recording begins
     /// Whether setSize() is waited for.
-    [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.course(slot).asked == 0; }
+    [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.asked(slot) == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
     void setSize(uint32_t slot, float pixelsPerUnit);
     void forgetSizes() { rates_.forgetChoices(); }
@@ -156,7 +145,7 @@ public:
     template <class WorksOn>
     void listPoses(uint64_t frame, const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
         list_.clear();
-        firstStep_ = time_;
+        firstStep_ = kNever;
         for (uint32_t w = 0; w < windows.count(); ++w) {
             const uint32_t first = windows.firstSlot(w), last = std::min(first + windows.slots(w), end);
             for (uint32_t slot = first; slot < last; ++slot) {
@@ -167,7 +156,9 @@ public:
             list_.endWindow(w);
         }
     }
-    VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame);
+    VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
+        return list_.recordUpload(*device_, commandBuffer, frame);
+    }
 
     enum class Part { locals, roots, modifiers, springs, palette, mix };
     static constexpr uint32_t kParts = 6;
@@ -190,39 +181,25 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
 private:
-    enum BufferIndex : size_t { kStates, kMasks, kScratch, kEnds, kList, kBufferCount };
-    enum StagingIndex : size_t { kStateStaging, kMaskStaging, kListStaging, kStagingCount };
-
-    void makeLists(const Desc& desc); ///< of instances with update rates, or springs
     Status createBuffers(const Desc& desc);
     Status createSets(const Desc& desc);
-    [[nodiscard]] VkDeviceSize stateBytes() const { return VkDeviceSize{push_.stateStride} * 16; }
-    [[nodiscard]] skinning::PlaybackState state(uint32_t slot);
+    [[nodiscard]] uint32_t windowCount() const { return (capacity_ + windowSize_ - 1) / windowSize_; }
     [[nodiscard]] glm::mat4 placement(uint32_t slot) const;
     void place(uint32_t slot);
-    void takeModifiers(uint32_t slot);                   ///< bounds_ is told what they turn
-    [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot); ///< of its state, but for the transition
-    [[nodiscard]] std::span<uint32_t> stateWords(uint32_t slot) {
-        const size_t words = size_t{push_.stateStride} * 4;
-        return std::span(states_).subspan(slot * words, words);
-    }
+    void takeModifiers(uint32_t slot); ///< bounds_ is told what they turn
     void sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose);
-    [[nodiscard]] std::span<uint32_t> transitionWords(uint32_t slot);
     void sampleShown(uint32_t slot, const TransitionRequest& request);
     void startTransition(uint32_t slot, const TransitionRequest& request);
-    void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of states_, for regions_
     [[nodiscard]] skinning::PoseKernels::Locals locals() const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
-    void takeOverMasks(const Playback& other, const AssetMatch& match);
-    [[nodiscard]] size_t maskFloats() const { return size_t{push_.maskStride} * 4; } ///< of a mask, in masks_
-    void markChanged(uint32_t slot);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
     /// Both ends of an instance.
     [[nodiscard]] VkDeviceSize endBytes() const {
         return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
     }
-    [[nodiscard]] VkDeviceSize listBytes() const {
-        return capacity_ * PoseList::wordsOfInstance(takesUpdateRates(), hasSprings()) * sizeof(uint32_t);
+    /// All poses of an instance in a frame.
+    [[nodiscard]] VkDeviceSize scratchBytes() const {
+        return VkDeviceSize{posesInFrame_} * push_.scratchStride * gpu::kVec4Bytes;
     }
     [[nodiscard]] VkDeviceSize springBytes() const { return VkDeviceSize{push_.springStride} * 16; }
     /// What the slot plays changes: due steps are still posed by what it has played.
@@ -230,38 +207,28 @@ private:
     [[nodiscard]] bool travels(uint32_t slot);
     void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
     [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;
-    [[nodiscard]] UpdateCourse courseOf(const skinning::PlaybackDesc& desc, uint32_t updateInterval) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
-    /// What plays jumps or turns at once within a span: at seams, where clips begin and end, while weights fade.
-    [[nodiscard]] bool hasCorner(uint32_t slot, const PoseSpan& span);
     void listPose(uint32_t slot, uint32_t slotInWindow);
-    void forget(uint32_t slot);     ///< what plays there, or where it stands, has changed
-    void forgetEnds(uint32_t slot); ///< what plays there has changed
+    void forget(uint32_t slot); ///< what plays there, or where it stands, has changed
     void forgetEndsWith(uint32_t mask);
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
     Asset* asset_ = nullptr;
-    uint32_t capacity_ = 0, windowSize_ = 0, framesInFlight_ = 2;
+    uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
     /// What some instance has ever been set to do.
     bool adds_ = false, roots_ = false, modifies_ = false, plants_ = false;
     shared::PosePush push_{};            ///< but for the time, the instances and the feet
-    uint32_t transitionElements_ = 0;    ///< of a state; 0: instances have no transitions
     PlayedBounds::Interval transitions_; ///< holds those of all instances
 
     std::vector<glm::mat4> transforms_; ///< but for the translation
     std::vector<glm::dvec3> positions_; ///< that is here
     glm::dvec3 origin_{0.0};
-    // As it shall be on the device.
-    std::vector<uint32_t> states_;
+    PlayedStates states_;
     InstanceModifiers modifiers_; ///< of these states
-    std::vector<float> masks_;
-    enum class MaskKind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
-    std::array<MaskKind, shared::kMaxMasks> masksSet_{};
-
-    std::vector<float> jointMasks_; ///< one run a mask, one value a joint: for another version of the asset
+    PlayedMasks masks_;
 
     static constexpr uint32_t kNoSlot = 0xFFFFFFFFu;
     uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
@@ -271,27 +238,19 @@ private:
     UpdateRates rates_;
     TimeSteps steps_;
     PoseList list_;
-    uint64_t listFrame_ = 0; ///< the last that poses of the list are recorded in
 
     SpringClock springs_;
-    InstanceState springState_;   ///< if hasSprings()
-    std::vector<bool> beforeDue_; ///< by slot: what it has played before the last call is not on the device yet
-    double firstStep_ = 0.0;      ///< the earliest time of the list
+    InstanceState springState_; ///< created if hasSprings()
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    double firstStep_ = kNever; ///< the earliest time of a step in the list
 
     PlayedBounds bounds_;
-    std::vector<uint32_t> versions_; ///< by slot: rises when anything is set
 
     skinning::TransitionEnds startsFrom_; ///< memory of set
-    std::vector<bool> transitionDue_;     ///< by slot: its words are not on the device yet
-    std::vector<bool> changed_;           ///< by slot
-    std::vector<uint32_t> changedSlots_;  ///< those, in any order
-    std::vector<uint32_t> uploadedSlots_; ///< of uploadFrame_
-    std::vector<VkBufferCopy> regions_;   ///< memory of recordUpload
     std::vector<uint32_t> turnedNodes_;   ///< memory of takeModifiers
-    bool masksChanged_ = true;
-    uint64_t uploadFrame_ = 0, masksFrame_ = 0; ///< that last recorded an upload
 
     gpu::BufferSet buffers_, staging_;
+    gpu::PlannedBuffer scratch_, ends_; ///< node matrices; poses of update rates
     gpu::TexelViews views_;
     gpu::BoundSets sets_; ///< by window
 };

@@ -1,6 +1,8 @@
 // The list of what is posed, in groups with update rates or springs (shaders/shared/pose.h).
 #pragma once
 
+#include "gpu/buffer_plan.h"
+#include "runtime/playback_room.h"
 #include "shaders/shared/pose.h"
 #include "skinning/split_time.h"
 
@@ -23,22 +25,15 @@ public:
         3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
 
     /// Of an instance of a group with update rates or springs; of others there is no list.
-    [[nodiscard]] static constexpr uint32_t wordsOfInstance(bool updateRates, bool springs) {
-        return springs ? kWordsOfSwinging : updateRates ? kWordsOfInstance : 0;
+    [[nodiscard]] static constexpr uint32_t wordsOfInstance(const StateRoom& room) {
+        return room.springs ? kWordsOfSwinging : room.updateRates ? kWordsOfInstance : 0;
     }
 
     PoseList() = default;
-    PoseList(uint32_t capacity, uint32_t windowCount, bool springs) : windows_(windowCount) {
-        words_.reserve(size_t{capacity} * wordsOfInstance(!springs, springs));
-        times_.reserve(size_t{capacity} * (springs ? 2 * (1 + size_t{shared::kMostSpringSteps}) : 4));
-        mixes_.reserve(springs ? 0 : capacity);
-        parts_.reserve(springs ? 0 : capacity);
-        const size_t steps = springs ? size_t{capacity} * shared::kMostSpringSteps : 0;
-        steps_.reserve(steps);
-        stepTimes_.reserve(2 * steps);
-        moves_.reserve(steps * shared::kMoveWords);
-        swinging_.reserve(springs ? capacity : 0);
-    }
+    PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room);
+    /// False: a frame poses all that the group works on.
+    [[nodiscard]] bool isTaken() const { return bytes_ > 0; }
+    void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight);
 
     void clear() {
         words_.clear();
@@ -75,22 +70,7 @@ public:
             }
         }
     }
-    void endWindow(uint32_t window) {
-        Window& own = windows_[window];
-        own.shown = static_cast<uint32_t>(times_.size() / 2);
-        append(steps_);
-        times_.insert(times_.end(), stepTimes_.begin(), stepTimes_.end());
-        stepTimes_.clear();
-        own.poses.count = static_cast<uint32_t>(times_.size() / 2);
-        own.poses.values = append(times_);
-        own.poses.first = own.poses.values - own.poses.count;
-        own.mixes.first = append(mixes_);
-        own.mixes.values = append(parts_);
-        own.mixes.count = own.mixes.values - own.mixes.first;
-        endSwinging(own);
-        poses_ += own.shown;
-        mixed_ += own.mixes.count;
-    }
+    void endWindow(uint32_t window);
 
     /// Words of the list: entries, and what stands for each.
     struct Run {
@@ -102,33 +82,21 @@ public:
         Run swinging;       ///< kSpringWords for each
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }
-    [[nodiscard]] std::span<const uint32_t> words() const { return words_; }
     // In all windows.
     [[nodiscard]] uint32_t poseCount() const { return poses_; }
     [[nodiscard]] uint32_t mixCount() const { return mixed_; }
     [[nodiscard]] uint32_t swingingCount() const { return swung_; }
 
+    [[nodiscard]] VkBuffer buffer() const { return buffer_.buffer(); }
+    [[nodiscard]] VkDeviceSize bytes() const { return bytes_; }
+    /// The bytes of it.
+    VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame);
+    [[nodiscard]] bool recordedIn(uint64_t frame) const { return isTaken() && frame_ == frame; }
+
 private:
-    void endSwinging(Window& own) {
-        own.swinging.first = static_cast<uint32_t>(words_.size());
-        own.swinging.count = static_cast<uint32_t>(swinging_.size());
-        const uint32_t moves = own.swinging.first + own.swinging.count * shared::kSpringWords;
-        for (std::array<uint32_t, shared::kSpringWords>& record : swinging_) {
-            constexpr size_t kMoves = 4;
-            record[kMoves] += record[kMoves] != 0 ? moves - 1 : 0;
-            words_.insert(words_.end(), record.begin(), record.end());
-        }
-        swung_ += own.swinging.count;
-        swinging_.clear();
-        append(moves_);
-    }
+    void endSwinging(Window& own);
     /// The word where they begin. Leaves none.
-    uint32_t append(std::vector<uint32_t>& values) {
-        const auto first = static_cast<uint32_t>(words_.size());
-        words_.insert(words_.end(), values.begin(), values.end());
-        values.clear();
-        return first;
-    }
+    uint32_t append(std::vector<uint32_t>& values);
 
     std::vector<uint32_t> words_;
     // What the window has that is being listed:
@@ -136,6 +104,11 @@ private:
     std::vector<std::array<uint32_t, shared::kSpringWords>> swinging_;
     std::vector<Window> windows_;
     uint32_t poses_ = 0, mixed_ = 0, swung_ = 0;
+
+    VkDeviceSize bytes_ = 0; ///< at most
+    uint32_t framesInFlight_ = 2;
+    uint64_t frame_ = 0; ///< the last that poses of the list are recorded in
+    gpu::PlannedBuffer buffer_, staging_;
 };
 
 } // namespace supple::runtime

@@ -9,7 +9,7 @@ class SetPoses final : public PoseSource {
 public:
     explicit SetPoses(const PoseSourceDesc& desc)
         : device_(desc.device), framesInFlight_(desc.framesInFlight), capacity_(desc.capacity),
-          poses_(*desc.asset, desc.capacity, desc.layout, desc.room.modifiers) {}
+          poses_(*desc.asset, desc.capacity, desc.layout, desc.room.modifiers, desc.room.springs) {}
 
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
@@ -23,6 +23,9 @@ public:
         return poses_.boundsOf(slot, reach);
     }
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return poses_.version(slot); }
+    void teleport(uint32_t slot) override { poses_.teleport(slot); }
+    void settleSprings() override { poses_.settleSprings(); }
+    void cancelFrame(uint64_t frame) override { poses_.cancelFrame(frame); }
     [[nodiscard]] bool takesModifiers() const override { return poses_.takesModifiers(); }
     void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) override {
         poses_.setModifiers(slot, modifiers);
@@ -47,9 +50,9 @@ public:
         target_ = buffers.poses;
         return success();
     }
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t end) override {
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, uint32_t end) override {
         const VkDeviceSize from = frame % framesInFlight_ * frameBytes(), bytes = end * poses_.instanceBytes();
-        poses_.write(end, staging_.mapped() + from);
+        poses_.write(frame, time, end, staging_.mapped() + from);
         if (bytes > 0) {
             const VkBufferCopy region{from, 0, bytes};
             device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(), target_, 1, &region);
@@ -77,6 +80,7 @@ public:
     void setPosition(uint32_t slot, const glm::dvec3& position) override { playback_.setPosition(slot, position); }
     void setOrigin(const glm::dvec3& origin, uint32_t end) override { playback_.setOrigin(origin, end); }
     void teleport(uint32_t slot) override { playback_.teleport(slot); }
+    void settleSprings() override { playback_.settleSprings(); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);
@@ -102,19 +106,14 @@ public:
     }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
-        Result<Playback> playback = Playback::create(
-            {desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity, buffers.windowSize,
-             desc_.framesInFlight, buffers.poses, buffers.instances, buffers.instanceBytes, desc_.room});
-        if (!playback) {
-            return playback.error();
-        }
-        playback_ = std::move(*playback);
-        return success();
+        return playback_.create({desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity,
+                                 buffers.windowSize, desc_.framesInFlight, buffers.poses, buffers.instances,
+                                 buffers.instanceBytes, desc_.room});
     }
     [[nodiscard]] gpu::MemoryUse memoryUse() const override { return playback_.memoryUse(); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override { playback_.recordWarmUp(commandBuffer); }
 
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t) override {
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double, uint32_t) override {
         return {0, playback_.recordUpload(commandBuffer, frame)};
     }
     void beginFrame(uint64_t completedFrame) override { playback_.beginFrame(completedFrame); }
@@ -143,7 +142,7 @@ private:
 
 VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout,
                              const StateRoom& room) {
-    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? Playback::windowBytes(asset, layout, room) : 0;
+    const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? playbackWindowBytes(asset, layout, room) : 0;
     return std::max(played, VkDeviceSize{layout.stride} * 16);
 }
 

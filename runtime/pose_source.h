@@ -31,6 +31,7 @@ public:
     /// it may be in use.
     virtual void setOrigin(const glm::dvec3& /*origin*/, uint32_t /*end*/) {}
     virtual void teleport(uint32_t /*slot*/) {} ///< it has jumped to where the next recording places it
+    virtual void settleSprings() {}             ///< all begin anew: tails at rest in the pose
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
@@ -64,8 +65,9 @@ public:
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
 
     // Recording.
-    /// `end`: slots below it may be in use.
-    virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, uint32_t /*end*/) {
+    /// `time`: of the frame (SuppleRecordDesc.time). `end`: slots below it may be in use.
+    virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, double /*time*/,
+                                  uint32_t /*end*/) {
         return {};
     }
     /// The pose pass has six parts with a barrier between each two. Whether the source has this one.

@@ -43,6 +43,24 @@ int64_t springStepAt(double time) {
     return step;
 }
 
+void SpringClock::settle(uint32_t slot) {
+    if (isTaken()) {
+        slots_[slot].last = kNever;
+    }
+}
+
+void SpringClock::jump(uint32_t slot, double time) {
+    if (isTaken()) {
+        slots_[slot].jumped = std::min(slots_[slot].jumped, time);
+    }
+}
+
+void SpringClock::place(uint32_t slot, double time) {
+    if (isTaken()) {
+        slots_[slot].placed = time;
+    }
+}
+
 void SpringClock::settleAll() {
     for (Slot& slot : slots_) {
         slot.last = kNever;
@@ -50,6 +68,9 @@ void SpringClock::settleAll() {
 }
 
 bool SpringClock::change(uint32_t slot, double time) {
+    if (!isTaken()) {
+        return false;
+    }
     Slot& own = slots_[slot];
     const int64_t step = springStepAt(time);
     const bool keeps = own.last != kNever && own.changed == kNoTime && step > own.last &&

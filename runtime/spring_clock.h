@@ -33,19 +33,19 @@ struct SpringPlace {
 /// Asking allocates nothing.
 class SpringClock {
 public:
-    SpringClock() = default;
+    SpringClock() = default; ///< not taken
     explicit SpringClock(uint32_t capacity) : slots_(capacity) { undo_.reserve(capacity); }
-    /// False: no instance has springs.
+    /// False: no instance has springs, whatever this is told.
     [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
 
     /// The instance begins anew with its next step: tails at rest in the pose.
-    void settle(uint32_t slot) { slots_[slot].last = kNever; }
+    void settle(uint32_t slot);
     void settleAll();
     /// At a time of the group it is elsewhere, and has not moved there.
-    void jump(uint32_t slot, double time) { slots_[slot].jumped = std::min(slots_[slot].jumped, time); }
+    void jump(uint32_t slot, double time);
     /// Its place is set at a time of the group: if root motion travels, it stands there from then on; else it goes
     /// there, straight from where it was in the last frame.
-    void place(uint32_t slot, double time) { slots_[slot].placed = time; }
+    void place(uint32_t slot, double time);
 
     /// A call changes what is played or where, at a time of the group. Whether steps that are due are posed by what was
     /// played before.

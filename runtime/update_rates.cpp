@@ -14,6 +14,18 @@ PoseSpan gridSpan(double time, uint32_t slot, uint32_t interval) {
     return {at(k), at(k + 1.0)};
 }
 
+void UpdateRates::reset(uint32_t slot) {
+    if (areTaken()) {
+        slots_[slot] = {};
+    }
+}
+
+void UpdateRates::forget(uint32_t slot) {
+    if (areTaken()) {
+        slots_[slot].ends = kNone;
+    }
+}
+
 void UpdateRates::set(uint32_t slot, const UpdateCourse& course) {
     if (slots_[slot].course != course) {
         reset(slot);
@@ -50,6 +62,9 @@ void UpdateRates::choose(uint32_t slot, float pixels, double least) {
 }
 
 uint32_t UpdateRates::interval(uint32_t slot) const {
+    if (!areTaken()) {
+        return 1;
+    }
     const Slot& own = slots_[slot];
     return own.course.asked != 0 ? own.course.asked : own.chosen;
 }

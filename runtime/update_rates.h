@@ -61,21 +61,22 @@ struct UpdateCourse {
 /// Asking and choosing allocate nothing.
 class UpdateRates {
 public:
-    UpdateRates() = default;
+    UpdateRates() = default; ///< not taken
     explicit UpdateRates(uint32_t capacity) : slots_(capacity) {}
-    /// False: all instances are posed at the group's time, ever.
+    /// False: all instances are posed at the group's time, ever, whatever this is told.
     [[nodiscard]] bool areTaken() const { return !slots_.empty(); }
 
     /// A new instance has the slot.
-    void reset(uint32_t slot) { slots_[slot] = {}; }
+    void reset(uint32_t slot);
     /// What the slot plays has changed. What was chosen for a course stays while the course does.
     void set(uint32_t slot, const UpdateCourse& course);
-    [[nodiscard]] const UpdateCourse& course(uint32_t slot) const { return slots_[slot].course; }
+    /// The interval that was asked for.
+    [[nodiscard]] uint32_t asked(uint32_t slot) const { return areTaken() ? slots_[slot].course.asked : 0; }
     /// Its ends are no longer what it plays.
-    void forget(uint32_t slot) { slots_[slot].ends = kNone; }
+    void forget(uint32_t slot);
     void forgetAll();
 
-    /// Where course().asked is 0: the coarsest interval whose error is at most a pixel. It gets coarser only once the
+    /// Where asked() is 0: the coarsest interval whose error is at most a pixel. It gets coarser only once the
     /// error is less by kHysteresis.
     /// `pixels`: what the character's extent is on the screen, at most. `least`: in steps; shorter intervals save
     /// nothing, and are not chosen.

@@ -65,8 +65,8 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     groups.forEach([](Group& group) {
         if (Playback* const playback = group.poses().playback()) {
             playback->forgetSizes();
-            playback->settleSprings();
         }
+        group.poses().settleSprings();
     });
     return success();
 }

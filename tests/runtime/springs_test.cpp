@@ -6,9 +6,9 @@
 #include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_group.h"
+#include "tests/support/played_springs.h"
 #include "tests/support/recordings.h"
 #include "tests/support/rigged_tube.h"
-#include "tests/support/spring_twin.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/gltf/writer.h"
 
@@ -65,9 +65,9 @@ public:
             const runtime::SpringClock::Due due = clock.take(i, frame, time, place, travels[i]);
             const std::span<const uint32_t> state = playback.stateOf(instances[i].slot);
             for (uint32_t k = 0; k < due.count; ++k) {
-                const auto begins = due.settles     ? SpringTwin::Begins::anew
-                                    : due.jump == k ? SpringTwin::Begins::withoutMove
-                                                    : SpringTwin::Begins::asItIs;
+                const auto begins = due.settles     ? PlayedSprings::Begins::anew
+                                    : due.jump == k ? PlayedSprings::Begins::withoutMove
+                                                    : PlayedSprings::Begins::asItIs;
                 twins[i].step(state, playback.masks(), due.first + k, begins,
                               due.moves ? std::optional(due.rows[k]) : std::nullopt);
             }
@@ -90,7 +90,7 @@ public:
     runtime::SpringClock clock;
     std::vector<glm::mat4> places;
     std::vector<bool> travels;
-    std::vector<SpringTwin> twins;
+    std::vector<PlayedSprings> twins;
     uint64_t frame = 0;
 };
 
@@ -232,8 +232,8 @@ TEST_F(Springs, SwingWithTheWordsOfTheCpu) {
                     }
                 }
                 EXPECT_GT(swung, 0.1);
-                for (const SpringTwin& twin : swinging.twins) {
-                    for (const SpringTwin::Bone& bone : twin.bones()) {
+                for (PlayedSprings& twin : swinging.twins) {
+                    for (const PlayedSprings::Bone& bone : twin.bones()) {
                         EXPECT_NEAR(glm::distance(bone.head, bone.tail), glm::distance(bone.head, bone.posedTail),
                                     2.0f);
                     }
@@ -364,7 +364,7 @@ TEST_F(Springs, KeepTheirLengthsForHours) {
     const cage::Character wren = readWren();
     const skinning::ClipTable table = skinning::buildClipTable(wren);
     const skinning::PoseLayout layout = skinning::PoseLayout::of(skinning::SkinningMode::linear, table.jointCount, 0);
-    SpringTwin twin(table, layout, 0);
+    PlayedSprings twin(table, layout, 0);
     std::vector<uint32_t> words(4 * size_t{skinning::PlaybackState::elements(0)});
     skinning::PlaybackState state(words);
     skinning::PlaybackLayer layer;
@@ -375,8 +375,8 @@ TEST_F(Springs, KeepTheirLengthsForHours) {
     const std::vector<float> masks(4 * size_t{skinning::maskElements(table)} * shared::kMaxMasks, 1.0f);
     double stretch = 0.0, swung = 0.0;
     for (int64_t n = 0; n < 100'000; ++n) {
-        twin.step(words, masks, n, n == 0 ? SpringTwin::Begins::anew : SpringTwin::Begins::asItIs);
-        for (const SpringTwin::Bone& bone : twin.bones()) {
+        twin.step(words, masks, n, n == 0 ? PlayedSprings::Begins::anew : PlayedSprings::Begins::asItIs);
+        for (const PlayedSprings::Bone& bone : twin.bones()) {
             const double posed = static_cast<double>(glm::distance(bone.head, bone.posedTail));
             stretch = std::max(stretch, std::abs(static_cast<double>(glm::distance(bone.head, bone.tail)) - posed));
             swung = std::max(swung, static_cast<double>(glm::distance(bone.tail, bone.posedTail)));
@@ -519,6 +519,8 @@ TEST_F(Springs, AreRefusedWhereTheyCannotBe) {
     EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
     desc.flags = kSprings;
     desc.poseSource = SUPPLE_POSES_SET;
+    EXPECT_EQ(created(desc), SUPPLE_OK);
+    desc.poseSource = SUPPLE_POSES_PALETTE_BUFFER;
     EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
     (void)own.takeError();
     EXPECT_EQ(created(playedGroup(own.asset(kWren), 1, kSprings)), SUPPLE_OK) << "nothing swings";

@@ -129,6 +129,7 @@ SuppleResult CrowdContext::record(VkCommandBuffer commands, std::span<const Supp
     desc.structSize = sizeof(desc);
     desc.groups = groups.data();
     desc.groupCount = static_cast<uint32_t>(groups.size());
+    desc.time = time_;
     desc.before = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
     desc.after = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};

@@ -78,8 +78,10 @@ public:
     void cancel(SuppleGroup group) { cancel({&group, 1}); }
     /// suppleRecord between any host use of the buffers and copies.
     SuppleResult record(VkCommandBuffer commands, std::span<const SuppleGroup> groups);
+    void setTime(double seconds) { time_ = seconds; } ///< of the frames that follow
 
 private:
+    double time_ = 0.0;
     std::map<std::string, SuppleAsset> assets_;
 };
 

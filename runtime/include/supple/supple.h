@@ -988,14 +988,18 @@ typedef enum SuppleGroupFlags {
      * per node. SuppleGroupInfo.poses has what is shown, as ever. The first group of an asset with this flag measures
      * its clips, which takes some milliseconds for each. */
     SUPPLE_GROUP_UPDATE_RATES = 4096,
-    /** With SUPPLE_POSES_PLAYBACK: joints swing by the springs of the character's file (VRM: docs/springs.md), behind
+    /** With SUPPLE_POSES_PLAYBACK or SUPPLE_POSES_SET: joints swing by the springs of the character's file (VRM: docs/springs.md), behind
      * layers, transitions and modifiers, in steps of 1/60 s of the group's time. What a step leaves depends on the
      * times at which calls are made, not on the frames between. It has no effect if the file has no springs. Instances
      * in the bind pose do not swing. suppleGetJointTransform gives joints without their swinging. An instance that was
      * just created, or whose time has gone back or forward by more than 8 steps, begins with its joints at rest in the
      * pose; so does one that was hidden, or out of a view's sight, for more than 8 steps. suppleTeleport keeps how they
      * hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for an instance: 10 times the
-     * matrices of all nodes, and 64 bytes for each joint. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+     * matrices of all nodes, and 64 bytes for each joint. It does not go with SUPPLE_GROUP_UPDATE_RATES.
+     *
+     * With SUPPLE_POSES_SET the CPU runs the steps, in suppleRecord, of all instances whether they are seen or not. Their
+     * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,
+     * so what it leaves depends on frames too. No box is known of such instances before they are posed. */
     SUPPLE_GROUP_SPRINGS = 8192
 } SuppleGroupFlags;
 
@@ -1284,8 +1288,8 @@ typedef struct SuppleRecordDesc {
     SuppleSyncScope after;
     /** The host's time in seconds, within plus or minus SUPPLE_MAX_TIME: the same for all groups of a frame. What moves
      * by itself, with what it remembers of each instance, gets the time that has passed since the group was recorded
-     * last. If the time has not risen since then, it stands still. Nothing in this version moves by itself, so it may
-     * be 0. Clips play by suppleSetTime. */
+     * last. If the time has not risen since then, it stands still. Springs of groups with SUPPLE_POSES_SET move by it
+     * (SUPPLE_GROUP_SPRINGS); where there are none it may be 0. Clips play by suppleSetTime. */
     double time;
 } SuppleRecordDesc;
 

@@ -1,9 +1,11 @@
-// Springs on the CPU, by the device's own source (shaders/pose/springs.h): the same bits.
+// An instance that plays and swings, on the CPU: what the device's pose pass leaves, to the bit.
 #pragma once
 
 #include "runtime/playback.h"
 #include "skinning/pose_twin.h"
+#include "skinning/spring_twin.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -12,11 +14,10 @@
 
 namespace supple::test {
 
-/// The springs of one instance.
-class SpringTwin {
+class PlayedSprings {
 public:
     /// The table must outlive this.
-    SpringTwin(const skinning::ClipTable& table, const skinning::PoseLayout& layout, uint32_t transition);
+    PlayedSprings(const skinning::ClipTable& table, const skinning::PoseLayout& layout, uint32_t transition);
 
     enum class Begins { anew, withoutMove, asItIs };
     /// Runs a step, posed by what `state` plays at its time. `moved`: the rows of a move (shaders/shared/pose.h).
@@ -26,22 +27,16 @@ public:
     void show(std::span<const uint32_t> state, std::span<const float> masks, double time, float part,
               std::span<glm::vec4> pose);
 
-    /// Of the last step: each joint that swings has a head and a tail.
-    struct Bone {
-        glm::vec3 head{0.0f}, tail{0.0f}, posedTail{0.0f};
-    };
-    [[nodiscard]] std::span<const Bone> bones() const { return bones_; }
+    using Bone = skinning::SpringTwin::Bone;
+    [[nodiscard]] std::vector<Bone> bones() { return springs_.bones(); } ///< of the last step
     /// The state as the device keeps it.
-    [[nodiscard]] std::span<const glm::vec4> words() const { return springs_; }
+    [[nodiscard]] std::span<const glm::vec4> words() const { return state_; }
 
 private:
-    const skinning::ClipTable* table_;
     skinning::PoseTwin twin_;
-    shared::PosePush push_{};
-    std::vector<glm::vec4> springs_, colliders_;
+    skinning::SpringTwin springs_;
+    std::vector<glm::vec4> state_;
     std::vector<shared::Transform> locals_;
-    std::vector<shared::Affine> globals_;
-    std::vector<Bone> bones_;
 };
 
 } // namespace supple::test

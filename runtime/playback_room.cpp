@@ -1,0 +1,101 @@
+#include "runtime/playback_room.h"
+
+#include "gpu/memory.h"
+#include "skinning/layers.h"
+#include "skinning/playback.h"
+#include "skinning/transition.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,
+                            const StateRoom& room) {
+    return room.transitions ? skinning::transitionElements(static_cast<uint32_t>(table.nodes.size()), layout.morphCount)
+                            : 0;
+}
+
+namespace {
+
+using namespace supple::shared;
+
+/// Elements: descriptor offsets need at most 256-byte alignment (VkPhysicalDeviceLimits).
+constexpr uint32_t kPadding = 16;
+
+uint32_t padded(uint32_t elements) {
+    return (elements + kPadding - 1) / kPadding * kPadding;
+}
+
+/// Where the transition begins in a state.
+uint32_t transitionBegin(const skinning::PoseLayout& layout, const StateRoom& room) {
+    return skinning::PlaybackState::elements(layout.morphCount, room.modifiers ? kMaxModifiers : 0);
+}
+
+/// From what an instance plays to what it has played before the last call, which is there with springs.
+uint32_t playedStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
+    return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
+}
+uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
+    return (room.springs ? 2 : 1) * playedStride(table, layout, room);
+}
+
+/// Behind the nodes and the place.
+uint32_t springScratch(const skinning::ClipTable& table, const StateRoom& room) {
+    return kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1) + (room.modifiers ? table.footCount : 0);
+}
+uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) {
+    return padded(springScratch(table, room) +
+                  (room.springs ? kAffineElements + kPosedColliderElements * table.springColliderCount : 0));
+}
+uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
+    return room.springs ? padded(kSpringJoints + kSpringJointElements * table.springJointCount) : 0;
+}
+
+/// From one end of an instance to the next. Both together are a multiple of kPadding.
+uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
+    constexpr uint32_t kMultiple = kPadding / kPoseEnds;
+    return room.updateRates ? (layout.elements() + kMultiple - 1) / kMultiple * kMultiple : 0;
+}
+
+} // namespace
+
+uint32_t posesInFrame(const StateRoom& room) {
+    return room.updateRates ? 2 : room.springs ? 1 + kMostSpringSteps : 1;
+}
+
+VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
+    const skinning::ClipTable& table = *asset.clipTable;
+    return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
+                     kPoseEnds * endStride(layout, room), springStride(table, room)}) *
+           gpu::kVec4Bytes;
+}
+
+PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
+    const skinning::ClipTable& table = *asset.clipTable;
+    PosePush push{};
+    push.nodeCount = static_cast<uint32_t>(table.nodes.size());
+    push.jointCount = table.jointCount;
+    push.morphCount = layout.morphCount;
+    push.joints = table.joints;
+    push.levels = table.levels;
+    push.levelCount = table.levelCount;
+    push.restWeights = table.restWeights;
+    push.clips = table.clips;
+    push.stateStride = stateStride(table, layout, room);
+    push.transition = transitionBegin(layout, room);
+    push.maskStride = skinning::maskElements(table);
+    push.scratchStride = scratchStride(table, room);
+    push.contacts = table.contacts;
+    push.poseStride = layout.stride;
+    push.endStride = endStride(layout, room);
+    push.morphWeights = layout.morphWeights;
+    push.shown = UINT32_MAX;
+    push.stepNodes = room.modifiers ? 0 : kNodeOfSprings;
+    push.stateBefore = playedStride(table, layout, room);
+    push.springs = table.springs;
+    push.springScratch = springScratch(table, room);
+    push.springStride = springStride(table, room);
+    return push;
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,37 @@
+// How much room the instances of a group that plays take on the device.
+#pragma once
+
+#include "runtime/asset.h"
+#include "shaders/shared/pose.h"
+#include "skinning/deform_kernels.h"
+
+#include <cstdint>
+#include <vulkan/vulkan_core.h>
+
+namespace supple::runtime {
+
+/// What instances may have beside layers: there is room for it.
+struct StateRoom {
+    bool modifiers = false;
+    // For instances that play on the device:
+    bool transitions = false;
+    bool updateRates = false;
+    bool springs = false; ///< some joints of the asset swing
+};
+
+/// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
+[[nodiscard]] VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout,
+                                               const StateRoom& room);
+
+/// Poses of an instance that may be made in one frame.
+[[nodiscard]] uint32_t posesInFrame(const StateRoom& room);
+
+/// Of a transition in a state; 0: instances have none.
+[[nodiscard]] uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,
+                                          const StateRoom& room);
+
+/// What the dispatches of the pose pass have in common, whatever their window and time.
+[[nodiscard]] shared::PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout,
+                                          const StateRoom& room);
+
+} // namespace supple::runtime

@@ -1,0 +1,347 @@
+// Springs of groups whose poses the host sets: on the CPU, by the times of frames.
+#include "tests/support/allocation_count.h"
+#include "tests/support/played_group.h"
+#include "tests/support/recordings.h"
+#include "tests/support/springs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace supple::test {
+namespace {
+
+class HostSprings : public CrowdContexts {};
+
+constexpr uint32_t kClip = 2;
+
+SuppleGroupDesc setGroup(SuppleAsset asset, uint32_t capacity, uint32_t flags = SUPPLE_GROUP_SPRINGS,
+                         SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
+    SuppleGroupDesc desc = playedGroup(asset, capacity, flags, skinning);
+    desc.poseSource = SUPPLE_POSES_SET;
+    return desc;
+}
+
+/// A group whose instances are posed by calls, in frames that have a time.
+class PosedGroup : public PlayedGroup {
+public:
+    using PlayedGroup::PlayedGroup;
+
+    [[nodiscard]] double within(double time) const { return std::fmod(time, character().clips[kClip].duration); }
+    void poseClip(uint32_t i, double time) const {
+        EXPECT_EQ(suppleSetClipPose(handle(), instances[i], kClip, time), SUPPLE_OK);
+    }
+    void frame(double time) {
+        crowd.context().setTime(time);
+        crowd.context().run(crowd.group());
+        poses = as<float>(crowd.read(crowd.output().info.poses));
+    }
+    /// Of the first instance, as the last frame has left it.
+    [[nodiscard]] std::vector<float> cage() const {
+        std::vector<float> floats = as<float>(crowd.read(crowd.output().info.deformedCage));
+        floats.resize(4 * size_t{character().cage.vertexCount()});
+        return floats;
+    }
+    /// The palette of the last frame, three rows a joint.
+    [[nodiscard]] std::vector<float> palette(uint32_t i) const {
+        const skinning::PoseLayout& layout = group().instances().poseLayout();
+        const auto begin = poses.begin() + static_cast<ptrdiff_t>(4 * size_t{instances[i].slot} * layout.stride);
+        return {begin, begin + static_cast<ptrdiff_t>(12 * size_t{layout.jointCount})};
+    }
+};
+
+double apart(const std::vector<float>& a, const std::vector<float>& b) {
+    double most = 0.0;
+    for (size_t k = 0; k < a.size(); ++k) {
+        most = std::max(most, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
+    }
+    return most;
+}
+
+glm::mat4 placedAt(double time) {
+    const auto t = static_cast<float>(time);
+    return glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(1.5f * t, 0.0f, 0.3f * std::sin(3.0f * t))), t,
+                       glm::vec3(0.0f, 1.0f, 0.0f));
+}
+
+/// What says the pose of an instance; the last from where a group without springs has the joints.
+enum class By { clip, layers, clipWithModifiers, matrices };
+
+void pose(PosedGroup& set, const PosedGroup& played, uint32_t i, double time, By by) {
+    if (by == By::matrices) {
+        std::vector<float> matrices;
+        for (uint32_t j = 0; j < set.character().skin.joints.size(); ++j) {
+            const glm::mat4 m(glm::inverse(glm::dmat4(placedAt(time))) * played.jointOf(i, j));
+            matrices.insert(matrices.end(), glm::value_ptr(m), glm::value_ptr(m) + 16);
+        }
+        EXPECT_EQ(suppleSetMatrixPose(set.handle(), set.instances[i], matrices.data(),
+                                      static_cast<uint32_t>(set.character().skin.joints.size())),
+                  SUPPLE_OK);
+        return;
+    }
+    if (by == By::layers) {
+        SuppleClipLayer layer{};
+        layer.clip = kClip;
+        layer.weight = 1.0f;
+        layer.time = set.within(time);
+        SupplePoseDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.layers = &layer;
+        desc.layerCount = 1;
+        EXPECT_EQ(suppleSetPose(set.handle(), set.instances[i], &desc), SUPPLE_OK);
+        return;
+    }
+    set.poseClip(i, set.within(time));
+}
+
+/// What a second and a half of the clip shows of two groups that swing, and of one that does not: how far the first two
+/// are apart, and by how much they swing. `shown`: of a group.
+template <class Shown>
+std::array<double, 2> swungBesidePlayed(CrowdContext& own, By by, SuppleSkinning skinning, Shown&& shown) {
+    const SuppleAsset wren = wrenWithSprings(own);
+    const uint32_t flags = by == By::clipWithModifiers ? SUPPLE_GROUP_MODIFIERS : 0;
+    PosedGroup played(own, playedGroup(wren, 1, SUPPLE_GROUP_SPRINGS, skinning));
+    PosedGroup still(own, playedGroup(wren, 1, 0, skinning));
+    PosedGroup set(own, setGroup(wren, 1, SUPPLE_GROUP_SPRINGS | flags, skinning));
+    played.play(0, kClip, 0.0);
+    still.play(0, kClip, 0.0);
+    double off = 0.0, swung = 0.0;
+    for (uint32_t n = 0; n < 90; ++n) {
+        const double time = n / 60.0;
+        for (PosedGroup* const group : {&played, &still, &set}) {
+            group->place(0, placedAt(time));
+        }
+        for (PosedGroup* const group : {&played, &still}) {
+            EXPECT_EQ(suppleSetTime(own.handle(), group->crowd.group(), time), SUPPLE_OK);
+            group->frame(time);
+        }
+        pose(set, still, 0, time, by);
+        set.frame(time);
+        off = std::max(off, apart(shown(set), shown(played)));
+        swung = std::max(swung, apart(shown(set), shown(still)));
+    }
+    return {off, swung};
+}
+
+TEST_F(HostSprings, SwingAsThoseOfInstancesThatPlay) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    for (const By by : {By::clip, By::layers, By::clipWithModifiers, By::matrices}) {
+        const auto [off, swung] = swungBesidePlayed(own, by, SUPPLE_SKINNING_LINEAR,
+                                                    [](const PosedGroup& group) { return group.palette(0); });
+        EXPECT_LT(off, 1e-4) << static_cast<int>(by) << ": steps are at the frames' own times";
+        EXPECT_GT(swung, 0.2);
+    }
+    const auto [off, swung] = swungBesidePlayed(own, By::clip, SUPPLE_SKINNING_DUAL_QUATERNION,
+                                                [](const PosedGroup& group) { return group.cage(); });
+    EXPECT_LT(off, 1e-4);
+    EXPECT_GT(swung, 0.02);
+}
+
+TEST_F(HostSprings, GoStraightFromPoseToPose) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset wren = wrenWithSprings(own);
+    const auto shownAfter = [&](double rate) {
+        PosedGroup set(own, setGroup(wren, 1));
+        for (uint32_t n = 0; n <= static_cast<uint32_t>(1.5 * rate); ++n) {
+            set.poseClip(0, set.within(n / rate));
+            set.place(0, placedAt(n / rate));
+            set.frame(n / rate);
+        }
+        return set.palette(0);
+    };
+    const std::vector<float> every = shownAfter(60.0);
+    EXPECT_EQ(apart(every, shownAfter(60.0)), 0.0) << "the same frames, the same words";
+    EXPECT_LT(apart(every, shownAfter(120.0)), 1e-3);
+    EXPECT_LT(apart(every, shownAfter(30.0)), 0.1);
+    EXPECT_LT(apart(every, shownAfter(20.0)), 0.2);
+}
+
+TEST_F(HostSprings, LeaveWhatDoesNotSwingToTheHost) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset wren = wrenWithSprings(own);
+    PosedGroup still(own, playedGroup(wren, 1, 0)), swinging(own, setGroup(wren, 1)), plain(own, setGroup(wren, 1, 0));
+    still.play(0, kClip, 0.0);
+    const std::vector<cage::Node>& nodes = still.character().skeleton.nodes;
+    const std::vector<uint32_t>& joints = still.character().skin.joints;
+    const auto hangs = [&](uint32_t node) {
+        const std::vector<uint32_t>& swing = swinging.group().asset().clipTable->swinging;
+        while (node != cage::kNone && std::ranges::find(swing, node) == swing.end()) {
+            node = nodes[node].parent;
+        }
+        return node != cage::kNone;
+    };
+    size_t swung = 0, stayed = 0;
+    for (uint32_t n = 0; n < 20; ++n) {
+        still.place(0, placedAt(n / 60.0));
+        EXPECT_EQ(suppleSetTime(own.handle(), still.crowd.group(), n / 60.0), SUPPLE_OK);
+        for (PosedGroup* const group : {&swinging, &plain}) {
+            pose(*group, still, 0, n / 60.0, By::matrices);
+            group->frame(n / 60.0);
+        }
+        const std::vector<float> a = swinging.palette(0), b = plain.palette(0);
+        for (uint32_t j = 0; j < joints.size(); ++j) {
+            const auto begin = static_cast<ptrdiff_t>(12 * size_t{j});
+            const bool same = std::equal(a.begin() + begin, a.begin() + begin + 12, b.begin() + begin);
+            EXPECT_TRUE(same || hangs(joints[j])) << j;
+            (same ? stayed : swung) += n > 10 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(swung, 50u);
+    EXPECT_GT(stayed, 50u);
+}
+
+/// Two groups whose instances are posed alike, of which one meets with something.
+struct TwoPosedGroups {
+    TwoPosedGroups(CrowdContext& context, uint32_t capacity)
+        : asset(wrenWithSprings(context)), other(context, setGroup(asset, capacity)),
+          plain(context, setGroup(wrenWithSprings(context), capacity)) {}
+    void run(uint32_t step) {
+        for (PosedGroup* const group : {&other, &plain}) {
+            for (uint32_t i = 0; i < group->instances.size(); ++i) {
+                group->poseClip(i, group->within(step / 60.0 + 0.1 * i));
+            }
+            group->frame(step / 60.0);
+        }
+    }
+    [[nodiscard]] double off(uint32_t i) const { return apart(other.palette(i), plain.palette(i)); }
+
+    SuppleAsset asset;
+    PosedGroup other, plain;
+};
+
+TEST_F(HostSprings, GoOnWhenTheCapacityChanges) {
+    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 3);
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 15 || step == 25) {
+            EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 15 ? 9 : 5), SUPPLE_OK);
+        }
+        both.run(step);
+        for (uint32_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(both.off(i), 0.0) << step;
+        }
+    }
+}
+
+TEST_F(HostSprings, AFrameThatIsCancelledHasNotBeen) {
+    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 30; ++step) {
+        if (step % 5 == 3 || step == 0) {
+            both.other.poseClip(0, both.other.within(0.5));
+            both.other.crowd.context().setTime(step / 60.0);
+            both.other.crowd.context().cancel(both.other.crowd.group());
+        }
+        both.run(step);
+        EXPECT_TRUE(both.off(0) == 0.0 && both.off(1) == 0.0) << step;
+    }
+}
+
+TEST_F(HostSprings, TeleportsKeepHowTheyHang) {
+    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(100.0f, 0.0f, 0.0f));
+    double untold = 0.0;
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 20) {
+            both.other.place(0, far);
+            both.other.crowd.teleport(both.other.instances[0]);
+            both.other.place(1, far);
+        }
+        both.run(step);
+        const auto off = [&](uint32_t i) {
+            std::vector<float> here = both.other.palette(i);
+            for (size_t k = 3; k < here.size(); k += 12) {
+                here[k] -= step >= 20 ? 100.0f : 0.0f;
+            }
+            return apart(here, both.plain.palette(i));
+        };
+        EXPECT_LT(off(0), 1e-4) << "floats a hundred metres from the origin";
+        untold = std::max(untold, off(1));
+    }
+    EXPECT_GT(untold, 0.1);
+}
+
+TEST_F(HostSprings, SettleWhereTimeJumpsOrTheAssetIsLoadedAnewAndNotInTheBindPose) {
+    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 20) {
+            const std::vector<std::byte> glb = withExtensions(kWren, kWrenSprings);
+            SuppleAssetDesc desc{};
+            desc.structSize = sizeof desc;
+            desc.name = "wren";
+            desc.bytes = glb.data();
+            desc.byteCount = glb.size();
+            EXPECT_EQ(suppleReloadAsset(both.other.handle(), both.asset, &desc), SUPPLE_OK);
+        }
+        both.run(step);
+        EXPECT_EQ(both.off(0) == 0.0, step < 20) << step;
+    }
+    both.run(1000); // by more than eight steps
+    EXPECT_EQ(both.off(0), 0.0);
+    for (uint32_t step = 1001; step < 1010; ++step) {
+        EXPECT_EQ(suppleSetClipPose(both.other.handle(), both.other.instances[1], SUPPLE_BIND_POSE, 0.0), SUPPLE_OK);
+        both.other.frame(step / 60.0);
+        const std::vector<float> palette = both.other.palette(1);
+        for (size_t k = 0; k < palette.size(); ++k) {
+            EXPECT_EQ(palette[k], k % 12 % 5 == 0 ? 1.0f : 0.0f);
+        }
+    }
+}
+
+TEST_F(HostSprings, AllocateNothingInFrames) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    PosedGroup set(own, setGroup(wrenWithSprings(own), 3));
+    set.poseClip(0, 0.0);
+    set.frame(0.0);
+    runtime::HostPoses& poses = *set.group().poses().host();
+    std::vector<std::byte> bytes(3 * poses.instanceBytes());
+    std::vector<float> matrices;
+    for (uint32_t j = 0; j < set.character().skin.joints.size(); ++j) {
+        const glm::mat4 m(set.jointOf(0, j));
+        matrices.insert(matrices.end(), glm::value_ptr(m), glm::value_ptr(m) + 16);
+    }
+    const uint64_t before = allocationsCounted();
+    for (uint32_t n = 0; n < 100; ++n) {
+        const AllocationCount count;
+        poses.setClipPose(0, kClip, 0.005 * n);
+        poses.setMatrixPose(1, matrices.data());
+        poses.setTransform(2, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
+        poses.write(1000 + n, 0.013 * n, 3, bytes.data());
+    }
+    EXPECT_EQ(allocationsCounted(), before);
+}
+
+TEST_F(HostSprings, AreRecorded) {
+    for (const uint32_t begins : {0u, 9u}) {
+        CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+        PosedGroup set(own, setGroup(wrenWithSprings(own), 2));
+        const auto swingAbout = [&](uint32_t first, uint32_t last) {
+            for (uint32_t f = first; f < last; ++f) {
+                set.poseClip(f % 2, set.within(0.03 * f));
+                set.place(1, placedAt(0.05 * f));
+                if (f % 7 == 3) {
+                    set.crowd.teleport(set.instances[1]);
+                }
+                set.frame(0.03 * f);
+            }
+        };
+        swingAbout(0, begins);
+        Recorded recorded;
+        own.beginFrame();
+        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
+        swingAbout(begins, begins + 12);
+        own.beginFrame();
+        own.beginFrame();
+        EXPECT_EQ(suppleStopRecording(own.handle()), SUPPLE_OK);
+        const Hashes hashes = read(recorded.bytes).hashes;
+        EXPECT_GT(hashes.size(), 10u);
+        EXPECT_EQ(expectSame(hashes, replay(*testDevice(), recorded.bytes, {})), hashes.size()) << begins;
+    }
+}
+
+} // namespace
+} // namespace supple::test
