@@ -41,6 +41,9 @@ public:
     void dispatch(const Kernel& kernel, const BoundSet& bound, const Push& push, uint64_t groups) {
         dispatch(kernel, bound, std::as_bytes(std::span(&push, 1)), groups);
     }
+    /// Whether dispatches of no workgroups are to come too, though nothing is to be done: the tasks of later frames
+    /// find places so (gpu/kept_tasks.h).
+    [[nodiscard]] virtual bool takesEmpty() const { return false; }
     /// As many workgroups as the three words there say.
     virtual void dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
                                   VkBuffer arguments, VkDeviceSize offset) = 0;

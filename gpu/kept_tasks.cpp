@@ -29,7 +29,7 @@ void KeptTasks::enter(uint32_t place, uint32_t nextTask) {
         place_ = place;
         used_ |= uint64_t{1} << place;
         const auto command = static_cast<uint32_t>(commands_.size());
-        places_[place] = {command, command, nextTask, nextTask, false};
+        places_[place] = {command, command, nextTask, nextTask, 0, false};
     }
 }
 
@@ -43,6 +43,7 @@ void KeptTasks::addTask(uint32_t owner, RecordedTask& task) {
         return;
     }
     task.place = place_;
+    task.barriers = places_[place_].barriers;
     task.nextOfOwner = nullptr;
     Owner& own = owners_[owner];
     (own.last != nullptr ? own.last->nextOfOwner : own.first) = &task;
@@ -59,12 +60,17 @@ void KeptTasks::addDispatch(const Dispatch& dispatch) {
     addCommand(number);
 }
 
-void KeptTasks::addCommand(uint32_t dispatch) {
-    add(commands_, Command{dispatch});
+void KeptTasks::addBarrier() {
+    addCommand(kBarrier);
+    ++places_[place_].barriers;
+}
+
+void KeptTasks::addCommand(uint32_t command) {
+    add(commands_, command);
     places_[place_].endCommand = static_cast<uint32_t>(commands_.size());
 }
 
-std::span<const KeptTasks::Command> KeptTasks::commandsOf(uint32_t place) const {
+std::span<const uint32_t> KeptTasks::commandsOf(uint32_t place) const {
     const Place& own = places_[place];
     return std::span(commands_).subspan(own.firstCommand, own.endCommand - own.firstCommand);
 }

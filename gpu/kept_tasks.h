@@ -24,10 +24,21 @@ struct TaskNeeds {
     bool operator==(const TaskNeeds&) const = default;
 };
 
-/// Who records tasks, and what they were made from, in numbers that the caller compares: a group.
+/// Who records tasks, a group, and what they follow from, in numbers that the caller compares.
 struct TaskOwner {
-    uint64_t id = 0; ///< no other owner ever has it
-    std::array<uint64_t, 3> made{};
+    uint64_t id = 0;          ///< no other owner ever has it
+    uint64_t version = 0;     ///< of what the tasks of all passes follow from
+    uint32_t pools = 0;       ///< a bit for each of the buffers that take turns
+    uint32_t room = 0;        ///< that its view tells it of
+    bool countsRates = false; ///< its view does
+    bool recordsOnce = false; ///< it also records what stands from then on
+    uint64_t poses = 0;       ///< what the tasks of poses follow from beside their time; 0: there are none
+
+    /// Whether all but the tasks of poses stand.
+    [[nodiscard]] bool isLike(const TaskOwner& other) const {
+        return version == other.version && pools == other.pools && room == other.room &&
+               countsRates == other.countsRates && recordsOnce == other.recordsOnce;
+    }
 };
 
 /// A task of a dispatch. It stays where it is as long as it is kept.
@@ -40,6 +51,7 @@ struct RecordedTask {
     const void* pipeline = nullptr;
     const TaskBuffers* buffers = nullptr;
     uint32_t place = 0;
+    uint32_t barriers = 0; ///< in the place, before it
     uint32_t dispatch = 0; ///< among the kept ones
 };
 
@@ -47,7 +59,7 @@ struct RecordedTask {
 class KeptTasks {
 public:
     static constexpr uint32_t kPlaces = 64;
-    static constexpr uint32_t kBarrier = 0xFFFFFFFFu; ///< for a dispatch in Command
+    static constexpr uint32_t kBarrier = 0xFFFFFFFFu; ///< among the commands of a place
 
     struct Dispatch {
         Kernel kernel;
@@ -58,13 +70,11 @@ public:
         VkDeviceSize arguments = 0; ///< if isCounted: where its size stands
         RecordedTask* first = nullptr;
     };
-    struct Command {
-        uint32_t dispatch = 0; ///< or kBarrier
-    };
     struct Place {
         uint32_t firstCommand = 0, endCommand = 0;
         uint32_t firstTask = 0, endTask = 0;
-        bool changed = false; ///< push constants of its tasks
+        uint32_t barriers = 0; ///< so far
+        bool changed = false;  ///< push constants of its tasks
     };
     struct Owner {
         TaskOwner who;
@@ -72,7 +82,7 @@ public:
         RecordedTask* last = nullptr;
     };
 
-    /// Room for a recording of so many tasks.
+    /// Takes memory for a recording of so many tasks.
     void reserve(uint32_t tasks);
     /// Nothing is kept until complete().
     void forget() { complete_ = false; }
@@ -89,13 +99,14 @@ public:
     void enter(uint32_t place, uint32_t nextTask);
     void leave(uint32_t nextTask);
     void addTask(uint32_t owner, RecordedTask& task);
-    /// The number of the dispatch; its tasks are told.
+    /// Tells its tasks which dispatch theirs is.
     void addDispatch(const Dispatch& dispatch);
-    void addBarrier() { addCommand(kBarrier); }
+    void addBarrier();
 
     [[nodiscard]] std::span<Place> places() { return places_; }
-    [[nodiscard]] bool uses(uint32_t place) const { return (used_ >> place & 1u) != 0; }
-    [[nodiscard]] std::span<const Command> commandsOf(uint32_t place) const;
+    [[nodiscard]] bool uses(uint32_t place) const { return place < kPlaces && (used_ >> place & 1u) != 0; }
+    /// Numbers of dispatches, and kBarrier, in the order in which they were recorded there.
+    [[nodiscard]] std::span<const uint32_t> commandsOf(uint32_t place) const;
     [[nodiscard]] std::span<Dispatch> dispatches() { return dispatches_; }
 
 private:
@@ -106,13 +117,13 @@ private:
             list.push_back(element);
         }
     }
-    void addCommand(uint32_t dispatch);
+    void addCommand(uint32_t command);
 
     bool complete_ = false, keeping_ = false;
     TaskNeeds needs_;
     std::vector<Owner> owners_;
     std::vector<Dispatch> dispatches_;
-    std::vector<Command> commands_;
+    std::vector<uint32_t> commands_;
     std::array<Place, kPlaces> places_{};
     uint64_t used_ = 0; ///< bits of places
     uint32_t place_ = 0;

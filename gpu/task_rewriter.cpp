@@ -27,8 +27,8 @@ void TaskRewriter::leaveOut(RecordedTask& task) {
 void TaskRewriter::write(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push, uint64_t groups,
                          VkDeviceAddress arguments) {
     const auto isSame = [&](const RecordedTask& task) {
-        return task.place == place_ && task.pipeline == kernel.pipeline && task.buffers == bound.buffers &&
-               room_->kept_.dispatches()[task.dispatch].isCounted == (arguments != 0);
+        return task.place == place_ && task.barriers >= barriers_ && task.pipeline == kernel.pipeline &&
+               task.buffers == bound.buffers && room_->kept_.dispatches()[task.dispatch].isCounted == (arguments != 0);
     };
     while (next_ != nullptr && next_->place <= place_ && !isSame(*next_)) {
         leaveOut(*next_);
@@ -40,14 +40,13 @@ void TaskRewriter::write(const Kernel& kernel, const BoundSet& bound, std::span<
     std::memcpy(room_->pushOf(*next_), push.data(), push.size());
     room_->kept_.places()[place_].changed = true;
     resize(*next_, groups, arguments);
+    written_ = next_->barriers;
     next_ = next_->nextOfOwner;
 }
 
 void TaskRewriter::dispatch(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
                             uint64_t groups) {
-    if (groups > 0) {
-        write(kernel, bound, push, groups, 0);
-    }
+    write(kernel, bound, push, groups, 0);
 }
 
 void TaskRewriter::dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,

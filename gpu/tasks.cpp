@@ -133,10 +133,11 @@ Status TaskRooms::reserve(const Device& device, uint64_t frame, const TaskNeeds&
 TaskDispatches::TaskDispatches(const Device& device, VkCommandBuffer commandBuffer, TaskRoom& room,
                                const Kernel& counts, const TaskNeeds& needs)
     : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), needs_(needs), recording_(++room.recordings_) {
-    nextTask_ = nextList_ = room.tasksTaken_.fetch_add(needs.tasks);
-    isFirst_ = nextTask_ == 0;
+    const TaskNeeds taken = room.take(needs);
+    isFirst_ = taken == TaskNeeds{};
+    nextTask_ = nextList_ = taken.tasks;
     nextListed_ = 2 * nextTask_;
-    nextBuffers_ = room.buffersTaken_.fetch_add(needs.buffers);
+    nextBuffers_ = taken.buffers;
     firstPhase_ = nextList_ + needs.tasks - kPhases;
 }
 
@@ -154,9 +155,9 @@ void TaskDispatches::begin(bool keeps) {
                                   part(at.pushes, kPushBytes, nextTask_, needs_.tasks),
                                   part(at.buffers, kBuffersBytes, nextBuffers_, needs_.buffers),
                                   part(at.lists, kListBytes, nextList_, needs_.tasks),
-                                  {at.nothing, at.nothing, kArgumentBytes}};
-    device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0),
-                              static_cast<uint32_t>(std::size(parts)), parts);
+                                  {at.nothing, at.nothing, kArgumentBytes}}; // once a frame
+    const auto count = static_cast<uint32_t>(std::size(parts)) - (isFirst_ ? 0 : 1);
+    device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count, parts);
 }
 
 void TaskDispatches::addOwner(const TaskOwner& owner) {
@@ -198,15 +199,32 @@ void TaskDispatches::rewrite(const KeptTasks::Owner& owner, uint32_t first, uint
 }
 
 bool TaskDispatches::resume() {
+    for (KeptTasks::Dispatch& dispatch : room_->kept_.dispatches()) {
+        if (dispatch.changed) {
+            dispatch.groups = list(dispatch);
+            if (dispatch.groups > kMaxGroups) {
+                return false;
+            }
+        }
+    }
+    resumed_ = true;
+    copyChanged();
+    return true;
+}
+
+void TaskDispatches::copyChanged() {
     constexpr size_t kRegions = 96;
     std::array<VkBufferCopy, kRegions> regions;
     uint32_t count = 0;
     const TaskRoom::Offsets& at = room_->offsets_;
+    const auto recordCopy = [&] {
+        device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count,
+                                  regions.data());
+        count = 0;
+    };
     const auto copy = [&](VkDeviceSize first, VkDeviceSize bytes) {
         if (count == kRegions) {
-            device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count,
-                                      regions.data());
-            count = 0;
+            recordCopy();
         }
         regions[count++] = {first, first, bytes};
     };
@@ -215,28 +233,22 @@ bool TaskDispatches::resume() {
             copy(at.pushes + place.firstTask * kPushBytes, (place.endTask - place.firstTask) * kPushBytes);
         }
     }
-    bool fits = true;
     for (KeptTasks::Dispatch& dispatch : room_->kept_.dispatches()) {
         if (std::exchange(dispatch.changed, false)) {
-            dispatch.groups = list(dispatch);
-            fits = fits && dispatch.groups <= kMaxGroups;
             copy(dispatch.firstEntry * kTaskBytes, (dispatch.count + 1) * kTaskBytes);
         }
     }
-    if (fits && count > 0) {
-        device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count,
-                                  regions.data());
+    if (count > 0) {
+        recordCopy();
     }
-    resumed_ = fits;
-    return fits;
 }
 
 void TaskDispatches::recordKept(uint32_t place) {
-    for (const KeptTasks::Command& command : room_->kept_.commandsOf(place)) {
-        if (command.dispatch == KeptTasks::kBarrier) {
+    for (const uint32_t command : room_->kept_.commandsOf(place)) {
+        if (command == KeptTasks::kBarrier) {
             gpu::computeBarrier(device(), commandBuffer());
         } else {
-            record(room_->kept_.dispatches()[command.dispatch]);
+            record(room_->kept_.dispatches()[command]);
         }
     }
 }
@@ -304,7 +316,7 @@ void TaskDispatches::dispatch(const Kernel& kernel, const BoundSet& bound, std::
                               uint64_t groups) {
     if (room_ == nullptr) {
         recordNothing(kernel);
-    } else if (groups > 0) {
+    } else {
         add(kernel, bound, push, groups, 0);
     }
 }

@@ -26,13 +26,11 @@ public:
                                                                   uint32_t number);
     /// Beside what the frame's recordings have taken.
     [[nodiscard]] bool holds(const TaskNeeds& needs) const {
-        return needs.tasks <= capacity_.tasks - tasksTaken_ && needs.buffers <= capacity_.buffers - buffersTaken_;
+        const TaskNeeds taken = unpacked(taken_);
+        return needs.tasks <= capacity_.tasks - taken.tasks && needs.buffers <= capacity_.buffers - taken.buffers;
     }
     /// For another frame.
-    void clear() {
-        tasksTaken_ = 0;
-        buffersTaken_ = 0;
-    }
+    void clear() { taken_ = 0; }
     /// What the frame has copied may never have reached the device.
     void forget() { kept_.forget(); }
 
@@ -45,6 +43,15 @@ private:
         VkDeviceSize nothing = 0;                        ///< a size of no workgroups
         VkDeviceSize arguments = 0;                      ///< of dispatches, on the device alone
     };
+    /// Both counts of what is taken are one number, so that recordings on several threads take them in one order.
+    [[nodiscard]] static uint64_t packed(const TaskNeeds& needs) {
+        return uint64_t{needs.buffers} << 32u | needs.tasks;
+    }
+    [[nodiscard]] static TaskNeeds unpacked(uint64_t taken) {
+        return {static_cast<uint32_t>(taken), static_cast<uint32_t>(taken >> 32u)};
+    }
+    /// What was taken before.
+    [[nodiscard]] TaskNeeds take(const TaskNeeds& needs) { return unpacked(taken_.fetch_add(packed(needs))); }
     [[nodiscard]] std::byte* mapped(VkDeviceSize offset) const { return staging_.mapped(0) + offset; }
     [[nodiscard]] std::byte* pushOf(const RecordedTask& task) const;
 
@@ -54,7 +61,7 @@ private:
     VkDeviceAddress address_ = 0; ///< of `local_`
     std::vector<RecordedTask> recorded_;
     KeptTasks kept_;
-    std::atomic<uint32_t> tasksTaken_ = 0, buffersTaken_ = 0;
+    std::atomic<uint64_t> taken_ = 0; ///< packed()
     std::atomic<uint64_t> recordings_ = 0;
 };
 
@@ -123,6 +130,7 @@ public:
     void recordKept(uint32_t place);
 
     void computeBarrier() override;
+    [[nodiscard]] bool takesEmpty() const override { return true; }
     void dispatch(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
                   uint64_t groups) override;
     void dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
@@ -147,6 +155,8 @@ private:
     [[nodiscard]] VkDeviceAddress addressOfBuffers(TaskBuffers& buffers);
     [[nodiscard]] Chain& chainOf(const Kernel& kernel, bool isCounted);
     void recordChain(const Chain& chain);
+    /// What was written anew of what is kept.
+    void copyChanged();
     /// Writes an entry of a list.
     void list(uint32_t entry, shared::Task task, uint32_t firstGroup) const;
     /// Writes the whole list of a dispatch; the workgroups. More than kMaxGroups if they do not fit.

@@ -69,7 +69,7 @@ struct Frame {
     void findRoom() const {
         forEach([](Group& group) {
             if (group.view() != nullptr) {
-                group.link.inView = group.view()->need(group.leastVerticesOfAll(), group.poolUnitsOfAll());
+                group.link.inView = group.view()->addNeeds(group.leastVerticesOfAll(), group.poolUnitsOfAll());
             }
         });
         forEach([](Group& leader) {
@@ -113,7 +113,7 @@ Group* join(const Separated& lists) {
 void markLeaders(const Separated& lists, uint64_t call) {
     for (Group* const list : {lists.first, lists.second}) {
         for (Group* group = list; group != nullptr; group = group->link.next) {
-            group->link.leadsView = group->view() != nullptr && group->view()->isFirstIn(call);
+            group->link.leadsView = group->view() != nullptr && group->view()->enter(call);
         }
     }
 }
@@ -582,8 +582,15 @@ static_assert(std::all_of(kPasses + kFirstPosePlace, kPasses + kLastPosePlace + 
 /// The group's tasks of the places from `first` to `last`, over those that are kept. False: there are others.
 bool rewriteTasks(const Frame& frame, Group& group, gpu::TaskRewriter rewriter, uint32_t first, uint32_t last) {
     Group* const next = std::exchange(group.link.next, nullptr);
-    const Frame own{frame.device,         frame.commands, rewriter, nullptr,      frame.number,
-                    frame.framesInFlight, frame.time,     &group,   frame.context};
+    const Frame own{.device = frame.device,
+                    .commands = frame.commands,
+                    .dispatches = rewriter,
+                    .tasks = nullptr,
+                    .number = frame.number,
+                    .framesInFlight = frame.framesInFlight,
+                    .time = frame.time,
+                    .groups = &group,
+                    .context = frame.context};
     Timings::Recording untimed;
     forEachRow(
         frame.context.stageRows(),
@@ -603,25 +610,27 @@ bool rewriteTasks(const Frame& frame, Group& group, gpu::TaskRewriter rewriter, 
     return rewriter.end(last);
 }
 
-/// Brings what is kept of a group up to date.
+/// Brings what is kept of a group up to date. False: it cannot be.
 bool refreshTasks(const Frame& frame, Group& group, gpu::KeptTasks::Owner& kept) {
     const gpu::TaskOwner now = group.taskOwner();
     const gpu::TaskOwner before = std::exchange(kept.who, now);
-    if (now.made[0] != before.made[0] || now.made[1] != before.made[1]) {
-        constexpr uint32_t kLast = gpu::KeptTasks::kPlaces - 1;
-        // Recording attributes would be taken for having them.
-        return !anySurface<&Tessellation::attributesDue>(group) &&
-               rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
+    if (now.recordsOnce) {
+        return false; // if it were recorded twice, the second time would find that it is done
     }
-    const Playback* const playback = now.made[2] != 0 ? group.poses().playback() : nullptr;
+    if (!now.isLike(before)) {
+        constexpr uint32_t kLast = gpu::KeptTasks::kPlaces - 1;
+        return rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
+    }
+    const Playback* const playback = now.poses != 0 ? group.poses().playback() : nullptr;
     if (playback == nullptr) {
         return true;
     }
-    if (now.made[2] != before.made[2] || playback->listsPoses()) {
+    if (now.poses != before.poses || playback->listsPoses()) {
         return rewriteTasks(frame, group, {*frame.tasks, kept, kFirstPosePlace}, kFirstPosePlace, kLastPosePlace);
     }
     const skinning::SplitTime time = playback->splitTime();
-    static_assert(offsetof(shared::PosePush, timeHigh) == 0 && offsetof(shared::PosePush, timeLow) == sizeof(float));
+    static_assert(offsetof(shared::PosePush, timeHigh) == 0 && offsetof(shared::PosePush, timeLow) == sizeof(float) &&
+                  sizeof(time) == 2 * sizeof(float));
     frame.tasks->rewrite(kept, kFirstPosePlace, kLastPosePlace, 0, std::as_bytes(std::span(&time, 1)));
     return true;
 }

@@ -395,7 +395,7 @@ void Group::fill(SuppleGroupInfo& info) const {
 gpu::TaskNeeds Group::countTasks() const {
     const uint32_t windows = listing_.windows().count();
     const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
-    gpu::TaskNeeds needs{windows * (Playback::kParts + stages), windows * (1 + stages)};
+    gpu::TaskNeeds needs{windows * (Playback::kTasks + stages), windows * (1 + stages)};
     needs += {windows + Culling::kGroupPasses + gpu::TaskDispatches::kPhases, windows + 1}; // bounds and lists
     for (const auto& surface : surfaces_) {
         needs += surface->taskNeeds();
@@ -480,22 +480,28 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
-    tasksVersion_ += changed || step != pastStep_ ? 1 : 0;
+    const bool pastMoves =
+        step != pastStep_ && surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); });
+    tasksVersion_ += changed || pastMoves ? 1 : 0;
     pastStep_ = step;
     return cost;
 }
 
 gpu::TaskOwner Group::taskOwner() const {
-    gpu::TaskOwner owner{number_, {tasksVersion_, 0, 0}};
-    uint64_t& inView = owner.made[1];
+    gpu::TaskOwner owner;
+    owner.id = number_;
+    owner.version = tasksVersion_;
     for (const auto& surface : surfaces_) {
-        inView = inView << 1 | surface->pool();
+        owner.pools |= surface->pool(); // they take turns together
+        owner.recordsOnce = owner.recordsOnce || surface->attributesDue();
     }
     if (view_ != nullptr) {
-        inView = (inView << 2 | view_->pool() << 1 | (view_->countsRates() ? 1 : 0)) << 32 | view_->roomInFrame();
+        owner.pools |= view_->pool() << 1u;
+        owner.room = view_->roomInFrame();
+        owner.countsRates = view_->countsRates();
     }
     if (!follows() && instances_->poses().playback() != nullptr) {
-        owner.made[2] = instances_->poses().playback()->tasksMade();
+        owner.poses = instances_->poses().playback()->tasksMade();
     }
     return owner;
 }

@@ -71,8 +71,7 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// What its passes need in a frame.
     [[nodiscard]] const gpu::TaskNeeds& taskNeeds() const { return taskNeeds_; }
-    /// Who records its tasks, and what they follow from in this frame. `made`: tasksVersion_; what view and pools add
-    /// to that; what those of poses follow from beside their time (Playback::tasksMade), 0 without playback.
+    /// Who records its tasks, and what they follow from in this frame.
     [[nodiscard]] gpu::TaskOwner taskOwner() const;
     [[nodiscard]] uint64_t number() const { return number_; }
     /// Whether tasks of a frame may stand in others.

@@ -48,16 +48,16 @@ public:
     [[nodiscard]] uint32_t room() const;
     /// The same for a frame's groups; kRoomForAll if even all instances fit at their coarsest, their coefficients too.
     [[nodiscard]] uint32_t roomInFrame() const { return roomInFrame_; }
-    /// What one of the frame's groups needs at most; its number among them.
-    [[nodiscard]] uint32_t need(uint64_t vertices, uint64_t poolUnits) {
+    /// Adds what one of the frame's groups needs at most; its number among them.
+    [[nodiscard]] uint32_t addNeeds(uint64_t vertices, uint64_t poolUnits) {
         verticesNeeded_ += vertices;
         poolUnitsNeeded_ += poolUnits;
         return groupsInFrame_++;
     }
-    /// Behind need() of all.
+    /// Behind addNeeds() of all.
     void findRoom();
-    /// Once true in a call of suppleRecord: for the first group of the view.
-    [[nodiscard]] bool isFirstIn(uint64_t call) { return std::exchange(call_, call) != call; }
+    /// A group is recorded in this call of suppleRecord. True: it is the first of the view.
+    [[nodiscard]] bool enter(uint64_t call) { return std::exchange(call_, call) != call; }
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// The pools of coefficients that groups with levels share, of so many units (shared::kPoolUnit). 0: they have
