@@ -2,12 +2,8 @@
 #include "gpu/task_rewriter.h"
 #include "tests/gpu/fake_vulkan.h"
 
-#include <array>
-#include <bit>
-#include <cstring>
 #include <gtest/gtest.h>
-#include <span>
-#include <thread>
+#include <memory>
 #include <vector>
 
 namespace supple::gpu {
@@ -156,38 +152,6 @@ TEST_F(KeptTasksRoom, ASecondRecordingKeepsNothingAndCopiesItsOwn) {
     TaskDispatches second(vulkan.device, test::kCommands, *room, counts, needs_);
     EXPECT_NE(first.kept(), nullptr);
     EXPECT_EQ(second.kept(), nullptr);
-}
-
-/// However recordings on threads take turns, whoever has the n-th part of the tasks has the n-th part of the buffers.
-TEST_F(KeptTasksRoom, RecordingsOnThreadsTakeWholeParts) {
-    constexpr uint32_t kRecordings = 20000;
-    constexpr VkDeviceSize kPushBytes = 128, kBuffersBytes = 256, kTaskBytes = 32;
-    const TaskNeeds own{1 + TaskDispatches::kPhases, 1};
-    const TaskNeeds all{2 * kRecordings * own.tasks, 2 * kRecordings};
-    Result<std::unique_ptr<TaskRoom>> made = TaskRoom::create(vulkan.device, all, 1);
-    ASSERT_TRUE(made.ok()) << made.error().message;
-    const auto take = [&](uint32_t thread) {
-        for (uint32_t i = 0; i < kRecordings; ++i) {
-            const uint64_t name = uint64_t{thread} << 32u | (i + 1);
-            TaskBuffers bound;
-            bound.at[0] = name;
-            TaskDispatches tasks(vulkan.device, test::kCommands, **made, counts, own);
-            tasks.dispatch(kernel, {VK_NULL_HANDLE, &bound}, std::as_bytes(std::span(&name, 1)), 0);
-        }
-    };
-    std::thread other(take, 1);
-    take(2);
-    other.join();
-    const std::byte* const staging = vulkan.memory.begin()->second.data();
-    const auto aligned = [](VkDeviceSize bytes) { return (bytes + 255) / 256 * 256; };
-    const VkDeviceSize pushes = aligned(2 * kTaskBytes * all.tasks), at = aligned(pushes + kPushBytes * all.tasks);
-    for (VkDeviceSize i = 0; i < all.buffers; ++i) {
-        uint64_t ofTask = 0, ofBuffers = 0;
-        std::memcpy(&ofTask, staging + pushes + i * own.tasks * kPushBytes, sizeof ofTask);
-        std::memcpy(&ofBuffers, staging + at + i * kBuffersBytes, sizeof ofBuffers);
-        ASSERT_NE(ofTask, 0u) << i;
-        ASSERT_EQ(ofTask, ofBuffers) << i;
-    }
 }
 
 } // namespace

@@ -46,7 +46,7 @@ const SceneKind kKinds[] = {
 class KeptScene {
 public:
     KeptScene(host::Device& device, uint32_t flags, uint32_t framesInFlight, const SceneKind& kind, uint32_t groups = 3)
-        : context_(device, SUPPLE_MAPPING_WIDE, framesInFlight, flags), kind_(kind) {
+        : context_(device, SUPPLE_MAPPING_WIDE, framesInFlight, flags | SUPPLE_CONTEXT_DEBUG_UTILS), kind_(kind) {
         if (kind.viewFlags) {
             view_.emplace(context_, kViewVertices, *kind.viewFlags, 0, kind.coefficientBytes);
             view_->camera.smallestEdge = 40.0f;
@@ -240,9 +240,19 @@ public:
         if (!view_) {
             return {};
         }
-        const SuppleViewStatistics is = view_->statistics();
-        return {is.frame,           is.vertexCount,        is.wantedVertexCount,    is.patchCount,
-                is.instanceCount,   is.drawnInstanceCount, is.droppedInstanceCount, is.shortfall,
+        SuppleViewStatistics is{};
+        is.structSize = sizeof(is);
+        // At first no frame has counted.
+        const SuppleResult known = suppleGetViewStatistics(context_.handle(), view_->handle(), &is);
+        return {static_cast<uint64_t>(known),
+                is.frame,
+                is.vertexCount,
+                is.wantedVertexCount,
+                is.patchCount,
+                is.instanceCount,
+                is.drawnInstanceCount,
+                is.droppedInstanceCount,
+                is.shortfall,
                 is.coefficientBytes};
     }
 
@@ -361,9 +371,7 @@ void KeptTasks::expectNeverStale(const SceneKind& kind, uint32_t framesInFlight,
         event.happen(shared);
         for (uint32_t frame = 0; frame < frames; ++frame) {
             plain.run();
-            const uint64_t bytes = copiedIn(shared);
-            if (getenv("PRINT"))
-                printf("%s | %s | %u: %llu\n", kind.name, event.name, frame, (unsigned long long)bytes);
+            shared.run();
             ASSERT_TRUE(shared.drawn() == plain.drawn()) << "frame " << frame;
             ASSERT_EQ(shared.counted(), plain.counted()) << "frame " << frame;
         }
@@ -432,7 +440,8 @@ TEST_F(KeptTasks, AreRecordedAnewOnlyWhereGroupsHaveOthers) {
         {"the groups come in another order", [](Scene s) { s.swapOrder(); }, 2, 2},
         {"a frame is cancelled", [](Scene s) { s.cancel(); }, 1, 1},
         {"a frame is timed", [](Scene s) { s.time(); }, 1, 1},
-        {"a frame leaves one out", [](Scene s) { s.runWithout(0); }, 1, 1},
+        // Its coefficients take turns in the view, so it finds its own in neither room.
+        {"a frame leaves one out", [](Scene s) { s.runWithout(0); }, 1, 2},
     };
     for (const SceneKind* kind : {&kAtRate, &kInView}) {
         KeptScene scene(*device, SUPPLE_CONTEXT_SHARED_DISPATCHES, 2, *kind);

@@ -186,9 +186,6 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     if (is("vkCmdCopyBuffer")) {
         return wrap(real.CmdCopyBuffer, function, &copyBuffer);
     }
-    if (is("vkSetDebugUtilsObjectNameEXT")) {
-        return wrap(real.SetDebugUtilsObjectNameEXT, function, &setName);
-    }
     if (is("vkCmdFillBuffer")) {
         return wrap(real.CmdFillBuffer, function, &fillBuffer);
     }
@@ -237,6 +234,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrappedGetInstanceProcAddr(VkInstance i
     const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         return wrap(real.GetDeviceProcAddr, function, &getDeviceProcAddr);
+    }
+    if (std::strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0 && function != nullptr) {
+        return wrap(real.SetDebugUtilsObjectNameEXT, function, &setName);
     }
     if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) {
         return wrap(real.GetPhysicalDeviceProperties2, function, &properties);
