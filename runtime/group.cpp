@@ -212,7 +212,6 @@ Status Group::createRest(const GroupShared& shared) {
     if (status) {
         addMembers(shared);
         taskNeeds_ = countTasks();
-        leastVertices_ = culling_ != nullptr ? surfaces_.leastVertices() : 0;
         for (const auto& surface : surfaces_) {
             patchesAtLevels_ += surface->patchesAtLevels();
         }

@@ -137,7 +137,7 @@ public:
     void addTransfers(Transfers& transfers, bool withView) const;
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
-    [[nodiscard]] uint32_t leastVertices() const { return leastVertices_; }
+    [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
     /// Patches of an instance that are drawn at levels.
     [[nodiscard]] uint32_t patchesAtLevels() const { return patchesAtLevels_; }
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
@@ -224,8 +224,8 @@ private:
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
     gpu::TaskNeeds taskNeeds_;
-    uint32_t leastVertices_ = 0, patchesAtLevels_ = 0; ///< in a view
-    glm::vec3 pastStep_{0.0f};                         ///< of the last recording
+    uint32_t patchesAtLevels_ = 0; ///< in a view
+    glm::vec3 pastStep_{0.0f};     ///< of the last recording
     RecordedOnce noDraws_;
     bool outputsAsked_ = false, staticsThere_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
