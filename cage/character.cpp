@@ -50,6 +50,11 @@ const char* skinningModeName(SkinningMode mode) {
     return kNames[static_cast<size_t>(mode)];
 }
 
+const char* turnPartName(TurnPart part) {
+    constexpr const char* kNames[] = {"rotation", "swing", "twist"};
+    return kNames[static_cast<size_t>(part)];
+}
+
 const char* madeForName(MadeFor scheme) {
     constexpr const char* kNames[] = {"catmullClark", "loop", "bilinear", "none"};
     return kNames[static_cast<size_t>(scheme)];

@@ -159,6 +159,10 @@ struct PackedChannels {
     uint32_t channelCount = 0;   ///< the first so many channels of the clip are what the words say
     double error = 0.0;          ///< how far this moves a vertex at most, as a part of the extent
     uint64_t unpackedBytes = 0;  ///< what the clip took in the clip table before
+    /// The coarse twin, if the clip has one: the same frames in fewer bits. It plays while segments of the clip are
+    /// missing on the device.
+    std::vector<uint32_t> coarseWords;
+    double coarseError = 0.0; ///< as `error`
 };
 
 struct Clip {
@@ -198,6 +202,34 @@ struct Expression {
     std::array<ExpressionHold, kExpressionKinds> holds{}; ///< by kind
 };
 
+/// What of a node's rotation from its rest pose a driver looks at: rotation = swing * twist, the twist about an axis of
+/// the node's own.
+enum class TurnPart : uint8_t { rotation, swing, twist };
+[[nodiscard]] const char* turnPartName(TurnPart part);
+
+struct DriverInput {
+    uint32_t node = 0;
+    TurnPart part = TurnPart::rotation;
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of swing and twist
+    float weight = 1.0f;              ///< of squared distances between poses
+
+    bool operator==(const DriverInput&) const = default;
+};
+/// Weights of morph targets that follow from how joints are turned (SUPPLE_deformers, docs/pose_drivers.md). The rest
+/// pose, in which all are 0, is one of its poses without being listed.
+struct PoseDriver {
+    std::string name;
+    std::vector<DriverInput> inputs;
+    std::vector<uint32_t> targets; ///< Morphs::targets, all of one part
+    std::vector<glm::vec4> poses;  ///< rotations from the rest pose (x, y, z, w), pose after pose, one per input
+    std::vector<float> values;     ///< weights, pose after pose, one per target
+    float width = 2.0f;            ///< sigma^2 by the mean, over poses, of the squared distance to the nearest other
+    float low = 0.0f, high = 1.0f; ///< of what it sets
+
+    [[nodiscard]] size_t poseCount() const { return poses.size() / inputs.size(); }
+    bool operator==(const PoseDriver&) const = default;
+};
+
 /// A joint that swings. Without numbers of its own it has VRM's.
 struct SpringJoint {
     uint32_t node = 0;
@@ -225,6 +257,9 @@ struct Spring {
     bool isTree = false;
     std::vector<SpringJoint> joints;
     std::vector<uint32_t> colliderGroups;
+
+    /// How many of its joints may swing: the first ones.
+    [[nodiscard]] size_t swingingCount() const { return isTree || joints.empty() ? joints.size() : joints.size() - 1; }
 };
 /// The spring bones of a file. Groups with SUPPLE_GROUP_SPRINGS move by them.
 struct SpringBones {
@@ -421,6 +456,7 @@ struct Character {
     SkinWeights weights;
     Morphs morphs;
     std::vector<Expression> expressions;
+    std::vector<PoseDriver> drivers;
     SpringBones springBones;
     std::vector<Clip> clips;
     /// What moves the character in its clips as they were before they were packed (skinning::findRoot); kNone: ask.

@@ -4,6 +4,7 @@
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/skeleton.h"
+#include "cage/solved_driver.h"
 #include "cage/trim.h"
 
 #include <algorithm>
@@ -67,6 +68,8 @@ public:
     void skin();
     void morphs();
     void expressions();
+    void drivers();
+    void springs();
     void clips();
     void materials();
 
@@ -248,13 +251,62 @@ void Check::channel(const Channel& channel, const std::string& name) {
 }
 
 void Check::expressions() {
-    const size_t targets = character_.morphs.targets.size(), nodes = character_.skeleton.nodes.size();
+    const size_t targets = character_.morphs.targets.size();
     for (size_t e = 0; e < character_.expressions.size(); ++e) {
         const Expression& own = character_.expressions[e];
         const std::string name = at("expression", e) + ": ";
         require(own.targets.size() == own.weights.size() && isFinite(own.weights), name + "no finite weight a target");
         require(below(own.targets, targets) && rises(own.targets), name + "targets do not rise, or are none");
     }
+}
+
+void Check::drivers() {
+    const std::vector<Node>& nodes = character_.skeleton.nodes;
+    size_t work = 0;
+    for (size_t d = 0; d < character_.drivers.size() && none(); ++d) {
+        const PoseDriver& own = character_.drivers[d];
+        const std::string name = at("driver", d) + ": ";
+        const size_t inputs = own.inputs.size();
+        const bool counts = inputs > 0 && inputs <= kMaxDriverInputs && !own.targets.empty() &&
+                            own.targets.size() <= kMaxDriverTargets && own.poses.size() % inputs == 0 &&
+                            own.poseCount() <= kMaxDriverPoses &&
+                            own.values.size() == own.poseCount() * own.targets.size();
+        if (!require(counts, name + "inputs, targets, poses and values do not fit")) {
+            return;
+        }
+        const bool sound = std::all_of(own.inputs.begin(), own.inputs.end(), [&](const DriverInput& input) {
+            return input.node < nodes.size() && !nodes[input.node].hasMatrix &&
+                   std::abs(glm::length(glm::dvec3(input.axis)) - 1.0) < 1e-3 && input.weight >= kMinInputWeight &&
+                   input.weight <= kMaxInputWeight;
+        });
+        require(sound, name + "an input names no node that turns, or its axis has not unit length, or its weight is "
+                              "out of range");
+        std::vector<uint32_t> targets = own.targets;
+        std::ranges::sort(targets);
+        require(std::ranges::adjacent_find(targets) == targets.end(), name + "a morph target is there twice");
+        const bool ofOnePart = std::ranges::any_of(character_.parts, [&](const Part& part) {
+            return std::ranges::all_of(own.targets, [&](uint32_t target) {
+                return target >= part.firstTarget && target - part.firstTarget < part.targetCount;
+            });
+        });
+        require(ofOnePart, name + "it names no morph targets of one part");
+        const bool rotations = std::all_of(own.poses.begin(), own.poses.end(), [](const glm::vec4& q) {
+            return glm::length(glm::dvec4(q)) > kMinTurnLength && glm::length(glm::dvec4(q)) < kMaxTurnLength;
+        });
+        require(rotations && isFinite(own.values) && own.width >= kMinDriverWidth && own.width <= kMaxDriverWidth &&
+                    own.low <= 0.0f && own.low >= -kMaxCoordinate && own.high >= 0.0f && own.high <= kMaxCoordinate,
+                name + "its poses are no rotations, or its numbers are not finite");
+        work += driverWork(own);
+        require(work <= kMaxDriverWork, tooMuchDriverWork());
+        if (none()) {
+            const Result<SolvedDriver> solved = solveDriver(own);
+            require(solved.ok(), name + (solved ? "" : solved.error().message));
+        }
+    }
+}
+
+void Check::springs() {
+    const size_t nodes = character_.skeleton.nodes.size();
     const SpringBones& bones = character_.springBones;
     const bool colliders = std::all_of(bones.colliders.begin(), bones.colliders.end(), [&](const SpringCollider& c) {
         return c.node < nodes && std::isfinite(c.radius) && isFinite({&c.offset.x, 3}) && isFinite({&c.tail.x, 3});
@@ -281,7 +333,8 @@ void Check::clips() {
         const Clip& clip = character_.clips[c];
         const std::string name = at("clip", c) + " ";
         require(std::isfinite(clip.duration) && clip.duration >= 0.0, name + "has no duration");
-        require(std::isfinite(clip.packed.error), name + "is packed with no finite error");
+        require(std::isfinite(clip.packed.error) && std::isfinite(clip.packed.coarseError),
+                name + "is packed with no finite error");
         for (size_t i = 0; i < clip.channels.size(); ++i) {
             channel(clip.channels[i], name + at("channel", i) + ": ");
         }
@@ -328,6 +381,8 @@ Status checkCharacter(const Character& character) {
         check.skin();
         check.morphs();
         check.expressions();
+        check.drivers();
+        check.springs();
         check.clips();
         check.materials();
     }

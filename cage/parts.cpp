@@ -173,8 +173,7 @@ std::vector<std::string> targetNames(const Morphs& morphs) {
 
 /// Gives each part its run of the character's targets.
 void placeTargets(std::span<PartCage> parts, Character& character) {
-    const WeightChannels channels = weightChannels(character, parts);
-    std::multimap<std::vector<std::string>, size_t> named; // parts with runs of their own
+    const std::vector<size_t> owners = targetOwners(parts, character);
     for (size_t p = 0; p < parts.size(); ++p) {
         Part& part = parts[p].part;
         const Morphs& morphs = parts[p].morphs;
@@ -184,21 +183,20 @@ void placeTargets(std::span<PartCage> parts, Character& character) {
             part.firstTarget = 0;
             continue;
         }
-        const std::vector<std::string> names = targetNames(morphs);
-        const auto [first, last] = named.equal_range(names);
-        const auto same = std::find_if(first, last, [&](const auto& other) {
-            return parts[other.second].morphs.weights == morphs.weights &&
-                   moveAlike(channels[other.second], channels[p]);
-        });
-        if (!names.empty() && same != last) {
-            part.firstTarget = parts[same->second].part.firstTarget;
+        if (owners[p] != p) {
+            part.firstTarget = parts[owners[p]].part.firstTarget;
             continue;
         }
-        named.emplace(names, p);
         for (const MorphTarget& target : morphs.targets) {
             character.morphs.targets.push_back({target.name, {}, {}});
         }
         appendTo(character.morphs.weights, morphs.weights);
+        for (PoseDriver driver : parts[p].drivers) {
+            for (uint32_t& target : driver.targets) {
+                target += part.firstTarget;
+            }
+            character.drivers.push_back(std::move(driver));
+        }
     }
 }
 
@@ -252,6 +250,32 @@ bool isRigid(const SkinWeights& weights) {
 }
 
 } // namespace
+
+std::vector<size_t> targetOwners(std::span<const PartCage> parts, const Character& character) {
+    const WeightChannels channels = weightChannels(character, parts);
+    std::multimap<std::vector<std::string>, size_t> named; // parts with runs of their own
+    std::vector<size_t> owners(parts.size());
+    for (size_t p = 0; p < parts.size(); ++p) {
+        owners[p] = p;
+        const Morphs& morphs = parts[p].morphs;
+        if (morphs.targets.empty()) {
+            continue;
+        }
+        const std::vector<std::string> names = targetNames(morphs);
+        const auto [first, last] = named.equal_range(names);
+        const auto same = std::find_if(first, last, [&](const auto& other) {
+            const PartCage& before = parts[other.second];
+            return before.morphs.weights == morphs.weights && before.drivers == parts[p].drivers &&
+                   moveAlike(channels[other.second], channels[p]);
+        });
+        if (!names.empty() && same != last) {
+            owners[p] = same->second;
+        } else {
+            named.emplace(names, p);
+        }
+    }
+    return owners;
+}
 
 std::vector<uint32_t> PaletteBuilder::add(const Skin& skin) {
     std::map<Key, size_t> seen;
@@ -352,6 +376,14 @@ Character takePart(const Character& character, size_t index) {
         places[piece.vertices[v]] = v;
     }
     takeTargets(character, index, places, taken.morphs);
+    const Part& part = character.parts[index];
+    for (const PoseDriver& driver : character.drivers) {
+        if (driver.targets[0] >= part.firstTarget && driver.targets[0] < part.firstTarget + part.targetCount) {
+            for (uint32_t& target : taken.drivers.emplace_back(driver).targets) {
+                target -= part.firstTarget;
+            }
+        }
+    }
     return taken;
 }
 

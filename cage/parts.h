@@ -18,8 +18,9 @@ namespace supple::cage {
 struct PartCage {
     Part part;
     Cage cage;
-    SkinWeights weights; ///< of the joints of part.joints
-    Morphs morphs;       ///< targets of the part alone
+    SkinWeights weights;             ///< of the joints of part.joints
+    Morphs morphs;                   ///< targets of the part alone
+    std::vector<PoseDriver> drivers; ///< of these targets
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
     std::vector<Damage> damages;
@@ -57,10 +58,14 @@ void reverseFaces(Cage& cage, std::span<const uint8_t> turned);
 /// Finds the parts' first faces anew, after the cage was repaired.
 void findFirstFaces(Character& character);
 
+/// By part: the first part with the morph targets that it will have, by joinParts(); itself, if it is that or has none.
+/// The character has its clips.
+[[nodiscard]] std::vector<size_t> targetOwners(std::span<const PartCage> parts, const Character& character);
+
 /// Puts the parts into the character, in their order: cage, weights, morph targets, counts. The character's clips tell
-/// which parts share their morph targets: those of equal names and weights that all clips move alike, as exporters
-/// write them when they cut a mesh. Channels of shared targets are left in once. Returns how messages name the cage's
-/// elements: as its parts do.
+/// which parts share their morph targets: those of equal names and weights that all clips and drivers move alike, as
+/// exporters write them when they cut a mesh. Channels of shared targets are left in once. Returns how messages name
+/// the cage's elements: as its parts do.
 CageNames joinParts(std::vector<PartCage> parts, Character& character);
 
 } // namespace supple::cage

@@ -37,6 +37,10 @@ install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_tracy.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_view.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supple COMPONENT development)
+if(SUPPLE_WITH_CPU)
+    install(FILES ${supple_SOURCE_DIR}/runtime/include/supple/supple_cpu.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supple COMPONENT development)
+endif()
 list(TRANSFORM SUPPLE_HOST_SHADERS PREPEND ${supple_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE host_shaders)
 install(FILES ${host_shaders} DESTINATION ${shader_directory} COMPONENT development)
 # The headers cite documents.

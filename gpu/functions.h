@@ -51,7 +51,8 @@ namespace supple::gpu {
     X(CmdDispatch)                                                                                                     \
     X(CmdDispatchIndirect)                                                                                             \
     X(CmdCopyBuffer)                                                                                                   \
-    X(CmdFillBuffer)
+    X(CmdFillBuffer)                                                                                                   \
+    X(CmdUpdateBuffer)
 
 /// VK_EXT_debug_utils, loaded only when the host says it enabled the extension.
 #define SUPPLE_DEBUG_FUNCTIONS(X)                                                                                      \

@@ -1,5 +1,7 @@
 #include "gpu/mapping.h"
 
+#include "shaders/shared/specialization.h"
+
 namespace supple::gpu {
 
 Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoice choice) {
@@ -11,7 +13,7 @@ Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoic
     mapping.exactDivision = !mapping.wide && driver == VK_DRIVER_ID_MESA_LLVMPIPE;
     // Narrow: one lane a patch; 32 lanes keep the count of workgroups low, each of which costs a fixed time on
     // lavapipe. Wide: four subgroups of 32, enough to hide latency with a few patches in shared memory.
-    mapping.localSize = mapping.wide ? 128 : 32;
+    mapping.localSize = mapping.wide ? shared::kMaxLanes : 32;
     // A wide GPU of today has some 140 multiprocessors; nine subgroups of 32 on each hide latency by what every lane
     // does by itself. No driver tells this number.
     mapping.lanesToFill = type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 64 : 40'000;

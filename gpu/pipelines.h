@@ -1,6 +1,7 @@
 // One cache of compute pipelines. Whoever needs a pipeline asks for it by what it is made of; what exists is found.
 #pragma once
 
+#include "base/run_jobs.h"
 #include "gpu/pipeline.h"
 
 #include <condition_variable>
@@ -12,9 +13,6 @@
 #include <vector>
 
 namespace supple::gpu {
-
-/// Runs job(i) for every i below count, in any order, on any threads, and returns when all have ended.
-using RunJobs = std::function<void(uint32_t count, const std::function<void(uint32_t)>& job)>;
 
 /// The pipelines of one context. Two are the same if their SPIR-V (its address), layout and constants are the same.
 /// Any threads may use it at the same time, and none waits while another one compiles, unless both want the same

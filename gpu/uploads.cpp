@@ -37,6 +37,7 @@ void Uploads::beginFrame(uint64_t frame, uint64_t completedFrame) {
     frame_ = frame;
     taken_ = 0;
     frameBytes_ = 0;
+    reserved_ = 0;
 }
 
 void Uploads::cancelFrame() {
@@ -48,7 +49,7 @@ VkDeviceSize Uploads::left() const {
     if (!bounded()) {
         return std::numeric_limits<VkDeviceSize>::max();
     }
-    return budget_ - std::min(budget_, std::max(frameBytes_, taken_));
+    return budget_ - std::min(budget_, std::max(frameBytes_, taken_) + reserved_);
 }
 
 Uploads::Piece Uploads::take(VkDeviceSize bytes) {
@@ -60,6 +61,11 @@ Uploads::Piece Uploads::take(VkDeviceSize bytes) {
 void Uploads::count(VkDeviceSize bytes) {
     frameBytes_ += bytes;
     totalBytes_ += bytes;
+}
+
+void Uploads::countReserved(VkDeviceSize bytes) {
+    reserved_ -= std::min(reserved_, bytes);
+    count(bytes);
 }
 
 } // namespace supple::gpu

@@ -33,6 +33,10 @@ public:
     [[nodiscard]] Piece take(VkDeviceSize bytes);
     /// Every byte that is uploaded counts, whatever memory it goes through.
     void count(VkDeviceSize bytes);
+    /// The open frame is to upload so many bytes: they are not left for others.
+    void reserve(VkDeviceSize bytes) { reserved_ += bytes; }
+    /// Some of them are uploaded.
+    void countReserved(VkDeviceSize bytes);
 
     [[nodiscard]] VkDeviceSize frameBytes() const { return frameBytes_; }
     [[nodiscard]] VkDeviceSize totalBytes() const { return totalBytes_; }
@@ -44,6 +48,7 @@ private:
     BufferSet memory_;       ///< with a bound: budget_ bytes a frame in flight
     VkDeviceSize taken_ = 0; ///< of the frame's part of it
     VkDeviceSize frameBytes_ = 0, totalBytes_ = 0;
+    VkDeviceSize reserved_ = 0; ///< and not uploaded yet
     /// Memory of earlier budgets, which frames in flight may still read.
     struct Before {
         BufferSet memory;

@@ -1,5 +1,6 @@
 #include "runtime/asset.h"
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -169,34 +170,61 @@ Result<std::shared_ptr<SchemeTables>> Asset::tablesFor(const gpu::Device& device
     return scheme;
 }
 
-Status Asset::makeClips(const gpu::Device& device) {
-    if (!clips.empty()) {
-        return success();
-    }
-    std::shared_ptr<const skinning::ClipTable> table;
-    Words words;
+std::shared_ptr<const skinning::ClipTable> Asset::wholeClips() {
     if (prepared->clips) {
-        table = std::shared_ptr<const skinning::ClipTable>(prepared, &*prepared->clips);
-        words = wordsIn(prepared, table->words);
-    } else {
-        table = std::make_shared<const skinning::ClipTable>(skinning::buildClipTable(character));
-        words = wordsIn(table, table->words);
+        return std::shared_ptr<const skinning::ClipTable>(prepared, &*prepared->clips);
     }
-    if (!prepared->clips && !ownsPrepared) {
+    if (!ownsPrepared) {
         builtLate.emplace_back("the tables of the clips");
     }
+    return std::make_shared<const skinning::ClipTable>(skinning::buildClipTable(character));
+}
+
+void Asset::streamClips(uint64_t poolBytes) {
+    clipPoolBytes = poolBytes;
+    const bool hasTwins = std::any_of(character.clips.begin(), character.clips.end(),
+                                      [](const cage::Clip& clip) { return !clip.packed.coarseWords.empty(); });
+    if (poolBytes > 0 && hasTwins) {
+        stream = std::make_shared<ClipStream>(wholeClips(), poolBytes);
+    }
+}
+
+Status Asset::makeClips(const gpu::Device& device) {
+    // As long as no group has been created, the table may become another one.
+    const bool isCurrent = stream == nullptr || stream->isStarted() || clipsVersion == stream->version();
+    if (!clips.empty() && isCurrent) {
+        return success();
+    }
+    const std::shared_ptr<const skinning::ClipTable> table =
+        stream != nullptr ? std::shared_ptr<const skinning::ClipTable>(stream, &stream->table()) : wholeClips();
+    const Words words = stream != nullptr ? std::make_shared<const std::vector<uint32_t>>(stream->words())
+                                          : wordsIn(table, table->words);
     Result<gpu::StaticBuffers> made = upload(device, "", "clip tables", words);
     if (!made) {
         return made.error();
     }
     clips = std::move(*made);
-    clipTable = std::move(table);
+    clipTable = table;
+    clipsVersion = stream != nullptr ? stream->version() : 0;
     return success();
+}
+
+void Asset::startStream() {
+    if (stream != nullptr && !clips.empty()) {
+        stream->start();
+    }
+}
+
+void Asset::makeDrivers() {
+    if (hasDrivers() && drivers == nullptr) {
+        drivers = std::make_shared<const skinning::DriverTable>(skinning::buildDriverTable(character));
+    }
 }
 
 void Asset::measureUpdates() {
     if (updates.ofClips.size() != character.clips.size()) {
-        updates = skinning::measureUpdates(character);
+        makeDrivers();
+        updates = skinning::measureUpdates(character, drivers != nullptr ? *drivers : skinning::DriverTable());
     }
 }
 

@@ -4,8 +4,10 @@
 #include "base/result.h"
 #include "gpu/static_buffers.h"
 #include "runtime/clip_bounds.h"
+#include "runtime/clip_stream.h"
 #include "runtime/prepared.h"
 #include "skinning/contacts.h"
+#include "skinning/driver_table.h"
 #include "skinning/skinned_bounds.h"
 #include "skinning/update_errors.h"
 #include "supple/supple.h"
@@ -51,9 +53,13 @@ struct Asset {
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
+    std::shared_ptr<ClipStream> stream;                   ///< null: all segments of clips are on the device
+    uint64_t clipsVersion = 0;                            ///< stream->version() that they were made of
+    uint64_t clipPoolBytes = 0;                           ///< SuppleAssetDesc
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
     skinning::UpdateFacts updates;               ///< made for the first group with update rates
+    std::shared_ptr<const skinning::DriverTable> drivers; ///< made for the first group that asks on the CPU
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;
     bool ownsPrepared = false;
@@ -65,6 +71,7 @@ struct Asset {
     /// Takes what was prepared for anybody.
     [[nodiscard]] static Result<std::shared_ptr<Asset>> create(const gpu::Device& device,
                                                                std::shared_ptr<const Prepared> prepared);
+    [[nodiscard]] std::shared_ptr<const skinning::ClipTable> wholeClips();
     /// For create().
     [[nodiscard]] Status makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words);
     /// Finds or makes the piece of some parts (rising).
@@ -78,8 +85,16 @@ struct Asset {
     /// scheme cannot take.
     [[nodiscard]] Result<std::shared_ptr<SchemeTables>>
     tablesFor(const gpu::Device& device, const surface::Recipe& recipe, const std::shared_ptr<AssetPiece>& piece);
+    /// Of clips with coarse twins, the device keeps what is asked for, in so many bytes; 0: all. For new assets.
+    void streamClips(uint64_t poolBytes);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// Some morph weights follow from joints, and move something.
+    [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
+    /// A group that may read the clips has been created: from now on segments come with frames.
+    void startStream();
+    /// Sees to it that `drivers` is there, if hasDrivers().
+    void makeDrivers();
     /// Sees to it that `updates` is there.
     void measureUpdates();
     /// Sees to it that what a way of skinning needs is there.

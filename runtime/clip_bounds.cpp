@@ -1,5 +1,7 @@
 #include "runtime/clip_bounds.h"
 
+#include "skinning/coarse_clip.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +21,16 @@ float notBelow(double value) {
     return -notAbove(-value);
 }
 
+/// The coarse twin may play in its place.
+skinning::Box boundsOf(const cage::Character& character, const cage::Clip& clip, const skinning::ClipBoundsDesc& desc) {
+    skinning::Box box = skinning::clipBounds(character, &clip, desc);
+    if (const auto twin = skinning::coarseClip(skinning::nodeOrder(character), clip)) {
+        const skinning::Box other = skinning::clipBounds(character, &*twin, desc);
+        box = {glm::min(box.low, other.low), glm::max(box.high, other.high)};
+    }
+    return box;
+}
+
 } // namespace
 
 std::optional<SuppleBounds> ClipBounds::of(const cage::Character& character, uint32_t clip,
@@ -28,10 +40,9 @@ std::optional<SuppleBounds> ClipBounds::of(const cage::Character& character, uin
     }
     const auto [known, isNew] = found_.try_emplace(Key{clip, desc.skinning, desc.margin});
     if (isNew) {
-        const skinning::Box box =
-            clip == SUPPLE_BIND_POSE
-                ? skinning::bindBounds(character, desc)
-                : skinning::clipBounds(character, clip == SUPPLE_REST_POSE ? nullptr : &character.clips[clip], desc);
+        const skinning::Box box = clip == SUPPLE_BIND_POSE   ? skinning::bindBounds(character, desc)
+                                  : clip == SUPPLE_REST_POSE ? skinning::clipBounds(character, nullptr, desc)
+                                                             : boundsOf(character, character.clips[clip], desc);
         for (int axis = 0; axis < 3; ++axis) {
             known->second.min[axis] = notAbove(box.low[axis]);
             known->second.max[axis] = notBelow(box.high[axis]);

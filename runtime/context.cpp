@@ -1,5 +1,6 @@
 #include "runtime/context.h"
 
+#include "runtime/run_jobs.h"
 #include "shaders/shared_count_tasks_comp.h"
 #include "surface/grid.h"
 
@@ -33,17 +34,6 @@ gpu::MemorySource memorySourceOf(const SuppleMemoryCallbacks& callbacks) {
         callbacks.free(&memory, callbacks.user);
     };
     return source;
-}
-
-gpu::RunJobs runJobsOf(const SuppleContextDesc& desc) {
-    if (desc.runJobs == nullptr) {
-        return {};
-    }
-    return [runJobs = desc.runJobs, user = desc.jobsUser](uint32_t count, const std::function<void(uint32_t)>& job) {
-        runJobs(
-            count, [](void* data, uint32_t i) { (*static_cast<const std::function<void(uint32_t)>*>(data))(i); },
-            const_cast<std::function<void(uint32_t)>*>(&job), user);
-    };
 }
 
 gpu::DeviceDesc deviceDescOf(const SuppleContextDesc& desc) {
@@ -95,7 +85,7 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
     context->device_->uploads = &context->uploads_;
-    context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc));
+    context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc.runJobs, desc.jobsUser));
     context->kernels_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
     if (const Status rooms =
             context->taskRooms_.create(d, *context->pipelines_, shared_count_tasks_comp, context->framesInFlight_);
@@ -233,6 +223,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
+    planStreams();
     return success();
 }
 
@@ -256,6 +247,7 @@ Status Context::cancelFrame() {
     }
     frameOpen_ = false;
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
+    forStreams([this](Asset& asset) { asset.stream->cancelFrame(frame_); });
     uploads_.cancelFrame();
     taskRooms_.cancelFrame(frame_);
     timings.cancelFrame();
@@ -280,16 +272,19 @@ void Context::tellWarnings(const cage::Character& character) const {
     }
 }
 
-Result<uint64_t> Context::createAsset(cage::Character character) {
+Result<uint64_t> Context::createAsset(cage::Character character, uint64_t clipPoolBytes) {
     tellWarnings(character);
-    return keep(Asset::create(*device_, std::move(character)));
+    return keep(Asset::create(*device_, std::move(character)), clipPoolBytes);
 }
 
-Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared) {
-    return keep(Asset::create(*device_, std::move(prepared)));
+Result<uint64_t> Context::createAsset(std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes) {
+    return keep(Asset::create(*device_, std::move(prepared)), clipPoolBytes);
 }
 
-Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset) {
+Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset, uint64_t clipPoolBytes) {
+    if (asset) {
+        streamClips(**asset, clipPoolBytes);
+    }
     return asset ? Result<uint64_t>(assets.insert(std::move(*asset))) : asset.error();
 }
 
@@ -343,6 +338,7 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     tellNotes(**group);
     tellBuiltLate(*asset);
     makeRoom(retired_, groups.slotCount() + 1);
+    asset->startStream();
     return groups.insert(std::move(*group));
 }
 
@@ -493,20 +489,22 @@ Status Context::setCapacity(uint64_t id, uint32_t capacity) {
     return success();
 }
 
-Status Context::reloadAsset(uint64_t id, cage::Character character) {
-    return reload(id, Asset::create(*device_, std::move(character)));
+Status Context::reloadAsset(uint64_t id, cage::Character character, uint64_t clipPoolBytes) {
+    return reload(id, Asset::create(*device_, std::move(character)), clipPoolBytes);
 }
 
-Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared) {
-    return reload(id, Asset::create(*device_, std::move(prepared)));
+Status Context::reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes) {
+    return reload(id, Asset::create(*device_, std::move(prepared)), clipPoolBytes);
 }
 
-Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made) {
+Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_t clipPoolBytes) {
     if (!made) {
         return made.error();
     }
     const std::shared_ptr<Asset> before = assets.find(id), asset = std::move(*made);
     const AssetMatch match = AssetMatch::of(before->character, asset->character);
+    streamClips(*asset, clipPoolBytes);
+    takeOverRequests(*before, *asset, match.clips);
     Result<std::vector<Remade>> remade =
         remake({[&](uint64_t, const Group& group) { return group.sharedAsset() == before; },
                 [&](GroupRecipe& recipe) { recipe.renumberParts(match.parts); }, asset, match});
@@ -520,6 +518,7 @@ Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made) {
         tellNotes(*own.group);
     }
     tellBuiltLate(*asset);
+    asset->startStream();
     replace(*remade);
     assets.replace(id, asset);
     return success();

@@ -98,15 +98,18 @@ public:
     /// The device's limit for the sides of 2D images.
     [[nodiscard]] uint32_t maxImageSide() const { return device_->limits.maxImageDimension2D; }
 
-    [[nodiscard]] Result<uint64_t> createAsset(cage::Character character);
-    [[nodiscard]] Result<uint64_t> createAsset(std::shared_ptr<const Prepared> prepared);
+    /// `clipPoolBytes`: SuppleAssetDesc.
+    [[nodiscard]] Result<uint64_t> createAsset(cage::Character character, uint64_t clipPoolBytes);
+    [[nodiscard]] Result<uint64_t> createAsset(std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
+    /// ClipStream::request, if the asset's clips are streamed.
+    [[nodiscard]] Status requestClip(Asset& asset, const ClipRequest& request);
     /// Makes the group anew with another capacity, and those that follow it.
     [[nodiscard]] Status setCapacity(uint64_t group, uint32_t capacity);
     /// Puts a new version into the place of an asset, and makes its groups anew. If that fails nothing changes.
-    [[nodiscard]] Status reloadAsset(uint64_t id, cage::Character character);
-    [[nodiscard]] Status reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared);
+    [[nodiscard]] Status reloadAsset(uint64_t id, cage::Character character, uint64_t clipPoolBytes);
+    [[nodiscard]] Status reloadAsset(uint64_t id, std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes);
     /// Where the coordinates of the device begin.
     [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
     /// From now on or, if the frame has recorded a group, from the next frame on.
@@ -135,8 +138,12 @@ public:
 private:
     /// Makes ready for the hashes of a recording.
     [[nodiscard]] Status makeHashes();
+    struct AskedClip {
+        uint64_t asset = 0;
+        ClipRequest request;
+    };
     /// What a recording that begins now has to know, as calls that bring it about.
-    void noteState(Recorder& recorder) const;
+    void noteState(Recorder& recorder, std::span<const AskedClip> asked) const;
     /// Hands the hashes of complete frames to the recording.
     void noteHashes(uint64_t completedFrame) noexcept;
     /// Calls note(Recorder&) if the context is being recorded.
@@ -170,8 +177,24 @@ private:
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
     void tellBuiltLate(Asset& asset) const;
-    [[nodiscard]] Result<uint64_t> keep(Result<std::shared_ptr<Asset>> asset);
-    [[nodiscard]] Status reload(uint64_t id, Result<std::shared_ptr<Asset>> made);
+    [[nodiscard]] Result<uint64_t> keep(Result<std::shared_ptr<Asset>> asset, uint64_t clipPoolBytes);
+    [[nodiscard]] Status reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_t clipPoolBytes);
+    template <class F>
+    void forStreams(F&& visit) const; ///< visit(Asset&), if its clips are streamed; those too that only groups hold
+    void streamClips(Asset& asset, uint64_t poolBytes) const; ///< Asset::streamClips, with a warning
+    void planStreams();                                       ///< the open frame has begun
+    /// Segments of the group's clips that the open frame copies; the bytes. `statics`: bytes of the group that have
+    /// been recorded without a barrier behind them. Under uploading_.
+    VkDeviceSize recordStream(VkCommandBuffer commandBuffer, Group& group, VkDeviceSize statics);
+    /// Those of all groups, behind a barrier; whether there are any. Under uploading_.
+    bool recordStreams(VkCommandBuffer commandBuffer);
+    /// What is asked for of all assets.
+    [[nodiscard]] std::vector<AskedClip> askedClips() const;
+    void noteClips(Recorder& recorder, std::span<const AskedClip> asked) const;
+    /// Asks for the same of another version of the asset. `clips`: by number before, the number then or kNone.
+    void takeOverRequests(const Asset& before, Asset& asset, std::span<const uint32_t> clips);
+    /// Lets all segments go, and asks for these.
+    void restartStreams(std::span<const AskedClip> asked);
     /// Which groups are made anew, and how. Groups that follow them are made anew with them.
     struct Remaking {
         std::function<bool(uint64_t, const Group&)> wants; ///< asked of groups that follow none
@@ -219,6 +242,8 @@ private:
     gpu::TaskRooms taskRooms_;
     mutable std::mutex uploading_; ///< static data is shared by groups that may be recorded at the same time
     gpu::Uploads uploads_;
+    uint64_t clipStamp_ = 0;           ///< ClipRequest, of the last
+    std::vector<Asset*> streams_;      ///< memory of planStreams
     mutable uint64_t statesAsked_ = 0; ///< gpu::StaticCount::number
     /// Destroyed by the host, perhaps still in flight. Frames that do not record a group may draw it all the same: so
     /// it is in use up to the frame in which it was destroyed.
@@ -275,9 +300,12 @@ void Context::note(const C& call) noexcept {
 
 template <class C>
 void Context::noteLoad(SuppleAsset asset) noexcept {
-    const std::shared_ptr<const Prepared>& version = assets.find(asset.id)->prepared;
-    whileKeeping([&](CallKeeper& keeper) { keeper.keepLoad(asset, version); });
-    whileRecording([&](Recorder& recorder) { recorder.note(C{asset, recorder.noteAsset(*version)}); });
+    const std::shared_ptr<Asset> loaded = assets.find(asset.id);
+    const std::shared_ptr<const Prepared>& version = loaded->prepared;
+    whileKeeping([&](CallKeeper& keeper) { keeper.keepLoad(asset, version, loaded->clipPoolBytes); });
+    whileRecording([&](Recorder& recorder) {
+        recorder.note(C{asset, recorder.noteAsset(*version), loaded->clipPoolBytes});
+    });
 }
 
 template <class F>
@@ -286,6 +314,17 @@ void Context::forViews(F&& visit) {
     for (const Retired<View>& view : retiredViews_) {
         visit(*view.object);
     }
+}
+
+template <class F>
+void Context::forStreams(F&& visit) const {
+    const auto visitAsset = [&](Asset& asset) {
+        if (asset.stream != nullptr) {
+            visit(asset);
+        }
+    };
+    assets.forEach(visitAsset);
+    groups.forEach([&](const Group& group) { visitAsset(*group.sharedAsset()); });
 }
 
 template <class F>

@@ -321,6 +321,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::modifiers>, recordPose<Playback::Part::modifiers>},
+    {SUPPLE_PASS_POSE, poses<Playback::Part::drivers>, recordPose<Playback::Part::drivers>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::springs>, recordPose<Playback::Part::springs>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::mix>, recordPose<Playback::Part::mix>},
@@ -782,11 +783,12 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc, uint64_t call) 
 }
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
-    if (group.staticsThere()) {
+    if (group.staticsThere() && group.asset().stream == nullptr) {
         return {0, true};
     }
     const std::scoped_lock lock(uploading_);
-    const VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+    VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
+    bytes += recordStream(commandBuffer, group, bytes);
     if (group.staticsPending()) {
         return {bytes, false};
     }
@@ -806,6 +808,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
             recorded = true;
         }
     });
+    recorded = recordStreams(commandBuffer) || recorded;
     if (recorded) {
         gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kUploaded);
     }

@@ -139,7 +139,8 @@ Status Group::createListing(const GroupShared& shared) {
     const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
     // Texels of an instance, in the lists of instances and in that of poses.
     const StateRoom room = follows() ? StateRoom{} : instances_->room();
-    const uint32_t texels = std::max(lists, PoseList::wordsOfInstance(room));
+    const bool plays = !follows() && instances_->source() == SUPPLE_POSES_PLAYBACK;
+    const uint32_t texels = std::max(lists, plays ? PoseList::wordsOfInstance(room) : 0);
     if (!device.mapping.wide && uint64_t{texels} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "

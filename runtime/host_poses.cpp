@@ -1,6 +1,7 @@
 #include "runtime/host_poses.h"
 
 #include "runtime/pose_desc.h"
+#include "skinning/rotation.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
@@ -34,12 +35,17 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     transforms_.assign(instanceCount, glm::mat4(1.0f));
     positions_.assign(instanceCount, glm::dvec3(0.0));
     memory_ = skinning::PoseMemory(character);
+    if (asset.drivers != nullptr) {
+        drivers_ = HostDrivers(character, asset.drivers, instanceCount);
+    }
     if (modifiers || springs) {
         const skinning::ClipTable& table = *asset.clipTable;
         modifiers_ = InstanceModifiers(modifiers ? instanceCount : 0, 0);
-        states_.resize(size_t{instanceCount} * 4 * kStateElements);
+        stateElements_ =
+            shared::modifiersBegin(0) + (modifiers ? shared::kMaxModifiers * shared::kModifierElements : 0);
+        states_.resize(size_t{instanceCount} * 4 * stateElements_);
         locals_.resize(instanceCount * table.nodes.size());
-        held_.resize(size_t{instanceCount} * table.footCount);
+        held_.resize(modifiers ? size_t{instanceCount} * table.footCount : 0);
         hasLocals_.resize(instanceCount, 0);
         twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
     }
@@ -68,7 +74,7 @@ std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
 }
 
 std::span<glm::vec4> HostPoses::held(uint32_t instance) {
-    const size_t feet = keepsLocals() ? asset_->clipTable->footCount : 0;
+    const size_t feet = takesModifiers() ? asset_->clipTable->footCount : 0;
     return std::span(held_).subspan(instance * feet, feet);
 }
 
@@ -83,6 +89,7 @@ glm::mat4 HostPoses::jointTransform(uint32_t instance, uint32_t joint) const {
 
 void HostPoses::finishPalette(uint32_t instance) {
     ++versions_[instance];
+    drive(instance);
     if (!rotations_.empty()) {
         skinning::jointRotations(
             palette(instance),
@@ -98,6 +105,7 @@ void HostPoses::setPose(uint32_t instance) {
         modify(instance);
         return;
     }
+    drivers_.setLocals(instance, pose);
     skinning::posePalette(asset_->character, pose, memory_.nodes, palette(instance));
     skinning::jointTransforms(asset_->character.skin, memory_.nodes, joints(instance));
     finishPalette(instance);
@@ -114,9 +122,8 @@ void HostPoses::keepLocals(uint32_t instance) {
     const std::vector<uint32_t>& nodes = asset_->clipTable->nodes;
     for (size_t place = 0; place < nodes.size(); ++place) {
         const skinning::Transform& from = memory_.pose.locals[nodes[place]];
-        const glm::dquat& q = from.rotation;
-        locals_[instance * nodes.size() + place] = {glm::vec3(from.translation),
-                                                    glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)), glm::vec3(from.scale)};
+        locals_[instance * nodes.size() + place] = {glm::vec3(from.translation), skinning::floatsOf(from.rotation),
+                                                    glm::vec3(from.scale)};
     }
     hasLocals_[instance] = 1;
 }
@@ -131,8 +138,8 @@ void HostPoses::modify(uint32_t instance) {
     if (takesModifiers()) {
         modifiers_.place(instance, own, origin_);
     }
-    twin_.poseLocals(std::span(states_).subspan(size_t{instance} * 4 * kStateElements, 4 * size_t{kStateElements}),
-                     std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    twin_.poseLocals(stateWords(instance), std::span(locals_).subspan(instance * nodes, nodes), held(instance));
+    drivers_.setLocals(instance, *asset_->clipTable, twin_.locals());
     springs_.setPose(instance, twin_.locals());
     const std::span<skinning::Affine> target = palette(instance);
     const std::span<glm::mat4> placed = joints(instance);
@@ -170,6 +177,7 @@ void HostPoses::setBindPose(uint32_t instance) {
     std::fill(own.begin(), own.end(), skinning::toAffine(glm::mat4(1.0f)));
     std::copy(asset_->jointFrames.bind.begin(), asset_->jointFrames.bind.end(), joints(instance).begin());
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
+    drivers_.setBindPose(instance);
     forgetLocals(instance);
     springs_.setBindPose(instance);
     finishPalette(instance);
@@ -222,6 +230,7 @@ void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDes
         setWeights(instance,
                    desc.morphWeights != nullptr ? desc.morphWeights : asset_->character.morphs.weights.data());
     }
+    drivers_.setJoints(instance, own);
     forgetLocals(instance);
     springs_.setJoints(instance, own);
     finishPalette(instance);
@@ -233,6 +242,7 @@ void HostPoses::setMorphWeights(uint32_t instance, const float* weights) {
     if (weights != nullptr) {
         std::copy_n(weights, targetCount_, hostWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_));
     }
+    drive(instance);
 }
 
 void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match) {
@@ -253,13 +263,14 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
                                      : asset_->jointFrames.rest[j];
         target[j] = skinning::toAffine(own[j] * asset_->character.skin.inverseBinds[j]);
     }
+    drivers_.setJoints(instance, own);
     springs_.setJoints(instance, own);
     finishPalette(instance);
 }
 
 /// Locals by node; nodes that the other version lacks are as in the rest pose. Modifiers whose nodes are there.
 void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match) {
-    if (!keepsLocals()) {
+    if (!keepsLocals() || !other.keepsLocals()) {
         return;
     }
     const skinning::ClipTable &table = *asset_->clipTable, &before = *other.asset_->clipTable;
@@ -267,7 +278,8 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
         const uint32_t node = match.nodes[before.nodes[place]];
         return node != cage::kNone ? table.places[node] : cage::kNone;
     };
-    if (takesModifiers()) {
+    const bool modified = takesModifiers() && other.takesModifiers();
+    if (modified) {
         modifiers_.takeOver(instance, state(instance), table, other.modifiers_, other.state(instance), placeHere);
     }
     if (other.hasLocals_[instance] == 0) {
@@ -282,7 +294,7 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
                 other.locals_[instance * before.nodes.size() + place];
         }
     }
-    for (uint32_t foot = 0; foot < before.footCount; ++foot) {
+    for (uint32_t foot = 0; modified && foot < before.footCount; ++foot) {
         const uint32_t here = placeHere(before.footPlace(foot));
         if (here != cage::kNone && table.isFoot(table.nodes[here])) {
             held(instance)[table.footNumber(here)] = other.held(instance)[foot];
@@ -315,16 +327,21 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
         std::copy_n(other.palettes_.begin(), joints, palettes_.begin());
         std::copy_n(other.joints_.begin(), joints, joints_.begin());
         std::copy_n(other.rotations_.begin(), std::min(joints, other.rotations_.size()), rotations_.begin());
+        drivers_.takeOver(other.drivers_, count);
         if (keepsLocals()) {
             if (takesModifiers()) {
                 modifiers_.takeOver(other.modifiers_, count);
             }
-            std::copy_n(other.states_.begin(), size_t{count} * 4 * kStateElements, states_.begin());
+            std::copy_n(other.states_.begin(), size_t{count} * 4 * stateElements_, states_.begin());
             std::copy_n(other.locals_.begin(), count * asset_->clipTable->nodes.size(), locals_.begin());
-            std::copy_n(other.held_.begin(), count * size_t{asset_->clipTable->footCount}, held_.begin());
+            std::copy_n(other.held_.begin(), std::min(count * size_t{asset_->clipTable->footCount}, held_.size()),
+                        held_.begin());
             std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
             springs_.takeOver(other.springs_, count);
         }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        drive(i);
     }
 }
 
@@ -332,37 +349,36 @@ std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinni
     if (hasSprings()) {
         return std::nullopt;
     }
-    const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
     const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
-    const skinning::Box linear =
-        skinning::paletteBounds(reach, own, std::span(weights).subspan(instance * targetCount_, targetCount_));
+    const skinning::Box linear = skinning::paletteBounds(reach, own, weightsOf(instance));
     return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
 }
 
 void HostPoses::swing(uint32_t instance, skinning::InstancePose& pose) {
-    springs_.swing(instance, {glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]}, pose.transform);
-    std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
-    springs_.show(swungPalette_);
-    pose.palette = swungPalette_;
-    if (!swungRotations_.empty()) {
-        skinning::jointRotations(swungPalette_, swungRotations_);
-        pose.rotations = swungRotations_;
+    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]};
+    if (!springs_.swing(instance, place, pose.transform)) {
+        return;
     }
+    std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
+    std::copy(pose.rotations.begin(), pose.rotations.end(), swungRotations_.begin());
+    springs_.show(swungPalette_, swungRotations_);
+    pose.palette = swungPalette_;
+    pose.rotations = swungRotations_;
 }
 
-void HostPoses::write(uint64_t frame, double time, uint32_t count, std::byte* target) {
+void HostPoses::write(uint64_t frame, double time, const InstanceSlots& slots, std::byte* target) {
     const size_t joints = layout_.jointCount;
+    const uint32_t count = slots.end();
     springs_.setTime(frame, time);
     for (uint32_t instance = 0; instance < count; ++instance) {
-        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
         skinning::InstancePose pose;
         pose.palette = std::span(palettes_).subspan(instance * joints, joints);
         if (!rotations_.empty()) {
             pose.rotations = std::span(rotations_).subspan(instance * joints, joints);
         }
-        pose.morphWeights = std::span(weights).subspan(instance * targetCount_, targetCount_);
+        pose.morphWeights = weightsOf(instance);
         pose.transform = placement(instance);
-        if (hasSprings()) {
+        if (slots.shows(instance)) {
             swing(instance, pose);
         }
         skinning::writePose(layout_, pose, target);

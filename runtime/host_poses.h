@@ -3,8 +3,10 @@
 
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
+#include "runtime/host_drivers.h"
 #include "runtime/host_springs.h"
 #include "runtime/instance_modifiers.h"
+#include "runtime/instance_slots.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
 #include "skinning/pose_twin.h"
@@ -85,15 +87,15 @@ public:
     /// A box that holds the instance's cage, as it is posed and placed now; nothing if joints of it swing.
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t instance, const skinning::Reach& reach) const;
 
-    /// Writes the first `count` instances, instanceBytes() each, in the layout of shaders/shared/deform.h. `time`: of
-    /// the frame, by which they swing.
-    void write(uint64_t frame, double time, uint32_t count, std::byte* target);
+    /// Writes the instances, instanceBytes() each, in the layout of shaders/shared/deform.h. `time`: of the frame, by
+    /// which those swing that show.
+    void write(uint64_t frame, double time, const InstanceSlots& slots, std::byte* target);
     void cancelFrame(uint64_t frame) { springs_.cancelFrame(frame); }
 
 private:
     void setPose(uint32_t instance); ///< from pose_
     [[nodiscard]] std::span<glm::vec4> held(uint32_t instance);
-    /// There is a palette for locals, and room for these.
+    /// Poses are kept as locals.
     [[nodiscard]] bool keepsLocals() const { return !hasLocals_.empty(); }
     void keepLocals(uint32_t instance);
     void forgetLocals(uint32_t instance) {
@@ -112,8 +114,11 @@ private:
     void swing(uint32_t instance, skinning::InstancePose& pose);
     void takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match);
     [[nodiscard]] skinning::PlaybackState state(uint32_t instance) {
-        const size_t words = 4 * size_t{kStateElements};
-        return skinning::PlaybackState(std::span(states_).subspan(instance * words, words));
+        return skinning::PlaybackState(stateWords(instance));
+    }
+    [[nodiscard]] std::span<uint32_t> stateWords(uint32_t instance) {
+        const size_t words = 4 * size_t{stateElements_};
+        return std::span(states_).subspan(instance * words, words);
     }
     void takeOverJoints(const HostPoses& other, uint32_t instance, const AssetMatch& match);
     [[nodiscard]] glm::mat4 placement(uint32_t instance) const {
@@ -122,6 +127,16 @@ private:
         return placed;
     }
     void finishPalette(uint32_t instance);
+    [[nodiscard]] std::span<const float> weightsWithoutDrivers(uint32_t instance) const {
+        const std::vector<float>& weights = hostWeighted_[instance] ? hostWeights_ : poseWeights_;
+        return std::span(weights).subspan(instance * targetCount_, targetCount_);
+    }
+    /// After a change of the instance's weights, or of joints that drivers look at.
+    void drive(uint32_t instance) { drivers_.drive(instance, weightsWithoutDrivers(instance)); }
+    /// Morph weights as they are shown.
+    [[nodiscard]] std::span<const float> weightsOf(uint32_t instance) const {
+        return drivers_.any() ? drivers_.weights(instance) : weightsWithoutDrivers(instance);
+    }
     [[nodiscard]] std::span<skinning::Affine> palette(uint32_t instance);
     [[nodiscard]] std::span<glm::mat4> joints(uint32_t instance);
 
@@ -142,10 +157,10 @@ private:
     std::vector<uint64_t> versions_; ///< rise whenever something of the instance is set
     uint64_t originVersion_ = 1;
     skinning::PoseMemory memory_;
+    HostDrivers drivers_;
 
     // Where instances may have modifiers, or springs.
-    static constexpr uint32_t kStateElements =
-        shared::modifiersBegin(0) + shared::kMaxModifiers * shared::kModifierElements;
+    uint32_t stateElements_ = 0; ///< for as many modifiers as there may be
     InstanceModifiers modifiers_;
     std::vector<uint32_t> states_;          ///< with the modifiers alone, and the transform
     std::vector<shared::Transform> locals_; ///< before modifiers, one a node of the clip table

@@ -5,6 +5,7 @@
 #include "skinning/rotation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace supple::runtime {
 
@@ -21,8 +22,7 @@ shared::Transform transformOf(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
     const glm::dquat q = skinning::nearestRotation(linear);
     const glm::dmat3 within = glm::transpose(glm::mat3_cast(q)) * linear;
-    return {glm::vec3(m[3]), glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)),
-            glm::vec3(glm::dvec3(within[0][0], within[1][1], within[2][2]))};
+    return {glm::vec3(m[3]), skinning::floatsOf(q), glm::vec3(glm::dvec3(within[0][0], within[1][1], within[2][2]))};
 }
 
 shared::Transform between(const shared::Transform& a, const shared::Transform& b, float part) {
@@ -32,27 +32,13 @@ shared::Transform between(const shared::Transform& a, const shared::Transform& b
             a.scale + (b.scale - a.scale) * part};
 }
 
-/// By node: it swings, or hangs on one that does.
-std::vector<bool> onSwinging(const Asset& asset) {
-    const std::vector<cage::Node>& nodes = asset.character.skeleton.nodes;
-    std::vector<bool> hangs(nodes.size(), false);
-    for (const uint32_t node : asset.clipTable->swinging) {
-        hangs[node] = true;
-    }
-    for (const uint32_t node : asset.character.skeleton.parentsFirst) {
-        const uint32_t parent = nodes[node].parent;
-        hangs[node] = hangs[node] || (parent != cage::kNone && hangs[parent]);
-    }
-    return hangs;
-}
-
 } // namespace
 
 HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
     : asset_(&asset), nodeCount_(asset.clipTable->nodes.size()),
       stateElements_(skinning::SpringTwin::stateElements(*asset.clipTable)),
-      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), isNeeded_(onSwinging(asset)),
-      globals_(jointOfNode_.size()), clock_(capacity), twin_(*asset.clipTable),
+      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), globals_(jointOfNode_.size()), clock_(capacity),
+      twin_(*asset.clipTable),
       shownTwin_(*asset.clipTable,
                  skinning::PoseLayout::of(skinning::SkinningMode::linear, asset.clipTable->jointCount, 0), 0),
       placedWords_(4 * size_t{skinning::PlaybackState::elements(0, 0)}), shown_(nodeCount_),
@@ -60,16 +46,18 @@ HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
       undoBefore_(posed_.size()), undoStates_(states_.size()), undoSlots_(capacity) {
     undone_.reserve(capacity);
     const skinning::ClipTable& table = *asset.clipTable;
+    const auto flags = [&](size_t place) { return table.words[4 * place * shared::kNodeElements + 1]; };
     for (uint32_t j = 0; j < table.jointCount; ++j) {
         const uint32_t node = asset.character.skin.joints[j];
         jointOfNode_[node] = j;
-        if (isNeeded_[node]) {
+        if ((flags(table.places[node]) & shared::kNodeInChain) != 0) {
             hanging_.push_back(j);
         }
     }
-    for (size_t place = 0; place < nodeCount_; ++place) {
-        const uint32_t flags = table.words[4 * place * shared::kNodeElements + 1];
-        isNeeded_[table.nodes[place]] = isNeeded_[table.nodes[place]] || (flags & shared::kNodeOfSprings) != 0;
+    for (uint32_t place = 0; place < nodeCount_; ++place) {
+        if ((flags(place) & (shared::kNodeInChain | shared::kNodeOfSprings)) != 0) {
+            needed_.push_back(place);
+        }
     }
     skinning::PlaybackState(placedWords_).setTransform(glm::mat4(1.0f));
 }
@@ -85,17 +73,22 @@ void HostSprings::setJoints(uint32_t slot, std::span<const glm::mat4> joints) {
     if (!areTaken()) {
         return;
     }
-    const cage::Skeleton& skeleton = asset_->character.skeleton;
-    const std::vector<uint32_t>& places = asset_->clipTable->places;
-    for (const uint32_t node : skeleton.parentsFirst) {
-        const uint32_t parent = skeleton.nodes[node].parent;
-        const glm::dmat4 above = parent != cage::kNone ? globals_[parent] : glm::dmat4(1.0);
+    const std::vector<cage::Node>& nodes = asset_->character.skeleton.nodes;
+    const auto above = [&](uint32_t node) {
+        return nodes[node].parent != cage::kNone ? globals_[nodes[node].parent] : glm::dmat4(1.0);
+    };
+    for (const uint32_t node : asset_->character.skeleton.parentsFirst) {
         const uint32_t joint = jointOfNode_[node];
         globals_[node] =
-            joint != cage::kNone ? glm::dmat4(joints[joint]) : above * cage::localMatrix(skeleton.nodes[node]);
-        if (places[node] != cage::kNone && isNeeded_[node]) {
-            of(posed_, slot)[places[node]] = transformOf(glm::inverse(above) * globals_[node]);
-        }
+            joint != cage::kNone ? glm::dmat4(joints[joint]) : above(node) * cage::localMatrix(nodes[node]);
+    }
+    for (const uint32_t place : needed_) {
+        const uint32_t node = asset_->clipTable->nodes[place];
+        const glm::dmat4 parent = above(node);
+        // Below what is flat, nothing shows where a node is.
+        const bool flat = !(std::abs(glm::determinant(glm::dmat3(parent))) > 1e-30);
+        of(posed_, slot)[place] =
+            transformOf(flat ? cage::localMatrix(nodes[node]) : glm::inverse(parent) * globals_[node]);
     }
     slots_[slot].isPosed = true;
 }
@@ -108,11 +101,12 @@ void HostSprings::setBindPose(uint32_t slot) {
 }
 
 void HostSprings::setTime(uint64_t frame, double time) {
-    time_ = time;
     if (frame_ != frame) {
+        timeBefore_ = time_;
         frame_ = frame;
         undone_.clear();
     }
+    time_ = time;
 }
 
 void HostSprings::keepForUndo(uint32_t slot) {
@@ -128,24 +122,23 @@ void HostSprings::keepForUndo(uint32_t slot) {
 
 void HostSprings::pose(uint32_t slot, double part) {
     const std::span<const shared::Transform> from = of(before_, slot), to = of(posed_, slot);
-    for (size_t i = 0; i < nodeCount_; ++i) {
-        shown_[i] = part < 1.0 ? between(from[i], to[i], static_cast<float>(part)) : to[i];
+    for (const uint32_t place : needed_) {
+        shown_[place] = part < 1.0 ? between(from[place], to[place], static_cast<float>(part)) : to[place];
     }
 }
 
-void HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement) {
-    Slot& own = slots_[slot];
-    swings_ = own.isPosed;
-    if (!swings_) {
-        return;
+bool HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement) {
+    if (!areTaken() || !slots_[slot].isPosed) {
+        return false;
     }
     keepForUndo(slot);
+    Slot& own = slots_[slot];
     const SpringClock::Due due = clock_.take(slot, frame_, time_, place, false);
     const std::span<glm::vec4> state = stateOf(states_, slot);
     const double span = time_ - own.time;
     for (uint32_t k = 0; k < due.count; ++k) {
-        const bool between = !due.settles && span > 0.0;
-        pose(slot, between ? (springTime(due.first + k) - own.time) / span : 1.0);
+        const bool onTheWay = !due.settles && span > 0.0 && k < due.jump; // none: behind all
+        pose(slot, onTheWay ? (springTime(due.first + k) - own.time) / span : 1.0);
         skinning::SpringTwin::Step now{shared::identity(), affineOf(placement), due.settles};
         if (due.moves && due.jump != k) {
             now.move = {due.rows[k][0], due.rows[k][1], due.rows[k][2]};
@@ -157,12 +150,16 @@ void HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4
     std::ranges::copy(of(posed_, slot), shown_.begin());
     twin_.show(state, due.part, shown_);
     shownTwin_.poseLocals(placedWords_, shown_, {});
+    return true;
 }
 
-void HostSprings::show(std::span<skinning::Affine> palette) const {
-    for (const uint32_t joint : swings_ ? std::span<const uint32_t>(hanging_) : std::span<const uint32_t>()) {
+void HostSprings::show(std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) const {
+    for (const uint32_t joint : hanging_) {
         const shared::Affine skinned = shownTwin_.skinned(joint);
         palette[joint] = {{skinned.x, skinned.y, skinned.z}};
+        if (!rotations.empty()) {
+            skinning::jointRotations(palette.subspan(joint, 1), rotations.subspan(joint, 1));
+        }
     }
 }
 
@@ -171,6 +168,7 @@ void HostSprings::cancelFrame(uint64_t frame) {
         return;
     }
     clock_.cancelFrame(frame);
+    time_ = timeBefore_;
     for (const uint32_t slot : undone_) {
         undoSlots_[slot].isPosed = slots_[slot].isPosed; // by calls since then
         slots_[slot] = undoSlots_[slot];

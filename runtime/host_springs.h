@@ -25,8 +25,8 @@ public:
 
     /// As it is posed from the next frame on: one local a node of the clip table.
     void setPose(uint32_t slot, std::span<const shared::Transform> locals);
-    /// The same by what joints are set to, in model space. Other nodes rest where their parents are. What shears is
-    /// lost, but to joints that do not hang on swinging ones.
+    /// The same by what joints are set to, in model space. Other nodes rest where their parents are. Shear is lost for
+    /// joints that swing or hang on them; all others keep the host's matrix. Nodes with a fixed matrix keep that.
     void setJoints(uint32_t slot, std::span<const glm::mat4> joints);
     void setBindPose(uint32_t slot); ///< it does not swing
     void settle(uint32_t slot) { clock_.settle(slot); }
@@ -36,10 +36,11 @@ public:
 
     /// A frame begins.
     void setTime(uint64_t frame, double time);
-    /// Runs the steps that are due in it. `placement`: on the device.
-    void swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement);
-    /// Turns the joints that swing, and what hangs on them: as the slot has swung last.
-    void show(std::span<skinning::Affine> palette) const;
+    /// Runs the steps that are due in it. `placement`: on the device. False: it does not swing.
+    [[nodiscard]] bool swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement);
+    /// Turns the joints that swing, and what hangs on them: as the last slot has swung. `rotations`: of the joints, or
+    /// none.
+    void show(std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) const;
 
     void cancelFrame(uint64_t frame);
     /// The first `count` instances, of the same asset.
@@ -59,16 +60,15 @@ private:
     size_t nodeCount_ = 0, stateElements_ = 0;
     std::vector<uint32_t> hanging_;     ///< joints that swing, and those below them
     std::vector<uint32_t> jointOfNode_; ///< or kNone
-    std::vector<bool> isNeeded_;        ///< by node: springs ask for its local, or what hangs on them
+    std::vector<uint32_t> needed_;      ///< places: steps ask for their locals, or they swing, or hang on such
     std::vector<glm::dmat4> globals_;   ///< memory of setJoints
     SpringClock clock_;
-    double time_ = 0.0;
+    double time_ = 0.0, timeBefore_ = 0.0; ///< of the last frame, and of that before
     uint64_t frame_ = 0;
     skinning::SpringTwin twin_;
     skinning::PoseTwin shownTwin_;
     std::vector<uint32_t> placedWords_; ///< of an instance at the origin without modifiers, for shownTwin_
     std::vector<shared::Transform> shown_;
-    bool swings_ = false; ///< the slot that has swung last
 
     // By slot, one run each.
     std::vector<shared::Transform> posed_, before_; ///< as it is posed now, and in the last frame

@@ -26,9 +26,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
     if (desc.source == SUPPLE_POSES_PLAYBACK) {
-        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs});
+        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs, desc.asset->hasDrivers()});
     }
-    if (status && (desc.source == SUPPLE_POSES_PLAYBACK || desc.room.modifiers || desc.room.springs)) {
+    if (status && posesNodes(desc.source, desc.room.modifiers, desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);
     }
     if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {
@@ -37,6 +37,9 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     status = status && desc.room.springs ? set->takeSprings() : status;
     if (!status) {
         return status.error();
+    }
+    if (desc.source == SUPPLE_POSES_SET) {
+        desc.asset->makeDrivers();
     }
     if (desc.room.updateRates) {
         desc.asset->measureUpdates();
@@ -168,7 +171,7 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
 PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time,
                                   const glm::dvec3& origin) {
     poses_->setOrigin(origin, slots_.end());
-    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_.end());
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_);
     cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
     cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame, false, slots_.end());
     return cost;

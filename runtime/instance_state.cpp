@@ -40,15 +40,15 @@ void InstanceState::recordMove(VkCommandBuffer commandBuffer) const {
 
 VkDeviceSize InstanceState::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame,
                                          std::span<const uint32_t> newSlots) {
+    if (set_ == nullptr) {
+        return 0;
+    }
     const auto zero = [&](uint32_t first, uint32_t count) {
         if (count > 0) {
             device_->vk.CmdFillBuffer(commandBuffer, buffer(), first * bytes_, count * bytes_, 0);
         }
         return count * bytes_;
     };
-    if (set_ == nullptr) {
-        return 0;
-    }
     VkDeviceSize written = 0;
     std::span<const uint32_t> slots = newSlots;
     if (start_.due()) {

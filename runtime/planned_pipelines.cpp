@@ -98,7 +98,8 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
         const skinning::PoseNeeds needs{(group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0,
                                         (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 &&
-                                            !prepared.character.springBones.springs.empty()};
+                                            !prepared.character.springBones.springs.empty(),
+                                        planned.morphs && !prepared.character.drivers.empty()};
         if (Status made = pose ? (*pose)->make(planned.skinning, needs) : pose.error(); !made) {
             return made;
         }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace supple::runtime {
 
@@ -152,19 +153,36 @@ void Playback::forget(uint32_t slot) {
     }
 }
 
-void Playback::forgetEndsWith(uint32_t mask) {
+template <class Holds>
+void Playback::forgetEndsOf(Holds&& holds) {
     skinning::PlaybackState::Layers memory;
     for (uint32_t slot = 0; takesUpdateRates() && slot < capacity_; ++slot) {
         const skinning::PlaybackState own = states_.state(slot);
         const skinning::PlaybackDesc desc =
             own.inBindPose() ? skinning::PlaybackDesc{} : own.read(*asset_->clipTable, memory);
-        if (std::ranges::any_of(desc.layers, [&](const auto& layer) { return layer.mask == mask; })) {
+        if (std::ranges::any_of(desc.layers, holds)) {
             rates_.forget(slot);
         }
     }
 }
 
+void Playback::takeSegments() {
+    const ClipStream* const stream = asset_->stream.get();
+    if (stream == nullptr || segmentVersion_ == stream->version()) {
+        return;
+    }
+    forgetEndsOf([&](const auto& layer) { return stream->versionOf(layer.clip) > segmentVersion_; });
+    segmentVersion_ = stream->version();
+    evaluated_ = kNoSlot;
+}
+
+void Playback::takeStep() {
+    takeSegments();
+    steps_.take(time_);
+}
+
 void Playback::evaluate(uint32_t slot) {
+    takeSegments();
     if (evaluated_ == slot) {
         return;
     }
@@ -378,9 +396,17 @@ void Playback::setOrigin(const glm::dvec3& origin, uint32_t end) {
 }
 
 void Playback::setMorphWeights(uint32_t slot, const float* weights) {
-    forget(slot);
     skinning::PlaybackState own = states_.state(slot);
-    if (weights == nullptr && own.morphWeights() != nullptr) { // ends that were posed meanwhile have the host's
+    const float* const before = own.morphWeights();
+    const bool areSame = weights == nullptr || before == nullptr
+                             ? weights == before
+                             : std::memcmp(weights, before, push_.morphCount * sizeof(float)) == 0;
+    if (areSame) {
+        return;
+    }
+    forget(slot);
+    // Ends that were posed meanwhile have the host's. With drivers, they have what these add to the weights of then.
+    if (hasDrivers() || weights == nullptr) {
         rates_.forget(slot);
     }
     own.setMorphWeights(weights, push_.morphCount);
@@ -390,7 +416,7 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
     masks_.set(mask, joints, morphs);
     evaluated_ = kNoSlot;
-    forgetEndsWith(mask);
+    forgetEndsOf([mask](const auto& layer) { return layer.mask == mask; });
 }
 
 void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& match) {
@@ -464,8 +490,10 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
 }
 
 VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
-    return springState_.recordUpload(commandBuffer, frame, {}) + states_.recordUpload(*device_, commandBuffer, frame) +
-           masks_.recordUpload(*device_, commandBuffer, frame);
+    VkDeviceSize bytes = springState_.recordUpload(commandBuffer, frame, {});
+    bytes += states_.recordUpload(*device_, commandBuffer, frame);
+    bytes += masks_.recordUpload(*device_, commandBuffer, frame);
+    return bytes;
 }
 
 void Playback::cancelFrame(uint64_t frame) {
@@ -543,6 +571,8 @@ bool Playback::has(Part part) const {
         return posed && (roots_ || plants_);
     case Part::modifiers:
         return posed && modifies_;
+    case Part::drivers:
+        return posed && hasDrivers();
     case Part::springs:
         return hasSprings() && (list_.swingingCount() > 0 || always);
     case Part::mix:
@@ -576,7 +606,8 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
         const PoseList::Window& own = list_.window(window);
         const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
         push.firstInstance = run.first;
-        push.instanceCount = part == Part::palette ? own.shown : part == Part::springs ? own.swinging.count : run.count;
+        const bool shownAlone = part == Part::palette || part == Part::drivers;
+        push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
         push.shown = own.shown;
         push.springWords = own.swinging.first;
@@ -598,6 +629,9 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
         break;
     case Part::modifiers:
         kernels_->recordModifiers(dispatches, sets_[window], push);
+        break;
+    case Part::drivers:
+        kernels_->recordDrivers(dispatches, sets_[window], asset_->clipTable->drivenQuads, push);
         break;
     case Part::springs:
         kernels_->recordSprings(dispatches, sets_[window], push);
@@ -640,6 +674,10 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     if (takesModifiers()) {
         dispatches.computeBarrier();
         kernels_->recordModifiers(dispatches, set, none);
+    }
+    if (hasDrivers()) {
+        dispatches.computeBarrier();
+        kernels_->recordDrivers(dispatches, set, asset_->clipTable->drivenQuads, none);
     }
     if (hasSprings()) {
         dispatches.computeBarrier();

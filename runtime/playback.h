@@ -75,6 +75,8 @@ public:
     [[nodiscard]] bool takesTransitions() const { return states_.haveTransitions(); }
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
     [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
+    /// Some morph weights follow from joints, beside what clips and the host make of them.
+    [[nodiscard]] bool hasDrivers() const { return push_.drivers != 0; }
     /// A frame poses what listPoses() has listed, not all that the group works on.
     [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
@@ -135,7 +137,7 @@ public:
 
     // If listsPoses(), in each frame, before its parts of the pass. The interval of an instance whose size on the
     // screen decides is chosen with setSize(); until then it is posed in every frame.
-    void takeStep() { steps_.take(time_); } ///< a recording begins
+    void takeStep(); ///< a recording begins
     /// Whether setSize() is waited for.
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.asked(slot) == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
@@ -160,8 +162,8 @@ public:
         return list_.recordUpload(*device_, commandBuffer, frame);
     }
 
-    enum class Part { locals, roots, modifiers, springs, palette, mix };
-    static constexpr uint32_t kParts = 6;
+    enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
+    static constexpr uint32_t kParts = 7;
     static constexpr uint32_t kTasks = kParts + 1; ///< of a window at most: with transitions locals are two
     /// A part of the pass over the instances of a window.
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
@@ -212,7 +214,9 @@ private:
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot); ///< what plays there, or where it stands, has changed
-    void forgetEndsWith(uint32_t mask);
+    void takeSegments();        ///< other segments of clips may play since then
+    template <class Holds>
+    void forgetEndsOf(Holds&& holds); ///< of instances that have a layer for which holds(PlaybackLayer)
 
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
@@ -236,6 +240,7 @@ private:
     uint32_t evaluated_ = kNoSlot; ///< the slot that twin_ has posed
     skinning::PoseTwin twin_, laterTwin_;
     PoseSpan evaluatedSpan_;
+    uint64_t segmentVersion_ = 0; ///< ClipStream::version() of what is posed
 
     UpdateRates rates_;
     TimeSteps steps_;

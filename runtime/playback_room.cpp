@@ -95,6 +95,7 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.springs = table.springs;
     push.springScratch = springScratch(table, room);
     push.springStride = springStride(table, room);
+    push.drivers = layout.morphCount > 0 ? table.drivers : 0;
     return push;
 }
 

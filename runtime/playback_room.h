@@ -6,6 +6,7 @@
 #include "skinning/deform_kernels.h"
 
 #include <cstdint>
+#include <supple/supple.h>
 #include <vulkan/vulkan_core.h>
 
 namespace supple::runtime {
@@ -18,6 +19,11 @@ struct StateRoom {
     bool updateRates = false;
     bool springs = false; ///< some joints of the asset swing
 };
+
+/// Poses are made of what nodes do: the asset needs its clip table.
+[[nodiscard]] constexpr bool posesNodes(SupplePoseSource source, bool modifiers, bool springs) {
+    return source == SUPPLE_POSES_PLAYBACK || modifiers || springs;
+}
 
 /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
 [[nodiscard]] VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout,

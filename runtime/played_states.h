@@ -71,7 +71,8 @@ private:
     [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot);                 ///< but for the transition
     void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of words_, for regions_
     void stageSlot(VkDeviceSize& from, uint32_t slot);
-    void dueAgain(uint32_t slot); ///< the transition and what was played before
+    /// The transition, and what was played before: also where there was nothing, which uploads some bytes in vain.
+    void dueAgain(uint32_t slot);
 
     Desc desc_;
     std::vector<uint32_t> words_;

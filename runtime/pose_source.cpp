@@ -50,9 +50,11 @@ public:
         target_ = buffers.poses;
         return success();
     }
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, uint32_t end) override {
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time,
+                          const InstanceSlots& slots) override {
+        const uint32_t end = slots.end();
         const VkDeviceSize from = frame % framesInFlight_ * frameBytes(), bytes = end * poses_.instanceBytes();
-        poses_.write(frame, time, end, staging_.mapped() + from);
+        poses_.write(frame, time, slots, staging_.mapped() + from);
         if (bytes > 0) {
             const VkBufferCopy region{from, 0, bytes};
             device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(), target_, 1, &region);
@@ -113,7 +115,7 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const override { return playback_.memoryUse(); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override { playback_.recordWarmUp(commandBuffer); }
 
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double, uint32_t) override {
+    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double, const InstanceSlots&) override {
         return {0, playback_.recordUpload(commandBuffer, frame)};
     }
     void beginFrame(uint64_t completedFrame) override { playback_.beginFrame(completedFrame); }

@@ -5,6 +5,7 @@
 #include "gpu/frame_member.h"
 #include "runtime/asset.h"
 #include "runtime/host_poses.h"
+#include "runtime/instance_slots.h"
 #include "runtime/instance_windows.h"
 #include "runtime/pass_cost.h"
 #include "runtime/playback.h"
@@ -65,12 +66,12 @@ public:
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
 
     // Recording.
-    /// `time`: of the frame (SuppleRecordDesc.time). `end`: slots below it may be in use.
+    /// `time`: of the frame (SuppleRecordDesc.time).
     virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, double /*time*/,
-                                  uint32_t /*end*/) {
+                                  const InstanceSlots& /*slots*/) {
         return {};
     }
-    /// The pose pass has six parts with a barrier between each two. Whether the source has this one.
+    /// The pose pass has seven parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,
                                 const InstanceWindows& /*windows*/) const {

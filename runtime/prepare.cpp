@@ -1,5 +1,6 @@
 #include "runtime/prepare.h"
 
+#include "runtime/playback_room.h"
 #include "runtime/skinning_choice.h"
 #include "runtime/surface_recipe.h"
 
@@ -89,7 +90,8 @@ Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGro
 }
 
 Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
-    if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK && !prepared.clips) {
+    const auto has = [&](uint32_t flag) { return (group.desc.flags & flag) != 0; };
+    if (posesNodes(group.desc.poseSource, has(SUPPLE_GROUP_MODIFIERS), has(SUPPLE_GROUP_SPRINGS)) && !prepared.clips) {
         prepared.clips = skinning::buildClipTable(prepared.character);
     }
     if (const skinning::SkinningMode mode = skinningOf(prepared.character, group.desc.skinning);

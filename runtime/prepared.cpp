@@ -65,8 +65,8 @@ void Prepared::follow() {
     jointFrames = skinning::jointFrames(character);
 }
 
-void Prepared::packClips(double error) {
-    for (std::string& warning : skinning::packClips(character, error)) {
+void Prepared::packClips(double error, double coarseError) {
+    for (std::string& warning : skinning::packClips(character, error, coarseError)) {
         character.warnings.push_back(std::move(warning));
     }
     if (clips) {

@@ -68,7 +68,7 @@ struct Prepared {
     void follow();
 
     /// Packs the clips (skinning/clip_packer.h).
-    void packClips(double error);
+    void packClips(double error, double coarseError = 0.0);
 
     /// Finds the piece of some parts (rising), or makes one that is not kept here.
     [[nodiscard]] std::shared_ptr<const PreparedPiece> pieceOf(const std::vector<uint32_t>& parts) const;

@@ -19,6 +19,8 @@ inline constexpr size_t kFirstSize<SuppleAssetDesc> = offsetof(SuppleAssetDesc, 
 template <>
 inline constexpr size_t kFirstSize<SuppleCharacterDesc> = offsetof(SuppleCharacterDesc, materialLayers);
 template <>
+inline constexpr size_t kFirstSize<SuppleClipInfo> = offsetof(SuppleClipInfo, byteCount);
+template <>
 inline constexpr size_t kFirstSize<SuppleContextDesc> = offsetof(SuppleContextDesc, memoryBlockSize);
 template <>
 inline constexpr size_t kFirstSize<SuppleMemoryUse> = offsetof(SuppleMemoryUse, spare);

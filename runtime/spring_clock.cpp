@@ -46,6 +46,7 @@ int64_t springStepAt(double time) {
 void SpringClock::settle(uint32_t slot) {
     if (isTaken()) {
         slots_[slot].last = kNever;
+        std::erase_if(undo_, [slot](const Undo& undo) { return undo.slot == slot; });
     }
 }
 
@@ -62,6 +63,7 @@ void SpringClock::place(uint32_t slot, double time) {
 }
 
 void SpringClock::settleAll() {
+    undo_.clear();
     for (Slot& slot : slots_) {
         slot.last = kNever;
     }
@@ -135,7 +137,13 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
 void SpringClock::cancelFrame(uint64_t frame) {
     if (undoFrame_ == frame) {
         // The first of a slot is what it was.
-        std::for_each(undo_.rbegin(), undo_.rend(), [&](const Undo& undo) { slots_[undo.slot] = undo.before; });
+        std::for_each(undo_.rbegin(), undo_.rend(), [&](const Undo& undo) {
+            const Slot now = slots_[undo.slot];
+            slots_[undo.slot] = undo.before;
+            // What calls since then have said stays said.
+            slots_[undo.slot].placed = now.placed;
+            slots_[undo.slot].jumped = std::min(undo.before.jumped, now.jumped);
+        });
         undo_.clear();
     }
 }

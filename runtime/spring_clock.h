@@ -35,7 +35,8 @@ class SpringClock {
 public:
     SpringClock() = default; ///< not taken
     explicit SpringClock(uint32_t capacity) : slots_(capacity) { undo_.reserve(capacity); }
-    /// False: no instance has springs, whatever this is told.
+    /// False: no instance has springs. What settles, jumps, is placed or changes counts for nothing then; nothing else
+    /// may be called.
     [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
 
     /// The instance begins anew with its next step: tails at rest in the pose.

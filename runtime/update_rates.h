@@ -63,7 +63,8 @@ class UpdateRates {
 public:
     UpdateRates() = default; ///< not taken
     explicit UpdateRates(uint32_t capacity) : slots_(capacity) {}
-    /// False: all instances are posed at the group's time, ever, whatever this is told.
+    /// False: all instances are posed at the group's time, ever. Only reset(), forget(), asked() and interval() may be
+    /// called then.
     [[nodiscard]] bool areTaken() const { return !slots_.empty(); }
 
     /// A new instance has the slot.

@@ -251,10 +251,12 @@ Result<uint32_t> View::takeRuns(const surface::LodTables& lod, const std::vector
         uint32_t range = 0;
         for (uint32_t r = 0; r < each; ++r) {
             range += r > 0 && lod.runs[r].patchClass != lod.runs[r - 1].patchClass ? 1 : 0;
-            const auto form = static_cast<uint32_t>(surface::rowOf(lod.runs[r].patchClass).form);
+            const surface::PatchClass patchClass = lod.runs[r].patchClass;
+            const auto form = static_cast<uint32_t>(surface::rowOf(patchClass).form);
             const uint32_t run = first + w * each + r;
             takenRuns_[run] = true;
-            runWords_[kLodRunWords * run] = form | (doubleSided[r] ? kRunIsDoubleSided : 0);
+            runWords_[kLodRunWords * run] =
+                form | (doubleSided[r] ? kRunIsDoubleSided : 0) | (surface::hasLines(patchClass) ? kRunHasLines : 0);
             runWords_[kLodRunWords * run + 1] = first | (first + w * each + range) << 16;
             forms_ |= 1u << form;
         }

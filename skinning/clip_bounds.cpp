@@ -1,5 +1,6 @@
 #include "skinning/clip_bounds.h"
 
+#include "cage/solved_driver.h"
 #include "skinning/chord.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 constexpr int kMostHalvings = 8;
 /// Poses on the device are floats: of the products that lead to a vertex, and of the extent (docs/playback.md).
 constexpr double kProductSlack = 1e-6, kExtentSlack = 2e-5;
+/// Of the coefficients of a driver: what is off where they cancel out.
+constexpr double kDriverSlack = 1e-5;
 
 /// Finds the box of intervals, one after the other.
 class BoundsFinder {
@@ -33,6 +36,7 @@ public:
         }
         joints_.resize(skin.joints.size());
         placed_.resize(positions_.size());
+        takeDrivers(clip == nullptr);
         if (clip != nullptr) {
             steps_ = std::any_of(clip->channels.begin(), clip->channels.end(), [](const cage::Channel& channel) {
                 return channel.interpolation == cage::Interpolation::step;
@@ -72,6 +76,10 @@ public:
     [[nodiscard]] bool isSound() const { return isSound_; }
 
 private:
+    /// What drivers add to a morph weight, at least and at most.
+    struct Driven {
+        double low = 0.0, high = 0.0;
+    };
     struct Joint {
         ChordNode place;
         ChordMatrix rotation; ///< of the joint's matrix with the inverse bind
@@ -83,6 +91,28 @@ private:
         double weight = 0.0;
         uint32_t joint = 0;
     };
+
+    /// They add what they will, between their ends. In the rest pose that is 0, but for what floats leave of it.
+    void takeDrivers(bool rests) {
+        driven_.resize(character_.morphs.targets.size());
+        for (const cage::PoseDriver& driver : character_.drivers) {
+            const Result<cage::SolvedDriver> solved = rests ? cage::solveDriver(driver) : Error{};
+            for (size_t t = 0; t < driver.targets.size(); ++t) {
+                const double most = solved ? kDriverSlack * sumOfCoefficients(*solved, t, driver.targets.size())
+                                           : std::numeric_limits<double>::infinity();
+                Driven& own = driven_[driver.targets[t]];
+                own.low += std::max(static_cast<double>(driver.low), -most);
+                own.high += std::min(static_cast<double>(driver.high), most);
+            }
+        }
+    }
+    static double sumOfCoefficients(const cage::SolvedDriver& solved, size_t target, size_t targets) {
+        double sum = 0.0;
+        for (size_t i = target; i < solved.coefficients.size(); i += targets) {
+            sum += std::abs(static_cast<double>(solved.coefficients[i]));
+        }
+        return sum;
+    }
 
     template <class F>
     void forInfluences(size_t vertex, F&& visit) const {
@@ -132,7 +162,9 @@ private:
     void morph() {
         morphs_ = false;
         for (size_t t = 0; t < character_.morphs.targets.size(); ++t) {
-            const double weights[2] = {pose_.weights[0][t], pose_.weights[1][t]}, error = pose_.weightErrors[t];
+            const double middle = 0.5 * (driven_[t].low + driven_[t].high);
+            const double weights[2] = {pose_.weights[0][t] + middle, pose_.weights[1][t] + middle};
+            const double error = pose_.weightErrors[t] + (driven_[t].high - middle);
             if (weights[0] == 0.0 && weights[1] == 0.0 && error == 0.0) {
                 continue;
             }
@@ -313,6 +345,7 @@ private:
     double sum_ = 0.0;          ///< of everything: finite if all of it is
     std::vector<double> reach_; ///< by joint: the farthest vertex that follows it, or -1
     std::vector<Joint> joints_;
+    std::vector<Driven> driven_; ///< by morph target
     bool morphs_ = false;
     std::vector<glm::dvec3> morphed_[2];
     std::vector<double> morphErrors_;

@@ -23,6 +23,7 @@ struct ClipBoundsDesc {
 /// without a key in between, everything that moves is compared with its chord, which goes straight from its value at t0
 /// to that at t1, both at the same share s of the time. How far a thing can be from its chord follows from its parts:
 ///
+///   - a driver:   its weights are anywhere between the ends of its clamp.
 ///   - a channel:  STEP and LINEAR vectors are their chords. A spline's second derivative in s is linear, so its norm M
 ///     is largest at an end, and the spline is within M / 8 of the chord.
 ///   - a rotation: a slerp by an angle a is within a^2 / 8 of its chord, as matrices. For splines see rotationError().

@@ -1,8 +1,10 @@
 #include "skinning/clip_packer.h"
 
 #include "cage/message.h"
+#include "cage/solved_driver.h"
 #include "shaders/shared/pose.h"
 #include "skinning/clip_table.h"
+#include "skinning/driven_weights.h"
 #include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 #include "skinning/pose_distance.h"
@@ -14,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace supple::skinning {
 namespace {
@@ -113,6 +116,13 @@ struct Track {
     [[nodiscard]] bool isRotation() const { return channel->path == ChannelPath::rotation; }
 };
 
+/// How far packing may move a vertex, as parts of the extent.
+struct PackErrors {
+    double fine = 0.0;
+    double coarse = 0.0; ///< of coarse twins; not more than `fine`: there is none
+    [[nodiscard]] bool wantTwins() const { return coarse > fine; }
+};
+
 /// What a clip becomes with some budget.
 struct Attempt {
     PackedClip packed;
@@ -122,9 +132,10 @@ struct Attempt {
 class ClipPacker {
 public:
     /// `workLeft` becomes less.
-    ClipPacker(const PoseDistance& distance, const NodeOrder& order, const cage::Clip& clip, double error,
-               uint64_t& workLeft)
-        : distance_(distance), order_(order), clip_(clip), error_(error), workLeft_(workLeft) {}
+    ClipPacker(const PoseDistance& distance, const DriverTable& drivers, const NodeOrder& order, const cage::Clip& clip,
+               const PackErrors& errors, uint64_t& workLeft)
+        : distance_(distance), driven_(drivers), hasDrivers_(drivers.quads != 0), order_(order), clip_(clip),
+          errors_(errors), workLeft_(workLeft) {}
 
     /// Nothing if the clip stays as it is; leftOut() may say why.
     std::optional<cage::Clip> pack() {
@@ -138,13 +149,16 @@ public:
             if (!takeWork() || !follow()) {
                 return std::nullopt;
             }
-            if (std::optional<cage::Clip> packed = search()) {
-                return packed;
+            if (std::optional<Found> fine = search(errors_.fine, [&](double budget) { return attempt(budget); })) {
+                addTwin(*fine);
+                return std::move(fine->clip);
             }
         }
         return std::nullopt;
     }
     [[nodiscard]] const char* leftOut() const { return leftOut_; }
+    /// Why the clip has no twin, if it was to get one and is packed.
+    [[nodiscard]] const char* twinLeftOut() const { return twinLeftOut_; }
 
 private:
     /// Those that are packed: the last one of a property counts.
@@ -206,14 +220,29 @@ private:
     /// False: it would take too much memory or time.
     bool takeWork() {
         const cage::Character& character = distance_.character();
-        const size_t targets = weights_.empty() ? 0 : character.morphs.targets.size();
-        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets);
+        const size_t targets = comparesWeights() ? character.morphs.targets.size() : 0;
+        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets + driverWork());
         leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
                    : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
                    : work > workLeft_ ? "the clips before it took too long"
                                       : nullptr;
         workLeft_ -= leftOut_ == nullptr ? work : 0;
         return leftOut_ == nullptr;
+    }
+
+    /// Weights differ where a channel or a driver sets some.
+    [[nodiscard]] bool comparesWeights() const { return !weights_.empty() || hasDrivers_; }
+    [[nodiscard]] size_t driverWork() const {
+        size_t rounds = 0;
+        for (const cage::PoseDriver& driver : distance_.character().drivers) {
+            rounds += cage::driverWork(driver);
+        }
+        return rounds;
+    }
+    /// As instances show them in pose_.
+    void takeWeights(std::vector<double>& weights) {
+        weights = pose_.morphWeights;
+        driven_.addTo(pose_, weights);
     }
 
     /// The clip on its frames, and in their middles. False: it has numbers that are too large to be packed.
@@ -227,7 +256,7 @@ private:
             track.values.clear();
         }
         truth_.assign(2 * size_t{last_} + 1, std::vector<glm::dmat4>(character.skeleton.nodes.size()));
-        trueWeights_.assign(weights_.empty() ? 0 : truth_.size(), {});
+        trueWeights_.assign(comparesWeights() ? truth_.size() : 0, {});
         for (uint32_t k = 0; k < truth_.size(); ++k) {
             sampleClip(character, clip_, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, truth_[k]);
@@ -235,8 +264,8 @@ private:
                 leftOut_ = "its numbers are too large";
                 return false;
             }
-            if (!weights_.empty()) {
-                trueWeights_[k] = pose_.morphWeights;
+            if (comparesWeights()) {
+                takeWeights(trueWeights_[k]);
             }
             if (k % 2 == 0) {
                 takeFrame();
@@ -463,66 +492,106 @@ private:
         return clip;
     }
 
-    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices) {
+    /// Once it is more than `most`, nobody asks how much more.
+    [[nodiscard]] double errorOf(const cage::Clip& clip, std::span<const uint32_t> vertices, double most) {
         double worst = 0.0;
         std::vector<glm::dmat4> globals(distance_.character().skeleton.nodes.size());
-        for (uint32_t k = 0; k < truth_.size() && worst <= error_; ++k) {
+        for (uint32_t k = 0; k < truth_.size() && worst <= most; ++k) {
             sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
             distance_.globalsOf(pose_, globals);
             double own = distance_.between(globals, truth_[k], vertices);
-            if (!weights_.empty()) {
-                own += between(0, pose_.morphWeights, trueWeights_[k]) / distance_.extent();
+            if (comparesWeights()) {
+                takeWeights(shownWeights_);
+                own += between(0, shownWeights_, trueWeights_[k]) / distance_.extent();
             }
             worst = std::max(worst, own);
         }
         return worst;
     }
 
-    /// The largest budget that keeps within the error, first of some vertices, at last of all.
-    std::optional<cage::Clip> search() {
+    /// What a budget has given.
+    struct Found {
+        Attempt attempt;
+        cage::Clip clip; ///< with its words and its error
+    };
+    /// Tries make(budget) with the largest budget that keeps within the error, first of some vertices, at last of all.
+    template <class Make>
+    std::optional<Found> search(double error, Make&& make) {
         double low = 0.0, high = 0.0, part = 0.5; // budgets, in errors
         for (int i = 0; i < 10; ++i) {
-            const cage::Clip clip = decoded(attempt(part * error_ * distance_.extent()));
-            (errorOf(clip, distance_.watched()) <= error_ ? low : high) = part;
+            const cage::Clip clip = decoded(make(part * error * distance_.extent()));
+            (errorOf(clip, distance_.watched(), error) <= error ? low : high) = part;
             part = high == 0.0 ? 1.5 * part : 0.5 * (low + high);
             if (low > 0.0 && high > 0.0 && high < 1.05 * low) {
                 break;
             }
         }
         for (int i = 0; i < 12 && low > 0.0; ++i, low *= 0.93) {
-            const Attempt own = attempt(low * error_ * distance_.extent());
-            std::optional<std::vector<uint32_t>> words = packedWords(own.packed, clip_.duration, order_.nodes.size());
-            if (!words || own.packed.properties.empty()) {
+            Found own{make(low * error * distance_.extent()), {}};
+            std::optional<std::vector<uint32_t>> words =
+                packedWords(own.attempt.packed, clip_.duration, order_.nodes.size());
+            if (!words || own.attempt.packed.properties.empty()) {
                 return std::nullopt;
             }
-            cage::Clip clip = decoded(own);
-            clip.packed.error = errorOf(clip, distance_.all());
-            if (clip.packed.error <= error_) {
-                clip.packed.words = std::move(*words);
-                return clip;
+            own.clip = decoded(own.attempt);
+            own.clip.packed.error = errorOf(own.clip, distance_.all(), error);
+            if (own.clip.packed.error <= error) {
+                own.clip.packed.words = std::move(*words);
+                return own;
             }
         }
         return std::nullopt;
     }
 
+    /// Gives the clip its coarse twin, if that takes less than what it stands in for.
+    void addTwin(Found& fine) {
+        if (!errors_.wantTwins()) {
+            return;
+        }
+        if (!takeWork()) {
+            twinLeftOut_ = std::exchange(leftOut_, nullptr);
+            return;
+        }
+        const std::optional<Found> coarse = search(errors_.coarse, [&](double budget) {
+            Attempt own = attempt(budget);
+            own.rest = fine.attempt.rest; // what is not packed plays with either
+            std::erase_if(own.packed.properties, [&](const PackedProperty& property) {
+                return std::none_of(
+                    fine.attempt.packed.properties.begin(), fine.attempt.packed.properties.end(),
+                    [&](const PackedProperty& of) { return of.place == property.place && of.path == property.path; });
+            });
+            return own;
+        });
+        cage::PackedChannels& packed = fine.clip.packed;
+        if (coarse && coarse->clip.packed.words.size() < segmentWords(packed.words)) {
+            packed.coarseWords = coarse->clip.packed.words;
+            packed.coarseError = coarse->clip.packed.error;
+        } else {
+            twinLeftOut_ = coarse ? "it would take as much as the segments" : "none keeps within the error";
+        }
+    }
+
     const PoseDistance& distance_;
+    DrivenWeights driven_;
+    bool hasDrivers_;
     const NodeOrder& order_;
     const cage::Clip& clip_;
-    double error_;
+    PackErrors errors_;
     uint64_t& workLeft_;
-    const char* leftOut_ = nullptr;
+    const char *leftOut_ = nullptr, *twinLeftOut_ = nullptr;
     uint32_t last_ = 0;
     std::vector<Track> tracks_;
     std::vector<WeightTrack> weights_;
     std::vector<Channel> rest_;                  ///< channels that are never packed
     std::vector<std::vector<glm::dmat4>> truth_; ///< by half frame
     std::vector<std::vector<double>> trueWeights_;
+    std::vector<double> shownWeights_;
     Pose pose_;
 };
 
 } // namespace
 
-std::vector<std::string> packClips(cage::Character& character, double error) {
+std::vector<std::string> packClips(cage::Character& character, double error, double coarseError) {
     std::vector<std::string> leftOut;
     if (character.clips.empty() || character.skin.joints.empty()) {
         return leftOut;
@@ -530,20 +599,28 @@ std::vector<std::string> packClips(cage::Character& character, double error) {
     const uint32_t root = findRoot(character);
     std::vector<std::optional<cage::Clip>> packed;
     {
-        const PoseDistance distance(character);
+        PoseDistance distance(character);
+        distance.takeDrivers();
+        const DriverTable drivers = buildDriverTable(character);
         const NodeOrder order = nodeOrder(character);
         uint64_t workLeft = kMostWork;
         for (const cage::Clip& clip : character.clips) {
-            ClipPacker packer(distance, order, clip, error, workLeft);
+            ClipPacker packer(distance, drivers, order, clip, {error, coarseError}, workLeft);
             std::optional<cage::Clip>& own = packed.emplace_back(packer.pack());
             const size_t bytes = clipBytes(order, clip);
-            if (own && clipBytes(order, *own) < bytes) {
+            // Its twin is beside what it takes itself.
+            if (own && clipBytes(order, *own) - own->packed.coarseWords.size() * sizeof(uint32_t) < bytes) {
                 own->packed.unpackedBytes = bytes;
             } else {
                 own.reset();
             }
             if (packer.leftOut() != nullptr) {
                 leftOut.push_back("clip " + cage::quoted(clip.name) + " is not packed: " + packer.leftOut());
+            }
+            const bool isDone = coarseError > error && !clip.packed.words.empty() && clip.packed.coarseWords.empty();
+            const char* const noTwin = isDone ? "it is packed already" : own ? packer.twinLeftOut() : nullptr;
+            if (noTwin != nullptr) {
+                leftOut.push_back("clip " + cage::quoted(clip.name) + " has no coarse twin: " + noTwin);
             }
         }
     }

@@ -23,6 +23,9 @@ namespace supple::skinning {
 /// within the error, found by bisection. A property that can be left at rest, or constant, for half of the budget, is.
 /// Else 0.4 of it go to frames that are skipped, as many as possible, by dynamic programming, and 0.6 to the step of
 /// the lattice.
-[[nodiscard]] std::vector<std::string> packClips(cage::Character& character, double error);
+///
+/// If `coarseError` is larger than `error`, clips get coarse twins within that: but for clips whose twin would take as
+/// much as the segments that it stands in for, or would not move at all.
+[[nodiscard]] std::vector<std::string> packClips(cage::Character& character, double error, double coarseError = 0.0);
 
 } // namespace supple::skinning

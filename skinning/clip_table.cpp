@@ -3,6 +3,8 @@
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/contacts.h"
+#include "skinning/driver_table.h"
+#include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
 #include "skinning/split_time.h"
@@ -93,7 +95,9 @@ public:
         table_.words.resize(table_.words.size() + 4 * clips.size(), 0u);
         for (size_t c = 0; c < clips.size(); ++c) {
             const cage::Clip& clip = clips[c];
-            const uint32_t packed = clip.packed.words.empty() ? 0 : putPackedClip(clip.packed.words);
+            const uint32_t packed = clip.packed.words.empty()         ? 0
+                                    : clip.packed.coarseWords.empty() ? putPackedClip(clip.packed.words)
+                                                                      : putStreamedClip(c, clip.packed);
             const uint32_t nodes = packed == 0 || movesNodes(clip) ? putNodeChannels() : 0;
             const uint32_t weights = putChannels(clip, nodes);
             if (packed != 0) {
@@ -132,6 +136,28 @@ public:
         }
     }
 
+    /// Those of clips with a twin: behind everything else.
+    void putSegments() {
+        table_.segments = next();
+        for (const StreamedClip& own : table_.streamedClips) {
+            const std::span<const uint32_t> words = character_.clips[own.clip].packed.words;
+            const std::vector<SegmentPlaces> segments = segmentsIn(words);
+            for (uint32_t s = 0; s < own.segmentCount; ++s) {
+                const SegmentPlaces& from = segments[s];
+                StreamedSegment& to = table_.streamedSegments[own.firstSegment + s];
+                to.records = putElements(words, from.records, from.recordsEnd);
+                to.data = putElements(words, from.data, from.dataEnd);
+                to.end = next();
+                uint32_t* const element = &table_.words[4 * size_t{to.element}];
+                element[0] = to.records;
+                element[1] = to.data;
+            }
+        }
+        if (!table_.streamedClips.empty()) {
+            table_.words.resize(table_.words.size() + 4 * size_t{kPackedPadding}, 0u);
+        }
+    }
+
 private:
     static uint32_t floatBits(double x) { return bits(static_cast<float>(std::clamp(x, -1e30, 1e30))); }
     [[nodiscard]] uint32_t footNumber(uint32_t node) const {
@@ -146,6 +172,13 @@ private:
     [[nodiscard]] uint32_t next() const { return static_cast<uint32_t>(table_.words.size() / 4); }
     void put(const std::array<uint32_t, 4>& element) {
         table_.words.insert(table_.words.end(), element.begin(), element.end());
+    }
+    /// Elements of a packed clip as they are; where they now begin.
+    uint32_t putElements(std::span<const uint32_t> words, uint32_t first, uint32_t end) {
+        const uint32_t begin = next();
+        table_.words.insert(table_.words.end(), words.begin() + 4 * ptrdiff_t{first},
+                            words.begin() + 4 * ptrdiff_t{end});
+        return begin;
     }
     void putRows(const glm::mat4& matrix) {
         for (const glm::vec4& row : toAffine(matrix).rows) {
@@ -189,15 +222,32 @@ private:
     }
     /// Words whose offsets count from their first element.
     uint32_t putPackedClip(std::span<const uint32_t> words) {
-        const uint32_t first = next();
-        table_.words.insert(table_.words.end(), words.begin(), words.end());
+        const uint32_t first = putHead(words, words.size());
         const auto move = [&](size_t word) { table_.words[4 * size_t{first} + word] += first; };
-        for (size_t section = 4; section < 8; ++section) {
-            move(section);
-        }
         for (uint32_t segment = 0; segment < words[3]; ++segment) {
             move(4 * size_t{words[7] + segment});
             move(4 * size_t{words[7] + segment} + 1);
+        }
+        return first;
+    }
+    /// The first of the words, `count` of them, with the sections of the head in the table.
+    uint32_t putHead(std::span<const uint32_t> words, size_t count) {
+        const uint32_t first = next();
+        table_.words.insert(table_.words.end(), words.begin(), words.begin() + static_cast<ptrdiff_t>(count));
+        for (size_t section = 4; section < 8; ++section) {
+            table_.words[4 * size_t{first} + section] += first;
+        }
+        return first;
+    }
+    /// A clip whose segments putSegments() puts, and its twin behind it.
+    uint32_t putStreamedClip(size_t clip, const cage::PackedChannels& packed) {
+        const std::vector<SegmentPlaces> segments = segmentsIn(packed.words);
+        const uint32_t first = putHead(packed.words, 4 * size_t{segments.front().records});
+        const uint32_t twin = putPackedClip(packed.coarseWords);
+        table_.streamedClips.push_back({static_cast<uint32_t>(clip), twin, packed.words[1],
+                                        static_cast<uint32_t>(table_.streamedSegments.size()), packed.words[3]});
+        for (uint32_t s = 0; s < packed.words[3]; ++s) {
+            table_.streamedSegments.push_back({first + packed.words[7] + s});
         }
         return first;
     }
@@ -261,9 +311,17 @@ uint32_t ClipTable::footNumber(uint32_t place) const {
 NodeOrder nodeOrder(const cage::Character& character) {
     const cage::Skeleton& skeleton = character.skeleton;
     std::vector<bool> moves(skeleton.nodes.size(), false);
-    for (const uint32_t joint : character.skin.joints) {
-        for (uint32_t node = joint; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
+    const auto take = [&](uint32_t node) {
+        for (; node != cage::kNone && !moves[node]; node = skeleton.nodes[node].parent) {
             moves[node] = true;
+        }
+    };
+    for (const uint32_t joint : character.skin.joints) {
+        take(joint);
+    }
+    for (const cage::PoseDriver& driver : character.drivers) {
+        for (const cage::DriverInput& input : driver.inputs) {
+            take(input.node);
         }
     }
     NodeOrder order;
@@ -289,7 +347,7 @@ NodeOrder nodeOrder(const cage::Character& character) {
 
 size_t clipBytes(const NodeOrder& order, const cage::Clip& clip) {
     constexpr size_t kElement = 16;
-    size_t elements = 1, words = clip.packed.words.size();
+    size_t elements = 1, words = clip.packed.words.size() + clip.packed.coarseWords.size();
     bool moves = clip.packed.words.empty();
     std::set<std::vector<float>> times;
     for (size_t c = clip.packed.channelCount; c < clip.channels.size(); ++c) {
@@ -317,6 +375,8 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putClips();
     builder.putContacts();
     putSprings(character, table);
+    putDrivers(character, table);
+    builder.putSegments();
     return table;
 }
 

@@ -8,7 +8,7 @@
 
 namespace supple::skinning {
 
-/// Nodes that move a joint, by depth: parents stand before children.
+/// Nodes that move a joint, or that drivers look at, by depth: parents stand before children.
 struct NodeOrder {
     std::vector<uint32_t> nodes;     ///< by place: the node
     std::vector<uint32_t> places;    ///< by node: its place, or kNone
@@ -19,7 +19,21 @@ struct NodeOrder {
 /// Bytes that a clip takes in the table, beside key times that it shares with others.
 [[nodiscard]] size_t clipBytes(const NodeOrder& order, const cage::Clip& clip);
 
-/// Only nodes that move a joint are in the table, in an order of its own. Sections are given by their first element.
+/// A clip with a coarse twin, whose segments may be missing on the device.
+struct StreamedClip {
+    uint32_t clip = 0;
+    uint32_t twin = 0; ///< its first element
+    uint32_t frames = 0;
+    uint32_t firstSegment = 0, segmentCount = 0; ///< among those of the table
+};
+/// A segment of such a clip: its records, and its data behind them.
+struct StreamedSegment {
+    uint32_t element = 0; ///< that says where it is
+    uint32_t records = 0, data = 0, end = 0;
+    [[nodiscard]] uint32_t size() const { return end - records; } ///< elements
+};
+
+/// Only nodes of nodeOrder() are in the table, in an order of its own. Sections are given by their first element.
 struct ClipTable {
     std::vector<uint32_t> words;  ///< four an element
     std::vector<uint32_t> nodes;  ///< by place in the table: the node
@@ -38,6 +52,13 @@ struct ClipTable {
     uint32_t springJointCount = 0, springColliderCount = 0;
     uint32_t springWork = 0;        ///< nodes, colliders and tests against these in a step
     std::vector<uint32_t> swinging; ///< nodes, in any order
+    uint32_t drivers = 0;           ///< 0: no morph weights follow from joints
+    uint32_t drivenQuads = 0;
+    std::vector<uint32_t> driverNodes; ///< by the number that inputs of drivers have for them
+    /// By clip. All their segments are there: they end the table, and kPackedPadding elements behind them.
+    std::vector<StreamedClip> streamedClips;
+    std::vector<StreamedSegment> streamedSegments;
+    uint32_t segments = 0; ///< where they begin, or the table ends
 
     /// Whether feet can be planted there.
     [[nodiscard]] bool isFoot(uint32_t node) const;

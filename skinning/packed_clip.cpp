@@ -19,7 +19,6 @@ constexpr uint32_t kLow20 = 0xFFFFFu;
 constexpr int kMostWhole = (1 << 19) - 1;
 constexpr int kMostConstantExponent = 27, kLeastConstantExponent = -3;
 constexpr double kLeastRate = 1e-6, kMostRate = 1e6; // frames a second
-constexpr size_t kPadding = 2;                       // elements: knots are read as two
 
 uint32_t segmentsOf(uint32_t last) {
     return (last + kSegmentFrames - 1) / kSegmentFrames;
@@ -128,7 +127,7 @@ public:
                 return std::nullopt;
             }
         }
-        words_.insert(words_.end(), 4 * kPadding, 0u);
+        words_.insert(words_.end(), 4 * size_t{kPackedPadding}, 0u);
         return fit ? std::optional(std::move(words_)) : std::nullopt;
     }
 
@@ -267,7 +266,7 @@ private:
                            words_[3] == segmentsOf(clip_.last) && words_[4] == sections_.masks &&
                            words_[5] == sections_.constantsBegin && words_[6] == sections_.statics &&
                            words_[7] == sections_.segments && words_[8] == 0 && words_[10] == 0 && words_[11] == 0;
-        if (!sound || words_.size() / 4 < sections_.data + kPadding) {
+        if (!sound || words_.size() / 4 < sections_.data + kPackedPadding) {
             return refuse("a packed clip whose sections are elsewhere");
         }
         return true;
@@ -346,7 +345,7 @@ private:
             }
             begin += (length + 127) / 128;
         }
-        return begin + kPadding == words_.size() / 4 ||
+        return begin + kPackedPadding == words_.size() / 4 ||
                refuse("a packed clip that is longer or shorter than its segments");
     }
 
@@ -368,7 +367,7 @@ private:
                        width = widths[0] + widths[1] + widths[2];
         const size_t end = length + size_t{knots} * width;
         // Equal values need no knots in between: what is read stays in proportion to its words.
-        if (!sound || (width == 0 && mask != 1) || begin + (end + 127) / 128 + kPadding > words_.size() / 4) {
+        if (!sound || (width == 0 && mask != 1) || begin + (end + 127) / 128 + kPackedPadding > words_.size() / 4) {
             return refuse("a record of a packed clip that does not fit");
         }
         const std::span<const uint32_t> data = words_.subspan(4 * begin);
@@ -465,6 +464,26 @@ std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double 
 
 Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, size_t nodeCount) {
     return ClipReader(words, nodeCount).read(duration);
+}
+
+std::vector<SegmentPlaces> segmentsIn(std::span<const uint32_t> words) {
+    const uint32_t animated = words[2] & 0xFFFFu, count = words[3];
+    const std::span<const uint32_t> elements = words.subspan(4 * size_t{words[7]});
+    const auto end = static_cast<uint32_t>(words.size() / 4) - kPackedPadding;
+    std::vector<SegmentPlaces> places(count);
+    for (uint32_t s = 0; s < count; ++s) {
+        const uint32_t records = elements[4 * size_t{s}], data = elements[4 * size_t{s} + 1];
+        places[s] = {records, records + animated, data, s + 1 < count ? elements[4 * size_t{s} + 5] : end};
+    }
+    return places;
+}
+
+size_t segmentWords(std::span<const uint32_t> words) {
+    return words.size() - 4 * (size_t{segmentsIn(words).front().records} + kPackedPadding);
+}
+
+bool areTwins(std::span<const uint32_t> fine, std::span<const uint32_t> coarse) {
+    return fine.size() > 1 && coarse.size() > 1 && fine[1] == coarse[1];
 }
 
 std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, std::span<const uint32_t> nodes) {

@@ -59,6 +59,9 @@ void removeEqualKnots(PackedProperty& property);
 /// The exponent with which a constant is kept: its largest number fits into 20 bits.
 [[nodiscard]] int constantExponent(const glm::dvec3& value);
 
+/// Elements that are behind a packed clip's segments: knots are read as two.
+inline constexpr uint32_t kPackedPadding = 2;
+
 /// Nothing if a number is too large for its field. `nodeCount`: of the clip table. There are four words an element, and
 /// offsets count from the first.
 [[nodiscard]] std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration,
@@ -66,6 +69,19 @@ void removeEqualKnots(PackedProperty& property);
 
 /// Reads words that may be anybody's; refuses all that a reader of them would have to check.
 [[nodiscard]] Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, size_t nodeCount);
+
+/// What is read of a time within one segment alone: records of its own, and data of its own. Elements from the first of
+/// the words on.
+struct SegmentPlaces {
+    uint32_t records = 0, recordsEnd = 0, data = 0, dataEnd = 0;
+};
+/// Of words that packedWords() has made.
+[[nodiscard]] std::vector<SegmentPlaces> segmentsIn(std::span<const uint32_t> words);
+/// Words that all segments have together.
+[[nodiscard]] size_t segmentWords(std::span<const uint32_t> words);
+
+/// Whether words may be those of a packed clip's coarse twin: both are sound, and have the same frames.
+[[nodiscard]] bool areTwins(std::span<const uint32_t> fine, std::span<const uint32_t> coarse);
 
 /// The properties as channels, in their order. `nodes`: by place, as ClipTable has them.
 [[nodiscard]] std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration,

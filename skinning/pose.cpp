@@ -233,8 +233,7 @@ void jointRotations(std::span<const Affine> palette, std::span<glm::vec4> rotati
                 matrix[column][row] = static_cast<double>(palette[j].rows[row][column]);
             }
         }
-        const glm::dquat q = nearestRotation(matrix);
-        rotations[j] = glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
+        rotations[j] = floatsOf(nearestRotation(matrix));
     }
 }
 

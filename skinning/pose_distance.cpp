@@ -1,6 +1,9 @@
 #include "skinning/pose_distance.h"
 
+#include "cage/solved_driver.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -25,6 +28,7 @@ PoseDistance::PoseDistance(const cage::Character& character)
     measureExtent(globals);
     measureReach(globals);
     measureTargets(globals);
+    drivenReach_.assign(character.skeleton.nodes.size(), 0.0);
     watch(globals);
 }
 
@@ -138,6 +142,26 @@ void PoseDistance::measureTargets(const std::vector<glm::dmat4>& globals) {
                 moved += static_cast<double>(weights.influences[i].weight) * (linear * glm::dvec3(target.deltas[k]));
             }
             reach = std::max(reach, glm::length(moved));
+        }
+    }
+}
+
+/// (1 + x)^-2 of x = g sin^2(a / 2) / sigma^2 changes by 0.52 sqrt(g / sigma^2) per radian at most.
+void PoseDistance::takeDrivers() {
+    constexpr double kSteepest = 0.52;
+    for (const cage::PoseDriver& driver : character_.drivers) {
+        const Result<cage::SolvedDriver> solved = cage::solveDriver(driver);
+        if (!solved) {
+            continue;
+        }
+        double moved = 0.0;
+        for (size_t i = 0; i < solved->coefficients.size(); ++i) {
+            moved += std::abs(static_cast<double>(solved->coefficients[i])) *
+                     targetReach_[driver.targets[i % driver.targets.size()]];
+        }
+        for (const cage::DriverInput& input : driver.inputs) {
+            drivenReach_[input.node] +=
+                kSteepest * std::sqrt(static_cast<double>(input.weight * solved->inverseSigma2)) * moved;
         }
     }
 }

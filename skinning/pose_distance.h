@@ -24,8 +24,17 @@ public:
 
     /// Distance moved per radian of a node's rotation, or per unit of its translation or scale, in the rest pose.
     [[nodiscard]] double reach(uint32_t node, cage::ChannelPath path) const {
-        return path == cage::ChannelPath::translation ? parentScale_[node] : reach_[node];
+        switch (path) {
+        case cage::ChannelPath::translation:
+            return parentScale_[node];
+        case cage::ChannelPath::rotation:
+            return reach_[node] + drivenReach_[node];
+        default:
+            return reach_[node];
+        }
     }
+    /// From here on, reach() counts the morph targets that drivers set by a node.
+    void takeDrivers();
     /// Distance moved per unit of a morph target's weight, in the rest pose.
     [[nodiscard]] double targetReach(uint32_t target) const { return targetReach_[target]; }
 
@@ -54,6 +63,7 @@ private:
     const cage::Character& character_;
     std::vector<glm::dmat4> inverseBinds_;
     std::vector<double> reach_, parentScale_; ///< by node
+    std::vector<double> drivenReach_;         ///< by node: by takeDrivers()
     std::vector<double> targetReach_;
     std::vector<uint32_t> watched_, all_;
     double extent_ = 0.0;

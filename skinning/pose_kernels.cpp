@@ -1,6 +1,7 @@
 #include "skinning/pose_kernels.h"
 
 #include "gpu/device.h"
+#include "shaders/pose_drivers_comp.h"
 #include "shaders/pose_locals_comp.h"
 #include "shaders/pose_locals_comp_ADDS.h"
 #include "shaders/pose_locals_comp_ADDS_TRANSITIONS.h"
@@ -69,6 +70,9 @@ Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, PoseNeeds n
             batch.get(layout_, pose_mix_comp, layout,
                       rotations ? "supple pose, between palettes with rotations" : "supple pose, between palettes");
     }
+    if (needs.drivers) {
+        found.drivers = batch.get(layout_, pose_drivers_comp, {}, "supple pose, drivers");
+    }
     if (needs.springs) {
         found.springs = batch.get(layout_, pose_springs_comp, {}, "supple pose, springs");
     }
@@ -93,6 +97,9 @@ Status PoseKernels::prepare(SkinningMode mode, PoseNeeds needs) {
     palette_[kind] = made->palette;
     if (needs.mixes) {
         mix_[kind] = made->mix;
+    }
+    if (needs.drivers) {
+        drivers_ = made->drivers;
     }
     if (needs.springs) {
         springs_ = made->springs;
@@ -120,6 +127,12 @@ void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& 
 void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
     record(dispatches, set, push, modifiers_, (push.instanceCount + local - 1) / local);
+}
+
+void PoseKernels::recordDrivers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, uint32_t quads,
+                                const PosePush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    record(dispatches, set, push, drivers_, (uint64_t{quads} * push.instanceCount + local - 1) / local);
 }
 
 void PoseKernels::recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {

@@ -13,6 +13,7 @@ namespace supple::skinning {
 struct PoseNeeds {
     bool mixes = false;   ///< update rates: what lies between two poses
     bool springs = false; ///< some joints swing
+    bool drivers = false; ///< morph weights follow from joints
 };
 
 class PoseKernels {
@@ -38,6 +39,9 @@ public:
     void recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     /// Only in groups with springs. `push.instanceCount`: how many swing.
     void recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
+    /// Only in groups with drivers: `quads` of morph weights, of which each is added to. Before springs.
+    void recordDrivers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, uint32_t quads,
+                       const shared::PosePush& push) const;
     void recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
                        const shared::PosePush& push) const;
     /// Only in groups with update rates: what is shown between ends.
@@ -47,7 +51,7 @@ public:
 private:
     struct Kernels {
         gpu::Kernel locals[kLocals];
-        gpu::Kernel roots, modifiers, springs, palette, mix;
+        gpu::Kernel roots, modifiers, drivers, springs, palette, mix;
     };
     [[nodiscard]] Result<Kernels> kernels(SkinningMode mode, PoseNeeds needs) const;
     void record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push,
@@ -59,6 +63,7 @@ private:
     gpu::Kernel locals_[kLocals];
     gpu::Kernel roots_;
     gpu::Kernel modifiers_;
+    gpu::Kernel drivers_;
     gpu::Kernel springs_;
     gpu::Kernel palette_[2], mix_[2]; ///< by whether poses have rotations
 };

@@ -5,6 +5,7 @@
 #include "shaders/pose/straight.h"
 #include "shaders/pose/time.h"
 #include "shaders/shared/pose.h"
+#include "skinning/driver_twin.h"
 #include "skinning/playback.h"
 #include "skinning/split_time.h"
 
@@ -99,12 +100,16 @@ PoseTwin::PoseTwin(const ClipTable& table, const PoseLayout& layout, uint32_t tr
     locals_.resize(table.nodes.size());
     globals_.resize(table.nodes.size());
     weights_.resize((layout.morphCount + 3) / 4);
+    shownWeights_.resize(weights_.size());
     held_.resize(table.footCount);
+    driverTurns_.resize(table.driverNodes.size());
 }
 
 void PoseTwin::pose(std::span<const uint32_t> state, std::span<const float> masks, double time, Stands stands) {
     sample(state, masks, time, stands);
-    if (!bindPose_) {
+    if (bindPose_) {
+        shownWeights_ = weights_;
+    } else {
         finish(state);
     }
 }
@@ -180,11 +185,23 @@ void PoseTwin::finish(std::span<const uint32_t> state) {
     const twin::PoseLoads loads{table_->words.data(), state.data(), nullptr, push_};
     twin::ModifyCode code{loads, locals_.data(), place_, held_.data()};
     code.modifyInstance(0);
+    drive();
     for (uint32_t node = 0; node < push_.nodeCount; ++node) {
         const uint32_t parent = code.parentOf(node);
         const shared::Affine local = code.localMatrix(node, locals_[node]);
         globals_[node] = parent == kNoNode ? local : combined(globals_[parent], local);
     }
+}
+
+void PoseTwin::drive() {
+    shownWeights_ = weights_;
+    if (table_->drivers == 0 || weights_.empty()) {
+        return;
+    }
+    for (size_t i = 0; i < driverTurns_.size(); ++i) {
+        driverTurns_[i] = locals_[table_->places[table_->driverNodes[i]]].rotation;
+    }
+    addDriven(table_->words, table_->drivers, driverTurns_, shownWeights_);
 }
 
 const shared::Affine& PoseTwin::nodeOf(uint32_t joint) const {
@@ -231,10 +248,10 @@ void PoseTwin::writeBetween(const PoseTwin& later, float part, std::span<const u
             put(combined(transform, between), pose, kLinearElements * size_t{joint});
         }
     }
-    const bool hosts = (code.state(0).y & kStateHostWeights) != 0;
+    const bool hosts = table_->drivers == 0 && (code.state(0).y & kStateHostWeights) != 0;
     for (size_t quad = 0; quad < weights_.size(); ++quad) {
         pose[layout_.morphWeights + quad] = hosts ? code.morphWeights(0, static_cast<uint32_t>(quad))
-                                                  : straight(weights_[quad], later.weights_[quad], part);
+                                                  : straight(shownWeights_[quad], later.shownWeights_[quad], part);
     }
 }
 
@@ -263,7 +280,7 @@ void PoseTwin::write(std::span<glm::vec4> pose) const {
             put(combined(place_, m), pose, kLinearElements * size_t{joint});
         }
     }
-    std::copy(weights_.begin(), weights_.end(), pose.begin() + layout_.morphWeights);
+    std::copy(shownWeights_.begin(), shownWeights_.end(), pose.begin() + layout_.morphWeights);
 }
 
 } // namespace supple::skinning

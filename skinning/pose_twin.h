@@ -35,6 +35,7 @@ public:
                 Stands stands = Stands::placed);
     /// One a node of the table; not of the bind pose.
     [[nodiscard]] std::span<const shared::Transform> locals() const { return locals_; }
+    /// Without what drivers add.
     [[nodiscard]] std::span<const glm::vec4> weights() const { return weights_; }
 
     /// pose() of local transforms, one a node of the table, instead of what is played; modifiers change them in
@@ -68,6 +69,7 @@ private:
     [[nodiscard]] shared::Affine own(uint32_t joint) const; ///< skinned(joint); in the bind pose, nothing
     [[nodiscard]] const shared::Affine& nodeOf(uint32_t joint) const;
     void finish(std::span<const uint32_t> state); ///< locals_ are there: modifiers, then globals_
+    void drive();                                 ///< shownWeights_, of locals_ and weights_
 
     const ClipTable* table_ = nullptr;
     PoseLayout layout_;
@@ -75,7 +77,9 @@ private:
     std::vector<shared::Transform> locals_;
     std::vector<shared::Affine> globals_;
     std::vector<glm::vec4> weights_;
-    std::vector<glm::vec4> held_; ///< by foot
+    std::vector<glm::vec4> shownWeights_; ///< with what drivers add
+    std::vector<glm::vec4> driverTurns_;  ///< of the nodes that drivers look at
+    std::vector<glm::vec4> held_;         ///< by foot
     shared::Affine place_{};
     bool bindPose_ = true;
 };

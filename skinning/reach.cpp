@@ -1,6 +1,7 @@
 #include "skinning/reach.h"
 
 #include "skinning/chord.h"
+#include "skinning/coarse_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -58,11 +59,14 @@ public:
 
     [[nodiscard]] Reach find() {
         takeRest();
+        const NodeOrder order = nodeOrder(character_);
         for (const cage::Clip& clip : character_.clips) {
-            for (const cage::Channel& channel : clip.channels) {
-                take(channel);
+            take(clip);
+            if (const std::optional<cage::Clip> twin = coarseClip(order, clip)) {
+                take(*twin);
             }
         }
+        takeDrivers();
         for (const uint32_t node : character_.skeleton.parentsFirst) {
             place(node);
         }
@@ -98,6 +102,11 @@ private:
         }
     }
 
+    void take(const cage::Clip& clip) {
+        for (const cage::Channel& channel : clip.channels) {
+            take(channel);
+        }
+    }
     void take(const cage::Channel& channel) {
         if (channel.path == cage::ChannelPath::weights) {
             forHull(channel, [&](std::span<const double> value) {
@@ -121,6 +130,15 @@ private:
             forHull(channel, [&](std::span<const double> value) {
                 range.scale = std::max({range.scale, std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
             });
+        }
+    }
+
+    /// They add to what clips have.
+    void takeDrivers() {
+        for (const cage::PoseDriver& driver : character_.drivers) {
+            for (const uint32_t target : driver.targets) {
+                weights_[target] += static_cast<double>(std::max(-driver.low, driver.high));
+            }
         }
     }
 

@@ -12,6 +12,11 @@ inline constexpr double kTurn = 6.283185307179586;
 /// Of unit length; a zero quaternion counts as no rotation.
 [[nodiscard]] glm::dquat unit(const glm::dquat& q);
 
+/// As (x, y, z, w).
+[[nodiscard]] inline glm::vec4 floatsOf(const glm::dquat& q) {
+    return glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
+}
+
 /// Spherical, along the shorter way; straight where the arc is too short to divide by its sine. t may leave [0, 1].
 [[nodiscard]] glm::dquat slerp(const glm::dquat& a, const glm::dquat& b, double t);
 

@@ -51,7 +51,7 @@ public:
 
     void put() {
         for (const cage::Spring& spring : bones_.springs) {
-            for (size_t j = 0; j < spring.joints.size(); ++j) {
+            for (size_t j = 0; j < spring.swingingCount(); ++j) {
                 takeJoint(spring, j);
             }
         }
@@ -88,8 +88,7 @@ private:
     [[nodiscard]] std::optional<glm::dvec3> tailOf(const cage::Spring& spring, size_t j) const {
         const uint32_t node = spring.joints[j].node;
         if (!spring.isTree) {
-            return j + 1 < spring.joints.size() ? std::optional(glm::dvec3(rest_[spring.joints[j + 1].node][3]))
-                                                : std::nullopt;
+            return glm::dvec3(rest_[spring.joints[j + 1].node][3]);
         }
         if (firstChild_[node] != kNone) {
             return glm::dvec3(rest_[firstChild_[node]][3]);

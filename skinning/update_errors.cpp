@@ -1,6 +1,7 @@
 #include "skinning/update_errors.h"
 
 #include "shaders/shared/pose.h"
+#include "skinning/driven_weights.h"
 #include "skinning/pose.h"
 #include "skinning/pose_distance.h"
 
@@ -24,8 +25,8 @@ constexpr uint32_t kAllAxes = kRootGround | kRootHeight | kRootYaw;
 /// errors are those of what lies between two frames.
 class UpdateMeasurement {
 public:
-    explicit UpdateMeasurement(const cage::Character& character)
-        : character_(character), root_(findRoot(character)), distance_(character),
+    UpdateMeasurement(const cage::Character& character, const DriverTable& drivers)
+        : character_(character), root_(findRoot(character)), distance_(character), driven_(drivers),
           globals_(character.skeleton.nodes.size()) {}
 
     UpdateFacts take() {
@@ -56,6 +57,7 @@ private:
         distance_.globalsOf(pose_, globals_);
         distance_.place(globals_, frame.points);
         frame.weights = pose_.morphWeights;
+        driven_.addTo(pose_, frame.weights);
     }
 
     /// Of what lies `part` of the way from one frame to another, from a third.
@@ -141,6 +143,7 @@ private:
     const cage::Character& character_;
     uint32_t root_ = cage::kNone;
     PoseDistance distance_;
+    DrivenWeights driven_;
     Pose pose_;
     std::vector<glm::dmat4> globals_;
     std::array<Frame, kFrames> frames_;
@@ -164,7 +167,11 @@ bool UpdateFacts::closes(uint32_t clip, const RootSelection& taken) const {
 }
 
 UpdateFacts measureUpdates(const cage::Character& character) {
-    return UpdateMeasurement(character).take();
+    return measureUpdates(character, buildDriverTable(character));
+}
+
+UpdateFacts measureUpdates(const cage::Character& character, const DriverTable& drivers) {
+    return UpdateMeasurement(character, drivers).take();
 }
 
 } // namespace supple::skinning

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "skinning/driver_table.h"
 #include "skinning/root_motion.h"
 
 #include <array>
@@ -42,5 +43,7 @@ struct UpdateFacts {
 /// taken out. Others are measured within: who plays them is posed exactly at their ends. Not known of clips of more
 /// than five minutes, nor once two million poses of nodes have been looked at.
 [[nodiscard]] UpdateFacts measureUpdates(const cage::Character& character);
+/// The same, if the table of its drivers is there.
+[[nodiscard]] UpdateFacts measureUpdates(const cage::Character& character, const DriverTable& drivers);
 
 } // namespace supple::skinning

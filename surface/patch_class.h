@@ -1,9 +1,11 @@
 // The classes of patches: a table with one row per class.
 #pragma once
 
+#include "shaders/lod/lines.h"
 #include "shaders/shared/chains.h"
 #include "shaders/shared/lod.h"
 #include "shaders/shared/pm.h"
+#include "shaders/shared/specialization.h"
 #include "shaders/shared/surface.h"
 #include "surface/grid.h"
 #include "surface/kernels.h"
@@ -127,6 +129,13 @@ inline constexpr PatchClassRow kPatchClasses[] = {
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
     return rowOf(patchClass).name;
 }
+/// At levels a lane of the wide mapping takes a line of samples: shaders/evaluate/lines.glsl, and the evaluate.comp of
+/// P_m, Loop and the blending surface. Kernels are told (kLinesConstant, kRunHasLines).
+[[nodiscard]] constexpr bool hasLines(PatchClass patchClass) {
+    return rowOf(patchClass).isBicubic() || rowOf(patchClass).hasSectors() || patchClass == PatchClass::loopRegular ||
+           patchClass == PatchClass::blendRegular;
+}
+static_assert(shared::kMostLines <= shared::kMaxLanes, "a workgroup has a lane for each line of a patch");
 [[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {
     return rowOf(patchClass).domain;
 }

@@ -125,23 +125,31 @@ gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint3
                           atRate(name, rate));
 }
 
-/// The kernel for any rate that is set later, and that of the rate the group begins with, where one of its own pays.
-/// The rate of a group with an indexed mesh stays. If nobody knows yet how many instances there are, all that they may
-/// need are made.
+/// Makes the kernels that a group needs of a range, and returns that of the rate it has now. The rate of a group with
+/// an indexed mesh stays; others have a kernel for any rate, for those that are set later. If nobody knows yet how many
+/// instances there are, all that they may need are made.
 gpu::Kernel evaluateKernel(ProgramBuilder& builder, const PatchRange& range, uint32_t format) {
     const PatchClass patchClass = range.patchClass;
     const bool indexed = builder.tables.hasIndexedMesh(), isUnknown = builder.options.instances == 0;
     const bool prefersLane = prefersLanePatch(builder, range, format);
     const uint32_t rate = builder.options.rate, ownRate = ownRatePays(builder, patchClass) ? rate : 0;
-    gpu::Kernel any, own;
+    gpu::Kernel any;
     if (!indexed) {
-        own = any = evaluateKernel(builder, patchClass, format, 0, false);
+        any = evaluateKernel(builder, patchClass, format, 0, false);
     }
-    if (!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition))) {
-        own = evaluateKernel(builder, patchClass, format, ownRate, false);
-    }
-    if (prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format))) {
-        own = evaluateKernel(builder, patchClass, format, rate, true);
+    gpu::Kernel own = any; // of the rate that the group begins with
+    const struct {
+        bool isNeeded;
+        uint32_t rate;
+        bool lanePatch;
+    } ownRates[] = {
+        {!prefersLane && (indexed || (ownRate > 0 && format != kVertexPosition)), ownRate, false},
+        {prefersLane || (isUnknown && hasLanePatch(builder, patchClass, format)), rate, true},
+    };
+    for (const auto& kernel : ownRates) {
+        if (kernel.isNeeded) {
+            own = evaluateKernel(builder, patchClass, format, kernel.rate, kernel.lanePatch);
+        }
     }
     return indexed || isAtOwnRate(builder) ? own : any;
 }
@@ -354,6 +362,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
     for (uint32_t r = 0; r < tables.ranges.size(); ++r) {
         const PatchRange& range = tables.ranges[r];
         const PatchClassRow& row = rowOf(range.patchClass);
+        const uint32_t lines = builder.device.mapping.wide && hasLines(range.patchClass) ? VK_TRUE : VK_FALSE;
         auto push = pushFor<LevelsPush>(range.section);
         push.firstPatch = range.firstPatch;
         push.run = r;
@@ -364,7 +373,8 @@ void addRangesAtLevels(ProgramBuilder& builder) {
                                                       {{kKindConstant, static_cast<uint32_t>(range.patchClass)},
                                                        {kVertexFormatConstant, pass.format},
                                                        {kTangentsConstant, tangentsConstant(builder, pass.format)},
-                                                       {kCornerNormalsConstant, cornerNormals(builder)}},
+                                                       {kCornerNormalsConstant, cornerNormals(builder)},
+                                                       {kLinesConstant, lines}},
                                                       std::string("supple evaluate at levels, ") + row.name);
             builder.add(*pass.steps, SetKind::evaluateLevels, kernel, builder.lanes(push.count), push, r);
         }
@@ -373,6 +383,7 @@ void addRangesAtLevels(ProgramBuilder& builder) {
             const gpu::Kernel kernel = builder.kernel(SetKind::attributes, own.kernel,
                                                       {{kKindConstant, own.kind},
                                                        {kSemiSharpConstant, semiSharpUvs(builder)},
+                                                       {kLinesConstant, lines},
                                                        {kOutputsConstant, outputsOf(builder)}},
                                                       std::string("supple attributes at levels, ") + row.name);
             push.table = range.attributes;

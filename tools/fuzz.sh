@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers with libFuzzer under the address and undefined-behaviour sanitizers; needs clang.
-# Usage: tools/fuzz.sh HOURS [TARGET...]   (targets: gltf convert obj clips arrays cooked recordings pictures api; each gets its share of the time)
+# Usage: tools/fuzz.sh HOURS [TARGET...]   (targets: gltf convert obj clips arrays cooked recordings replays pictures api; each gets its share of the time)
 # Inputs that were new to it stay in build/fuzz/corpus, findings in build/fuzz/findings. The exit status is 1 if there are any.
 # What it does without, for more inputs a second: notes of each comparison (trace-cmp in the preset, half of the time), weights of
 # rare features (-entropic), and long inputs (-max_len): a few kilobytes hold every kind of element.
@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 hours=${1:?usage: tools/fuzz.sh HOURS [TARGET...]}
 shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips arrays cooked recordings pictures api)
+[ ${#targets[@]} -gt 0 ] || targets=(gltf convert obj clips arrays cooked recordings replays pictures api)
 if ! command -v clang++ >/dev/null; then
     echo "clang++ is not installed: apt-get install clang libclang-rt-dev" >&2
     exit 3
@@ -34,7 +34,7 @@ for target in "${targets[@]}"; do
         pictures | cooked) length=65536 ;;
         *) length=8192 ;;
     esac
-    if [ "$target" = api ]; then # the driver under it compiles shaders, and keeps some memory
+    if [ "$target" = api ] || [ "$target" = replays ]; then # the driver under it compiles shaders, and keeps some memory
         limits=(-timeout=120 -rss_limit_mb=4096)
         leaks=0
     fi

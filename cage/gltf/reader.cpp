@@ -5,6 +5,7 @@
 #include "cage/finish.h"
 #include "cage/gltf/animation.h"
 #include "cage/gltf/document.h"
+#include "cage/gltf/drivers.h"
 #include "cage/gltf/material.h"
 #include "cage/gltf/mesh.h"
 #include "cage/gltf/morphs.h"
@@ -54,6 +55,8 @@ PartCage readPart(const Document& document, const MeshBinding& binding, const Gl
     part.element = mesh->element;
     part.gridStep = mesh->gridStep;
     part.morphs = readMorphs(document, node, targetCountOf(fromMesh), warnings);
+    part.drivers =
+        readDrivers(document, static_cast<size_t>(from.mesh), part.morphs.targets.size(), character.skeleton);
     split::buildCage(*mesh, options.pairing, part, *document.leniency, warnings);
     if (part.cage.faceCount() == 0) {
         part.whyEmpty = mesh->element + ": no triangle is left";
@@ -205,6 +208,7 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
             takeClips(std::move(set), parts, character);
         });
     }
+    checkDrivers(document, character, parts, warnings);
     leniency.raise();
     for (Damage& damage : leniency.takeDamages()) {
         character.damages.push_back(std::move(damage));

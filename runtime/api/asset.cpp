@@ -6,6 +6,7 @@
 #include "runtime/api/entry.h"
 #include "runtime/cooked/file.h"
 #include "runtime/material_layers.h"
+#include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 
 #include <algorithm>
@@ -173,14 +174,15 @@ SuppleResult suppleCreateAsset(SuppleContext handle, const SuppleAssetDesc* give
             return id ? notedAsset<calls::CreateAsset>(context, *out) : report(context, id.error());
         };
         if (desc.prepared != nullptr) {
-            return made(context.createAsset(desc.prepared->prepared));
+            return made(context.createAsset(desc.prepared->prepared, desc.clipPoolBytes));
         }
         if (isCooked(desc)) {
             const auto cooked = readCookedFor(context, desc);
-            return cooked ? made(context.createAsset(*cooked)) : report(context, cooked.error());
+            return cooked ? made(context.createAsset(*cooked, desc.clipPoolBytes)) : report(context, cooked.error());
         }
         Result<cage::Character> character = readAsset(kHere, desc);
-        return character ? made(context.createAsset(std::move(*character))) : report(context, character.error());
+        return character ? made(context.createAsset(std::move(*character), desc.clipPoolBytes))
+                         : report(context, character.error());
     });
 }
 
@@ -198,14 +200,15 @@ SuppleResult suppleReloadAsset(SuppleContext handle, SuppleAsset asset, const Su
             return status ? notedAsset<calls::ReloadAsset>(context, asset) : report(context, status.error());
         };
         if (desc.prepared != nullptr) {
-            return loaded(context.reloadAsset(asset.id, desc.prepared->prepared));
+            return loaded(context.reloadAsset(asset.id, desc.prepared->prepared, desc.clipPoolBytes));
         }
         if (isCooked(desc)) {
             const auto cooked = readCookedFor(context, desc);
-            return loaded(cooked ? context.reloadAsset(asset.id, *cooked) : Status(cooked.error()));
+            return loaded(cooked ? context.reloadAsset(asset.id, *cooked, desc.clipPoolBytes) : Status(cooked.error()));
         }
         Result<cage::Character> character = readAsset(kHere, desc);
-        return loaded(character ? context.reloadAsset(asset.id, std::move(*character)) : Status(character.error()));
+        return loaded(character ? context.reloadAsset(asset.id, std::move(*character), desc.clipPoolBytes)
+                                : Status(character.error()));
     });
 }
 
@@ -278,6 +281,11 @@ SuppleResult suppleGetClipInfo(SuppleContext handle, SuppleAsset asset, uint32_t
             info.duration = clips[clip].duration;
             info.byteCount = skinning::clipBytes(skinning::nodeOrder(found.character), clips[clip]);
             info.packedError = clips[clip].packed.words.empty() ? 0.0 : clips[clip].packed.error;
+            if (!clips[clip].packed.coarseWords.empty()) {
+                info.coarseError = clips[clip].packed.coarseError;
+                info.segmentBytes = skinning::segmentWords(clips[clip].packed.words) * sizeof(uint32_t);
+                info.residentBytes = found.stream != nullptr ? found.stream->bytesOf(clip).there : info.segmentBytes;
+            }
         });
     });
 }

@@ -244,9 +244,11 @@ std::optional<Error> takeAsset(const char* name, const SuppleAssetDesc* from, Su
         SuppleAssetDesc alone{};
         alone.structSize = out.structSize;
         alone.prepared = out.prepared;
+        alone.clipPoolBytes = out.clipPoolBytes;
         const bool isAlone = std::memcmp(&alone, &out, sizeof(out)) == 0;
         return isAlone ? std::nullopt
-                       : std::optional(Error{ErrorCode::argument, "with `prepared`, all other members must be 0"});
+                       : std::optional(Error{ErrorCode::argument,
+                                             "with `prepared`, all other members but clipPoolBytes must be 0"});
     }
     const int given =
         (out.bytes != nullptr ? 1 : 0) + (out.cage != nullptr ? 1 : 0) + (out.character != nullptr ? 1 : 0);

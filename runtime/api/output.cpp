@@ -1,5 +1,6 @@
 // supple.h, output.
 #include "runtime/api/entry.h"
+#include "runtime/api/patches.h"
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -49,17 +50,6 @@ SuppleResult suppleGetPatches(SuppleContext handle, SuppleGroup group, uint32_t 
                            if (count == nullptr) {
                                return refuse(context, ErrorCode::nullPointer, "suppleGetPatches", "count is null");
                            }
-                           const auto& patches = found.tables().patches;
-                           const auto total = static_cast<uint32_t>(patches.size());
-                           const uint32_t n = out == nullptr ? 0 : std::min(*count, total);
-                           for (uint32_t i = 0; i < n; ++i) {
-                               out[i].face = patches[i].face;
-                               out[i].patchClass = static_cast<SupplePatchClass>(patches[i].patchClass);
-                               out[i].cornerCount = patches[i].cornerCount;
-                               out[i].coefficientCount = surface::rowOf(patches[i].patchClass).coefficients;
-                               std::copy(patches[i].corners.begin(), patches[i].corners.end(), out[i].corners);
-                           }
-                           *count = total;
-                           return out != nullptr && n < total ? SUPPLE_INCOMPLETE : SUPPLE_OK;
+                           return fillPatches(found.tables().patches, out, count);
                        });
 }

@@ -28,6 +28,10 @@ Result<std::shared_ptr<runtime::Prepared>> readCharacter(const SupplePrepareDesc
     if (asset.prepared != nullptr) {
         return here(ErrorCode::argument, "the asset is prepared already");
     }
+    if (asset.clipPoolBytes != 0) {
+        return here(ErrorCode::argument,
+                    "asset.clipPoolBytes is for suppleCreateAsset: what is prepared has all clips");
+    }
     if (isCooked(asset)) {
         return readCookedAsset(asset);
     }
@@ -72,15 +76,18 @@ Result<std::shared_ptr<const runtime::Prepared>> prepare(const SupplePrepareDesc
     if (!(desc.clipError >= 0.0f && desc.clipError <= kMostClipError)) {
         return here(ErrorCode::range, "clipError leaves 0..0.1");
     }
-    if (desc.reserved != 0) {
-        return here(ErrorCode::range, "reserved is not 0");
+    if (!(desc.coarseClipError >= 0.0f && desc.coarseClipError <= kMostClipError)) {
+        return here(ErrorCode::range, "coarseClipError leaves 0..0.1");
+    }
+    if (desc.coarseClipError > 0.0f && !(desc.clipError > 0.0f && desc.coarseClipError > desc.clipError)) {
+        return here(ErrorCode::argument, "coarseClipError is not more than clipError, or clips are not packed");
     }
     const Result<std::shared_ptr<runtime::Prepared>> prepared = readCharacter(desc);
     if (!prepared) {
         return prepared.error();
     }
     if (desc.clipError > 0.0f) {
-        (*prepared)->packClips(static_cast<double>(desc.clipError));
+        (*prepared)->packClips(static_cast<double>(desc.clipError), static_cast<double>(desc.coarseClipError));
     }
     const Status status = forPlanned(kPrepare, desc.groups, desc.groupCount, [&](const runtime::PlannedGroup& group) {
         return runtime::prepareFor(**prepared, group, desc.mapping != SUPPLE_MAPPING_NARROW);

@@ -3,6 +3,7 @@
 
 #include "runtime/sized.h"
 #include "supple/supple.h"
+#include "supple/supple_cpu.h"
 
 #include <string>
 
@@ -50,6 +51,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleUploadState)                                                                                               \
     X(SupplePlaybackDesc)                                                                                              \
     X(SuppleRecordingDesc)                                                                                             \
+    X(SuppleClipRequest)                                                                                               \
     X(SuppleMaskDesc)                                                                                                  \
     X(SuppleJointMatricesDesc)                                                                                         \
     X(SuppleModifiersDesc)                                                                                             \
@@ -58,7 +60,10 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleCameraDesc)                                                                                                \
     X(SuppleDepthPyramidDesc)                                                                                          \
     X(SuppleLevelOutput)                                                                                               \
-    X(SuppleViewStatistics)
+    X(SuppleViewStatistics)                                                                                            \
+    X(SuppleCpuGroupDesc)                                                                                              \
+    X(SuppleCpuGroupInfo)                                                                                              \
+    X(SuppleCpuGridInfo)
 #define SUPPLE_NAME_STRUCT(type)                                                                                       \
     template <>                                                                                                        \
     inline constexpr const char* kStructName<type> = #type;

@@ -34,6 +34,8 @@ inline constexpr auto kLast<cage::ExpressionKind> = cage::ExpressionKind::mouth;
 template <>
 inline constexpr auto kLast<cage::ExpressionHold> = cage::ExpressionHold::block;
 template <>
+inline constexpr auto kLast<cage::TurnPart> = cage::TurnPart::twist;
+template <>
 inline constexpr auto kLast<cage::ColliderShape> = cage::ColliderShape::plane;
 
 } // namespace supple::runtime
@@ -64,7 +66,7 @@ void fields(A& a, T& marker) {
 template <class A, Is<Clip> T>
 void fields(A& a, T& clip) {
     a(clip.name, clip.duration, clip.markers, clip.sharpness, clip.packed.words, clip.packed.error,
-      clip.packed.unpackedBytes);
+      clip.packed.unpackedBytes, clip.packed.coarseWords, clip.packed.coarseError);
     // What is packed is there already.
     a.rest(clip.channels, clip.packed.channelCount);
 }
@@ -80,6 +82,14 @@ template <class A, Is<Expression> T>
 void fields(A& a, T& expression) {
     a(expression.name, expression.kind, expression.isBinary, expression.targets, expression.weights,
       expression.holds[0], expression.holds[1], expression.holds[2], expression.holds[3]);
+}
+template <class A, Is<DriverInput> T>
+void fields(A& a, T& input) {
+    a(input.node, input.part, input.axis, input.weight);
+}
+template <class A, Is<PoseDriver> T>
+void fields(A& a, T& driver) {
+    a(driver.name, driver.inputs, driver.targets, driver.poses, driver.values, driver.width, driver.low, driver.high);
 }
 template <class A, Is<SpringJoint> T>
 void fields(A& a, T& joint) {
@@ -140,9 +150,10 @@ void fields(A& a, T& character) {
     a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
-      character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
-      character.clips, character.clipRoot, character.materials, character.materialVariants, character.images,
-      character.warnings, character.damages, character.sourceVertexCount, character.seamVertexCount);
+      character.drivers, character.springBones.springs, character.springBones.colliderGroups,
+      character.springBones.colliders, character.clips, character.clipRoot, character.materials,
+      character.materialVariants, character.images, character.warnings, character.damages, character.sourceVertexCount,
+      character.seamVertexCount);
 }
 
 } // namespace supple::cage

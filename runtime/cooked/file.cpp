@@ -17,7 +17,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 9;
+constexpr uint32_t kVersion = 10;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -84,11 +84,30 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
     }
 }
 
+/// Whether what may be anybody's is the coarse twin of a clip that is packed, or there is none.
+Status checkTwin(const cage::Clip& clip, size_t nodeCount) {
+    const std::vector<uint32_t>& words = clip.packed.coarseWords;
+    if (words.empty()) {
+        return success();
+    }
+    const Result<skinning::PackedClip> twin = skinning::readPackedWords(words, clip.duration, nodeCount);
+    if (!twin) {
+        return twin.error();
+    }
+    if (!skinning::areTwins(clip.packed.words, words)) {
+        return Error{ErrorCode::asset, "it has other frames than the clip"};
+    }
+    return skinning::segmentWords(clip.packed.words) > 0
+               ? success()
+               : Status(Error{ErrorCode::asset, "the clip has no segments that it could stand in for"});
+}
+
 /// Gives packed clips of a character that is sound their channels. Whether there are any.
 Result<bool> unpackClips(cage::Character& character) {
     std::optional<skinning::NodeOrder> order;
     for (cage::Clip& clip : character.clips) {
         if (clip.packed.words.empty()) {
+            clip.packed.coarseWords.clear(); // a twin of nothing
             continue;
         }
         order = order ? std::move(order) : skinning::nodeOrder(character);
@@ -96,6 +115,9 @@ Result<bool> unpackClips(cage::Character& character) {
             skinning::readPackedWords(clip.packed.words, clip.duration, order->nodes.size());
         if (!packed) {
             return Error{packed.error().code, "clip " + clip.name + ": " + packed.error().message};
+        }
+        if (const Status sound = checkTwin(clip, order->nodes.size()); !sound) {
+            return Error{sound.error().code, "clip " + clip.name + ": its coarse twin: " + sound.error().message};
         }
         std::vector<cage::Channel> channels = skinning::channelsOf(*packed, clip.duration, order->nodes);
         clip.packed.channelCount = static_cast<uint32_t>(channels.size());

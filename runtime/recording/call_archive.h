@@ -41,6 +41,11 @@ public:
     void sized(const T&) {}
     /// What readers check of the arguments.
     void require(bool) {}
+    /// The last arguments of a call, which older files lack.
+    template <class T>
+    void later(const T& value) {
+        put(value);
+    }
     /// `count` elements, which may be null.
     template <class T>
     void list(const T* elements, uint32_t count) {
@@ -102,6 +107,13 @@ public:
         value.structSize = sizeof(T);
     }
     void require(bool holds) { ok_ = ok_ && holds; }
+    /// Stays as it is if the file is older.
+    template <class T>
+    void later(T& value) {
+        if (ok_ && !left_.empty()) {
+            take(value);
+        }
+    }
     template <class T>
     void list(const T*& elements, uint32_t& count) {
         take(count);

@@ -15,9 +15,9 @@ struct CallKeeper::Told {
     std::function<void(Recorder&)> note;
 };
 
-void CallKeeper::keepLoad(SuppleAsset asset, std::shared_ptr<const Prepared> version) {
+void CallKeeper::keepLoad(SuppleAsset asset, std::shared_ptr<const Prepared> version, uint64_t clipPoolBytes) {
     const std::scoped_lock lock(mutex_);
-    assets_[asset.id].push_back({++sequence_, std::move(version)});
+    assets_[asset.id].push_back({++sequence_, std::move(version), clipPoolBytes});
 }
 
 void CallKeeper::take(const calls::DestroyAsset& call) {
@@ -161,8 +161,8 @@ std::vector<CallKeeper::Told> CallKeeper::collect() const {
             const bool first = &version == versions.data();
             all.push_back({version.sequence, [id = id, first, &version](Recorder& recorder) {
                                const calls::AssetHash hash = recorder.noteAsset(*version.prepared);
-                               first ? recorder.note(calls::CreateAsset{{id}, hash})
-                                     : recorder.note(calls::ReloadAsset{{id}, hash});
+                               first ? recorder.note(calls::CreateAsset{{id}, hash, version.clipPoolBytes})
+                                     : recorder.note(calls::ReloadAsset{{id}, hash, version.clipPoolBytes});
                                (void)recorder.flush(); // what the host does not take now, it is asked for in the end
                            }});
         }

@@ -28,7 +28,7 @@ public:
         take(call);
     }
     /// An asset has been loaded, for the first time or anew.
-    void keepLoad(SuppleAsset asset, std::shared_ptr<const Prepared> version);
+    void keepLoad(SuppleAsset asset, std::shared_ptr<const Prepared> version, uint64_t clipPoolBytes);
     /// Notes calls that bring about what there is.
     void tell(Recorder& recorder);
 
@@ -68,6 +68,7 @@ private:
     struct Version {
         uint64_t sequence = 0;
         std::shared_ptr<const Prepared> prepared;
+        uint64_t clipPoolBytes = 0;
     };
     /// Something to tell at its time.
     struct Told;

@@ -30,17 +30,21 @@ struct AssetHash {
 struct CreateAsset {
     SuppleAsset asset{};
     AssetHash hash;
+    uint64_t clipPoolBytes = 0;
     template <class A, class T>
     static void fields(A& a, T& c) {
         a(c.asset, c.hash);
+        a.later(c.clipPoolBytes);
     }
 };
 struct ReloadAsset {
     SuppleAsset asset{};
     AssetHash hash;
+    uint64_t clipPoolBytes = 0;
     template <class A, class T>
     static void fields(A& a, T& c) {
         a(c.asset, c.hash);
+        a.later(c.clipPoolBytes);
     }
 };
 struct DestroyAsset {
@@ -330,6 +334,15 @@ struct Record {
         a.list(c.groups, c.groupCount);
     }
 };
+struct RequestClip {
+    SuppleAsset asset{};
+    uint32_t clip = 0;
+    SuppleClipRequest request{};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.asset, c.clip, c.request);
+    }
+};
 
 } // namespace calls
 
@@ -342,7 +355,7 @@ using Call =
                  calls::SetMatrixPose, calls::SetMorphWeights, calls::SetJointMatrices, calls::SetPose,
                  calls::SetPlayback, calls::SetTime, calls::SetMask, calls::SetModifiers, calls::SetModifierTarget,
                  calls::SetCamera, calls::SetDepthPyramid, calls::SetOrigin, calls::SetUploadBudget, calls::BeginFrame,
-                 calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record>;
+                 calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record, calls::RequestClip>;
 
 /// The functions that make them, in the same order.
 inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames = {
@@ -355,7 +368,7 @@ inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames =
     "suppleSetPlayback",       "suppleSetTime",         "suppleSetMask",          "suppleSetModifiers",
     "suppleSetModifierTarget", "suppleSetCamera",       "suppleSetDepthPyramid",  "suppleSetOrigin",
     "suppleSetUploadBudget",   "suppleBeginFrame",      "suppleCancelFrame",      "suppleRecordUploads",
-    "suppleRecordWarmUp",      "suppleRecord"};
+    "suppleRecordWarmUp",      "suppleRecord",          "suppleRequestClip"};
 
 /// The place of a type among those of a variant.
 template <class T, class... Types>
@@ -435,6 +448,11 @@ void fields(A& a, T& playback) {
     a(playback.flags, playback.rootMotion, playback.rootJoint, playback.transition, playback.transitionKind,
       playback.updateInterval);
     a.list(playback.layers, playback.layerCount);
+}
+template <class A, CallStruct<SuppleClipRequest> T>
+void fields(A& a, T& request) {
+    a.sized(request);
+    a(request.use, request.begin, request.end);
 }
 template <class A, CallStruct<SuppleMaskDesc> T>
 void fields(A& a, T& mask) {

@@ -49,7 +49,8 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     }
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     auto recorder = std::make_unique<Recorder>(desc, describe(*device_, flags_, framesInFlight_, properties));
-    noteState(*recorder);
+    const std::vector<AskedClip> asked = askedClips();
+    noteState(*recorder, asked);
     if (recorder->hasHashes()) {
         if (const Status made = makeHashes(); !made) {
             return made;
@@ -61,6 +62,7 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     }
     recorder_ = std::move(recorder);
     recording_ = true;
+    restartStreams(asked); // a replay begins without segments
     // A replay does not know what sizes on the screen have chosen before, nor how springs have swung.
     groups.forEach([](Group& group) {
         if (Playback* const playback = group.poses().playback()) {
@@ -92,7 +94,7 @@ Status Context::makeHashes() {
     return made;
 }
 
-void Context::noteState(Recorder& recorder) const {
+void Context::noteState(Recorder& recorder, std::span<const AskedClip> asked) const {
     if (uploads_.bounded()) {
         recorder.note(calls::SetUploadBudget{uploads_.budget()});
     }
@@ -102,6 +104,7 @@ void Context::noteState(Recorder& recorder) const {
     if (keeps_) {
         keeper_->tell(recorder);
     }
+    noteClips(recorder, asked);
     if (frameOpen_) {
         recorder.note(calls::BeginFrame{frame_, completedFrame_});
     }

@@ -61,9 +61,10 @@ Result<RecordingReader> RecordingReader::open(std::span<const std::byte> bytes, 
     if (!std::equal(std::begin(magic), std::end(magic), std::begin(kRecordingMagic))) {
         return Error{ErrorCode::asset, name + ": no recording"};
     }
-    if (version != kRecordingVersion) {
+    if (version < kOldestRecordingVersion || version > kRecordingVersion) {
         return Error{ErrorCode::asset, name + ": a recording of version " + std::to_string(version) +
-                                           "; this library reads version " + std::to_string(kRecordingVersion)};
+                                           "; this library reads versions " + std::to_string(kOldestRecordingVersion) +
+                                           " to " + std::to_string(kRecordingVersion)};
     }
     CallReader reader(chunk->bytes.subspan(sizeof(magic) + sizeof(version)), *made.memory_);
     reader(made.context_);

@@ -33,7 +33,7 @@ bool isCreased(Corner corner) { return kSharp && (corner.flags & kCreasedChart) 
 bool hasChords(Corner corner) { return kSharp && (corner.flags & (kCreasedChart | kChordCorner)) != 0u; }
 
 // Of z = x + iy. Beyond the diagonal it is told from the next spoke backwards, so that both faces at a spoke multiply the
-// same two numbers, which take no division. tools/reference/chart_point.h has the same operations.
+// same two numbers, which take no division. cpu/chart_point.h has the same operations.
 ChartPoint chartPoint(vec2 z, float power, bool creased, vec4 directions) {
     bool back = z.y > z.x;
     float high = back ? z.y : z.x, low = back ? z.x : z.y;

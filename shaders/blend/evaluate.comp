@@ -1,8 +1,8 @@
 // Evaluates the blending surface: four local geometries per face, blended by Hermite weights (docs/blend.md). At a rate, tables
 // say where samples lie in the charts: nothing transcendental is computed here. Narrow mapping: a lane has all coefficients of a
 // patch in registers. Wide mapping: the parts that lanes load are single coefficients. Both use blend() and checkedFrame(), so
-// positions agree bit for bit. Regular faces go by rows (blend/regular.glsl), but at
-// levels in the wide mapping.
+// positions agree bit for bit. Regular faces go by rows (blend/regular.glsl); at levels in the wide mapping a lane has a row inside, or
+// a side.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -15,15 +15,15 @@
 const uint kRecordElements = 4u;
 const uint kForm = kLodQuadForm;
 const uint kParts = 4u * kChartCoefficients; // coefficients
-#ifndef LEVELS
 #define CHOOSES_WIDE
+#ifndef LEVELS
 #define LANE_PATCH
 #endif
-#include "shaders/evaluate/harness.glsl"
-
 layout(constant_id = kKindConstant) const uint kClass = kBlendPatch;
 const bool kSharp = kClass == kBlendSharpPatch; // some chart is creased, or the surface lies still somewhere
 const bool kRegular = kClass == kBlendRegularPatch;
+#include "shaders/evaluate/harness.glsl"
+
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/blend/sample.glsl"
 #include "shaders/blend/regular.glsl"
@@ -183,10 +183,11 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
 #endif
 #ifdef WIDE
 
-const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighbouring faces in different banks
 #ifdef LEVELS
-shared vec4 localElements[kMaxPatchesPerGroup * kLocalStride];
+const uint kLocalStride = kParts;
+shared vec4 localElements[kLines ? 1u : kMaxPatchesPerGroup * kLocalStride];
 #else
+const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighbouring faces in different banks
 shared vec4 localElements[kLanePatch ? 1u : kRegular ? SUPPLE_WIDE_ELEMENTS(kVertexFormat) : kMaxPatchesPerGroup * kLocalStride];
 #endif
 
@@ -198,39 +199,12 @@ void loadCoefficient(uint place, const PatchPlace at, uint c) {
     if (kRegular) value = withQuarterSign(words.w, n, value);
     localElements[place * kLocalStride + c].xyz = value;
 }
-vec3[36] localNet(uint place) {
-    vec3 net[36];
-    [[unroll]] for (uint n = 0u; n < 36u; ++n) net[n] = localElements[place * kLocalStride + n].xyz;
-    return net;
-}
-
 void loadPart(uint to, const PatchPlace at, uint c) { loadCoefficient(to / kParts, at, c); }
-
-#ifdef LEVELS
-// The sample (i, j) of a face whose last one is (last, last).
-void finishRegular(vec3 net[36], Along u, Along v, uint i, uint j, uint last, out vec3 position, out Frame frame) {
-    vec3 du, dv;
-    regularSample(collapseRegular(net, v), u, position, du, dv);
-    bool isEnd = i == 0u || i == last;
-    if (isEnd || j == 0u || j == last) {
-        RegularBorder border = chosen(isEnd, chosen(i == 0u, leftBorder(net), rightBorder(net)),
-                                      chosen(j == 0u, bottomBorder(net), topBorder(net)));
-        Along along = u;
-        if (isEnd) along = v;
-        position = onBorder(border, along);
-    }
-    frame = checkedFrame(net[18] - net[0], net[27] - net[9], frameOf(du, dv));
-}
-#endif
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
 #ifdef LEVELS
     uint last = at.capacity, j = index / (last + 1u), i = index - j * (last + 1u);
     vec2 u = lodU(place, last, i, j), v = lodV(place, last, i, j);
-    if (kRegular) {
-        finishRegular(localNet(place), alongOf(u), alongOf(v), i, j, last, position, frame);
-        return;
-    }
 #endif
     Corner corners[4];
     for (uint k = 0u; k < 4u; ++k) {
@@ -246,9 +220,62 @@ void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 positi
 #endif
 }
 
+#ifdef LEVELS
+// The coefficients of a regular face that is turned so that a side lies at v = 0.
+vec3[36] loadTurned(const PatchPlace at, uint side) {
+    vec3 net[36];
+    bool isSwapped = (side & 1u) != 0u;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        uvec4 words = tableElement(at.record + ((k + side) & 3u));
+        uint first = at.base + (words.x & kPoolIndexMask);
+        [[unroll]] for (uint c = 0u; c < 9u; ++c) {
+            uint n = isSwapped ? c % 3u * 3u + c / 3u : c;
+            net[9u * k + c] = withQuarterSign(words.w, n, coefficient(first + quarterSource(words.w, n), at.isNew));
+        }
+    }
+    return net;
+}
+// Line n of a regular face: its four sides, then the rows inside.
+void evaluateLine(const PatchPlace at, uint place, uint n) {
+    bool isSide = n < 4u;
+    uint last = at.capacity, side = isSide ? n : 0u, j = isSide ? 0u : n - 3u, k = isSide ? 0u : 1u;
+    vec3 net[36] = loadTurned(at, side), position, du, dv, diagonal = net[18] - net[0], other = net[27] - net[9];
+    turnBack(side, diagonal, other);
+    RegularRow row = collapseRegular(net, alongOf(localPair(place, 1u, j, last)));
+    RegularBorder border = bottomBorder(net);
+    LodPattern along = localPattern(place, isSide ? 2u + side : 0u);
+    SampleRow samples = innerRowOf(j, last, false);
+    if (isSide) samples = sideRowOf(side, last);
+    do {
+        Along u = alongOf(lodPair(along, k, last));
+        regularSample(row, u, position, du, dv);
+        if (isSide) position = onBorder(border, u);
+        turnBack(side, du, dv);
+        Frame frame = checkedFrame(diagonal, other, frameOf(du, dv));
+        uint vertex = at.vertex + samples.first;
+        storeSurfaceVertex(vertex, vertex, at.empty ? vec3(0.0) : position, frame);
+        samples.first += samples.step;
+    } while (++k < last);
+}
+void evaluateLines() {
+    Share share = shareOfGroup();
+    uint lines = share.side + 2u, place = gl_LocalInvocationID.x / lines;
+    if (place < share.count) evaluateLine(PATCH_IN_PLACE(share, place), place, gl_LocalInvocationID.x - place * lines);
+}
+void evaluateWide() {
+    if (kLines) evaluateLines();
+    else evaluateWideSamples();
+}
+#endif
+
 #ifndef LEVELS
 const uint kRowParts = kParts;
 void loadRowPart(uint place, const PatchPlace at, uint c) { loadCoefficient(place, at, c); }
+vec3[36] localNet(uint place) {
+    vec3 net[36];
+    [[unroll]] for (uint n = 0u; n < 36u; ++n) net[n] = localElements[place * kLocalStride + n].xyz;
+    return net;
+}
 
 // The lane's row, and positions on borders: where the row lies on one, what that is made of, else its two ends.
 RegularRow laneRow;

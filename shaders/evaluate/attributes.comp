@@ -379,22 +379,26 @@ Slopes lodSlopes(uint place, LodRecord r, Corners c, uint index) {
     return sectorSlopes(c, at.side, ringWeights(place, r.capacity, at, along));
 }
 
-// A workgroup has several records only where it has a lane for each of their samples.
+// Of a record that has more samples than a workgroup has lanes, all lanes take some. Else a lane takes one sample of a record at a time,
+// and the workgroup as many records at once as it has lanes for.
 void evaluateWideLod(uint form) {
     Share share = lodShareOfGroup(form);
     loadRecords(share);
-    uint place = gl_LocalInvocationID.x / share.samples;
-    if (place >= share.count) return;
-    LodRecord r = localRecord(place);
-    if (r.isEmpty) return;
-    Corners corners = loadCorners(r.patchIndex);
-    for (uint k = gl_LocalInvocationID.x - place * share.samples; k < share.samples; k += gl_WorkGroupSize.x) {
+    uint lane = gl_LocalInvocationID.x, each = min(share.samples, gl_WorkGroupSize.x), atOnce = gl_WorkGroupSize.x / each;
+    uint first = lane / each;
+    if (first >= atOnce) return;
+    for (uint place = first; place < share.count; place += atOnce) {
+        LodRecord r = localRecord(place);
+        if (r.isEmpty) continue;
+        Corners corners = loadCorners(r.patchIndex);
+        for (uint k = lane - first * each; k < share.samples; k += gl_WorkGroupSize.x) {
 #ifdef SMOOTH
-        storeSmooth(r.firstVertex + k, corners, lodCornerWeights(place, r, k), lodPlace(place, r, k));
+            storeSmooth(r.firstVertex + k, corners, lodCornerWeights(place, r, k), lodPlace(place, r, k));
 #else
-        store(r.firstVertex + k, corners, lodCornerWeights(place, r, k));
-        if (kDirections) storeDirection(r.firstVertex + k, corners, lodSlopes(place, r, corners, k));
+            store(r.firstVertex + k, corners, lodCornerWeights(place, r, k));
+            if (kDirections) storeDirection(r.firstVertex + k, corners, lodSlopes(place, r, corners, k));
 #endif
+        }
     }
 }
 #endif

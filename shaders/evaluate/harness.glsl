@@ -81,7 +81,7 @@ Share shareOfGroup() {
 #else
 Share shareOfGroup() {
     uint total = push.count * instanceCount(), first = workgroupIndex() * push.patchesPerGroup;
-    return Share(first, first < total ? min(push.patchesPerGroup, total - first) : 0u, push.samples, push.rate + 1u);
+    return Share(first, first < total ? min(push.patchesPerGroup, total - first) : 0u, push.samples, push.rate + 1u, 0u);
 }
 #define PATCH_IN_PLACE(share, place) placeOf(share.first + (place))
 #endif

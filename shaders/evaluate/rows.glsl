@@ -12,6 +12,7 @@ const bool kPolar = kClass == kPolarPatch;
 struct Corner {
     vec3 point, next, last, face;
 };
+Corner mirrored(Corner c) { return Corner(c.point, c.last, c.next, c.face); }
 // Corners in their order round the patch: (0, 0), (1, 0), (1, 1), (0, 1). A polar patch has its apex twice.
 // Order of the 16 perturbation coefficients: h_2j then h_3j for j = 0, 1, 4, 5, then h_i2, h_i3 for i = 0, 1, 4, 5.
 struct Patch {
@@ -72,6 +73,9 @@ Column columnOf(Patch c, uint i) {
 const uint kBottomRow = 0u, kTopRow = 1u, kInnerRow = 2u;
 uint rowKind(uint j, uint last) { return j == 0u ? kBottomRow : j == last ? kTopRow : kInnerRow; }
 
+// Du of a polar patch has the factor 1 - v, which vanishes at the apex. Without it, it has these weights of rows 0 to 2.
+vec3 polarWeights(vec2 v) { return vec3(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x)); }
+
 // What column i gives to a row: its point; in two parts, of its own corners and of its offsets, how far that lies from the patch's
 // first corner; and its slope in v. `first`: the point of the first corner.
 void collapseColumn(Column c, uint i, vec2 v, uint kind, vec3 first, out vec3 point, out vec3 fromCorners, out vec3 fromOffsets,
@@ -94,9 +98,8 @@ void collapseColumn(Column c, uint i, vec2 v, uint kind, vec3 first, out vec3 po
     }
     fromCorners = corners;
     fromOffsets = offset;
-    // Du of a polar patch has the factor 1 - v, which vanishes at the apex: it is left out.
     if (kPolar) {
-        vec3 along = vec3(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x));
+        vec3 along = polarWeights(v);
         fromCorners = (along.x + along.y) * c.fromFirst;
         fromOffsets = blend3(along, c.offsets[0], c.offsets[1], c.offsets[2]);
     }

@@ -48,7 +48,7 @@ Row collapseSmooth(SmoothPatch c, vec2 v) {
     vec4 b = bernstein3(v);
     vec3 d = derivativeWeights3(v), fromFirst[4];
     // Du of a polar patch as in collapseColumn().
-    vec4 along = kPolar ? vec4(v.y * v.y, 3.0 * (v.x * v.y), 3.0 * (v.x * v.x), 0.0) : b;
+    vec4 along = kPolar ? vec4(polarWeights(v), 0.0) : b;
     for (uint i = 0u; i < 4u; ++i) {
         row.g[i] = sum4(b, c.g[i], c.g[4u + i], c.g[8u + i], c.g[12u + i]);
         fromFirst[i] = blend4(along, c.g[i] - c.g[0], c.g[4u + i] - c.g[0], c.g[8u + i] - c.g[0], c.g[12u + i] - c.g[0]);

@@ -13,7 +13,7 @@ layout(push_constant) uniform Push { LodSolvePush push; };
 
 shared uint sumRecords[kMaxLanes], sumVertices[kMaxLanes];
 
-uint formOf(uint run) { return runForm(lodWords.at[kLodRuns + kLodRunWords * run]); }
+uint runWord(uint run) { return lodWords.at[kLodRuns + kLodRunWords * run]; }
 uint dispatchOf(uint run) { return lodWords.at[kLodRuns + kLodRunWords * run + 1u] >> 16u; }
 uint bucketWord(uint run, uint c) {
     uint first = firstOfGroup(lodWords.at[kLodRuns + kLodRunWords * run + 1u], run);
@@ -25,9 +25,9 @@ uint padded(uint count, uint samples) {
     uint n = patchesPerDraw(samples);
     return (count + n - 1u) / n * n;
 }
-// Wide mapping: workgroups that evaluate so many records.
-uint groupsOf(uint whole, uint samples) {
-    uint each = clamp(gl_WorkGroupSize.x / samples, 1u, kMaxPatchesPerGroup);
+// Wide mapping: workgroups that evaluate so many records of a run with this word.
+uint groupsOf(uint word, uint c, uint whole) {
+    uint each = recordsOfGroup(gl_WorkGroupSize.x, runHasLines(word), runForm(word), capacityOf(c));
     return (whole + each - 1u) / each;
 }
 
@@ -38,7 +38,7 @@ struct Place {
 Place sizeOf(uint first, uint end) {
     Place sum = Place(0u, 0u, 0u, 0u);
     for (uint run = first; run < end; ++run) {
-        uint form = formOf(run);
+        uint form = runForm(runWord(run));
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
             uint samples = formSamples(form, capacityOf(c)), whole = padded(lodWords.at[drawWord(run, c) + kLodDrawCount], samples);
             sum.record += whole;
@@ -51,10 +51,10 @@ Place sizeOf(uint first, uint end) {
 uint groupsBefore(uint run) {
     uint dispatch = dispatchOf(run), groups = 0u;
     for (; run > 0u && dispatchOf(run - 1u) == dispatch; --run) {
-        uint form = formOf(run - 1u);
+        uint word = runWord(run - 1u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
-            uint samples = formSamples(form, capacityOf(c));
-            groups += groupsOf(padded(lodWords.at[drawWord(run - 1u, c) + kLodDrawCount], samples), samples);
+            uint samples = formSamples(runForm(word), capacityOf(c));
+            groups += groupsOf(word, c, padded(lodWords.at[drawWord(run - 1u, c) + kLodDrawCount], samples));
         }
     }
     return groups;
@@ -64,9 +64,9 @@ void placeRuns(uint first, uint end, inout Place at, uint room) {
     uint group = first < end ? groupsBefore(first) : 0u;
     for (uint run = first; run < end; ++run) {
         if (run > first && dispatchOf(run) != dispatchOf(run - 1u)) group = 0u;
-        uint form = formOf(run), bucket = bucketWord(run, 0u);
+        uint word = runWord(run), bucket = bucketWord(run, 0u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c, bucket += 4u) {
-            uint samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c) + kLodDrawCount, count = lodWords.at[draw];
+            uint samples = formSamples(runForm(word), capacityOf(c)), draw = drawWord(run, c) + kLodDrawCount, count = lodWords.at[draw];
             lodWords.at[bucket] = at.record;
             lodWords.at[bucket + 1u] = at.vertex;
             lodWords.at[bucket + 2u] = 0u;
@@ -82,14 +82,14 @@ void placeRuns(uint first, uint end, inout Place at, uint room) {
             at.record += whole;
             at.vertex += whole * samples;
             at.patches += count;
-            group += groupsOf(whole, samples);
+            group += groupsOf(word, c, whole);
         }
         lodWords.at[bucket] = at.record; // the next run's first, or the end of the group's
     }
 }
 
 void writeDraw(uint run, uint c) {
-    uint form = formOf(run), samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c), bucket = bucketWord(run, c);
+    uint form = runForm(runWord(run)), samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c), bucket = bucketWord(run, c);
     uint count = lodWords.at[draw + kLodDrawCount], whole = padded(count, samples);
     uint record = lodWords.at[bucket], vertex = lodWords.at[bucket + 1u], grid = kLodGrids + 2u * (form * kCapacityCount + c);
     lodWords.at[draw] = lodWords.at[grid + 1u];
@@ -108,9 +108,8 @@ void writeDispatch(uint run, uint dispatch) {
     uint end = run + 1u;
     while (end < push.runCount && dispatchOf(end) == dispatch) ++end;
     uint first = bucketWord(run, 0u), last = bucketWord(end - 1u, kCapacityCount - 1u);
-    uint samples = formSamples(formOf(end - 1u), capacityOf(kCapacityCount - 1u));
     uint firstRecord = lodWords.at[first], endRecord = lodWords.at[last + 4u], recordCount = endRecord - firstRecord;
-    uint groupCount = kWide ? lodWords.at[last + 3u] + groupsOf(endRecord - lodWords.at[last], samples)
+    uint groupCount = kWide ? lodWords.at[last + 3u] + groupsOf(runWord(end - 1u), kCapacityCount - 1u, endRecord - lodWords.at[last])
                             : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
     uint at = SUPPLE_LOD_DISPATCHES(push.runs) + kLodDispatchWords * dispatch;

@@ -12,6 +12,7 @@ const bool kLod = true;
 #else
 const bool kLod = false;
 #endif
+layout(constant_id = kLinesConstant) const bool kLines = false; // wide mapping: lanes take lines of samples (kRunHasLines)
 
 struct LodRecord {
     uint patchIndex; // of the range
@@ -44,16 +45,20 @@ LodPattern recordPattern(uint element, uint k, uint capacityIndex) {
     return lodPattern((k & 1u) == 0u ? two.xy : two.zw, capacityIndex);
 }
 
+// Directions along a side of a grid of rows and inwards, as those along u and v.
+void turnBack(uint side, inout vec3 along, inout vec3 inwards) {
+    bool isUpright = (side & 1u) != 0u;
+    float signU = SELECT(side == 1u || side == 2u, -1.0, 1.0), signV = SELECT(side >= 2u, -1.0, 1.0);
+    vec3 u = signU * SELECT3(isUpright, inwards, along), v = signV * SELECT3(isUpright, along, inwards);
+    along = u;
+    inwards = v;
+}
+
 // A sample of a ring grid (surface/lod/grid.h): its ring, the side of it, and the place along the side, counted from the
 // patch's corner.
 struct RingSample {
     uint ring, side, k;
 };
-// Samples before a ring of a patch of m sides, and before a side of the ring.
-uint ringStart(uint m, uint ring, uint capacity) { return m * ring * (capacity + 1u - ring); }
-uint ringSideStart(uint m, uint ring, uint side, uint capacity) {
-    return ringStart(m, ring, capacity) + side * (capacity - 2u * ring);
-}
 RingSample ringSample(uint m, uint capacity, uint index) {
     uint ring = 0u;
     for (; ring < (capacity + 1u) / 2u && ringStart(m, ring + 1u, capacity) <= index; ++ring) {}
@@ -78,13 +83,13 @@ uint lodRecordOfLane() {
 
 // Wide mapping: what a workgroup takes of a dispatch. At levels, some records of one bucket.
 struct Share {
-    uint first, count, samples, side;
+    uint first, count, samples, side, capacityIndex;
 };
 #ifdef LEVELS
 Share lodShareOfGroup(uint form) {
     uint at = lodDispatchWord();
     uint end = lodWord(at + 3u) + lodWord(at + 4u), first = lodWord(at + 5u), count = min(lodWord(at + 6u), push.runs * kCapacityCount);
-    Share share = Share(0u, 0u, 1u, 1u);
+    Share share = Share(0u, 0u, 1u, 1u, 0u);
     if (workgroupIndex() >= lodWord(at + 7u)) return share;
     uint buckets = SUPPLE_LOD_BUCKETS(push.runs) + 4u * first;
     uint b = 0u, past = count; // the last bucket that begins at or before this group, and is not empty
@@ -95,10 +100,11 @@ Share lodShareOfGroup(uint form) {
     }
     uint bucket = buckets + 4u * b;
     uint next = b + 1u < count ? lodWord(bucket + 4u) : end;
-    uint capacity = capacityOf(b % kCapacityCount);
+    share.capacityIndex = b % kCapacityCount;
+    uint capacity = capacityOf(share.capacityIndex);
     share.samples = formSamples(form, capacity);
     share.side = capacity + 1u; // of a grid of rows
-    uint each = clamp(gl_WorkGroupSize.x / share.samples, 1u, kMaxPatchesPerGroup);
+    uint each = recordsOfGroup(gl_WorkGroupSize.x, kLines, form, capacity);
     share.first = lodWord(bucket) + (workgroupIndex() - lodWord(bucket + 3u)) * each;
     share.count = share.first < next ? min(each, next - share.first) : 0u;
     return share;
@@ -107,28 +113,40 @@ Share lodShareOfGroup(uint form) {
 
 #if defined(WIDE) && defined(LEVELS)
 // The records of a workgroup and their patterns, in workgroup memory. The latter in two parts: one is integers.
-shared uvec4 localHeads[kMaxPatchesPerGroup];
-shared uvec2 localPatternBits[6u * kMaxPatchesPerGroup];
-shared vec2 localPatternWidths[6u * kMaxPatchesPerGroup];
+const uint kMostRecords = kLines ? kMaxRecordsPerGroup : kMaxPatchesPerGroup;
+shared uvec4 localHeads[kMostRecords];
+shared uvec2 localPatternBits[6u * kMostRecords];
+shared vec2 localPatternWidths[6u * kMostRecords];
 
-// To be called by all lanes.
+// To be called by all lanes. Records have the capacity of their bucket: lanes count lines and samples by it, and their loops must end
+// whatever the records' own words are.
 void loadRecords(Share share) {
     for (uint n = gl_LocalInvocationID.x; n < 6u * share.count; n += gl_WorkGroupSize.x) {
         uint place = n / 6u, k = n - 6u * place, at = lodRecordElement(share.first + place);
-        uvec4 head = lodElement(at);
-        LodPattern p = recordPattern(at, k, min(head.w, kCapacityCount - 1u));
+        LodPattern p = recordPattern(at, k, share.capacityIndex);
         localPatternBits[n] = uvec2(p.full, p.fresh);
         localPatternWidths[n] = vec2(p.part, p.inverse);
-        if (k == 0u) localHeads[place] = head;
+        if (k == 0u) localHeads[place] = uvec4(lodElement(at).xyz, share.capacityIndex);
     }
     barrier();
 }
 // Of the record in a place, without its pairs.
 LodRecord localRecord(uint place) { return lodRecordOf(localHeads[place]); }
-vec2 localPair(uint place, uint k, uint i, uint capacity) {
+LodPattern localPattern(uint place, uint k) {
     uvec2 bits = localPatternBits[6u * place + k];
     vec2 widths = localPatternWidths[6u * place + k];
-    return lodPair(LodPattern(bits.x, bits.y, widths.x, widths.y), i, capacity);
+    return LodPattern(bits.x, bits.y, widths.x, widths.y);
+}
+vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
+
+// The line of a lane where grids have rings: line n of as many as a sector of a patch has.
+struct RingLine {
+    uint place, sector, n, lines;
+};
+RingLine ringLineOfLane(Share share) {
+    uint lines = ringLines(share.side - 1u), each = formSides(kForm) * lines, place = gl_LocalInvocationID.x / each;
+    uint n = gl_LocalInvocationID.x - place * each, sector = n / lines;
+    return RingLine(place, sector, n - sector * lines, lines);
 }
 
 // Parameters of a sample on a border are the edge's, else the patch's own. At a corner they are 0 and 1 themselves.

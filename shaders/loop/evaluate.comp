@@ -1,13 +1,16 @@
 // Evaluates Loop patches (docs/loop.md): every sample is that of a leaf.
 //
 // Narrow mapping, and the wide one where a rate has patches enough for all lanes of a GPU (kLanePatch): a lane a triangle, leaf by leaf,
-// first what lies inside of it, then what lies on its sides. Else the wide mapping, and irregular triangles at levels: sample by sample.
+// first what lies inside of it, then what lies on its sides. Regular triangles at levels in the wide mapping: a lane takes a line. Else
+// the wide mapping, and irregular triangles at levels: sample by sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
-#ifndef LEVELS
+#ifdef LEVELS
+#define CHOOSES_WIDE
+#else
 #define LANE_PATCH
 #endif
 #include "shaders/surface/tables.glsl"
@@ -33,7 +36,7 @@ vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at
 #ifdef LEVELS
 const bool kLanePatch = false;
 #endif
-shared vec4 localPoints[kLanePatch ? 1u : kMaxPatchesPerGroup * kParts];
+shared vec4 localPoints[kLanePatch || kLines ? 1u : kMaxPatchesPerGroup * kParts];
 uint localPlace; // of the lane's patch
 
 vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
@@ -44,35 +47,80 @@ vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kPa
 #include "shaders/loop/place.glsl"
 
 #ifdef WIDE
-void loadPart(uint to, const PatchPlace at, uint k) {
-    uint index = kIrregular ? triangleOf(at.record, true).first + netListPoint(at.record + kTriangleNetElement, k)
-                            : tableWord(4u * (at.record + kTriangleCageElement) + k);
-    localPoints[to] = vec4(poolPoint(at, index), 0.0);
+vec4 netPart(const PatchPlace at, uint k) {
+    uint index = triangleOf(at.record, true).first + netListPoint(at.record + kTriangleNetElement, k);
+    return vec4(poolPoint(at, index), 0.0);
 }
+#ifdef LEVELS
+void loadPart(uint to, const PatchPlace at, uint k) { localPoints[to] = netPart(at, k); }
+// Of an irregular triangle.
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
     localPlace = place;
-    Triangle t = triangleOf(at.record, kIrregular);
-#ifdef LEVELS
     RingSample ring = ringSample(3u, at.capacity, index);
     vec2 along;
     vec3 w = ringWeights(place, at.capacity, ring, along);
     TrianglePoint s = ringPoint(ring.side, ring.ring == 0u, along, w);
-    uint to = ring.side;
+    irregularTriangle(at, triangleOf(at.record, true), s, ring.side, position, frame);
+    frame = ofSector(frame);
+}
 #else
+void loadPart(uint to, const PatchPlace at, uint k) {
+    localPoints[to] = kIrregular ? netPart(at, k) : vec4(poolPoint(at, tableWord(4u * (at.record + kTriangleCageElement) + k)), 0.0);
+}
+void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
+    localPlace = place;
+    Triangle t = triangleOf(at.record, kIrregular);
     TrianglePoint s = gridPoint(gridSample(kTriangleDomain, fixedRate(), index).xy, fixedRate());
-    const uint to = 0u;
-#endif
     if (kIrregular) {
-        irregularTriangle(at, t, s, to, position, frame);
+        irregularTriangle(at, t, s, 0u, position, frame);
     } else {
         LeafPoints points;
         [[unroll]] for (uint k = 0u; k < kLeafPoints; ++k) points.p[k] = netPoint(at, k);
         mirror(points, triangleFlags(t, kSharpTriangleSide), triangleFlags(t, kCreasedTriangleCorner));
-        regularTriangle(at, t, points, leafOf(points), s, to, position, frame);
+        regularTriangle(at, t, points, leafOf(points), s, 0u, position, frame);
     }
-#ifdef LEVELS
-    frame = ofSector(frame);
+}
 #endif
+#endif
+#if defined(WIDE) && defined(LEVELS)
+// Of a regular triangle.
+void evaluateLine(const PatchPlace at, RingLine line) {
+    Triangle t = triangleOf(at.record, false);
+    LeafPoints points = cageLeaf(at, t);
+    Leaf leaf = leafOf(points);
+    LeafSide side = leafSide(points, line.sector, false, hasFlag(t, kSharpTriangleSide, line.sector));
+    LodPattern inside = localPattern(line.place, 0u), border = localPattern(line.place, 1u + line.sector);
+    uint last = at.capacity, k = line.n;
+    vec3 position;
+    Frame frame;
+    do {
+        TrianglePoint s = pointOnSide(line.sector, lodPair(border, k, last));
+        LeafRow row = leafRow(leaf, s.w.z);
+        frame = seenFrom(0u, line.sector, rowAlongX(row, s.w.y), rowAlongY(row, s.w.y));
+        uint corner = cornerAt(s);
+        if (corner == 3u) position = onSide(side, s.along);
+        else position = cornerLimit(at, t, corner);
+        uint own = at.vertex + line.sector * last + k;
+        storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
+        k += line.lines;
+    } while (k < last);
+    RingStep step = firstRingStep(line.n, last);
+    while (step.ring <= step.last) {
+        vec3 w = ringWeights(lodPair(inside, step.k, last), lodPair(inside, step.ring, last).x);
+        regularTriangle(at, t, points, leaf, ringPoint(line.sector, false, vec2(0.0), w), line.sector, position, frame);
+        uint own = at.vertex + ringSideStart(3u, step.ring, line.sector, last) + step.k - step.ring;
+        storeSurfaceVertex(own, own, at.empty ? vec3(0.0) : position, ofSector(frame));
+        step = nextRingStep(step, last - step.ring);
+    }
+}
+void evaluateLines() {
+    Share share = shareOfGroup();
+    RingLine line = ringLineOfLane(share);
+    if (line.place < share.count) evaluateLine(PATCH_IN_PLACE(share, line.place), line);
+}
+void evaluateWide() {
+    if (kLines) evaluateLines(); // kLoopRegularPatch
+    else evaluateWideSamples();
 }
 #endif
 #if !defined(WIDE) && defined(LEVELS)

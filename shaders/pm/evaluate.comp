@@ -11,7 +11,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
-#ifndef LEVELS
+#ifdef LEVELS
+#define OWN_WIDE
+#else
 #define CHOOSES_WIDE
 #endif
 #include "shaders/surface/tables.glsl"
@@ -79,10 +81,7 @@ vec3 weightsAtRate(uint k, uint l) {
     uint rate = fixedRate();
     return vec3(parameterPair(rate - k - l, rate).x, parameterPair(k, rate).x, parameterPair(l, rate).x);
 }
-#endif
 
-#if !defined(WIDE) || !defined(LEVELS)
-#ifndef LEVELS
 // Numbers of a sector's samples. Those of a quad are this far apart along the border and inwards.
 struct SectorNumbers {
     uint sector, first, along, inwards;
@@ -110,7 +109,7 @@ uint centreSample() {
 }
 #endif
 
-#ifdef WIDE
+#if defined(WIDE) && !defined(LEVELS)
 layout(constant_id = kLanePatchConstant) const bool kLanePatch = false;
 // Where there is room for the samples of all patches, they pass through workgroup memory, so that neighbouring lanes store
 // neighbouring ones.
@@ -128,7 +127,7 @@ uint localFirst; // sample of the lane's patch
 #endif
 
 void keepSample(const PatchPlace at, uint own, vec3 position, Frame frame) {
-#ifdef WIDE
+#if defined(WIDE) && !defined(LEVELS)
     if (kThroughMemory) {
         localSamples[localFirst + own] = uvec4(floatBitsToUint(position), encodeOctahedral(frame.normal));
         storeTangent(at.vertex + own, at.own + own, frame);
@@ -137,7 +136,6 @@ void keepSample(const PatchPlace at, uint own, vec3 position, Frame frame) {
 #endif
     storeSurfaceVertex(at.vertex + own, at.own + own, at.empty ? vec3(0.0) : position, frame);
 }
-#endif
 
 #ifndef LEVELS
 #ifdef WIDE
@@ -275,7 +273,52 @@ void evaluatePatch(const PatchPlace at) {
 #endif
 #endif
 
-#if !defined(WIDE) && defined(LEVELS)
+#ifdef LEVELS
+// Of ring 0 the samples k, k + step, ..
+void evaluateSide(const PatchPlace at, SectorCubics c, Border border, LodPattern side, uint sector, uint k, uint step) {
+    do {
+        vec3 position;
+        Frame frame;
+        finishBorder(c, border, k == 0u, lodPair(side, k, at.capacity), position, frame);
+        keepSample(at, sector * at.capacity + k, position, frame);
+        k += step;
+    } while (k < at.capacity);
+}
+#ifdef WIDE
+// Sample k of a sector's side of a ring and its mirror image, which of the first sample is the next sector's. Capacities are odd, so none
+// is its own.
+void evaluateRingStep(const PatchPlace at, SectorCubics c, LodPattern inside, uint sector, RingStep s) {
+    uint last = at.capacity, first = ringSideStart(kSides, s.ring, sector, last) - s.ring;
+    vec3 position, farPosition;
+    Frame frame, farFrame;
+    vec3 w = ringWeights(lodPair(inside, s.k, last), lodPair(inside, s.ring, last).x);
+    finishMirrored(c, w, position, frame, farPosition, farFrame);
+    keepSample(at, first + s.k, position, frame);
+    if (s.k != s.ring) keepSample(at, first + last - s.k, farPosition, farFrame);
+}
+void evaluateLine(const PatchPlace at, RingLine line) {
+    uint sector = line.sector;
+    uint innerBits = innerWord(at.record, kSides), centre = at.base + SUPPLE_INNER(innerBits);
+    SectorSide before = loadSide(kSides, at.record, at.base, centre, sector == 0u ? kSides - 1u : sector - 1u, at.isNew);
+    SectorSide own = loadSide(kSides, at.record, at.base, centre, sector, at.isNew);
+    SectorSide next = loadSide(kSides, at.record, at.base, centre, sector + 1u == kSides ? 0u : sector + 1u, at.isNew);
+    Sector whole = makeSector(kRay, coefficient(centre, at.isNew), before, own, next);
+    SectorCubics c = cubicsOf(halvesOf(whole));
+    Border border = makeBorder(whole, before, own, next, (SUPPLE_SINGULAR(innerBits) & (1u << sector)) != 0u);
+    evaluateSide(at, c, border, localPattern(line.place, 1u + sector), sector, line.n, line.lines);
+    LodPattern inside = localPattern(line.place, 0u);
+    RingStep s = firstRingStep(line.n, at.capacity);
+    while (s.ring <= s.last) {
+        evaluateRingStep(at, c, inside, sector, s);
+        s = nextRingStep(s, (at.capacity + 1u) / 2u);
+    }
+}
+void evaluateWide() {
+    Share share = shareOfGroup();
+    RingLine line = ringLineOfLane(share);
+    if (line.place < share.count) evaluateLine(PATCH_IN_PLACE(share, line.place), line);
+}
+#else
 // The samples of a side of a ring: the first by itself, then mirrored ones.
 void evaluateRing(const PatchPlace at, SectorCubics c, LodPattern inside, uint sector, uint ring) {
     uint last = at.capacity, k = ring + 1u, far = last - ring - 1u, own = ringSideStart(kSides, ring, sector, last);
@@ -306,13 +349,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
         SectorCubics c = cubicsOf(halvesOf(s));
         Border border = makeBorder(s, before, own, next, (singular & (1u << sector)) != 0u);
         LodPattern side = recordPattern(lodRecord, 1u + sector, at.capacityIndex);
-        uint k = 0u; // of ring 0
-        do {
-            vec3 position;
-            Frame frame;
-            finishBorder(c, border, k == 0u, lodPair(side, k, last), position, frame);
-            keepSample(at, sector * last + k, position, frame);
-        } while (++k < last);
+        evaluateSide(at, c, border, side, sector, 0u, 1u);
         uint ring = 1u;
         if (ring < rings) {
             do {
@@ -324,14 +361,11 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
     }
 }
 #endif
-
-#ifdef WIDE
-const uint kSectorPoints = 19u; // border[4], centre, even[8], odd[6]
-#ifdef LEVELS
-shared vec4 localPoints[kMaxPatchesPerGroup * kSides * kSectorPoints];
-#else
-shared vec4 localPoints[kLanePatch ? 1u : kMaxPatchesPerGroup * kSides * kSectorPoints];
 #endif
+
+#if defined(WIDE) && !defined(LEVELS)
+const uint kSectorPoints = 19u; // border[4], centre, even[8], odd[6]
+shared vec4 localPoints[kLanePatch ? 1u : kMaxPatchesPerGroup * kSides * kSectorPoints];
 
 void loadPart(uint to, const PatchPlace at, uint side) {
     Sector s = loadSector(kSides, kRay, at.record, at.base, side, at.isNew);
@@ -351,19 +385,11 @@ SectorHalves localHalves(uint from) {
 }
 
 void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
-#ifdef LEVELS
-    RingSample s = ringSample(kSides, at.capacity, index);
-    vec2 along;
-    vec3 w = ringWeights(place, at.capacity, s, along);
-    uint sector = s.side;
-    bool border = s.ring == 0u, corner = border && s.k == 0u;
-#else
     uvec3 s = sectorOf(kDomain, dispatchRate(), index);
     vec2 along = parameterPair(s.x, dispatchRate());
     vec3 w = weightsAtRate(s.x, s.y);
     uint sector = s.z;
     bool border = s.y == 0u, corner = border && s.x == 0u;
-#endif
     bool singular = corner && (SUPPLE_SINGULAR(innerWord(at.record, kSides)) & (1u << sector)) != 0u;
     uint from = (place * kSides + sector) * kSectorPoints;
     vec3 points[4] = vec3[4](localPoints[from].xyz, localPoints[from + 1u].xyz, localPoints[from + 2u].xyz, localPoints[from + 3u].xyz);

@@ -48,7 +48,8 @@ void main() {
     } else {
         uint quad = item - matrices, at = push.morphWeights + quad;
         precise vec4 weights = straight(end(a + at), end(b + at), part);
-        if ((state(first).y & kStateHostWeights) != 0u) {
+        // With drivers, ends have what these add to the host's: Playback::setMorphWeights() makes them anew.
+        if (push.drivers == 0u && (state(first).y & kStateHostWeights) != 0u) {
             weights = stateFloats(first + kStateElements + kMaxPlaybackLayers * kLayerElements + quad);
         }
         posed.at[shown + at] = weights;

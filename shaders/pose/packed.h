@@ -46,9 +46,8 @@ PackedTime packedTime(uvec4 head, float rateLow, vec2 time) {
 }
 
 // A property that changes: its number among those of the clip.
-vec4 changingValue(uvec4 sections, PackedTime at, uint property, bool turns) {
+vec4 changingValue(uvec4 sections, uvec4 segment, PackedTime at, uint property, bool turns) {
     uint own = packedWord(sections.z, property);
-    uvec4 segment = table(sections.w + at.segment);
     uvec4 record = table(segment.x + property);
     uint upTo = record.x & (0xFFFFFFFFu >> (31u - at.frame)), later = record.x ^ upTo;
     uint before = uint(findMSB(upTo)), rank = uint(bitCount(upTo)) - 1u;
@@ -105,6 +104,12 @@ vec4 constantValue(uvec4 sections, uint constant, bool turns) {
 Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
     uvec4 sections = table(head + 1u);
     PackedTime at = packedTime(table(head), tableFloats(head + 2u).y, time);
+    uvec4 segment = table(sections.w + at.segment);
+    // The segment is missing; its twin has the same frames. A loop, so that lavapipe can leave it out.
+    for (uint twin = segment.w; twin != 0u; twin = 0u) {
+        sections = table(twin + 1u);
+        segment = table(sections.w + at.segment);
+    }
     uvec4 masks = table(sections.x + node / 16u);
     uint bit = node & 15u, below = (1u << bit) - 1u, both = below | below << 16u;
     // By path, 1, 2 and 4: what changes, and what is constant.
@@ -118,7 +123,7 @@ Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
         bool changes = ((changing >> path) & 1u) != 0u;
         SUPPLE_PRECISE vec4 value = vec4(0.0f);
         if (changes) {
-            value = changingValue(sections, at, property, path == 1u);
+            value = changingValue(sections, segment, at, property, path == 1u);
             property += 1u;
         } else {
             value = constantValue(sections, number, path == 1u);

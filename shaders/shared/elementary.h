@@ -9,10 +9,8 @@
 #ifdef __cplusplus
 #include <bit>
 #include <cmath>
-#define SUPPLE_SHARED_FUNCTION inline
 #define SUPPLE_PRECISE // -ffp-contract=off
 #else
-#define SUPPLE_SHARED_FUNCTION
 #define SUPPLE_PRECISE precise
 #endif
 

@@ -11,9 +11,10 @@
 //                 kSplitUnit is shared between two bins
 //   rated         where instances have one of several rates (subdivision) and count: the vertices of all at their coarsest; then
 //                 by priority and bin what finer rates have more, which counts while levels are scaled by fewer bins
-//   runs          two words a run: form | kRunIsDoubleSided where its patches show their backs too; the group's first run |
-//                 dispatch << 16, kNoDispatch where no group has the run. A run is the patches of one class and material of a
-//                 window of instances of a group; a dispatch evaluates the runs of one class, which follow each other
+//   runs          two words a run: form | kRunIsDoubleSided where its patches show their backs too | kRunHasLines where a
+//                 lane of the wide mapping takes a line of their samples; the group's first run | dispatch << 16,
+//                 kNoDispatch where no group has the run. A run is the patches of one class and material of a window of
+//                 instances of a group; a dispatch evaluates the runs of one class, which follow each other
 //   counts        by run, priority and bin from kFirstCountBin on: patches; all bins below count in the first
 //   buckets       by run and capacity: four words (LodBucket), those of a group from kLodBucketStride times its first run on; one
 //                 more behind them tells where the last one's records end
@@ -52,6 +53,7 @@ SUPPLE_SHARED_CONST kPriorityCount = 4u;
 SUPPLE_SHARED_CONST kMaxViewRuns = 65472u; // and dispatches: less than kNoDispatch
 SUPPLE_SHARED_CONST kRunStep = 64u;        // a view has room for a multiple of this, so that all sections are aligned
 SUPPLE_SHARED_CONST kRunIsDoubleSided = 256u;
+SUPPLE_SHARED_CONST kRunHasLines = 512u;
 SUPPLE_SHARED_CONST kNoDispatch = 65535u;
 
 // Forms of grids (surface/lod/grid.h).

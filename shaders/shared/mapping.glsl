@@ -43,8 +43,6 @@ const bool kWide = false;
 
 layout(constant_id = kExactDivisionConstant) const bool kExactDivision = false; // the device rounds k / rate correctly
 
-const uint kMaxLanes = 128u; // of gl_WorkGroupSize.x: gpu/mapping.cpp
-
 // -0 as +0: sides of a border may come to different zeros. Vulkan lets a compiler drop x + 0.0, as the sign of a zero need not
 // be kept; lavapipe keeps it, and it is cheaper there.
 vec3 withPositiveZeros(vec3 v) {

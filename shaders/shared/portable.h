@@ -10,6 +10,7 @@
 #define SUPPLE_SHARED_END }
 #define SUPPLE_SHARED_CONST inline constexpr uint
 #define SUPPLE_SHARED_FLOAT inline constexpr float
+#define SUPPLE_SHARED_FUNCTION inline
 #define SUPPLE_INOUT(T) T& // a parameter that the function changes
 #define SUPPLE_SELECT(c, a, b) ((c) ? (a) : (b))
 #else
@@ -17,6 +18,7 @@
 #define SUPPLE_SHARED_END
 #define SUPPLE_SHARED_CONST const uint
 #define SUPPLE_SHARED_FLOAT const float
+#define SUPPLE_SHARED_FUNCTION
 #define SUPPLE_INOUT(T) inout T
 #define SUPPLE_SELECT(c, a, b) mix(b, a, c) // without a branch: see select.glsl
 #endif

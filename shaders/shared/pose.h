@@ -23,7 +23,9 @@
 //              nodes (those that change + 65536 * constants)
 //   constants  two words each: three numbers of 20 bits with a sign, and in the last 4 bits (27 - their exponent) / 2
 //   statics    a word for every property that changes: its reference, 3 times 9 bits; its exponent + 8
-//   segment    (first record, first element of its data, frames, 0)
+//   segment    (first record, first element of its data, frames, 0). While a segment of a clip with a coarse twin is
+//              missing, the last is the first element of the twin: a packed clip of the same frames, whose nodes' elements
+//              are not read; the first two then mean nothing
 //   record     of a property in a segment: (frames that are knots, a bit each; of x, y and z: the lowest number, 20 bits with a
 //              sign, the bits of each number, 5, and 7 bits of where the first knot begins in the data, in bits)
 //   data       knot after knot x, y and z, and the knot at the segment's end last
@@ -44,6 +46,14 @@
 //   reference  a word each, four an element: the number of a collider
 //   collider   kColliderElements each: (node or kNoNode, kCollider flags, 0, 0); (point in the node's frame; radius); (a
 //              capsule's other end, or a plane's normal; 0)
+//   drivers    if morph weights follow from joints, one element from `drivers` on: (quads, 0, 0, 0); then
+//   quad       one element each: (four morph weights by their number, first, end of its shares, 0)
+//   share      kShareElements each, what a driver sets of a quad: (inputs, their first element, poses, first of their
+//              rotations); the least that it sets, by weight; the most; (first coefficient, 1 / sigma^2 as a float, 0, 0)
+//   input      kDriverInputElements each: (node, its number among those that drivers look at, kTurn part, weight as a
+//              float); what undoes its rotation in the rest pose; (axis, 0)
+//   rotation   one element each, pose after pose, for every input
+//   coefficient  one element a pose, by weight of the quad
 //   channel    (4 * keys + interpolation, keys a second as a float, element of the key times, of the values); times four an
 //              element; a value is one element, morph weights are packed; a cubic spline has in-tangent, value, out-tangent a key
 //
@@ -204,6 +214,14 @@ SUPPLE_SHARED_CONST kPosedColliderElements = 2u;
 SUPPLE_SHARED_CONST kSpringJoints = 3u; // where they begin in an instance's run
 SUPPLE_SHARED_CONST kSpringJointElements = 4u;
 
+// Drivers.
+SUPPLE_SHARED_CONST kShareElements = 4u;
+SUPPLE_SHARED_CONST kDriverInputElements = 3u;
+SUPPLE_SHARED_CONST kMaxDriverInputs = 4u;
+SUPPLE_SHARED_CONST kTurnWhole = 0u;
+SUPPLE_SHARED_CONST kTurnSwing = 1u;
+SUPPLE_SHARED_CONST kTurnTwist = 2u;
+
 // Axes of root motion; values of SuppleRootMotionFlags.
 SUPPLE_SHARED_CONST kGroundAxes = 1u;
 SUPPLE_SHARED_CONST kHeightAxis = 2u;
@@ -255,6 +273,7 @@ struct PosePush {
     uint springScratch;
     uint springStride;
     uint springWords;  // word of the list where instances that swing begin
+    uint drivers;      // section of the clip table; 0: no morph weights follow from joints
 };
 
 SUPPLE_SHARED_END

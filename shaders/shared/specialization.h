@@ -10,6 +10,7 @@ SUPPLE_SHARED_BEGIN
 // Every kernel (shaders/shared/mapping.glsl; gpu/pipeline.cpp sets them).
 SUPPLE_SHARED_CONST kLocalSizeConstant = 0u;     // lanes per workgroup; a kernel may have a number of its own
 SUPPLE_SHARED_CONST kExactDivisionConstant = 1u; // bool: the device rounds division correctly
+SUPPLE_SHARED_CONST kMaxLanes = 128u;            // of a workgroup
 
 // Surface kernels.
 SUPPLE_SHARED_CONST kKindConstant = 2u;          // which kind of work: each kernel says what its kinds are
@@ -18,6 +19,7 @@ SUPPLE_SHARED_CONST kCornerNormalsConstant = 4u; // bool: patch records have an 
 SUPPLE_SHARED_CONST kInteriorConstant = 5u;      // bool: samples inside patches alone; edges have theirs from elsewhere
 SUPPLE_SHARED_CONST kRateConstant = 6u;          // tessellation rate; 0: the push constants tell it
 SUPPLE_SHARED_CONST kLanePatchConstant = 17u;    // bool: wide mapping at kRateConstant: a lane takes a patch of kVertex16
+SUPPLE_SHARED_CONST kLinesConstant = 20u;        // bool: at levels in the wide mapping lanes take lines (kRunHasLines)
 SUPPLE_SHARED_CONST kOutputsConstant = 7u;       // kOutputUvs1, kOutputFaceUvs: what is written beside the attributes
 
 // Subdivision.

@@ -201,6 +201,9 @@ SUPPLE_SHARED_CONST kPatchStride = 32u; // elements a patch of any class in the 
 // elements of nets. Of 16 KiB the rest is for 128 lanes a word each, and the normals of five samples of 4 bytes,
 // or three of 12.
 SUPPLE_SHARED_CONST kMaxPatchesPerGroup = 8u;
+// At levels, where a lane takes a line of samples (kRunHasLines). Quads of capacity 1 have four lines, 32 of them 128.
+// Of triangles there would be lanes for 42, but then records took more than 3.5 KiB of workgroup memory.
+SUPPLE_SHARED_CONST kMaxRecordsPerGroup = 32u;
 SUPPLE_SHARED_CONST kPatchLanes = 32u; // lanes of a workgroup where a lane takes a patch (kLanePatchConstant)
 SUPPLE_SHARED_CONST kMaxLanePatchRate = 16u; // then 32 rows take 9 KiB
 SUPPLE_SHARED_CONST kWideNetElements = 17u; // of a patch

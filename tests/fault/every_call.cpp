@@ -2,6 +2,9 @@
 
 #include "tests/cage/gltf/builder.h"
 #include "tests/support/logged_context.h"
+#if defined(SUPPLE_WITH_CPU)
+#include "supple/supple_cpu.h"
+#endif
 
 #include <array>
 #include <cstring>
@@ -148,11 +151,49 @@ private:
         given.structSize = sizeof(given);
         given.prepared = prepared;
         call("suppleCreateAsset, prepared", [&] { return suppleCreateAsset(handle(), &given, &group.asset); });
+        onCpu(prepared, group);
         suppleDestroyPrepared(prepared);
         SuppleGroup made{};
         call("suppleCreateGroup, prepared", [&] { return suppleCreateGroup(handle(), &group, &made); });
         call("suppleDestroyGroup, prepared", [&] { return suppleDestroyGroup(handle(), made); });
         call("suppleDestroyAsset, prepared", [&] { return suppleDestroyAsset(handle(), group.asset); });
+    }
+
+    /// Its surface without a device.
+    void onCpu([[maybe_unused]] SupplePrepared prepared, [[maybe_unused]] const SuppleGroupDesc& planned) {
+#if defined(SUPPLE_WITH_CPU)
+        SuppleCpuGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.prepared = prepared;
+        desc.group = &planned;
+        SuppleCpuGroup surfaces = nullptr;
+        SuppleCpuPose posed = nullptr;
+        call("suppleCpuCreateGroup", [&] { return suppleCpuCreateGroup(&desc, &surfaces); });
+        call("suppleCpuCreatePose", [&] { return suppleCpuCreatePose(surfaces, &posed); });
+        SuppleCpuGroupInfo info{};
+        info.structSize = sizeof(info);
+        call("suppleCpuGetGroupInfo", [&] { return suppleCpuGetGroupInfo(surfaces, &info); });
+        std::vector<float> cage(size_t{3} * info.cageVertexCount, 1.0f);
+        call("suppleCpuBuildPose",
+             [&] { return suppleCpuBuildPose(posed, cage.data(), 12, info.cageVertexCount, nullptr); });
+        const SuppleSurfacePoint point{0, 0, 0.5f, 0.25f};
+        SuppleSurfaceJet jet{};
+        call("suppleCpuEvaluatePoints", [&] { return suppleCpuEvaluatePoints(posed, &point, 1, &jet, nullptr); });
+        uint32_t count = 0;
+        call("suppleCpuGetPatches", [&] { return suppleCpuGetPatches(surfaces, 0, nullptr, &count); });
+        SuppleCpuGridInfo grid{};
+        grid.structSize = sizeof(grid);
+        call("suppleCpuGetGridInfo", [&] { return suppleCpuGetGridInfo(surfaces, 0, 3, &grid); });
+        std::vector<uint32_t> indices(grid.indexCount);
+        call("suppleCpuGetGridIndices",
+             [&] { return suppleCpuGetGridIndices(surfaces, 0, 3, indices.data(), grid.indexCount); });
+        std::vector<float> positions(size_t{3} * grid.vertexCount), normals(positions.size());
+        call("suppleCpuEvaluateGrid", [&] {
+            return suppleCpuEvaluateGrid(posed, 0, 3, positions.data(), normals.data(), grid.vertexCount, nullptr);
+        });
+        suppleCpuDestroyPose(posed);
+        suppleCpuDestroyGroup(surfaces);
+#endif
     }
 
     void call(const char* name, const std::function<SuppleResult()>& body, SuppleResult good = SUPPLE_OK) {
@@ -367,6 +408,7 @@ private:
     void ask() {
         get<SuppleAssetInfo>("suppleGetAssetInfo", [&](auto* out) { return suppleGetAssetInfo(handle(), tube_, out); });
         get<SupplePartInfo>("suppleGetPartInfo", [&](auto* out) { return suppleGetPartInfo(handle(), tube_, 0, out); });
+        call("suppleRequestClip", [&] { return suppleRequestClip(handle(), tube_, 0, nullptr); });
         get<SuppleClipInfo>("suppleGetClipInfo", [&](auto* out) { return suppleGetClipInfo(handle(), tube_, 0, out); });
         get<SuppleJointInfo>("suppleGetJointInfo",
                              [&](auto* out) { return suppleGetJointInfo(handle(), tube_, 0, out); });
@@ -564,7 +606,9 @@ private:
         call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
     }
 
-    [[nodiscard]] SuppleContext handle() const { return context_.handle(); }
+    [[nodiscard]] SuppleContext handle() const {
+        return context_.handle();
+    }
 
     static constexpr size_t kGroups = 7, kPlayed = 3, kSeen = 6;
     const MakeCall& make_;

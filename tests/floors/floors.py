@@ -31,6 +31,7 @@ FLOORS = [line.split() for line in """
     surface/catmull_clark/ surface/loop/
     surface/programs.
     surface/schemes.
+    cpu/
     runtime/include/
     runtime/
     host/
@@ -52,7 +53,7 @@ ONLY = {
 }
 
 # Headers from outside, by the beginning of their name, and the rooms of the library that may include them.
-LIBRARY = ["base/", "shaders/", "gpu/", "cage/", "skinning/", "surface/", "runtime/"]
+LIBRARY = ["base/", "shaders/", "gpu/", "cage/", "skinning/", "surface/", "cpu/", "runtime/"]
 FOREIGN = {
     ("vulkan/",): ["gpu/", "skinning/", "surface/", "runtime/"],  # a character knows nothing of the GPU
     ("tiny_gltf", "nlohmann/", "meshoptimizer", "draco/"): ["cage/gltf/"],

@@ -2,6 +2,7 @@
 #include "cage/gltf/reader.h"
 #include "cage/limits.h"
 #include "cage/repair.h"
+#include "cage/solved_driver.h"
 #include "cage/topology.h"
 #include "tests/fuzz/target.h"
 
@@ -28,6 +29,12 @@ void checkCage(const cage::Character& character) {
         demand(joint < character.skeleton.nodes.size(), "a joint without a node");
     }
     demand(!character.parts.empty(), "no part");
+    for (const cage::PoseDriver& driver : character.drivers) {
+        demand(cage::solveDriver(driver).ok(), "a driver without a solution");
+        for (const uint32_t target : driver.targets) {
+            demand(target < character.morphs.targets.size(), "a driver of no morph target");
+        }
+    }
 }
 
 } // namespace

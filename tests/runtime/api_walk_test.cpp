@@ -4,8 +4,12 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/not_finite.h"
+#if defined(SUPPLE_WITH_CPU)
+#include "supple/supple_cpu.h"
+#endif
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -546,6 +550,168 @@ void preparing(Rows& r) {
     }
 }
 
+#if defined(SUPPLE_WITH_CPU)
+/// The tube's surface on the CPU, built in its rest pose.
+struct CpuSurfaces {
+    explicit CpuSurfaces(World& w, bool built = true) {
+        const SuppleAssetDesc asset = World::assetDesc();
+        SupplePrepareDesc prepare{};
+        prepare.structSize = sizeof(prepare);
+        prepare.asset = &asset;
+        EXPECT_EQ(supplePrepare(&prepare, &prepared), SUPPLE_OK);
+        const SuppleGroupDesc planned = groupDesc();
+        const SuppleCpuGroupDesc desc = groupOf(w, &planned);
+        EXPECT_EQ(suppleCpuCreateGroup(&desc, &group), SUPPLE_OK);
+        EXPECT_EQ(suppleCpuCreatePose(group, &pose), SUPPLE_OK);
+        SuppleCpuGroupInfo info{};
+        info.structSize = sizeof(info);
+        EXPECT_EQ(suppleCpuGetGroupInfo(group, &info), SUPPLE_OK);
+        for (uint32_t v = 0; v < info.cageVertexCount; ++v) {
+            cage.push_back({static_cast<float>(v % 7), static_cast<float>(v % 5), static_cast<float>(v % 3)});
+        }
+        if (built) {
+            EXPECT_EQ(build(cage.size()), SUPPLE_OK);
+        }
+        grid.structSize = sizeof(grid);
+        EXPECT_EQ(suppleCpuGetGridInfo(group, 0, 2, &grid), SUPPLE_OK);
+    }
+    ~CpuSurfaces() {
+        suppleCpuDestroyPose(pose);
+        suppleCpuDestroyGroup(group);
+        suppleDestroyPrepared(prepared);
+    }
+    CpuSurfaces(const CpuSurfaces&) = delete;
+    CpuSurfaces& operator=(const CpuSurfaces&) = delete;
+
+    static SuppleGroupDesc groupDesc() {
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.scheme = SUPPLE_SCHEME_PM;
+        return desc;
+    }
+    [[nodiscard]] SuppleCpuGroupDesc groupOf(World& w, const SuppleGroupDesc* planned) const {
+        SuppleCpuGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.prepared = prepared;
+        desc.group = planned;
+        desc.logUser = &w;
+        desc.log = [](SuppleSeverity severity, SuppleMessage message, const char* text, void* user) {
+            static_cast<World*>(user)->lines.push_back({severity, message, text});
+        };
+        return desc;
+    }
+    [[nodiscard]] SuppleResult build(size_t count) const {
+        return suppleCpuBuildPose(pose, &cage[0][0], sizeof(cage[0]), static_cast<uint32_t>(count), nullptr);
+    }
+
+    SupplePrepared prepared = nullptr;
+    SuppleCpuGroup group = nullptr;
+    SuppleCpuPose pose = nullptr;
+    SuppleCpuGridInfo grid{};
+    std::vector<std::array<float, 3>> cage;
+};
+
+void cpuGroups(Rows& r) {
+    constexpr const char* kCreate = "suppleCpuCreateGroup";
+    const auto create = [](World& w, const std::function<void(SuppleCpuGroupDesc&)>& spoil) {
+        const CpuSurfaces own(w);
+        const SuppleGroupDesc planned = CpuSurfaces::groupDesc();
+        SuppleCpuGroupDesc desc = own.groupOf(w, &planned);
+        spoil(desc);
+        auto* const out = w.newHandle<SuppleCpuGroup>();
+        const SuppleResult result = suppleCpuCreateGroup(&desc, out);
+        EXPECT_EQ(*out != nullptr, result == SUPPLE_OK);
+        suppleCpuDestroyGroup(*out);
+        return result;
+    };
+    r.accept(kCreate, "valid", [=](World& w) { return create(w, [](SuppleCpuGroupDesc&) {}); });
+    r.refuse(kCreate, "desc null", kSilent,
+             [](World& w) { return suppleCpuCreateGroup(nullptr, w.newHandle<SuppleCpuGroup>()); });
+    r.refuse(kCreate, "prepared null", SUPPLE_MESSAGE_NULL_POINTER,
+             [=](World& w) { return create(w, [](SuppleCpuGroupDesc& desc) { desc.prepared = nullptr; }); });
+    r.refuse(kCreate, "group null", SUPPLE_MESSAGE_NULL_POINTER,
+             [=](World& w) { return create(w, [](SuppleCpuGroupDesc& desc) { desc.group = nullptr; }); });
+    r.refuse(kCreate, "reserved", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [=](World& w) { return create(w, [](SuppleCpuGroupDesc& desc) { desc.reserved = 1; }); });
+    r.accept("suppleCpuDestroyGroup", "null", [](World&) {
+        suppleCpuDestroyGroup(nullptr);
+        return SUPPLE_OK;
+    });
+    r.output<SuppleCpuGroupInfo>("suppleCpuGetGroupInfo", [](World& w, SuppleCpuGroupInfo* out) {
+        return suppleCpuGetGroupInfo(CpuSurfaces(w).group, out);
+    });
+    r.refuse("suppleCpuGetGroupInfo", "group null", kSilent, [](World& w) {
+        return suppleCpuGetGroupInfo(nullptr, w.watched<SuppleCpuGroupInfo>(sizeof(SuppleCpuGroupInfo)));
+    });
+    constexpr const char* kPatches = "suppleCpuGetPatches";
+    r.refuse(kPatches, "no such surface", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleCpuGetPatches(CpuSurfaces(w).group, 1, w.plain<SupplePatchInfo>(2), w.number(2));
+    });
+    r.refuse(kPatches, "count null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleCpuGetPatches(CpuSurfaces(w).group, 0, w.plain<SupplePatchInfo>(2), nullptr);
+    });
+    r.accept(kPatches, "valid", [](World& w) {
+        uint32_t count = 0;
+        return suppleCpuGetPatches(CpuSurfaces(w).group, 0, nullptr, &count);
+    });
+    constexpr const char* kInfo = "suppleCpuGetGridInfo";
+    r.output<SuppleCpuGridInfo>(
+        kInfo, [](World& w, SuppleCpuGridInfo* out) { return suppleCpuGetGridInfo(CpuSurfaces(w).group, 0, 2, out); });
+    r.refuse(kInfo, "rate 0", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleCpuGetGridInfo(CpuSurfaces(w).group, 0, 0,
+                                    w.watched<SuppleCpuGridInfo>(sizeof(SuppleCpuGridInfo)));
+    });
+    constexpr const char* kIndices = "suppleCpuGetGridIndices";
+    r.refuse(kIndices, "another count", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleCpuGetGridIndices(CpuSurfaces(w).group, 0, 2, w.plain<uint32_t>(3), 3); });
+    r.refuse(kIndices, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleCpuGetGridIndices(CpuSurfaces(w).group, 0, 2, nullptr, 3); });
+    r.accept(kIndices, "valid", [](World& w) {
+        const CpuSurfaces own(w);
+        std::vector<uint32_t> indices(own.grid.indexCount);
+        return suppleCpuGetGridIndices(own.group, 0, 2, indices.data(), own.grid.indexCount);
+    });
+}
+
+void cpuPoses(Rows& r) {
+    constexpr const char* kCreate = "suppleCpuCreatePose";
+    r.refuse(kCreate, "group null", kSilent,
+             [](World& w) { return suppleCpuCreatePose(nullptr, w.newHandle<SuppleCpuPose>()); });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleCpuCreatePose(CpuSurfaces(w).group, nullptr); });
+    r.accept("suppleCpuDestroyPose", "null", [](World&) {
+        suppleCpuDestroyPose(nullptr);
+        return SUPPLE_OK;
+    });
+    constexpr const char* kBuild = "suppleCpuBuildPose";
+    r.refuse(kBuild, "another number of vertices", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return CpuSurfaces(w).build(3); });
+    r.refuse(kBuild, "cage null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleCpuBuildPose(CpuSurfaces(w).pose, nullptr, 12, 0, nullptr); });
+    constexpr const char* kPoints = "suppleCpuEvaluatePoints";
+    static const SuppleSurfacePoint kPoint{0, 0, 0.5f, 0.25f};
+    r.refuse(kPoints, "points null", SUPPLE_MESSAGE_NULL_POINTER, [](World& w) {
+        return suppleCpuEvaluatePoints(CpuSurfaces(w).pose, nullptr, 1, w.plain<SuppleSurfaceJet>(1), nullptr);
+    });
+    r.refuse(kPoints, "not built", SUPPLE_MESSAGE_OUT_OF_ORDER, [](World& w) {
+        return suppleCpuEvaluatePoints(CpuSurfaces(w, false).pose, &kPoint, 1, w.plain<SuppleSurfaceJet>(1), nullptr);
+    });
+    r.accept(kPoints, "valid", [](World& w) {
+        SuppleSurfaceJet jet{};
+        return suppleCpuEvaluatePoints(CpuSurfaces(w).pose, &kPoint, 1, &jet, nullptr);
+    });
+    constexpr const char* kGrid = "suppleCpuEvaluateGrid";
+    r.refuse(kGrid, "another number of vertices", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleCpuEvaluateGrid(CpuSurfaces(w).pose, 0, 2, w.plain<float>(3), nullptr, 1, nullptr);
+    });
+    r.accept(kGrid, "valid", [](World& w) {
+        const CpuSurfaces own(w);
+        std::vector<float> positions(size_t{3} * own.grid.vertexCount);
+        return suppleCpuEvaluateGrid(own.pose, 0, 2, positions.data(), nullptr, own.grid.vertexCount, nullptr);
+    });
+}
+#endif
+
 void contexts(Rows& r) {
     constexpr const char* kCreate = "suppleCreateContext";
     r.accept("suppleDestroyContext", "null context", [](World&) {
@@ -934,6 +1100,34 @@ void creaseSets(Rows& r) {
              [=](World& w) { return clip(w, w.mine.asset, 0); });
 }
 
+void streaming(Rows& r) {
+    constexpr const char* kRequest = "suppleRequestClip";
+    r.assets(kRequest, [](World&, SuppleContext c, SuppleAsset a) { return suppleRequestClip(c, a, 0, nullptr); });
+    r.description<SuppleClipRequest>(
+        kRequest, "request", [](World&) { return SuppleClipRequest{sizeof(SuppleClipRequest)}; },
+        [](World& w, const SuppleClipRequest* request) {
+            return suppleRequestClip(w.handle(), w.mine.asset, 0, request);
+        },
+        false);
+    r.refuse(kRequest, "no such clip", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleRequestClip(w.handle(), w.mine.asset, kClips, nullptr); });
+    const auto wrong = [&](const char* what, int message, const std::function<void(SuppleClipRequest&)>& spoil) {
+        r.refuse(kRequest, what, message, [=](World& w) {
+            SuppleClipRequest request{sizeof(SuppleClipRequest)};
+            spoil(request);
+            return suppleRequestClip(w.handle(), w.mine.asset, 0, &request);
+        });
+    };
+    wrong("use", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) { d.use = SUPPLE_CLIP_USE_MAX_ENUM; });
+    wrong("begin negative", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) { d.begin = -1.0; });
+    wrong("end before begin", SUPPLE_MESSAGE_OUT_OF_RANGE, [](SuppleClipRequest& d) {
+        d.begin = 0.5;
+        d.end = 0.25;
+    });
+    wrong("end infinite", SUPPLE_MESSAGE_NOT_FINITE,
+          [](SuppleClipRequest& d) { d.end = std::numeric_limits<double>::infinity(); });
+}
+
 void markers(Rows& r) {
     constexpr const char* kAll = "suppleGetClipMarkers";
     constexpr const char* kBetween = "suppleGetClipMarkersBetween";
@@ -1030,6 +1224,7 @@ void assetGetters(Rows& r) {
             return suppleGetClipBounds(w.handle(), w.mine.asset, clip, w.plain<SuppleBounds>());
         });
     }
+    streaming(r);
     markers(r);
     creaseSets(r);
 
@@ -2418,6 +2613,10 @@ std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
     preparing(r);
+#if defined(SUPPLE_WITH_CPU)
+    cpuGroups(r);
+    cpuPoses(r);
+#endif
     uploads(r);
     recordings(r);
     pipelines(r);
@@ -2549,8 +2748,12 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    for (const char* name : {"supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h",
-                             "supple_recording.h"}) {
+    std::vector<const char*> names{"supple.h",         "supple_view.h",      "supple_playback.h",
+                                   "supple_prepare.h", "supple_character.h", "supple_recording.h"};
+#if defined(SUPPLE_WITH_CPU)
+    names.push_back("supple_cpu.h");
+#endif
+    for (const char* name : names) {
         std::ifstream file(std::string(SUPPLE_SOURCE_DIR) + "/runtime/include/supple/" + name);
         ASSERT_TRUE(file.good()) << name;
         header.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

@@ -7,6 +7,7 @@
 #include "tests/support/shared_assets.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 #define XXH_INLINE_ALL
@@ -127,6 +128,41 @@ TEST(Cooked, FilesKeepCenters) {
     EXPECT_NE(refusalOf(writeCooked(few, "")).find("centers of rotation that are none"), std::string::npos);
 }
 
+TEST(Cooked, FilesKeepPoseDrivers) {
+    Result<cage::Character> character = cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb");
+    ASSERT_TRUE(character.ok());
+    const std::shared_ptr<Prepared> prepared = Prepared::of(*character);
+    const Result<std::shared_ptr<Prepared>> read = readCooked(writeCooked(*prepared, ""), character->name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ((*read)->character.drivers, character->drivers);
+    ASSERT_EQ(character->drivers.size(), 2u);
+
+    const auto spoiled = [&](const auto& spoil) {
+        Prepared wrong = *prepared;
+        spoil(wrong.character.drivers[1]);
+        return refusalOf(writeCooked(wrong, ""));
+    };
+    using cage::PoseDriver;
+    const std::string place = "hero.supple: driver 1: ";
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.inputs.clear(); }), place + "inputs, targets, poses and values do not fit");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.values.pop_back(); }),
+              place + "inputs, targets, poses and values do not fit");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.targets[1] = 99; }), place + "it names no morph targets of one part");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.inputs[0].node = 99; }),
+              place + "an input names no node that turns, or its axis has not unit length, or its weight is out of "
+                      "range");
+    for (const float length : {1e20f, 0.99f, 0.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_NE(spoiled([&](PoseDriver& d) { d.inputs[0].axis *= length; }).find("its axis has not unit length"),
+                  std::string::npos)
+            << length;
+    }
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.targets[1] = d.targets[0]; }), place + "a morph target is there twice");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.poses[0] = glm::vec4(0.0f); }),
+              place + "its poses are no rotations, or its numbers are not finite");
+    EXPECT_EQ(spoiled([](PoseDriver& d) { d.poses[1] = d.poses[0]; }),
+              place + "pose 1 and pose 0 are one pose, but for a degree, and have different values");
+}
+
 TEST(Cooked, FilesKeepCreaseSetsAndTheirCurves) {
     Result<cage::Character> character = cage::readGltfFile(test::kPip);
     ASSERT_TRUE(character.ok());
@@ -172,9 +208,9 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     ASSERT_TRUE(isCooked(file));
     EXPECT_EQ(refusalOf(file), "");
     std::vector<std::byte> other = file;
-    other[kVersionAt] = std::byte{10};
+    other[kVersionAt] = std::byte{11};
     EXPECT_EQ(refusalOf(other),
-              "hero.supple: a cooked file of version 10, and this is version 9: make it anew: supple cook "
+              "hero.supple: a cooked file of version 11, and this is version 10: make it anew: supple cook "
               "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);

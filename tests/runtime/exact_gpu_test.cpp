@@ -1,5 +1,6 @@
 // Exact Catmull-Clark patches on the device: against the limit in double, both mappings, and the bits its patches
 // share.
+#include "cpu/catmull_clark.h"
 #include "shaders/shared/subdivision.h"
 #include "surface/build.h"
 #include "tests/support/crowd.h"
@@ -10,7 +11,6 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/catmull_clark.h"
 
 #include <algorithm>
 #include <array>

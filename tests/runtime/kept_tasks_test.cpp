@@ -3,6 +3,7 @@
 #include "tests/support/drawn_patches.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/meshes.h"
+#include "tests/support/spring_files.h"
 #include "tests/support/test_view.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/common/cage_arrays.h"
@@ -22,12 +23,31 @@ constexpr uint32_t kRoom = 3; ///< instances of a group
 constexpr uint32_t kViewVertices = 20000;
 constexpr uint32_t kPlayFlags = SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_MODIFIERS;
 
+/// Drivers set its morph weights.
+const std::vector<std::byte>& armFile() {
+    static const std::vector<std::byte> bytes = [] {
+        const std::string path = std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb";
+        std::ifstream file(path, std::ios::binary);
+        EXPECT_TRUE(file.good()) << path;
+        const std::string glb((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+        const auto all = std::as_bytes(std::span(glb));
+        return std::vector<std::byte>(all.begin(), all.end());
+    }();
+    return bytes;
+}
+/// Hair and a scarf swing.
+const std::vector<std::byte>& wrenFile() {
+    static const std::vector<std::byte> bytes = withExtensions(kWren, kWrenSprings);
+    return bytes;
+}
+
 struct SceneKind {
     const char* name;
     SuppleScheme scheme = SUPPLE_SCHEME_PM;
     uint32_t groupFlags = 0, playFlags = 0;
     std::optional<uint32_t> viewFlags; ///< none: at a rate
     uint64_t coefficientBytes = 0;
+    const std::vector<std::byte>& (*played)() = tubeFile; ///< the file of the group that plays
 };
 const SceneKind kAtRate = {
     "at a rate", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION | SUPPLE_GROUP_ATTRIBUTES, kPlayFlags, {}};
@@ -39,6 +59,8 @@ const SceneKind kKinds[] = {
     {"at rates in a view", SUPPLE_SCHEME_FRAGMENTS, 0, kPlayFlags, SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL},
     {"with update rates, and a pool of coefficients", SUPPLE_SCHEME_PM, 0, kPlayFlags | SUPPLE_GROUP_UPDATE_RATES,
      SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL, 1 << 20},
+    {"with drivers", SUPPLE_SCHEME_PM, 0, kPlayFlags, SUPPLE_VIEW_CULL, 0, armFile},
+    {"with springs", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SPRINGS, {}, 0, wrenFile},
 };
 
 /// Two groups whose poses are set and one that plays, of different characters, and one that draws the second's
@@ -63,7 +85,7 @@ public:
     void add(uint32_t number) {
         const bool plays = number % 3 == 2;
         SuppleGroupDesc desc{};
-        desc.asset = plays ? context_.createAsset(tubeFile(), "tube")
+        desc.asset = plays ? context_.createAsset(kind_.played(), "it plays")
                            : context_.createAsset(perturbed(cage::makeCubeSphere(1), 0.02f, number));
         desc.capacity = kRoom;
         desc.scheme = kind_.scheme;
@@ -391,6 +413,12 @@ TEST_F(KeptTasks, AreNeverStaleAtRatesInView) {
 }
 TEST_F(KeptTasks, AreNeverStaleWithUpdateRates) {
     expectNeverStale(kKinds[3], 2, 3);
+}
+TEST_F(KeptTasks, AreNeverStaleWithDrivers) {
+    expectNeverStale(kKinds[4], 2, 3);
+}
+TEST_F(KeptTasks, AreNeverStaleWithSprings) {
+    expectNeverStale(kKinds[5], 2, 3);
 }
 /// Where nothing changes, not a byte of tasks is copied: also where coefficients take turns.
 TEST_F(KeptTasks, AreNotCopiedIfNothingChanges) {

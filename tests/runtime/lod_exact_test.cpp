@@ -1,5 +1,6 @@
 // Exact Catmull-Clark patches at random levels, over cages of all kinds, against the limit in double: positions,
 // borders, normals.
+#include "cpu/catmull_clark.h"
 #include "runtime/arrays/character_arrays.h"
 #include "tests/support/exact_quads.h"
 #include "tests/support/gpu_comparison.h"
@@ -8,7 +9,6 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/cage_arrays.h"
-#include "tools/reference/catmull_clark.h"
 
 #include <cstdio>
 #include <cstring>

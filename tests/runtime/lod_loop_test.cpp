@@ -1,4 +1,5 @@
 // Loop patches at random levels, over cages of all kinds, against the limit in double: positions, borders, normals.
+#include "cpu/loop.h"
 #include "runtime/arrays/character_arrays.h"
 #include "surface/lod/grid.h"
 #include "tests/support/gpu_comparison.h"
@@ -8,7 +9,6 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tools/common/cage_arrays.h"
-#include "tools/reference/loop.h"
 
 #include <cstdio>
 #include <cstring>

@@ -1,5 +1,6 @@
 // Views: groups drawn at levels of detail, as the device wrote them.
 #include "cage/gltf/reader.h"
+#include "cpu/catmull_clark.h"
 #include "tests/support/blend_surface.h"
 #include "tests/support/corner_weights.h"
 #include "tests/support/exact_quads.h"
@@ -11,7 +12,6 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
 #include "tools/common/procedural.h"
-#include "tools/reference/catmull_clark.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

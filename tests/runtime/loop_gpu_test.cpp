@@ -1,4 +1,5 @@
 // Loop patches on the device: against the limit in double, both mappings, and the bits that patches share.
+#include "cpu/loop.h"
 #include "surface/build.h"
 #include "tests/support/crowd.h"
 #include "tests/support/large_pole.h"
@@ -7,7 +8,6 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/loop.h"
 
 #include <cstdio>
 #include <gtest/gtest.h>

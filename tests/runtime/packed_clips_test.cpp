@@ -80,8 +80,8 @@ TEST_F(PackedOnGpu, HaveTheBitsOfTheCpu) {
 TEST(PackedFiles, AreReadAsTheyWereWritten) {
     const cage::Character plain = readCharacter(kWren);
     cage::Character packed = plain;
-    (void)skinning::packClips(packed, kError);
-    const std::vector<std::byte> bytes = cooked(plain, kError);
+    (void)skinning::packClips(packed, kError, 100.0 * kError);
+    const std::vector<std::byte> bytes = runtime::writeCooked(*runtime::Prepared::of(packed), "");
     EXPECT_LT(bytes.size() + 150'000, cooked(plain, 0.0).size()) << "the channels are not there twice";
     const Result<std::shared_ptr<runtime::Prepared>> read = runtime::readCooked(bytes, plain.name);
     ASSERT_TRUE(read.ok()) << read.error().message;
@@ -93,7 +93,16 @@ TEST(PackedFiles, AreReadAsTheyWereWritten) {
         EXPECT_EQ(a.channelCount, b.channelCount);
         EXPECT_EQ(a.error, b.error);
         EXPECT_EQ(a.unpackedBytes, b.unpackedBytes);
+        EXPECT_EQ(a.coarseWords, b.coarseWords);
+        EXPECT_EQ(a.coarseError, b.coarseError);
     }
+    // A twin of another clip is refused.
+    cage::Character mixed = packed;
+    mixed.clips[1].packed.coarseWords = packed.clips[0].packed.words;
+    const Result<std::shared_ptr<runtime::Prepared>> unlike =
+        runtime::readCooked(runtime::writeCooked(*runtime::Prepared::of(mixed), ""), "wren.supple");
+    ASSERT_FALSE(unlike.ok());
+    EXPECT_NE(unlike.error().message.find("clip walk: its coarse twin: "), std::string::npos) << unlike.error().message;
     // Words that say something else are refused, with the file's name.
     packed.clips[1].packed.words[1] += 1;
     const std::vector<std::byte> spoiled = runtime::writeCooked(*runtime::Prepared::of(packed), "");

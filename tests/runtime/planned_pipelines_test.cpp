@@ -19,7 +19,9 @@ struct PlannedCase {
     SuppleGroupDesc desc;
     bool inView = false;
     uint32_t viewFlags = 0;
+    const std::string* file = &kWren;
 };
+const std::string kDrivenArm = std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb";
 constexpr uint32_t kStreams = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
 /// The last part of ten has another scheme than the others.
 constexpr SuppleScheme kPartSchemes[10] = {
@@ -37,6 +39,7 @@ const PlannedCase kPlannedCases[] = {
     {"polygons", {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_POLYGONS}},
     {"playing", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
     {"rated", {.flags = SUPPLE_GROUP_UPDATE_RATES, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}},
+    {"drivers", {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}, false, 0, &kDrivenArm},
     {"cages", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_CAGE_BUFFER}},
     {"cage", {.scheme = SUPPLE_SCHEME_CAGE}},
     {"levels",
@@ -49,15 +52,12 @@ const PlannedCase kPlannedCases[] = {
     {"autoInView", {.rate = 4, .poseSource = SUPPLE_POSES_PLAYBACK}, true, SUPPLE_VIEW_ATTRIBUTES},
 };
 
-const std::vector<std::byte>& wrenBytes() {
-    static const std::vector<std::byte> bytes = [] {
-        std::ifstream file(kWren, std::ios::binary);
-        const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        std::vector<std::byte> copy(chars.size());
-        std::memcpy(copy.data(), chars.data(), chars.size());
-        return copy;
-    }();
-    return bytes;
+std::vector<std::byte> bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::vector<std::byte> copy(chars.size());
+    std::memcpy(copy.data(), chars.data(), chars.size());
+    return copy;
 }
 
 class PlannedPipelines : public testing::TestWithParam<PlannedCase> {
@@ -70,11 +70,12 @@ protected:
         planned = {&desc, GetParam().inView ? 1u : 0u, GetParam().viewFlags};
     }
     [[nodiscard]] SupplePrepared prepare(SuppleMapping mapping, bool withGroup) const {
+        const std::vector<std::byte> bytes = bytesOf(*GetParam().file);
         SuppleAssetDesc asset{};
         asset.structSize = sizeof(asset);
-        asset.name = "wren";
-        asset.bytes = wrenBytes().data();
-        asset.byteCount = wrenBytes().size();
+        asset.name = "character";
+        asset.bytes = bytes.data();
+        asset.byteCount = bytes.size();
         SupplePrepareDesc all{};
         all.structSize = sizeof(all);
         all.mapping = mapping;

@@ -48,6 +48,7 @@ constexpr Checked kShaders[] = {
     {"pose/roots.comp", "local"},
     {"pose/roots.comp", "held"},
     {"pose/modify.comp", "local"},
+    {"pose/drivers.comp", "weights"},
     {"pose/palette.comp", "element"},
     {"pose/mix.comp", "rows"},
     {"pose/mix.comp", "rotation"},
@@ -113,7 +114,7 @@ uint64_t differingBits(const std::vector<uint32_t>& evaluate) {
     uint64_t different = 0, frame = 0;
     for (const uint32_t rate : {5u, 7u, 11u}) {
         Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "mutation");
-        Result<uint64_t> asset = (*context)->createAsset(std::move(*character));
+        Result<uint64_t> asset = (*context)->createAsset(std::move(*character), 0);
         SuppleGroupDesc groupDesc{};
         groupDesc.structSize = sizeof(groupDesc);
         groupDesc.asset = {*asset};

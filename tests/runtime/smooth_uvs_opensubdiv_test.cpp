@@ -1,11 +1,11 @@
 // Smooth texture coordinates on the device against OpenSubdiv's face-varying limit, in its six modes. The cages have
 // neither folds nor poles, where rules of ours go beyond OpenSubdiv's (docs/smooth_uvs.md).
+#include "cpu/grid_sample.h"
 #include "tests/support/crowd.h"
 #include "tests/support/exact_quads.h"
 #include "tests/support/loop_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/grid.h"
 #ifdef SUPPLE_HAS_OPENSUBDIV
 #include "tools/bench/opensubdiv_refiner.h"
 

@@ -2,6 +2,7 @@
 // on both sides of edges, at rates and at levels; the tangents that they give; what schemes cannot do.
 #include "cage/single_joint.h"
 #include "cage/uv_channel.h"
+#include "cpu/grid_sample.h"
 #include "surface/fragments/smooth_uvs.h"
 #include "surface/pm/mesh.h"
 #include "surface/schemes.h"
@@ -13,7 +14,6 @@
 #include "tests/support/meshes.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
-#include "tools/reference/grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -461,13 +461,7 @@ TEST_F(Springs, SettleWhenTheirAssetIsLoadedAnew) {
     TwoGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 60; ++step) {
         if (step == 20) {
-            const std::vector<std::byte> glb = withExtensions(kWren, kWrenSprings);
-            SuppleAssetDesc desc{};
-            desc.structSize = sizeof desc;
-            desc.name = "wren";
-            desc.bytes = glb.data();
-            desc.byteCount = glb.size();
-            EXPECT_EQ(suppleReloadAsset(both.other.handle(), both.asset, &desc), SUPPLE_OK);
+            reloadWren(both.other.crowd.context(), both.asset, kWrenSprings);
         }
         both.run(step);
         EXPECT_EQ(both.same(0), step < 20) << step;
@@ -638,9 +632,11 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext own(*device, mapping);
         const SuppleAsset swings = own.createAsset(swinging, "tube"), stands = own.createAsset(tube->bytes, "tube");
-        const auto created = [&](SuppleAsset asset, uint32_t capacity) {
+        const auto created = [&](SuppleAsset asset, uint32_t capacity,
+                                 SupplePoseSource source = SUPPLE_POSES_PLAYBACK) {
             SuppleGroupDesc desc = playedGroup(asset, capacity, kSprings);
             desc.structSize = sizeof desc;
+            desc.poseSource = source;
             SuppleGroup group{};
             return suppleCreateGroup(own.handle(), &desc, &group);
         };
@@ -651,6 +647,7 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
             EXPECT_EQ(own.takeError(), SUPPLE_MESSAGE_LIMIT);
         }
         EXPECT_EQ(created(stands, kMost + 1), SUPPLE_OK) << "without springs there is no list";
+        EXPECT_EQ(created(swings, kMost + 1, SUPPLE_POSES_SET), SUPPLE_OK) << "nor of poses that the host sets";
     }
     wrapped.maxTexelBufferElements = 0;
 }

@@ -3,6 +3,7 @@
 #include "shaders/shared/pose.h"
 #include "skinning/clip_packer.h"
 #include "skinning/clip_table.h"
+#include "skinning/coarse_clip.h"
 #include "skinning/packed_clip.h"
 #include "skinning/playback.h"
 #include "skinning/pose.h"
@@ -294,6 +295,81 @@ TEST(PackedClips, KeepWithinTheErrorAndAreSmaller) {
         }
         EXPECT_GT(before / bytes, own.ratio) << own.file;
     }
+}
+
+TEST(PackedClips, HaveCoarseTwins) {
+    for (const std::string& file : {test::kPip, test::kWren}) {
+        const cage::Character plain = test::readCharacter(file);
+        const NodeOrder order = nodeOrder(plain);
+        cage::Character packed = plain, alone = plain;
+        (void)packClips(packed, 1e-4, 1e-2);
+        (void)packClips(alone, 1e-4);
+        double segments = 0.0, twins = 0.0;
+        for (size_t c = 0; c < plain.clips.size(); ++c) {
+            const cage::PackedChannels& own = packed.clips[c].packed;
+            ASSERT_FALSE(own.coarseWords.empty()) << file << " " << plain.clips[c].name;
+            EXPECT_EQ(own.words, alone.clips[c].packed.words) << "the clip is as it is without a twin";
+            EXPECT_TRUE(alone.clips[c].packed.coarseWords.empty());
+            EXPECT_TRUE(areTwins(own.words, own.coarseWords));
+            EXPECT_LE(own.coarseError, 1e-2);
+            EXPECT_GT(own.coarseError, 0.3e-2) << "it takes what it is given";
+            const std::optional<cage::Clip> twin = coarseClip(order, packed.clips[c]);
+            ASSERT_TRUE(twin.has_value());
+            EXPECT_LE(distance(plain, plain.clips[c], *twin, 40), 1.1e-2) << plain.clips[c].name;
+            EXPECT_FALSE(coarseClip(order, alone.clips[c]).has_value());
+            segments += static_cast<double>(segmentWords(own.words));
+            twins += static_cast<double>(own.coarseWords.size());
+        }
+        EXPECT_LT(twins / segments, 0.7) << file;
+    }
+}
+
+/// A twin is beside a clip: whether it is worth it says nothing of the clip.
+TEST(PackedClips, StayPackedWithoutATwin) {
+    cage::Character packed = test::readCharacter(test::kPip);
+    (void)packClips(packed, 1e-4);
+    cage::Character close = test::readCharacter(test::kPip), again = packed;
+    const std::vector<std::string> told = packClips(close, 1e-4, 1.001e-4), toldAgain = packClips(again, 1e-4, 1e-2);
+    uint32_t without = 0;
+    for (size_t c = 0; c < packed.clips.size(); ++c) {
+        EXPECT_EQ(close.clips[c].packed.words, packed.clips[c].packed.words);
+        without += close.clips[c].packed.coarseWords.empty() ? 1 : 0;
+        EXPECT_EQ(toldAgain.at(c), "clip \"" + packed.clips[c].name + "\" has no coarse twin: it is packed already");
+    }
+    EXPECT_EQ(without, packed.clips.size());
+    ASSERT_EQ(told.size(), without);
+    EXPECT_EQ(told[0],
+              "clip \"" + packed.clips[0].name + "\" has no coarse twin: it would take as much as the segments");
+}
+
+TEST(PackedClips, HaveTheirSegmentsBehindAllElse) {
+    cage::Character packed = test::readCharacter(test::kPip);
+    (void)packClips(packed, 1e-4, 1e-2);
+    const ClipTable table = buildClipTable(packed);
+    ASSERT_EQ(table.streamedClips.size(), packed.clips.size());
+    uint32_t end = table.segments;
+    for (const StreamedClip& clip : table.streamedClips) {
+        const std::vector<uint32_t>& words = packed.clips[clip.clip].packed.words;
+        const std::vector<SegmentPlaces> places = segmentsIn(words);
+        ASSERT_EQ(clip.segmentCount, places.size());
+        for (uint32_t s = 0; s < clip.segmentCount; ++s) {
+            const StreamedSegment& segment = table.streamedSegments[clip.firstSegment + s];
+            EXPECT_EQ(segment.records, end);
+            EXPECT_LT(segment.element, table.segments);
+            const uint32_t* const element = &table.words[4 * size_t{segment.element}];
+            EXPECT_EQ(element[0], segment.records);
+            EXPECT_EQ(element[1], segment.data);
+            EXPECT_EQ(element[3], 0u) << "it is there";
+            const auto same = [&](uint32_t to, uint32_t from, uint32_t count) {
+                return std::equal(table.words.begin() + 4 * ptrdiff_t{to},
+                                  table.words.begin() + 4 * ptrdiff_t{to + count}, words.begin() + 4 * ptrdiff_t{from});
+            };
+            EXPECT_TRUE(same(segment.records, places[s].records, segment.data - segment.records));
+            EXPECT_TRUE(same(segment.data, places[s].data, segment.end - segment.data));
+            end = segment.end;
+        }
+    }
+    EXPECT_EQ(4 * size_t{end + kPackedPadding}, table.words.size());
 }
 
 /// A tube that bends, stretches and blinks, on no frames of a common rate.

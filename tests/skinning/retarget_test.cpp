@@ -79,7 +79,7 @@ ModelPose poseOf(const cage::Skeleton& skeleton, const cage::Clip& clip, double 
     }
     return pose;
 }
-double angleBetween(const glm::dquat& a, const glm::dquat& b) {
+double angleApart(const glm::dquat& a, const glm::dquat& b) {
     return 2.0 * std::asin(std::min(
                      glm::length(glm::dvec3(0.0) + glm::dvec3((glm::conjugate(a) * b).x, (glm::conjugate(a) * b).y,
                                                               (glm::conjugate(a) * b).z)),
@@ -129,7 +129,7 @@ TEST(Retarget, IsWhatAnIndependentImplementationMakesOfIt) {
                 const Json &p = frame["places"][i], &q = frame["turns"][i];
                 farthest = std::max(farthest, glm::length(pose.places[node] - glm::dvec3(p[0], p[1], p[2])) / height);
                 mostTurned =
-                    std::max(mostTurned, angleBetween(pose.turns[node], unit(glm::dquat(q[3], q[0], q[1], q[2]))));
+                    std::max(mostTurned, angleApart(pose.turns[node], unit(glm::dquat(q[3], q[0], q[1], q[2]))));
             }
         }
         // There a straight leg bends about a hinge in model space, here about one in the knee's own frame.
@@ -158,9 +158,9 @@ TEST(Retarget, OntoItselfNothingChanges) {
                 const ModelPose bent = poseOf(character.skeleton, placed.set.clips[c], time);
                 for (const uint32_t node : roles) {
                     const std::string where = character.clips[c].name + " " + character.skeleton.nodes[node].name;
-                    EXPECT_LT(angleBetween(was.turns[node], now.turns[node]), 1e-3) << where << " " << time;
+                    EXPECT_LT(angleApart(was.turns[node], now.turns[node]), 1e-3) << where << " " << time;
                     // Legs that are nearly straight bend about the axis of the other frames.
-                    EXPECT_LT(angleBetween(was.turns[node], bent.turns[node]), 0.15) << where << " " << time;
+                    EXPECT_LT(angleApart(was.turns[node], bent.turns[node]), 0.15) << where << " " << time;
                 }
             }
         }
@@ -249,8 +249,7 @@ TEST(Retarget, PairsSayWhatNamesDoNot) {
     const Outcome named = fit(wren, pip);
     const cage::Clip &a = clipCalled(outcome.set.clips, "run"), &b = clipCalled(named.set.clips, "run");
     for (const uint32_t node : rolesOf(pip)) {
-        EXPECT_LT(angleBetween(poseOf(pip.skeleton, a, 0.3).turns[node], poseOf(pip.skeleton, b, 0.3).turns[node]),
-                  1e-6)
+        EXPECT_LT(angleApart(poseOf(pip.skeleton, a, 0.3).turns[node], poseOf(pip.skeleton, b, 0.3).turns[node]), 1e-6)
             << pip.skeleton.nodes[node].name;
     }
 
@@ -268,8 +267,8 @@ TEST(Retarget, PairsSayWhatNamesDoNot) {
         const ModelPose was = poseOf(wren.skeleton, clipCalled(wren.clips, "run"), 0.3),
                         now = poseOf(pip.skeleton, clip, 0.3);
         const RestPlaces fromRest(wren.skeleton), rest(pip.skeleton);
-        return angleBetween(was.turns[leading] * glm::conjugate(fromRest.turns[leading]),
-                            now.turns[node] * glm::conjugate(rest.turns[node]));
+        return angleApart(was.turns[leading] * glm::conjugate(fromRest.turns[leading]),
+                          now.turns[node] * glm::conjugate(rest.turns[node]));
     };
     EXPECT_LT(moves("ponytail1", "jaw"), 1e-3) << "a joint without a role turns as its counterpart";
     EXPECT_LT(moves("chest", "spine"), 1e-3) << "pairs go before the spine";
@@ -433,7 +432,7 @@ TEST(Retarget, MarkersAndStepsStay) {
     EXPECT_EQ(clip.duration, 2.0);
     const uint32_t own = nodeOf(pip.skeleton, "thigh.L");
     const ModelPose before = poseOf(pip.skeleton, clip, 0.99), at = poseOf(pip.skeleton, clip, 1.0);
-    EXPECT_GT(angleBetween(before.turns[own], at.turns[own]), 0.5) << "it jumps, as the clip does";
+    EXPECT_GT(angleApart(before.turns[own], at.turns[own]), 0.5) << "it jumps, as the clip does";
 }
 
 } // namespace

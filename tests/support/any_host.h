@@ -296,7 +296,7 @@ private:
         }
     }
     void changeGroups() {
-        switch (upTo(6)) {
+        switch (upTo(7)) {
         case 0:
             posed_.capacity = posed_.capacity == 5 ? 7 : 5;
             if (std::all_of(posed_.instances.begin(), posed_.instances.end(),
@@ -334,6 +334,9 @@ private:
                 set(suppleDestroyView(handle(), unused_));
                 unused_ = {};
             }
+            break;
+        case 6: // all of its clips are there
+            set(suppleRequestClip(handle(), tube_, 0, nullptr));
             break;
         }
     }

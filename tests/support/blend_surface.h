@@ -1,11 +1,11 @@
 // A whole blending surface on the CPU, with walks over its shared edges.
 #pragma once
 
+#include "cpu/blend.h"
+#include "cpu/stencils.h"
 #include "surface/grid.h"
 #include "surface/scheme.h"
 #include "tests/support/meshes.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/stencils.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // What attributes are interpolated with, computed from the grid's own numbers: shaders/evaluate/attributes.comp again.
 #pragma once
 
-#include "tools/reference/grid.h"
+#include "cpu/grid_sample.h"
 
 #include <glm/glm.hpp>
 

@@ -18,22 +18,14 @@ struct DualQuaternion {
 std::vector<glm::dvec3> skinWithDualQuaternions(std::span<const glm::dvec3> positions, const cage::SkinWeights& weights,
                                                 std::span<const skinning::Affine> palette,
                                                 const glm::dmat4& transform) {
-    std::vector<JointFactors> joints;
-    for (const skinning::Affine& affine : palette) {
-        joints.push_back(factorsOf(affine));
-    }
+    const std::vector<JointFactors> joints = factorsOf(palette);
     std::vector<glm::dvec3> skinned;
     for (size_t v = 0; v < positions.size(); ++v) {
         const glm::dvec3& p = positions[v];
-        const std::span<const cage::Influence> influences =
-            std::span(weights.influences).subspan(weights.starts[v], weights.starts[v + 1] - weights.starts[v]);
-        cage::Influence heaviest = influences[0];
-        for (const cage::Influence& i : influences) {
-            heaviest = i.weight > heaviest.weight ? i : heaviest;
-        }
-        const glm::dquat side = glm::quat_cast(joints[heaviest.joint].rotation);
+        const VertexInfluences influences(weights, v);
+        const glm::dquat side = glm::quat_cast(joints[influences.heaviest.joint].rotation);
         DualQuaternion blend;
-        for (const cage::Influence& i : influences) {
+        for (const cage::Influence& i : influences.all) {
             const JointFactors& joint = joints[i.joint];
             // Stretched about itself the vertex stays; this translation and the rotation then take it where the joint
             // does.

@@ -1,9 +1,12 @@
 // The polar factors of joint matrices, in double, by a way of their own.
 #pragma once
 
+#include "cage/character.h"
 #include "skinning/pose.h"
 
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace supple::test {
 
@@ -31,5 +34,28 @@ inline JointFactors factorsOf(const skinning::Affine& affine) {
     joint.stretch = glm::transpose(joint.rotation) * matrix;
     return joint;
 }
+
+inline std::vector<JointFactors> factorsOf(std::span<const skinning::Affine> palette) {
+    std::vector<JointFactors> joints;
+    for (const skinning::Affine& affine : palette) {
+        joints.push_back(factorsOf(affine));
+    }
+    return joints;
+}
+
+/// The joints that move a vertex, and the one that moves it most: the first, if several do.
+struct VertexInfluences {
+    VertexInfluences(const cage::SkinWeights& weights, size_t vertex)
+        : all(std::span(weights.influences)
+                  .subspan(weights.starts[vertex], weights.starts[vertex + 1] - weights.starts[vertex])),
+          heaviest(all[0]) {
+        for (const cage::Influence& i : all) {
+            heaviest = i.weight > heaviest.weight ? i : heaviest;
+        }
+    }
+
+    std::span<const cage::Influence> all;
+    cage::Influence heaviest;
+};
 
 } // namespace supple::test

@@ -11,8 +11,8 @@ namespace supple::test {
 
 namespace {
 
-/// Levels of edges from 1 to 63: 1, odd integers and almost 1 more often. Both sides of an edge see the same, for the
-/// two ends come in as a sum.
+/// Levels of edges from 1 up to where the range ends, which the camera tells: 1, odd integers and almost 1 more often.
+/// Both sides of an edge see the same, for the two ends come in as a sum.
 constexpr const char* kRandomEdge = R"(
     uvec3 ends = floatBitsToUint(x0) + floatBitsToUint(x1);
     uint h = (ends.x * 0x9E3779B9u) ^ (ends.y * 0x85EBCA6Bu) ^ (ends.z * 0xC2B2AE35u);
@@ -20,23 +20,29 @@ constexpr const char* kRandomEdge = R"(
     h = (h ^ (h >> 12u)) * 0x297A2D39u;
     h ^= h >> 15u;
     if (level > 0.0) {
-        level = exp2(float(h & 0xFFFFu) / 65536.0 * 5.97);
+        float octaves = LOD_CAMERA.focal > 100.0 ? 5.97 : LOD_CAMERA.focal > 1.0 ? 2.0 : 0.0;
+        level = exp2(float(h & 0xFFFFu) / 65536.0 * octaves);
         uint kind = (h >> 16u) & 7u;
         if (kind == 0u) level = 1.0;
         if (kind == 1u) level = 2.0 * floor(0.5 * level) + 1.0;
         if (kind == 2u) level = 1.000001;
+        if (octaves == 0.0) level = 0.9;
     }
     scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);)";
 
-/// And capacities up to four octaves above what a patch needs.
+/// And capacities up to four octaves above what a patch needs, of every fourth one none.
 constexpr const char* kRandomCapacity = R"(
-    at = min(at + float((patchIndex * 2654435761u) >> 24u), 895.0);
+    uint above = (patchIndex * 2654435761u) >> 24u;
+    at = min(at + float(above < 64u ? 0u : above), 895.0);
     uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * float(kSplitUnit)), kSplitUnit);)";
+
+/// What a record says its capacity's index is: any word.
+constexpr const char* kWrongCapacity = "place * samples, (patchIndex * 2654435761u) >> (patchIndex % 32u)));";
 
 } // namespace
 
-RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
-    const std::string macros = mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
+RandomLevels::RandomLevels(const Options& options) : edges_(options.edges) {
+    const std::string macros = options.mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
     // Optimized, as the layouts have the bindings of their mapping alone.
     const auto edgeLevels = [&](const std::string& borders) {
         return optimized(compileEdited("lod/edge.comp",
@@ -57,14 +63,19 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
         {" -DHALVES", Kernel::lodEdgeHalves, Kernel::lodPatchHalves},
         {" -DCHARTS", Kernel::lodEdgeCharts, Kernel::lodPatchCharts},
         {" -DTRIANGLES", Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles}};
-    compiled_.reserve(2 * std::size(kBorders)); // shaders point into it
+    compiled_.reserve(2 * std::size(kBorders) + 1); // shaders point into it
     for (const auto& [borders, edge, patch] : kBorders) {
         const std::vector<uint32_t>& ofPatches = compiled_.emplace_back(patchLevels(borders));
         shaders[patch] = {ofPatches, ofPatches}; // of this mapping
-        if (edges == Edges::random) {
+        if (options.edges == Edges::random) {
             const std::vector<uint32_t>& ofEdges = compiled_.emplace_back(edgeLevels(borders));
             shaders[edge] = {ofEdges, ofEdges};
         }
+    }
+    if (options.wrongCapacities) {
+        const std::vector<uint32_t>& place = compiled_.emplace_back(
+            optimized(compileEdited("lod/place.comp", "place * samples, capacity));", kWrongCapacity, macros)));
+        shaders[Kernel::lodPlace] = {place, place};
     }
     if (testDevice() == nullptr ||
         std::any_of(compiled_.begin(), compiled_.end(), [](const auto& words) { return words.empty(); })) {
@@ -72,12 +83,13 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
         return;
     }
     SuppleContextDesc contextDesc = host::contextDesc(*testDevice());
-    contextDesc.mapping = mapping;
+    contextDesc.mapping = options.mapping;
     Result<std::unique_ptr<runtime::Context>> context = runtime::Context::create(contextDesc, shaders);
     SuppleViewDesc viewDesc{};
     viewDesc.structSize = sizeof(viewDesc);
     viewDesc.maxVertices = 5'000'000;
-    viewDesc.vertexFormat = SUPPLE_VERTEX_24;
+    viewDesc.vertexFormat = options.vertexFormat;
+    viewDesc.flags = options.tangents ? SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_TANGENTS : 0;
     const Result<uint64_t> view = context.ok() ? (*context)->createView(viewDesc) : Result<uint64_t>(context.error());
     if (!view.ok()) {
         ADD_FAILURE() << view.error().message;
@@ -85,14 +97,19 @@ RandomLevels::RandomLevels(SuppleMapping mapping, Edges edges) {
     }
     view_ = *view;
     context_ = std::move(*context);
-    camera_.pixelsPerUnit = edges == Edges::random ? 800.0f : 100.0f; // from among the cages: else most levels are 63
+    setRange(Range::all);
+}
+
+void RandomLevels::setRange(Range range) {
+    const float random = range == Range::all ? 800.0f : range == Range::low ? 8.0f : 0.01f;
+    camera_.pixelsPerUnit = edges_ == Edges::random ? random : 100.0f; // from among the cages: else most levels are 63
 }
 
 std::optional<RandomLevels::Drawn> RandomLevels::draw(cage::Character character, SuppleGroupDesc desc,
                                                       uint32_t vertexBudget) {
     camera_.vertexBudget = vertexBudget;
     context_->views.find(view_)->setCamera(camera_);
-    const Result<uint64_t> asset = context_->createAsset(std::move(character));
+    const Result<uint64_t> asset = context_->createAsset(std::move(character), 0);
     if (!asset.ok()) {
         ADD_FAILURE() << asset.error().message;
         return std::nullopt;

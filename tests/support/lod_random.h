@@ -16,9 +16,22 @@ namespace supple::test {
 class RandomLevels {
 public:
     enum class Edges { random, own };
-    explicit RandomLevels(SuppleMapping mapping, Edges edges = Edges::random);
+    struct Options {
+        SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
+        Edges edges = Edges::random;
+        SuppleVertexFormat vertexFormat = SUPPLE_VERTEX_24;
+        bool tangents = false;
+        /// Records say capacities that their patches do not have. Those of their buckets and draws are right.
+        bool wrongCapacities = false;
+    };
+    explicit RandomLevels(const Options& options);
+    explicit RandomLevels(SuppleMapping mapping, Edges edges = Edges::random) : RandomLevels(Options{mapping, edges}) {}
 
     [[nodiscard]] bool valid() const { return context_ != nullptr; }
+
+    /// What random levels of edges there are: from 1 to 63; to 4; below 1.
+    enum class Range { all, low, least };
+    void setRange(Range range);
 
     struct Drawn {
         LodSurface surface;
@@ -30,6 +43,7 @@ public:
 
 private:
     std::vector<std::vector<uint32_t>> compiled_;
+    Edges edges_;
     std::unique_ptr<runtime::Context> context_;
     uint64_t view_ = 0, frame_ = 0;
     SuppleCameraDesc camera_{};

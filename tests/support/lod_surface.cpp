@@ -20,6 +20,21 @@ PositionBits positionsOf(const std::vector<std::byte>& bytes, size_t stride) {
     return bits;
 }
 
+std::vector<glm::vec3> normalsOf(const std::vector<std::byte>& bytes, size_t stride) {
+    std::vector<glm::vec3> normals(stride > 0 ? bytes.size() / stride : 0);
+    for (size_t v = 0; v < normals.size(); ++v) {
+        const std::byte* const at = bytes.data() + v * stride + sizeof(glm::vec3);
+        if (stride == 24) {
+            std::memcpy(&normals[v], at, sizeof(glm::vec3));
+        } else {
+            uint32_t packed = 0;
+            std::memcpy(&packed, at, sizeof packed);
+            normals[v] = decodeOctahedral(packed);
+        }
+    }
+    return normals;
+}
+
 /// Samples along a patch's side, without repeats.
 std::vector<std::array<uint32_t, 3>> side(const LodSurface& surface, const LodSurface::Patch& patch, uint32_t index) {
     std::vector<std::array<uint32_t, 3>> samples;
@@ -224,12 +239,8 @@ LodSurface readLodSurface(host::Device& device, const host::GroupOutput& output)
     };
     const std::vector<std::byte> vertices = readVertices(output.streams.vertices);
     surface.positions = positionsOf(vertices, output.streams.vertices.stride);
-    if (output.streams.vertices.stride == 24) {
-        surface.normals.resize(surface.positions.size());
-        for (size_t v = 0; v < surface.normals.size(); ++v) {
-            std::memcpy(&surface.normals[v], vertices.data() + 24 * v + 12, sizeof(glm::vec3));
-        }
-    }
+    surface.normals = normalsOf(vertices, output.streams.vertices.stride);
+    surface.tangents = as<uint32_t>(readVertices(output.streams.tangents));
     surface.previous =
         positionsOf(readVertices(output.streams.previousPositions), output.streams.previousPositions.stride);
     return surface;

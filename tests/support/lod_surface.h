@@ -12,8 +12,9 @@
 namespace supple::test {
 
 struct LodSurface {
-    PositionBits positions, previous;               ///< by surface vertex of the view
-    std::vector<glm::vec3> normals;                 ///< where vertices have 24 bytes
+    PositionBits positions, previous; ///< by surface vertex of the view
+    std::vector<glm::vec3> normals;
+    std::vector<uint32_t> tangents;                 ///< their words, where a view writes them
     std::vector<std::array<uint32_t, 3>> triangles; ///< surface vertices, those of zero area too
     /// A record of the view's patches, and where its samples lie.
     struct Patch {

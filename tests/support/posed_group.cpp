@@ -32,7 +32,7 @@ PosedGroup::~PosedGroup() {
 
 void PosedGroup::create(cage::Character character, const PosedOptions& options) {
     ASSERT_NE(shared_.context, nullptr);
-    const Result<uint64_t> asset = shared_.context->createAsset(std::move(character));
+    const Result<uint64_t> asset = shared_.context->createAsset(std::move(character), 0);
     ASSERT_TRUE(asset.ok()) << asset.error().message;
     assetId_ = *asset;
     SuppleGroupDesc desc{};

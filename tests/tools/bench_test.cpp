@@ -148,6 +148,10 @@ TEST_F(Bench, QuickRunIsWhole) {
             contestants.insert({scheme + " evaluate", scheme + " frame"});
             ratios.insert({scheme + " frame / " + scheme + " evaluate", scheme + " evaluate / plain C++ bi-3",
                            scheme + " frame / plain C++ bi-3"});
+            if (scheme != "fragments" || !mixed) { // the CPU has none where creases end inside
+                contestants.insert(scheme + " CPU");
+                ratios.insert(scheme + " CPU / " + scheme + " evaluate");
+            }
             if (scheme != "fragments" && scheme != "blend") {
                 contestants.insert({scheme + " shared evaluate", scheme + " shared frame"});
                 ratios.insert({scheme + " shared evaluate / " + scheme + " evaluate",

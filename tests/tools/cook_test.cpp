@@ -48,7 +48,7 @@ TEST_F(Cook, AnotherVersionIsToldHowToMakeItAnew) {
     const Outcome outcome = run("inspect pip.supple");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err,
-              "supple: pip.supple: a cooked file of version 77, and this is version 9: make it anew: supple cook "
+              "supple: pip.supple: a cooked file of version 77, and this is version 10: make it anew: supple cook "
               "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --clip-error 0.0001 --parts-apart "
               "--scene 0\n");
 }
@@ -65,6 +65,12 @@ TEST_F(Cook, ClipsArePackedAsCloselyAsIsAsked) {
             EXPECT_GT(clip["packed"]["ratio"], 5.0) << clip["name"];
         }
     }
+    for (const auto& clip : cook("--coarse-clip-error 1e-2")) {
+        EXPECT_LE(clip["packed"]["error"], 1e-4);
+        EXPECT_LE(clip["packed"]["twin"]["error"], 1e-2);
+        EXPECT_LT(clip["packed"]["twin"]["bytes"], clip["packed"]["segmentBytes"]);
+    }
+    EXPECT_NE(run("inspect pip.supple").out.find("coarse twin: "), std::string::npos);
     for (const auto& clip : cook("--clip-error 0")) {
         EXPECT_FALSE(clip.contains("packed"));
     }
@@ -72,6 +78,18 @@ TEST_F(Cook, ClipsArePackedAsCloselyAsIsAsked) {
     const Outcome told = run("inspect '" + kToCook + "' --clip-error 1e-3");
     EXPECT_NE(told.out.find("packed: "), std::string::npos) << told.out;
     EXPECT_EQ(run("inspect '" + kToCook + "'").out.find("packed: "), std::string::npos);
+    EXPECT_NE(run("inspect '" + kToCook + "' --clip-error 1e-4 --coarse-clip-error 1e-2").out.find("coarse twin: "),
+              std::string::npos);
+    for (const char* without : {"--coarse-clip-error 1e-2", "--clip-error 1e-2 --coarse-clip-error 1e-2"}) {
+        const Outcome refused = run("inspect '" + kToCook + "' " + without);
+        EXPECT_EQ(refused.exitCode, 2) << without;
+        EXPECT_EQ(refused.err, "supple: --coarse-clip-error needs a --clip-error, and must be more than that\n");
+    }
+    // Clips that are packed already get no twin, and somebody says so.
+    (void)cook("--clip-error 1e-4");
+    const Outcome again = run("cook pip.supple -o again.supple --scheme polygons --coarse-clip-error 1e-2");
+    EXPECT_EQ(again.exitCode, 0);
+    EXPECT_NE(again.err.find("has no coarse twin: it is packed already"), std::string::npos) << again.err;
 }
 
 TEST_F(Cook, BadInputIsOneAndBadUsageTwo) {

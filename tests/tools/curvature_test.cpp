@@ -1,5 +1,8 @@
 // Curvature: second derivatives of every scheme against differences of first ones, surfaces whose curvature is known,
 // and that the derivatives belong to the points that the device draws.
+#include "cpu/blend.h"
+#include "cpu/catmull_clark.h"
+#include "cpu/loop.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
 #include "tests/support/sample_assets.h"
@@ -8,9 +11,6 @@
 #include "tools/common/figure_file.h"
 #include "tools/common/procedural.h"
 #include "tools/common/schemes.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/catmull_clark.h"
-#include "tools/reference/loop.h"
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"
 #include "tools/supple/curvature_view.h"

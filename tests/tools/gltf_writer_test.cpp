@@ -287,6 +287,25 @@ TEST(GltfWriter, SharpnessOfClipsComesBack) {
     EXPECT_EQ(again.clips[0].duration, std::max(character.clips[0].duration, 1.5));
 }
 
+TEST(GltfWriter, PoseDriversComeBack) {
+    const Result<Character> arm = readGltfFile(std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb");
+    ASSERT_TRUE(arm.ok()) << arm.error().message;
+    Character character = *arm;
+    ASSERT_EQ(character.drivers.size(), 2u);
+    character.drivers[0].inputs.push_back({.node = 2, .part = TurnPart::rotation, .weight = 0.25f});
+    character.drivers[0].poses.insert(character.drivers[0].poses.begin() + 1, glm::vec4(0, 0, 0, 1));
+    character.drivers[0].poses.insert(character.drivers[0].poses.begin() + 3, glm::vec4(0, 1, 0, 0));
+    character.drivers[0].poses.push_back(glm::vec4(1, 0, 0, 0));
+    character.drivers[0].width = 1.5f;
+    character.drivers[0].low = -0.25f;
+    const std::vector<std::byte> bytes = writeWell(character);
+    const Result<Character> again = readGltf(bytes, "arm.glb", "", {.strict = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(again->drivers, character.drivers);
+    EXPECT_EQ(again->warnings, std::vector<std::string>());
+    EXPECT_TRUE(Glb(bytes).root["extensionsUsed"].dump().find("SUPPLE_deformers") != std::string::npos);
+}
+
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",

@@ -1,5 +1,7 @@
 // Contenders and tables of supple bench --papers.
 #include "cage/topology.h"
+#include "cpu/blend.h"
+#include "cpu/catmull_clark.h"
 #include "tests/support/meshes.h"
 #include "tests/tools/command_runner.h"
 #include "tools/bench/acc.h"
@@ -8,8 +10,6 @@
 #include "tools/bench/printed_figures.h"
 #include "tools/common/gallery_cages.h"
 #include "tools/common/procedural.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/catmull_clark.h"
 
 #include <gtest/gtest.h>
 

@@ -20,6 +20,7 @@ namespace {
 constexpr const char* kAvx2 = "AVX2 bi-3";
 constexpr const char* kPlain = "plain C++ bi-3";
 constexpr const char* kWrite24 = "write 24 B";
+constexpr const char* kCpu = " CPU"; ///< behind a scheme: supple_cpu.h, one thread
 
 /// What there is of a scheme: its plain form first, which the others' points are counted by.
 struct Variant {
@@ -124,6 +125,10 @@ Status Heat::addSubject(SuppleAsset asset, SuppleScheme scheme, const Variant& v
     if (&variant == &kPlainVariant) {
         schemes_.push_back(name);
         points_ = workbench_.output(group).grid.vertexCount;
+        const auto grid = Workbench::cpuGrid(desc_.cage->character, scheme, workbench_.output(group).grid.rate);
+        if (grid) {
+            addHost(name + kCpu, points_, [evaluate = *grid](uint32_t) { evaluate(); });
+        }
     }
     Status status = addReplay(variant.name(name, "evaluate"), points_,
                               [&](VkCommandBuffer commands) { workbench_.recordEvaluate(group, commands); });
@@ -249,6 +254,8 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
                 add(ours, kPlain, true);
             }
         }
+        add(scheme + kCpu, kPlainVariant.name(scheme, "evaluate"), false);
+        add(scheme + kCpu, kAvx2, false);
         add(kSharedVariant.name(scheme, "evaluate"), kPlainVariant.name(scheme, "evaluate"), false);
         if (scheme != schemes_.front()) {
             add(scheme + " evaluate", schemes_.front() + " evaluate", false);
@@ -256,6 +263,7 @@ void Heat::addRatios(Json& row, std::span<const Series> series) const {
         for (const Peer& peer : peers_) {
             if (scheme != "blend" && (scheme == "loop") == (peer.rules == PeerRules::loop)) {
                 add(scheme + " evaluate", peer.name, true);
+                add(scheme + kCpu, peer.name, false);
             }
         }
     }

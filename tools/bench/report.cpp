@@ -258,15 +258,19 @@ std::string updateRateTable(const Json& rows) {
     for (const Json& row : rows) {
         const auto interval = row["interval"].get<uint32_t>();
         const auto springs = row.value("springJoints", 0u);
-        const std::string what = springs > 0     ? std::to_string(springs) + " joints swing"
-                                 : interval == 0 ? "without update rates"
-                                 : interval == 1 ? "in every frame"
-                                                 : "every " + std::to_string(interval) + " steps";
+        const auto targets = row.value("morphTargets", 0u), drivers = row.value("drivers", 0u);
+        const std::string what =
+            springs > 0     ? std::to_string(springs) + " joints swing"
+            : drivers > 0   ? std::to_string(drivers) + " pose drivers of " + std::to_string(targets) + " morph targets"
+            : targets > 0   ? std::to_string(targets) + " morph targets"
+            : interval == 0 ? "without update rates"
+            : interval == 1 ? "in every frame"
+                            : "every " + std::to_string(interval) + " steps";
         table.add({what, row["characters"].dump(), number(row["posed"]), number(row["poseMs"]),
                    number(row["poseRatio"]), number(row["deformMs"]), number(row["deformRatio"]),
                    number(row["recordUs"])});
     }
-    return table.empty() ? "" : "## Update rates, springs\n\n" + table.text(1);
+    return table.empty() ? "" : "## Update rates, springs, pose drivers\n\n" + table.text(1);
 }
 
 /// Nanoseconds a vertex, and over dual quaternions.

@@ -4,6 +4,8 @@
 #include "tools/bench/pass_times.h"
 #include "tools/common/statistics.h"
 
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace supple::bench {
@@ -15,11 +17,16 @@ namespace {
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
 constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
-/// 0: the group has no update rates. `springs`: joints swing.
-constexpr struct {
+/// What the character has besides: morph targets, and drivers of them.
+enum class Has : size_t { springs, targets, drivers };
+constexpr size_t kCharacters = 3;
+
+/// 0: the group has no update rates. `swings`: joints do.
+constexpr struct RatedKind {
     uint32_t interval;
-    bool springs;
-} kRatedKinds[] = {{0, false}, {1, false}, {2, false}, {4, false}, {8, false}, {0, true}};
+    bool swings = false;
+    Has has = Has::springs;
+} kRatedKinds[] = {{0}, {1}, {2}, {4}, {8}, {0, true}, {0, false, Has::targets}, {0, false, Has::drivers}};
 
 /// Four chains of three joints that swing, and a collider.
 constexpr uint32_t kChains = 4, kChainJoints = 3;
@@ -51,9 +58,38 @@ void addSprings(cage::Character& character) {
     }
 }
 
+/// A dozen drivers of two targets each, which look at a joint in eight poses.
+constexpr uint32_t kDrivers = 12, kDriverPoses = 8, kDriverTargets = 2;
+void addTargets(cage::Character& character) {
+    const uint32_t vertices = character.cage.vertexCount();
+    for (uint32_t t = 0; t < kDrivers * kDriverTargets; ++t) {
+        cage::MorphTarget target;
+        for (uint32_t v = t * vertices / (kDrivers * kDriverTargets + 1), end = v + vertices / 20; v < end; ++v) {
+            target.vertices.push_back(v);
+            target.deltas.emplace_back(0.0f, 0.01f, 0.0f);
+        }
+        character.morphs.targets.push_back(std::move(target));
+        character.morphs.weights.push_back(0.0f);
+    }
+    character.parts[0].targetCount = kDrivers * kDriverTargets;
+}
+void addDrivers(cage::Character& character) {
+    for (uint32_t d = 0; d < kDrivers; ++d) {
+        cage::PoseDriver driver;
+        driver.inputs.push_back({.node = character.skin.joints[(d + 1) * character.skin.joints.size() / (kDrivers + 1)],
+                                 .part = cage::TurnPart::swing});
+        driver.targets = {kDriverTargets * d, kDriverTargets * d + 1};
+        for (uint32_t pose = 0; pose < kDriverPoses; ++pose) {
+            const float way = 6.2831853f * static_cast<float>(pose) / static_cast<float>(kDriverPoses);
+            driver.poses.emplace_back(0.6f * std::cos(way), 0.0f, 0.6f * std::sin(way), 0.8f);
+            driver.values.insert(driver.values.end(), {pose % 2 == 0 ? 1.0f : 0.0f, pose % 4 == 1 ? 1.0f : 0.0f});
+        }
+        character.drivers.push_back(std::move(driver));
+    }
+}
+
 struct RatedGroup {
-    uint32_t interval = 0;
-    bool springs = false;
+    RatedKind kind;
     SuppleGroup group{};
     std::vector<double> pose, deform, record; ///< by frame
     uint64_t posed = 0;                       ///< joints
@@ -71,19 +107,19 @@ public:
     RatedCrowd(const RatedCrowd&) = delete;
     RatedCrowd& operator=(const RatedCrowd&) = delete;
 
-    Status create(SuppleAsset asset) {
-        for (const auto& [interval, springs] : kRatedKinds) {
+    Status create(const std::array<SuppleAsset, kCharacters>& assets) {
+        for (const RatedKind& kind : kRatedKinds) {
             SuppleGroupDesc desc{};
-            desc.asset = asset;
+            desc.asset = assets[static_cast<size_t>(kind.has)];
             desc.scheme = SUPPLE_SCHEME_CAGE;
             desc.capacity = characters_;
             desc.poseSource = SUPPLE_POSES_PLAYBACK;
-            desc.flags = interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : springs ? SUPPLE_GROUP_SPRINGS : 0;
-            const Result<SuppleGroup> made = workbench_.createGroup(desc, interval);
+            desc.flags = kind.interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : kind.swings ? SUPPLE_GROUP_SPRINGS : 0;
+            const Result<SuppleGroup> made = workbench_.createGroup(desc, kind.interval);
             if (!made) {
                 return made.error();
             }
-            groups_.push_back({interval, springs, *made, {}, {}, {}, 0});
+            groups_.push_back({kind, *made, {}, {}, {}, 0});
         }
         return success();
     }
@@ -106,8 +142,10 @@ public:
             const auto frames = static_cast<double>(own.pose.size());
             const double joints = kCrowdJoints;
             rows.push_back({{"characters", characters_},
-                            {"interval", own.interval},
-                            {"springJoints", own.springs ? kChains * kChainJoints : 0},
+                            {"interval", own.kind.interval},
+                            {"springJoints", own.kind.swings ? kChains * kChainJoints : 0},
+                            {"morphTargets", own.kind.has != Has::springs ? kDrivers * kDriverTargets : 0},
+                            {"drivers", own.kind.has == Has::drivers ? kDrivers : 0},
                             {"posed", static_cast<double>(own.posed) / joints / frames},
                             {"poseMs", tools::summarize(own.pose).median},
                             {"deformMs", tools::summarize(own.deform).median},
@@ -166,29 +204,40 @@ private:
 } // namespace
 
 Result<Json> measureUpdateRates(host::Device& device, Workbench& workbench, const UpdateRatesDesc& desc) {
-    Result<BenchCage> character = makeCrowdCharacter();
-    if (!character) {
-        return character.error();
-    }
-    addSprings(character->character);
-    const Result<SuppleAsset> asset = workbench.createAsset(std::move(character->character));
-    if (!asset) {
-        return asset.error();
+    std::array<SuppleAsset, kCharacters> assets{};
+    Status status = success();
+    for (size_t has = 0; has < kCharacters && status; ++has) {
+        Result<BenchCage> character = makeCrowdCharacter();
+        if (!character) {
+            return character.error();
+        }
+        if (has == static_cast<size_t>(Has::springs)) {
+            addSprings(character->character);
+        } else {
+            addTargets(character->character);
+        }
+        if (has == static_cast<size_t>(Has::drivers)) {
+            addDrivers(character->character);
+        }
+        const Result<SuppleAsset> made = workbench.createAsset(std::move(character->character));
+        status = made ? success() : Status(made.error());
+        assets[has] = made ? *made : SuppleAsset{};
     }
     Json rows = Json::array();
-    Status status = success();
     for (size_t i = 0; i < desc.characters.size() && status; ++i) {
         if (desc.progress) {
             desc.progress(std::to_string(desc.characters[i]));
         }
         RatedCrowd crowd(device, workbench, desc.characters[i]);
-        status = crowd.create(*asset);
+        status = crowd.create(assets);
         status = status ? crowd.measure(desc.frames) : status;
         for (Json& row : crowd.rows()) {
             rows.push_back(std::move(row));
         }
     }
-    workbench.destroy(*asset);
+    for (const SuppleAsset asset : assets) {
+        workbench.destroy(asset);
+    }
     return status ? Result<Json>(std::move(rows)) : status.error();
 }
 

@@ -1,6 +1,7 @@
 #include "tools/bench/workbench.h"
 
 #include "runtime/context.h"
+#include "runtime/cpu_group.h"
 #include "runtime/playback_desc.h"
 #include "runtime/prepare.h"
 #include "tools/common/inside_output.h"
@@ -53,7 +54,7 @@ Result<std::unique_ptr<Workbench>> Workbench::create(const SuppleContextDesc& de
 }
 
 Result<SuppleAsset> Workbench::createAsset(cage::Character character) {
-    Result<uint64_t> asset = inside_->context->createAsset(std::move(character));
+    Result<uint64_t> asset = inside_->context->createAsset(std::move(character), 0);
     if (!asset) {
         return asset.error();
     }
@@ -67,8 +68,36 @@ std::shared_ptr<const runtime::Prepared> Workbench::prepare(cage::Character char
     return runtime::prepareFor(*prepared, {desc, std::nullopt}, wide) ? prepared : nullptr;
 }
 
+Result<std::function<void()>> Workbench::cpuGrid(cage::Character character, SuppleScheme scheme, uint32_t rate) {
+    struct Grid {
+        explicit Grid(std::shared_ptr<const runtime::CpuGroup> group) : pose(std::move(group)) {}
+        runtime::CpuPose pose;
+        std::vector<float> positions, normals;
+    };
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = scheme;
+    const std::vector<glm::vec3> cage = character.cage.positions;
+    const auto group = runtime::CpuGroup::create(runtime::Prepared::of(std::move(character)), desc);
+    if (!group) {
+        return group.error();
+    }
+    const auto grid = std::make_shared<Grid>(*group);
+    const uint64_t vertices = runtime::CpuGroup::vertexCount((*group)->parts().front(), rate);
+    grid->positions.resize(3 * vertices);
+    grid->normals.resize(3 * vertices);
+    if (const Status built = grid->pose.build(reinterpret_cast<const std::byte*>(cage.data()), sizeof(cage[0]), {});
+        !built) {
+        return built.error();
+    }
+    return std::function<void()>([grid, rate] {
+        // It can only run out of memory, and the grid has its own.
+        (void)grid->pose.evaluateGrid(0, rate, grid->positions.data(), grid->normals.data(), {}).ok();
+    });
+}
+
 Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepared> prepared) {
-    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared));
+    const Result<uint64_t> asset = inside_->context->createAsset(std::move(prepared), 0);
     if (!asset) {
         return asset.error();
     }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <supple/supple.h>
@@ -37,6 +38,10 @@ public:
     /// What supplePrepare does of a character that is read, for a group of createGroup. Null: it is refused.
     [[nodiscard]] std::shared_ptr<const runtime::Prepared> prepare(cage::Character character,
                                                                    const SuppleGroupDesc& desc) const;
+    /// Evaluates all vertices of a surface with their normals on the calling thread, at a patch rate, in the bind pose.
+    /// Refuses schemes without an evaluator.
+    [[nodiscard]] static Result<std::function<void()>> cpuGrid(cage::Character character, SuppleScheme scheme,
+                                                               uint32_t rate);
     [[nodiscard]] Result<SuppleAsset> createAsset(std::shared_ptr<const runtime::Prepared> prepared);
     /// A group with as many instances as it has room for, one where desc.capacity is 0. `desc.asset` is one of
     /// createAsset's. All are in the bind pose; or, with SUPPLE_POSES_PLAYBACK, instance i plays the first clip, in a

@@ -4,6 +4,7 @@
 #include "cage/message.h"
 #include "cage/parts.h"
 #include "cage/refusal.h"
+#include "tools/gltf/driver_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
@@ -316,6 +317,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (const auto& skinning = part.parts[0].skinning) {
             mesh["extensions"]["SUPPLE_deformers"]["skinning"] = skinningModeName(*skinning);
         }
+        if (!part.drivers.empty()) {
+            mesh["extensions"]["SUPPLE_deformers"]["drivers"] = writeDrivers(part.drivers, packer);
+        }
         meshes.push_back(std::move(mesh));
     }
     reportFeatures(character.cage, file.warnings);
@@ -339,7 +343,8 @@ GlbFile toGlb(const Character& character) {
     json root = newRoot(character);
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     if (std::any_of(character.parts.begin(), character.parts.end(),
-                    [](const Part& part) { return part.skinning.has_value(); })) {
+                    [](const Part& part) { return part.skinning.has_value(); }) ||
+        !character.drivers.empty()) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);

@@ -1,7 +1,6 @@
 #include "tools/reference/fragments.h"
 
-#include "tools/reference/fragment.h"
-#include "tools/reference/stencils.h"
+#include "cpu/fragment.h"
 
 #include <map>
 #include <utility>
@@ -104,15 +103,6 @@ private:
 } // namespace
 
 template <class T>
-std::vector<Vec3<T>> isolate(const Mesh& mesh, std::span<const Vec3<T>> positions) {
-    std::vector<Vec3<T>> points(positions.begin(), positions.end());
-    for (const Stencils& step : mesh.stencils) {
-        points = applyStencils<T>(step, std::span<const Vec3<T>>(points));
-    }
-    return points;
-}
-
-template <class T>
 void forEachSector(const Mesh& mesh, std::span<const Vec3<T>> isolated, uint32_t steps,
                    const std::function<void(const SectorGrid<T>&)>& visit) {
     Evaluator<T>(mesh, isolated, steps).run(visit);
@@ -125,8 +115,6 @@ std::vector<SectorGrid<T>> evaluate(const Mesh& mesh, std::span<const Vec3<T>> i
     return all;
 }
 
-template std::vector<Vec3<float>> isolate<float>(const Mesh&, std::span<const Vec3<float>>);
-template std::vector<Vec3<double>> isolate<double>(const Mesh&, std::span<const Vec3<double>>);
 template void forEachSector<float>(const Mesh&, std::span<const Vec3<float>>, uint32_t,
                                    const std::function<void(const SectorGrid<float>&)>&);
 template void forEachSector<double>(const Mesh&, std::span<const Vec3<double>>, uint32_t,

@@ -2,8 +2,8 @@
 // bits of the device. For tests and comparisons.
 #pragma once
 
+#include "cpu/fragment.h"
 #include "surface/subdivision/mesh.h"
-#include "tools/reference/fragment.h"
 
 #include <functional>
 #include <glm/glm.hpp>
@@ -19,10 +19,6 @@ struct SectorGrid {
     uint32_t face = 0; ///< of Mesh::cage
     std::vector<Sample<T>> samples;
 };
-
-/// The vertices of the isolated level: one applyStencils() per step.
-template <class T>
-[[nodiscard]] std::vector<glm::vec<3, T>> isolate(const Mesh& mesh, std::span<const glm::vec<3, T>> positions);
 
 /// All sectors, fragment after fragment, refined `steps` times (0..6) beyond the isolated level.
 template <class T>

@@ -2,9 +2,8 @@
 // Paper: see surface/pm/mesh.h. Formulas: docs/pm.md, where errors of the paper are corrected.
 #pragma once
 
-#include "surface/grid.h"
-#include "surface/pm/mesh.h"
-#include "tools/reference/jet.h"
+#include "cpu/jet.h"
+#include "cpu/pm_construction.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -13,32 +12,10 @@
 
 namespace supple::surface::pm {
 
-/// The output of the vertex stage, (13)-(16). There is one limit point, tau1 and tau2 per fan, and one tangent t_j
-/// and face coefficient f_j per slot. The last slot of an open fan has no f.
 template <class T>
-struct Coefficients {
-    using Vec = glm::vec<3, T>;
-    std::vector<Vec> limitPoints; ///< v
-    std::vector<Vec> tau1, tau2;
-    std::vector<Vec> tangents;
-    std::vector<Vec> faceCoefficients;
-};
-
-/// One patch. Its coefficients have the order of docs/pm.md: 16 (4 row + column) for ordinary patches, 13 for polar
-/// ones, 6 m + 1 for P_m: b004, then b300 b210 b120 b211 b121 b112 per sector. Patch corner i is facet corner
-/// (firstCorners + i) % sides.
+using Coefficients = PointCoefficients<glm::vec<3, T>>;
 template <class T>
-struct Patch {
-    using Vec = glm::vec<3, T>;
-    PatchClass patchClass = PatchClass::regular;
-    uint32_t sides = 4;
-    uint32_t count = 16;
-    std::array<Vec, 31> c{};
-    T apexCosine = 0; ///< polar: cos(2 pi / n) of the apex
-    /// Patch corners where the derivatives are parallel: crease fans with a single facet. Only P_m patches have
-    /// them.
-    std::array<bool, kMaxSides> singularCorner{};
-};
+using Patch = PointPatch<glm::vec<3, T>>;
 
 template <class T>
 struct Sample {

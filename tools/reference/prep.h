@@ -3,9 +3,8 @@
 // errors of the paper are corrected.
 #pragma once
 
-#include "cage/topology.h"
-#include "surface/prep/weights.h"
-#include "tools/reference/jet.h"
+#include "cpu/jet.h"
+#include "cpu/prep_construction.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -14,30 +13,10 @@
 
 namespace supple::surface::prep {
 
-/// The output of the construction stages: one limit point X per vertex, one tangent TG and face coefficient FC per
-/// spoke of the topology, and four edge coefficients H per edge (h20, h30, h21, h31 in the edge's own direction). H is
-/// zero if the edge is not perturbed.
 template <class T>
-struct Coefficients {
-    using Vec = glm::vec<3, T>;
-    std::vector<Vec> limitPoints;
-    std::vector<Vec> limitNormals; ///< unit(e1 x e2), or zero if that vanishes
-    std::vector<Vec> tangents;
-    std::vector<Vec> faceCoefficients; ///< zero in a boundary fan's last slot, which has no sector
-    std::vector<std::array<Vec, 4>> edgeCoefficients;
-};
-
-/// One patch: the bicubic coefficients g[i + 4 j], and the sparse perturbation of degree 5. h[4 e + s] is that of face
-/// edge e, with s = 0..3 for the local indices (2,0), (3,0), (2,1), (3,1).
+using Coefficients = PointCoefficients<glm::vec<3, T>>;
 template <class T>
-struct Patch {
-    using Vec = glm::vec<3, T>;
-    std::array<Vec, 16> g;
-    std::array<Vec, 16> h;
-    std::array<Vec, 4> cornerNormals; ///< limit normals, for smooth corners of one face, where du x dv vanishes
-    std::array<bool, 4> useCornerNormal{};
-    bool perturbed = false; ///< an edge has a perturbation. Decided from the valences, never from h
-};
+using Patch = PointPatch<glm::vec<3, T>>;
 
 template <class T>
 struct Sample {

@@ -61,7 +61,7 @@ public:
     explicit Calls(Replayer& replayer) : r_(replayer), context_(replayer.context_->handle()) {}
 
     Status operator()(const calls::CreateAsset& call) {
-        return r_.load(call.hash, [&](const SuppleAssetDesc& desc) {
+        return r_.load(call.hash, call.clipPoolBytes, [&](const SuppleAssetDesc& desc) {
             SuppleAsset made{};
             const Status status = check(suppleCreateAsset(context_, &desc, &made));
             r_.assets_[call.asset.id] = {made, desc.name};
@@ -69,9 +69,12 @@ public:
         });
     }
     Status operator()(const calls::ReloadAsset& call) {
-        return r_.load(call.hash, [&](const SuppleAssetDesc& desc) {
+        return r_.load(call.hash, call.clipPoolBytes, [&](const SuppleAssetDesc& desc) {
             return check(suppleReloadAsset(context_, r_.own(call.asset), &desc));
         });
+    }
+    Status operator()(const calls::RequestClip& call) {
+        return check(suppleRequestClip(context_, r_.own(call.asset), call.clip, &call.request));
     }
     Status operator()(const calls::DestroyAsset& call) {
         return check(suppleDestroyAsset(context_, r_.own(call.asset)));
@@ -426,7 +429,7 @@ Status Replayer::run() {
 }
 
 template <class Load>
-Status Replayer::load(const calls::AssetHash& hash, Load&& load) {
+Status Replayer::load(const calls::AssetHash& hash, uint64_t clipPoolBytes, Load&& load) {
     const auto found = characters_.find({hash.low, hash.high});
     if (found == characters_.end() || found->second.bytes.empty()) {
         const std::string name = found != characters_.end() ? " of " + found->second.name : "";
@@ -438,6 +441,7 @@ Status Replayer::load(const calls::AssetHash& hash, Load&& load) {
     desc.name = found->second.name.c_str();
     desc.bytes = found->second.bytes.data();
     desc.byteCount = found->second.bytes.size();
+    desc.clipPoolBytes = clipPoolBytes;
     return load(desc);
 }
 

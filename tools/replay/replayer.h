@@ -93,7 +93,7 @@ private:
     /// Whether the recording has made the group. One that began late lacks groups that followed one which was gone.
     [[nodiscard]] bool knows(SuppleGroup recorded);
     template <class Load>
-    [[nodiscard]] Status load(const runtime::calls::AssetHash& hash, Load&& load);
+    [[nodiscard]] Status load(const runtime::calls::AssetHash& hash, uint64_t clipPoolBytes, Load&& load);
 
     // The own handles; those of nothing if the recording's are not known, which every call refuses.
     [[nodiscard]] SuppleAsset own(SuppleAsset recorded) const;

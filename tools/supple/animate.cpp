@@ -3,6 +3,7 @@
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/progress.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/webp_animation.h"
 
@@ -172,6 +173,7 @@ Status animate(Session& session, const AnimateOptions& options) {
     const auto frames = static_cast<uint32_t>(std::max(1l, std::lround(course->seconds * options.fps)));
     const float yaw = scene->camera.yaw;
     for (uint32_t frame = 0; frame < frames; ++frame) {
+        showProgress("drawing frames", frame + 1, frames);
         if (const Status status = stage.pose(course->frame(frame, options.fps)); !status)
             return status.error();
         scene->camera.yaw = yaw + radians(options.turn) * static_cast<float>(frame) / static_cast<float>(frames);
@@ -191,7 +193,11 @@ int runAnimate(const AnimateOptions& options) {
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());
-    return withSession(deviceFlags(options.draw), [&](Session& session) { return animate(session, options); });
+    const int code =
+        withSession(deviceFlags(options.draw), [&](Session& session) { return animate(session, options); });
+    if (code == kExitOk && options.output.ends_with(".webp"))
+        tellWritten(options.output);
+    return code;
 }
 
 } // namespace supple::tools

@@ -10,6 +10,7 @@
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/progress.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -168,6 +169,7 @@ Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cag
 }
 
 int runBake(const BakeOptions& options) {
+    showProgress("reading " + options.file);
     const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
     if (!file) {
         return fail(kExitBadInput, file.error().message);
@@ -207,7 +209,9 @@ int runBake(const BakeOptions& options) {
                     *transition,
                     options.updateInterval,
                     options.simulate};
-    return withSession(options.device, [&](Session& session) -> Status {
+    showProgress("opening the device");
+    const int code = withSession(options.device, [&](Session& session) -> Status {
+        showProgress("compiling kernels and evaluating; the first time takes longest");
         const Result<SuppleAsset> asset = host::createAsset(*session.context, *file);
         if (!asset) {
             return asset.error();
@@ -216,6 +220,7 @@ int runBake(const BakeOptions& options) {
         if (!baked) {
             return baked.error();
         }
+        showProgress("writing");
         const PatchBasis basis = options.basis == "bezier" ? PatchBasis::bezier : PatchBasis::stored;
         Status status = checkBasis(*baked, basis);
         if (status && !options.output.empty()) {
@@ -229,6 +234,12 @@ int runBake(const BakeOptions& options) {
         }
         return status;
     });
+    for (const std::string& path : {options.output, options.patches}) {
+        if (code == kExitOk && !path.empty()) {
+            tellWritten(path);
+        }
+    }
+    return code;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "tools/supple/command.h"
 
 #include "cage/message.h"
+#include "tools/supple/progress.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -14,7 +15,8 @@ std::string printable(std::string_view text) {
 int fail(ExitCode code, std::string_view reason) {
     for (size_t begin = 0; begin <= reason.size();) {
         const size_t end = std::min(reason.find('\n', begin), reason.size());
-        std::fprintf(stderr, "supple: %s\n", printable(reason.substr(begin, end - begin)).c_str());
+        std::fprintf(stderr, "%ssupple: %s\n", std::string(lineBegin()).c_str(),
+                     printable(reason.substr(begin, end - begin)).c_str());
         begin = end + 1;
     }
     return code;
@@ -30,7 +32,7 @@ void note(std::string_view text) {
 }
 
 void warn(std::string_view text) {
-    std::fprintf(stderr, "supple: warning: %s\n", printable(text).c_str());
+    std::fprintf(stderr, "%ssupple: warning: %s\n", std::string(lineBegin()).c_str(), printable(text).c_str());
 }
 
 } // namespace supple::tools

@@ -1,4 +1,5 @@
 #include "tools/supple/contact_sheet.h"
+#include "tools/supple/progress.h"
 
 #include "host/png_writer.h"
 #include "tools/common/figure_file.h"
@@ -156,8 +157,12 @@ int runContactSheet(const ContactSheetOptions& options) {
         return fail(kExitUsage, cells.error().message);
     if (options.columns == 0)
         return fail(kExitUsage, "--columns: at least one");
-    return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return drawSheet(session, options, cells->size, cells->view); });
+    const int code = withSession(deviceFlags(options.draw), [&](Session& session) {
+        return drawSheet(session, options, cells->size, cells->view);
+    });
+    if (code == kExitOk)
+        tellWritten(options.output);
+    return code;
 }
 
 } // namespace supple::tools

@@ -25,7 +25,7 @@ struct CookOptions {
     std::vector<uint32_t> rates{8};
     std::vector<std::string> uses{"grids", "levels"};
     std::string mapping = "both";
-    double clipError = 1e-4;
+    ClipPacking packing{1e-4, 0.0};
     SurfaceFlags surface; ///< --skinning; --scheme and --rate are the lists above
 };
 
@@ -98,12 +98,13 @@ private:
 
 using Bytes = std::vector<std::byte>;
 
-Result<Bytes> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, double clipError,
+Result<Bytes> prepare(const SuppleAssetDesc& asset, const Plan& plan, SuppleMapping mapping, const ClipPacking& packing,
                       const std::string& madeBy, bool warns) {
     SupplePrepareDesc desc{};
     desc.structSize = sizeof desc;
     desc.mapping = mapping;
-    desc.clipError = static_cast<float>(clipError);
+    desc.clipError = static_cast<float>(packing.error);
+    desc.coarseClipError = static_cast<float>(packing.coarseError);
     desc.asset = &asset;
     desc.groups = plan.groups().data();
     desc.groupCount = static_cast<uint32_t>(plan.groups().size());
@@ -132,8 +133,8 @@ Result<Bytes> cook(const host::CharacterFile& file, const Plan& plan, const Cook
                    const std::string& madeBy) {
     const host::AssetDescription source(file);
     const bool wide = options.mapping != "narrow";
-    Result<Bytes> first = prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW,
-                                  options.clipError, madeBy, true);
+    Result<Bytes> first =
+        prepare(source.desc(), plan, wide ? SUPPLE_MAPPING_WIDE : SUPPLE_MAPPING_NARROW, options.packing, madeBy, true);
     if (!first || options.mapping != "both") {
         return first;
     }
@@ -142,7 +143,7 @@ Result<Bytes> cook(const host::CharacterFile& file, const Plan& plan, const Cook
     cooked.name = file.path.c_str();
     cooked.bytes = first->data();
     cooked.byteCount = first->size();
-    return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, 0.0, madeBy, false);
+    return prepare(cooked, plan, SUPPLE_MAPPING_NARROW, {}, madeBy, false);
 }
 
 /// How the file is read, as flags.
@@ -185,8 +186,12 @@ std::string madeByOf(const CookOptions& options) {
     if (options.surface.skinning != SurfaceFlags().skinning) {
         line += " --skinning " + options.surface.skinning;
     }
-    char clipError[32];
-    std::snprintf(clipError, sizeof clipError, " --clip-error %g", options.clipError);
+    char clipError[80];
+    std::snprintf(clipError, sizeof clipError, " --clip-error %g", options.packing.error);
+    if (options.packing.coarseError > 0.0) {
+        std::snprintf(clipError, sizeof clipError, " --clip-error %g --coarse-clip-error %g", options.packing.error,
+                      options.packing.coarseError);
+    }
     return line + " --mapping " + options.mapping + clipError + readingOf(options.surface.reading);
 }
 
@@ -239,7 +244,7 @@ void bindCook(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"narrow", "wide", "both"}))
         ->capture_default_str();
     bindSkinning(*command, options->surface.skinning);
-    bindClipError(*command, options->clipError);
+    bindClipPacking(*command, options->packing);
     bindReading(*command, options->surface.reading);
     command->callback([options, &exitCode] {
         checkOutputs(inputsOf(options->file, options->surface.reading.clipFiles), {{"--output", options->output}});

@@ -4,6 +4,7 @@
 #include "tools/supple/command.h"
 #include "tools/supple/legend.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/progress.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
 
@@ -106,6 +107,7 @@ Status drawGallery(Session& session, const GalleryOptions& options, VkExtent2D c
     for (uint32_t column = 0; column < across; ++column)
         sheet.drawText(kSheetGap + column * (cell.width + kSheetGap) + 4, kSheetGap, columns[column], 2, kSheetInk);
     for (uint32_t row = 0; row < down; ++row) {
+        showProgress("drawing cages", row + 1, down);
         const uint32_t top = kSheetGap + kSheetLabelHeight + row * step;
         sheet.drawText(kSheetGap + 4, top, cages[row].name, 2, kSheetFaintInk);
         const Status status = drawRow(session, cages[row], options, cell, view, top + kSheetLabelHeight, sheet);
@@ -128,8 +130,12 @@ int runGallery(const GalleryOptions& options) {
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());
-    return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return drawGallery(session, options, cells->size, cells->view); });
+    const int code = withSession(deviceFlags(options.draw), [&](Session& session) {
+        return drawGallery(session, options, cells->size, cells->view);
+    });
+    if (code == kExitOk)
+        tellWritten(options.output);
+    return code;
 }
 
 } // namespace supple::tools

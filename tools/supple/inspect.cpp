@@ -5,12 +5,14 @@
 #include "skinning/clip_packer.h"
 #include "skinning/clip_table.h"
 #include "skinning/contacts.h"
+#include "skinning/packed_clip.h"
 #include "skinning/update_errors.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
+#include "tools/supple/inspect_drivers.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
 #include "tools/supple/memory_report.h"
@@ -37,7 +39,7 @@ struct InspectOptions {
     bool memory = false;
     SurfaceFlags surface; ///< of its fields those that --compare and --memory have flags for; `reading` always
     std::string clip;     ///< name or index; empty: the bind pose
-    double clipError = 0.0;
+    ClipPacking packing;
     double time = 0.0;
     DeviceFlags device;
 };
@@ -233,16 +235,29 @@ Result<MemoryFindings> measureMemory(Session& session, const host::CharacterFile
     return found;
 }
 
-/// What a packed clip takes in the clip table, and how much less that is than before.
+/// What a packed clip takes in the clip table, and how much less that is than before. Its twin comes on top.
 struct PackedFacts {
     size_t bytes = 0;
     double ratio = 1.0;
+    size_t segmentBytes = 0, twinBytes = 0; ///< of a clip with a twin
 };
 PackedFacts packedFacts(const skinning::NodeOrder& order, const cage::Clip& clip) {
-    const size_t bytes = skinning::clipBytes(order, clip);
-    return {bytes, static_cast<double>(clip.packed.unpackedBytes) / static_cast<double>(bytes)};
+    PackedFacts facts;
+    facts.twinBytes = clip.packed.coarseWords.size() * sizeof(uint32_t);
+    facts.segmentBytes = facts.twinBytes > 0 ? skinning::segmentWords(clip.packed.words) * sizeof(uint32_t) : 0;
+    facts.bytes = skinning::clipBytes(order, clip) - facts.twinBytes;
+    facts.ratio = static_cast<double>(clip.packed.unpackedBytes) / static_cast<double>(facts.bytes);
+    return facts;
 }
-
+nlohmann::ordered_json packedIn(const skinning::NodeOrder& order, const cage::Clip& clip) {
+    const PackedFacts facts = packedFacts(order, clip);
+    nlohmann::ordered_json json = {{"bytes", facts.bytes}, {"ratio", facts.ratio}, {"error", clip.packed.error}};
+    if (facts.twinBytes > 0) {
+        json["segmentBytes"] = facts.segmentBytes;
+        json["twin"] = {{"bytes", facts.twinBytes}, {"error", clip.packed.coarseError}};
+    }
+    return json;
+}
 /// When a clip's feet stand: where a --plant of theirs holds them.
 nlohmann::ordered_json contactsIn(const cage::Character& character, const skinning::Contacts& contacts, size_t clip) {
     auto list = nlohmann::ordered_json::array();
@@ -315,6 +330,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     for (const cage::Expression& expression : character.expressions) {
         json["expressions"].push_back({{"name", expression.name}, {"morphTargets", expression.targets.size()}});
     }
+    json["drivers"] = driversToJson(character);
     json["springs"] = Json::array();
     for (const cage::Spring& spring : character.springBones.springs) {
         json["springs"].push_back({{"name", spring.name}, {"joints", spring.joints.size()}});
@@ -335,8 +351,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         Json entry = {{"name", clip.name}, {"duration", clip.duration}};
         entry["markers"] = std::move(markers);
         if (!clip.packed.words.empty()) {
-            const PackedFacts facts = packedFacts(order, clip);
-            entry["packed"] = {{"bytes", facts.bytes}, {"ratio", facts.ratio}, {"error", clip.packed.error}};
+            entry["packed"] = packedIn(order, clip);
         }
         entry["contacts"] = contactsIn(character, contacts, json["clips"].size());
         entry["updateErrors"] = updateErrors(updates.ofClips[json["clips"].size()]);
@@ -409,6 +424,20 @@ std::string toText(const Folds& folds) {
 
 void printLine(const char* label, const std::string& text) {
     std::printf("%-18s %s\n", label, printable(text).c_str());
+}
+
+void printPacked(const skinning::NodeOrder& order, const cage::Clip& clip) {
+    const PackedFacts facts = packedFacts(order, clip);
+    char text[128];
+    std::snprintf(text, sizeof text, "     packed: %zu bytes, %.1f:1, error %.2g extents", facts.bytes, facts.ratio,
+                  clip.packed.error);
+    printLine("", text);
+    if (facts.twinBytes > 0) {
+        std::snprintf(text, sizeof text,
+                      "     streamed: %zu bytes of segments; coarse twin: %zu bytes, error %.2g extents",
+                      facts.segmentBytes, facts.twinBytes, clip.packed.coarseError);
+        printLine("", text);
+    }
 }
 
 /// What VRM files have besides.
@@ -498,6 +527,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("", "set " + cage::quoted(name) + ": " + std::to_string(edges) + (edges == 1 ? " edge" : " edges"));
     }
     printLine("morph targets", std::to_string(character.morphs.targets.size()));
+    if (!character.drivers.empty()) {
+        printLine("pose drivers", std::to_string(character.drivers.size()));
+    }
+    for (const std::string& line : driverLines(character)) {
+        printLine("", line);
+    }
     printVrm(character);
     printLine("joints", std::to_string(character.skin.joints.size()) + ", at most " +
                             std::to_string(findings.mostInfluences) + " a vertex");
@@ -508,11 +543,7 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         std::snprintf(duration, sizeof duration, "  %.3f s", character.clips[i].duration);
         printLine("", std::to_string(i) + "  " + character.clips[i].name + duration);
         if (!character.clips[i].packed.words.empty()) {
-            const PackedFacts facts = packedFacts(order, character.clips[i]);
-            char text[96];
-            std::snprintf(text, sizeof text, "     packed: %zu bytes, %.1f:1, error %.2g extents", facts.bytes,
-                          facts.ratio, character.clips[i].packed.error);
-            printLine("", text);
+            printPacked(order, character.clips[i]);
         }
         for (const cage::Marker& marker : character.clips[i].markers) {
             char time[32];
@@ -565,8 +596,12 @@ int runInspect(const InspectOptions& options) {
     if (!file) {
         return fail(kExitBadInput, file.error().message);
     }
-    if (options.clipError > 0.0) {
-        for (std::string& warning : skinning::packClips(file->character, options.clipError)) {
+    const auto [error, coarseError] = options.packing;
+    if (coarseError > 0.0 && !(error > 0.0 && coarseError > error)) {
+        return fail(kExitUsage, "--coarse-clip-error needs a --clip-error, and must be more than that");
+    }
+    if (error > 0.0) {
+        for (std::string& warning : skinning::packClips(file->character, error, coarseError)) {
             file->character.warnings.push_back(std::move(warning));
         }
     }
@@ -614,7 +649,7 @@ void bindInspect(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("inspect", "What a character file holds, and which schemes take it");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_flag("--json", options->json, "Print JSON");
-    bindClipError(*command, options->clipError);
+    bindClipPacking(*command, options->packing);
     bindReading(*command, options->surface.reading);
     command->add_flag("--compare", options->compare,
                       "Also evaluate every scheme that takes the cage, and say how far its surface is from the "

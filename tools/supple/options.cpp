@@ -15,7 +15,17 @@ std::string finiteNumber(const std::string& text) {
 
 } // namespace
 
+HelpGroup::HelpGroup(CLI::App& command, const char* heading)
+    : command_(command), before_(command.option_defaults()->get_group()) {
+    command.option_defaults()->group(heading);
+}
+
+HelpGroup::~HelpGroup() {
+    command_.option_defaults()->group(before_);
+}
+
 void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bool& validate) {
+    const HelpGroup heading(command, "Device");
     command.add_option("--device", device, "Device by name or index")->type_name("NAME|INDEX");
     command.add_option("--mapping", mapping, "How work is laid on the device")
         ->check(CLI::IsMember({"auto", "narrow", "wide"}))
@@ -28,6 +38,7 @@ void bindDevice(CLI::App& command, DeviceFlags& flags) {
 }
 
 void bindRecord(CLI::App& command, std::string& record) {
+    const HelpGroup heading(command, "Device");
     command.add_option("--record", record, "Write a recording of all calls, for supple replay")
         ->type_name("OUT.supprec");
 }
@@ -56,6 +67,7 @@ void bindRetargeting(CLI::App& command, host::ReadOptions& reading) {
 } // namespace
 
 void bindReading(CLI::App& command, host::ReadOptions& reading) {
+    const HelpGroup heading(command, "Reading the file");
     CLI::Option* const pair = command.add_flag("--pair-quads", reading.pairQuads,
                                                "Pair plain triangles into quads also where few of them make good ones");
     command.add_flag("--keep-triangles", reading.keepTriangles, "Never pair plain triangles into quads")
@@ -90,6 +102,7 @@ void bindReading(CLI::App& command, host::ReadOptions& reading) {
 }
 
 void bindRate(CLI::App& command, uint32_t& rate) {
+    const HelpGroup heading(command, "Surface");
     command
         .add_option("--rate", rate,
                     "Segments along a patch edge. catmull-clark, blend and fragments: along an edge of the cage; "
@@ -133,6 +146,7 @@ void bindSettings(CLI::App& command, const char* name, std::vector<T>& settings,
 
 void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartScheme>& partSchemes, uint32_t& rate,
                 std::string& skinning, host::ReadOptions& reading, const std::vector<std::string>& extraSchemes) {
+    const HelpGroup heading(command, "Surface");
     std::vector<std::string> names{"auto"};
     for (const Scheme& known : kSchemes) {
         names.emplace_back(known.name);
@@ -153,12 +167,14 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
 }
 
 void bindSkinning(CLI::App& command, std::string& skinning) {
+    const HelpGroup heading(command, "Pose");
     command.add_option("--skinning", skinning, "How joints move the cage; file: as the file says, or linearly")
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(kSkinnings), std::end(kSkinnings))))
         ->capture_default_str();
 }
 
 void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::string>& extraSchemes) {
+    const HelpGroup heading(command, "Surface");
     bindScheme(command, flags.scheme, flags.partSchemes, flags.rate, flags.skinning, flags.reading, extraSchemes);
     command.add_option("--tangents", flags.tangents, "Tangent length at extraordinary vertices")
         ->check(CLI::IsMember({"default", "printed"}))
@@ -172,6 +188,7 @@ void bindSurface(CLI::App& command, SurfaceFlags& flags, const std::vector<std::
 }
 
 void bindUvMode(CLI::App& command, std::string& uvMode) {
+    const HelpGroup heading(command, "Surface");
     command
         .add_option("--uv-mode", uvMode,
                     "How texture coordinates are interpolated, by OpenSubdiv's names: which vertices on seams and "
@@ -186,6 +203,7 @@ SuppleUvInterpolation uvInterpolationOf(const std::string& name) {
 }
 
 void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThreshold) {
+    const HelpGroup heading(command, "Surface");
     command.add_option("--creases", creases, "blend: sharp edges as cuts, or as curves in one sheet")
         ->check(CLI::IsMember({"cut", "curve"}))
         ->capture_default_str();
@@ -195,6 +213,7 @@ void bindSharpEdges(CLI::App& command, std::string& creases, float& sharpThresho
 }
 
 void bindRules(CLI::App& command, std::string& rules) {
+    const HelpGroup heading(command, "Surface");
     command.add_option("--rules", rules, "fragments: whose rules they are refined by; loop: on triangles")
         ->check(CLI::IsMember({"catmull-clark", "loop"}))
         ->capture_default_str();
@@ -241,23 +260,31 @@ const char* skinningName(SuppleSkinning skinning) {
 }
 
 void bindPose(CLI::App& command, std::string& clip, double& time, const std::string& without) {
+    const HelpGroup heading(command, "Pose");
     command.add_option("--clip", clip, "Clip by name or index; without it " + without)->type_name("NAME|INDEX");
     command.add_option("--time", time, "Seconds into the clip, clamped to it")
         ->check(CLI::Validator(finiteNumber, "SECONDS"))
         ->capture_default_str();
 }
 
-void bindClipError(CLI::App& command, double& error) {
+void bindClipPacking(CLI::App& command, ClipPacking& packing) {
     command
-        .add_option("--clip-error", error,
+        .add_option("--clip-error", packing.error,
                     "How far packing a clip may move a vertex, as a part of the character's extent; 0: clips are not "
                     "packed")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("EXTENTS")
+        ->capture_default_str();
+    command
+        .add_option("--coarse-clip-error", packing.coarseError,
+                    "How far the coarse twin of a clip may be from it, for clips that are streamed; 0: there is none")
         ->check(CLI::Range(0.0, 0.1))
         ->type_name("EXTENTS")
         ->capture_default_str();
 }
 
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
+    const HelpGroup heading(command, "Pose");
     bindSettings(command, "--morph", morphs, host::parseMorph,
                  "Weight of the morph targets of a name, in all parts; the others keep those of the file, also in "
                  "clips. May be given again",
@@ -268,6 +295,7 @@ void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs) {
 }
 
 void bindModifiers(CLI::App& command, ModifierFlags& flags) {
+    const HelpGroup heading(command, "Pose");
     bindSettings(command, "--set", flags.settings, host::parseSet,
                  "Rotation of a joint in model space, instead of the clip's. May be given again", "JOINT=qx,qy,qz,qw");
     bindSettings(
@@ -292,6 +320,7 @@ void bindModifiers(CLI::App& command, ModifierFlags& flags) {
 }
 
 void bindTransition(CLI::App& command, host::TransitionSetting& setting) {
+    const HelpGroup heading(command, "Pose");
     CLI::Option* const transition =
         command
             .add_option_function<std::string>(
@@ -316,6 +345,7 @@ void bindTransition(CLI::App& command, host::TransitionSetting& setting) {
 }
 
 void bindSimulate(CLI::App& command, double& seconds) {
+    const HelpGroup heading(command, "Pose");
     command
         .add_option("--simulate", seconds,
                     "Joints swing by the springs of the file: the clip has played, in a loop, for so long before")

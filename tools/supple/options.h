@@ -21,6 +21,19 @@ class App;
 
 namespace supple::tools {
 
+/// While one lives, what is added to a command stands under its heading in --help.
+class HelpGroup {
+public:
+    HelpGroup(CLI::App& command, const char* heading);
+    ~HelpGroup();
+    HelpGroup(const HelpGroup&) = delete;
+    HelpGroup& operator=(const HelpGroup&) = delete;
+
+private:
+    CLI::App& command_;
+    std::string before_;
+};
+
 /// --device, --mapping, --validate: wherever a device is used.
 struct DeviceFlags {
     std::string device; ///< name or index; empty: the best
@@ -95,8 +108,12 @@ void bindPose(CLI::App& command, std::string& clip, double& time, const std::str
 /// --morph, as often as it is given.
 void bindMorphs(CLI::App& command, std::vector<host::MorphSetting>& morphs);
 
-/// --clip-error: how closely clips are packed.
-void bindClipError(CLI::App& command, double& error);
+/// How closely clips are packed, and their coarse twins.
+struct ClipPacking {
+    double error = 0.0, coarseError = 0.0; ///< 0: clips are not packed; there are no twins
+};
+/// --clip-error, --coarse-clip-error.
+void bindClipPacking(CLI::App& command, ClipPacking& packing);
 
 /// --set, --aim, --two-bone, each as often as it is given, and --weight.
 struct ModifierFlags {

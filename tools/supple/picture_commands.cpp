@@ -48,12 +48,8 @@ std::vector<std::string> viewNames() {
     return names;
 }
 
-void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
-    bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
-    bindSharpEdges(command, draw.creases, draw.sharpThreshold);
-    bindRules(command, draw.rules);
-    bindUvMode(command, draw.uvMode);
-    bindMorphs(command, draw.morphs);
+void bindShown(CLI::App& command, DrawOptions& draw) {
+    const HelpGroup heading(command, "What is shown");
     command.add_option("--part", draw.parts, "Draw these parts alone; once per part (supple inspect lists them)")
         ->type_name("NAME|INDEX")
         ->allow_extra_args(false);
@@ -66,18 +62,29 @@ void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::strin
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
+    const HelpGroup camera(command, "Camera");
     command.add_option("--yaw", draw.yaw, "Degrees; 0 looks at the front")
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();
     command.add_option("--pitch", draw.pitch, "Degrees; positive looks down")
         ->check(CLI::Range(-89.0, 89.0))
         ->capture_default_str();
+}
+
+void bindDraw(CLI::App& command, DrawOptions& draw, const std::vector<std::string>& extraSchemes = {"cage"}) {
+    bindScheme(command, draw.scheme, draw.partSchemes, draw.rate, draw.skinning, draw.reading, extraSchemes);
+    bindSharpEdges(command, draw.creases, draw.sharpThreshold);
+    bindRules(command, draw.rules);
+    bindUvMode(command, draw.uvMode);
+    bindMorphs(command, draw.morphs);
+    bindShown(command, draw);
     bindDevice(command, draw.device, draw.mapping, draw.validate);
     bindRecord(command, draw.record);
 }
 
 /// What pictures have that stand alone.
 void bindLooks(CLI::App& command, DrawOptions& draw) {
+    const HelpGroup heading(command, "What is shown");
     command.add_flag("--split", draw.split, "The cage on the left half, the surface on the right one");
     command.add_flag("--levels", draw.levels,
                      "Levels of detail, as the camera needs them, instead of --rate; --view levels has them anyway");
@@ -86,8 +93,16 @@ void bindLooks(CLI::App& command, DrawOptions& draw) {
         ->capture_default_str();
 }
 
-/// A camera that stands somewhere, instead of one that frames the figure. After the options that it excludes.
+/// Closer, or a camera that stands somewhere, instead of one that frames the figure. After the options that it
+/// excludes.
 void bindCamera(CLI::App& command, RenderOptions& options) {
+    const HelpGroup heading(command, "Camera");
+    command.add_option("--zoom", options.zoom, "Closer than what fills the picture, so many times")
+        ->check(CLI::Range(1.0, 100.0))
+        ->capture_default_str();
+    command.add_option("--at", options.at, "What --zoom keeps in the middle: fractions from the upper left corner")
+        ->check(CLI::Validator(place, "X,Y"))
+        ->capture_default_str();
     const CLI::Validator isPoint(point, "X,Y,Z");
     CLI::Option* const eye =
         command.add_option("--eye", options.eye, "Where the camera stands, in units of the file")->check(isPoint);
@@ -108,6 +123,7 @@ void bindCamera(CLI::App& command, RenderOptions& options) {
 }
 
 void bindAlpha(CLI::App& command, DrawOptions& draw) {
+    const HelpGroup heading(command, "What is shown");
     command.add_flag("--alpha", draw.alpha,
                      "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
 }
@@ -150,17 +166,14 @@ void bindAnimate(CLI::App& app, int& exitCode) {
 void bindRender(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "One picture of a character");
-    command->footer("--scheme all draws one sheet of all schemes that take the cage.");
+    command->footer("Examples:\n"
+                    "  supple render hero.glb -o hero.png --clip walk --time 0.4\n"
+                    "  supple render hero.glb -o knee.png --zoom 4 --at 0.5,0.7 --view highlights --cage\n"
+                    "  supple render hero.glb -o schemes.png --scheme all --size 640x480");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
     command->add_option("--size", options->size, "Of the picture; with --scheme all of each")
         ->check(sizeValidator())
-        ->capture_default_str();
-    command->add_option("--zoom", options->zoom, "Closer than what fills the picture, so many times")
-        ->check(CLI::Range(1.0, 100.0))
-        ->capture_default_str();
-    command->add_option("--at", options->at, "What --zoom keeps in the middle: fractions from the upper left corner")
-        ->check(CLI::Validator(place, "X,Y"))
         ->capture_default_str();
     bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");

@@ -10,6 +10,7 @@
 #include "tools/supple/profile_report.h"
 #include "tools/supple/profile_rounds.h"
 #include "tools/supple/profile_sweep.h"
+#include "tools/supple/progress.h"
 #include "tools/supple/session.h"
 #include "tools/supple/text_file.h"
 
@@ -253,6 +254,7 @@ int runProfile(const ProfileOptions& options) {
     }
     std::vector<host::CharacterFile> files;
     for (const std::string& path : options.files) {
+        showProgress("reading " + path);
         Result<host::CharacterFile> file = host::readCharacterFile(path, options.surface.reading);
         if (!file) {
             return fail(kExitBadInput, file.error().message);
@@ -271,6 +273,9 @@ int runProfile(const ProfileOptions& options) {
     });
     if (code != kExitOk) {
         return code;
+    }
+    for (const OutputPath& output : outputsOf(options)) {
+        tellWritten(output.path);
     }
     for (const std::string& line : above) {
         fail(kExitGate, line);

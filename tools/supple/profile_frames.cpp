@@ -1,5 +1,6 @@
 #include "tools/supple/profile_frames.h"
 
+#include "tools/supple/progress.h"
 #include "tools/supple/view_hashes.h"
 
 #include <array>
@@ -150,12 +151,18 @@ void Profiler::readClocks(ProfileRun& run) const {
 Status Profiler::frames(ProfileStage& stage, ProfileRun& run) {
     ProfileRing ring(*session_.device);
     Status status = ring.create();
-    for (uint32_t i = 0; status && i < kWarmUpFrames + options_.frames; ++i) {
+    constexpr uint32_t kFramesALine = 10; // of a terminal, which takes time itself
+    const uint32_t count = kWarmUpFrames + options_.frames;
+    for (uint32_t i = 0; status && i < count; ++i) {
+        if (i % kFramesALine == 0) {
+            showProgress("measuring frames of " + run.file, i + 1, count);
+        }
         if (i == kWarmUpFrames) {
             readClocks(run);
         }
         status = frame(ring, i, stage, run);
     }
+    endProgress();
     // The last frames' timings come in once the library is told that they have finished.
     for (uint32_t i = 0; status && i < kFramesInFlight; ++i) {
         status = ring.wait(frame_ = session_.context->nextFrame());

@@ -3,6 +3,7 @@
 #include "tools/common/figure_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/progress.h"
 #include "tools/supple/render_stage.h"
 #include "tools/supple/sheet_style.h"
 
@@ -138,6 +139,7 @@ Status drawSheet(std::vector<Shown>& all, const host::Scene& scene, const Render
     const uint32_t stepY = kSheetLabelHeight + cell.height + kSheetGap;
     host::Picture sheet = blankSheet(kSheetGap + columns * stepX, kSheetGap + rows * stepY);
     for (uint32_t i = 0; i < count; ++i) {
+        showProgress("drawing schemes", i + 1, count);
         const Result<host::Picture> picture = all[i].stage->draw(scene, options.draw.alpha);
         if (!picture)
             return picture.error();
@@ -156,6 +158,7 @@ Status render(Session& session, const RenderOptions& options, VkExtent2D size, u
         if (!shown)
             return shown.error();
         all.push_back(std::move(*shown));
+        showProgress("drawing");
         const Result<host::Picture> picture =
             all.front().stage->draw(sceneFor(all, options, size, view), options.draw.alpha);
         if (!picture)
@@ -209,8 +212,12 @@ int runRender(const RenderOptions& options) {
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());
-    return withSession(deviceFlags(options.draw),
-                       [&](Session& session) { return render(session, options, picture->size, picture->view); });
+    const int code = withSession(deviceFlags(options.draw), [&](Session& session) {
+        return render(session, options, picture->size, picture->view);
+    });
+    if (code == kExitOk)
+        tellWritten(options.output);
+    return code;
 }
 
 } // namespace supple::tools

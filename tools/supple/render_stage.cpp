@@ -4,6 +4,7 @@
 
 #include "tools/common/figure_file.h"
 #include "tools/supple/legend.h"
+#include "tools/supple/progress.h"
 #include "tools/supple/views.h"
 
 #include <algorithm>
@@ -152,6 +153,7 @@ Status Stage::openRenderer(VkExtent2D size) {
 
 Result<std::unique_ptr<Stage>> Stage::open(Session& session, const std::string& file, VkExtent2D size,
                                            const DrawOptions& options) {
+    showProgress("reading " + file);
     Result<host::CharacterFile> character = host::readCharacterFile(file, options.reading);
     return character ? open(session, std::move(*character), size, options) : character.error();
 }
@@ -170,10 +172,12 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile
     if (!figure)
         return figure.error();
     stage->figure_ = std::move(*figure);
+    showProgress("making the surface of " + file);
     Result<std::unique_ptr<host::FigureGroup>> group = stage->createGroup(false);
     if (!group)
         return group.error();
     stage->group_ = std::move(*group);
+    showProgress("compiling kernels and posing; the first time takes longest");
     if (const Status status = stage->openRenderer(size); !status)
         return status.error();
     if (options.view == "weights") {

@@ -1,6 +1,7 @@
 #include "tools/supple/session.h"
 
 #include "tools/supple/command.h"
+#include "tools/supple/progress.h"
 
 namespace supple::tools {
 
@@ -32,6 +33,7 @@ Status inSession(const DeviceFlags& flags, const std::function<Status(Session&)>
 
 int withSession(const DeviceFlags& flags, const std::function<Status(Session&)>& work) {
     const Status status = inSession(flags, work);
+    endProgress();
     return status ? kExitOk : fail(status.error());
 }
 

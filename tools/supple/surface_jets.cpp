@@ -1,13 +1,15 @@
 #include "tools/supple/surface_jets.h"
 
+#include "cpu/blend.h"
+#include "cpu/catmull_clark.h"
+#include "cpu/grid_sample.h"
+#include "cpu/loop.h"
+#include "cpu/patch_faces.h"
+#include "cpu/patch_place.h"
+#include "cpu/stencils.h"
 #include "surface/patch_class.h"
-#include "tools/reference/blend.h"
-#include "tools/reference/catmull_clark.h"
-#include "tools/reference/grid.h"
-#include "tools/reference/loop.h"
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"
-#include "tools/reference/stencils.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,61 +24,13 @@ using surface::SurfaceJet;
 
 constexpr double kInside = 1e-3;
 
-/// A face of the mesh that a scheme makes patches of, and the corner of it that is corner 0 of the patch.
-struct PatchFace {
-    uint32_t face = 0, firstCorner = 0;
-};
-
-/// Finds the face of every patch by the cage's face and vertices that both name.
-class FaceFinder {
-public:
-    /// `corners` of a face: vertices of the cage, or SUPPLE_NO_VERTEX for points that the scheme added.
-    void add(uint32_t sourceFace, std::vector<uint32_t> corners) {
-        if (sourceFace >= bySource_.size())
-            bySource_.resize(sourceFace + 1);
-        bySource_[sourceFace].push_back(static_cast<uint32_t>(faces_.size()));
-        faces_.push_back(std::move(corners));
-    }
-    [[nodiscard]] Result<std::vector<PatchFace>> find(std::span<const SupplePatchInfo> patches) const {
-        std::vector<PatchFace> found;
-        for (const SupplePatchInfo& patch : patches) {
-            const size_t before = found.size();
-            for (uint32_t turn = 0; turn < patch.cornerCount && found.size() == before; ++turn) {
-                for (const uint32_t face : candidates(patch.face)) {
-                    if (found.size() == before && agrees(faces_[face], patch, turn))
-                        found.push_back({face, turn});
-                }
-            }
-            if (found.size() == before)
-                return Error{ErrorCode::argument, "face " + std::to_string(patch.face) + ": the patch is not found"};
-        }
-        return found;
-    }
-
-private:
-    [[nodiscard]] std::span<const uint32_t> candidates(uint32_t sourceFace) const {
-        return sourceFace < bySource_.size() ? std::span<const uint32_t>(bySource_[sourceFace])
-                                             : std::span<const uint32_t>();
-    }
-    static bool agrees(const std::vector<uint32_t>& corners, const SupplePatchInfo& patch, uint32_t turn) {
-        bool same = corners.size() == patch.cornerCount;
-        for (uint32_t i = 0; same && i < patch.cornerCount; ++i)
-            same = corners[(i + turn) % patch.cornerCount] == patch.corners[i];
-        return same;
-    }
-    std::vector<std::vector<uint32_t>> faces_;
-    std::vector<std::vector<uint32_t>> bySource_;
-};
+using cpu::FaceFinder;
+using cpu::PatchFace;
 
 /// The faces of a mesh whose first vertices are the cage's.
 FaceFinder finderOf(const cage::Cage& mesh, std::span<const uint32_t> sourceFaces, uint32_t cageVertices) {
     FaceFinder finder;
-    for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-        std::vector<uint32_t> corners;
-        for (uint32_t c = mesh.faceStarts[f]; c < mesh.faceStarts[f + 1]; ++c)
-            corners.push_back(mesh.faceVertices[c] < cageVertices ? mesh.faceVertices[c] : SUPPLE_NO_VERTEX);
-        finder.add(sourceFaces.empty() ? f : sourceFaces[f], std::move(corners));
-    }
+    finder.addAll(mesh, sourceFaces, cageVertices);
     return finder;
 }
 
@@ -211,24 +165,10 @@ Result<Jets> loopJets(const JetSource& source, const cage::Cage& cage, std::span
 }
 
 /// Fragments draw the isolated mesh, whose faces come four by four of a face before: in each of its corners one, and of
-/// triangles the middle. In the order of the device.
-std::vector<uint32_t> drawnFaces(const cage::Cage& mesh) {
-    std::vector<uint32_t> faces;
-    for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-        if (!std::binary_search(mesh.holes.begin(), mesh.holes.end(), f))
-            faces.push_back(f);
-    }
-    const auto key = [&](uint32_t f) {
-        return std::tuple(mesh.faceMaterials.empty() ? cage::kNone : mesh.faceMaterials[f],
-                          mesh.faceParts.empty() ? 0 : mesh.faceParts[f]);
-    };
-    std::stable_sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-    return faces;
-}
-
+/// triangles the middle.
 Result<Jets> fragmentJets(const JetSource& source, const cage::Cage& cage, std::span<const glm::dvec3> positions) {
     const auto drawn = [](const surface::subdivision::Isolation& isolation) {
-        return Result<std::vector<uint32_t>>(drawnFaces(isolation.mesh.cage));
+        return Result<std::vector<uint32_t>>(cpu::drawnFaces(isolation.mesh.cage));
     };
     if (source.rules.fragments == SUPPLE_RULES_LOOP) {
         return limitJets<TriangleLimit>(cage, positions, Subdivision::loop, drawn,

@@ -3,7 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
-#include "tools/reference/jet.h"
+#include "cpu/jet.h"
 
 #include <supple/supple.h>
 

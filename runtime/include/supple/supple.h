@@ -505,7 +505,8 @@ typedef struct SuppleAssetDesc {
      * files: small files can ask for much. 0: 16 MiB, and 64 bytes for each byte of the file and of those that it
      * names. A file that needs more is refused with SUPPLE_ERROR_LIMIT before it gets it. */
     uint64_t memoryLimit;
-    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize must be 0.
+    /** Instead of bytes, cage or character: what supplePrepare made. Then all other members but structSize and
+     * clipPoolBytes must be 0.
      * It need not outlive the call. */
     SupplePrepared prepared;
     const SuppleCharacterDesc* character; /**< instead of bytes or cage */
@@ -520,6 +521,13 @@ typedef struct SuppleAssetDesc {
      * retargeted even if their skeleton is the asset's. Errors: a role that there is none of, a node that the asset
      * does not have, a clip file that cannot be retargeted, SUPPLE_RETARGET_NEVER. */
     const SuppleJointPair* jointPairs;
+    /** Also with `prepared`; not for supplePrepare. Bytes of device memory for segments of clips that have a coarse
+     * twin (SupplePrepareDesc.coarseClipError): the device then has those segments that suppleRequestClip has asked
+     * for, and what lacks its segments plays the twin (docs/playback.md, "Streaming"). There is room for the largest
+     * segment, however few bytes these are, and for no more than all segments. Clips without a twin are there as a
+     * whole; if no clip has one, a warning says that this is of no use. suppleReloadAsset takes what is given there. 0:
+     * all segments are there from the beginning. */
+    uint64_t clipPoolBytes;
 } SuppleAssetDesc;
 
 /** What an asset holds. The meshes of all nodes of the scene are parts of one character. Vertices that the file repeats
@@ -593,12 +601,21 @@ typedef struct SupplePartInfo {
 /** An animation clip. */
 typedef struct SuppleClipInfo {
     uint32_t structSize;
-    const char* name;   /**< lives as long as the asset */
-    double duration;    /**< seconds */
-    uint64_t byteCount; /**< that it takes on the device, beside key times that it shares with other clips */
+    const char* name; /**< lives as long as the asset */
+    double duration;  /**< seconds */
+    /** That it takes on the device if all its segments are there, with its coarse twin, beside key times that it shares
+     * with other clips. With a pool the segments are in that: then it takes byteCount - segmentBytes beside it. */
+    uint64_t byteCount;
     /** How far packing has moved a vertex at most, as a part of the extent (SupplePrepareDesc.clipError); 0: the clip
      * is not packed. */
     double packedError;
+    /** The same of its coarse twin (SupplePrepareDesc.coarseClipError); 0: the clip has none, and is never streamed. */
+    double coarseError;
+    uint64_t segmentBytes; /**< that its segments take, of byteCount; 0 without a twin */
+    /** Of these, those of segments that groups play in the next suppleRecord; for the others they play the twin. All of
+     * them, if the asset has no pool (SuppleAssetDesc.clipPoolBytes). The sum over all clips of an asset is what its
+     * pool holds. */
+    uint64_t residentBytes;
 } SuppleClipInfo;
 
 /** A box with sides along the axes. min is greater than max where there is nothing. */
@@ -988,16 +1005,17 @@ typedef enum SuppleGroupFlags {
      * per node. SuppleGroupInfo.poses has what is shown, as ever. The first group of an asset with this flag measures
      * its clips, which takes some milliseconds for each. */
     SUPPLE_GROUP_UPDATE_RATES = 4096,
-    /** With SUPPLE_POSES_PLAYBACK or SUPPLE_POSES_SET: joints swing by the springs of the character's file (VRM: docs/springs.md), behind
-     * layers, transitions and modifiers, in steps of 1/60 s of the group's time. What a step leaves depends on the
-     * times at which calls are made, not on the frames between. It has no effect if the file has no springs. Instances
-     * in the bind pose do not swing. suppleGetJointTransform gives joints without their swinging. An instance that was
-     * just created, or whose time has gone back or forward by more than 8 steps, begins with its joints at rest in the
-     * pose; so does one that was hidden, or out of a view's sight, for more than 8 steps. suppleTeleport keeps how they
-     * hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for an instance: 10 times the
-     * matrices of all nodes, and 64 bytes for each joint. It does not go with SUPPLE_GROUP_UPDATE_RATES.
+    /** With SUPPLE_POSES_PLAYBACK or SUPPLE_POSES_SET: joints swing by the springs of the character's file (VRM:
+     * docs/springs.md), behind layers, transitions and modifiers, in steps of 1/60 s of the group's time. What a step
+     * leaves depends on the times at which calls are made, not on the frames between. It has no effect if the file has
+     * no springs. Instances in the bind pose do not swing. suppleGetJointTransform gives joints without their swinging.
+     * An instance that was just created, or whose time has gone back or forward by more than 8 steps, begins with its
+     * joints at rest in the pose; so does one that was hidden, or out of a view's sight, for more than 8 steps.
+     * suppleTeleport keeps how they hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for
+     * an instance: 10 times the matrices of all nodes, and 64 bytes for each joint. It does not go with
+     * SUPPLE_GROUP_UPDATE_RATES.
      *
-     * With SUPPLE_POSES_SET the CPU runs the steps, in suppleRecord, of all instances whether they are seen or not. Their
+     * With SUPPLE_POSES_SET the CPU runs the steps of all visible instances, in sight or not, in suppleRecord. Their
      * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,
      * so what it leaves depends on frames too. No box is known of such instances before they are posed. */
     SUPPLE_GROUP_SPRINGS = 8192
@@ -1153,7 +1171,8 @@ SUPPLE_API SuppleResult suppleSetClipPose(SuppleContext context, SuppleInstance 
 SUPPLE_API SuppleResult suppleSetMatrixPose(SuppleContext context, SuppleInstance instance, const float* jointMatrices,
                                             uint32_t jointCount);
 /** Sets an instance's morph weights (morphTargetCount values). They replace the weights of all its poses, until you
- * pass null. Errors: morphTargetCount is not the asset's, a weight is not finite. */
+ * pass null; pose drivers of the file (docs/pose_drivers.md) add to them. Errors: morphTargetCount is not the asset's,
+ * a weight is not finite. */
 SUPPLE_API SuppleResult suppleSetMorphWeights(SuppleContext context, SuppleInstance instance, const float* weights,
                                               uint32_t morphTargetCount);
 
@@ -1288,8 +1307,9 @@ typedef struct SuppleRecordDesc {
     SuppleSyncScope after;
     /** The host's time in seconds, within plus or minus SUPPLE_MAX_TIME: the same for all groups of a frame. What moves
      * by itself, with what it remembers of each instance, gets the time that has passed since the group was recorded
-     * last. If the time has not risen since then, it stands still. Springs of groups with SUPPLE_POSES_SET move by it
-     * (SUPPLE_GROUP_SPRINGS); where there are none it may be 0. Clips play by suppleSetTime. */
+     * last. If the time has not risen since then, it stands still; springs that see it go back begin anew. Springs of
+     * groups with SUPPLE_POSES_SET move by it (SUPPLE_GROUP_SPRINGS); where there are none it may be 0. Clips play by
+     * suppleSetTime. */
     double time;
 } SuppleRecordDesc;
 

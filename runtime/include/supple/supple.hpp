@@ -362,6 +362,10 @@ public:
         out = sized<SuppleClipInfo>();
         return suppleGetClipInfo(context_, handle_, clip, &out);
     }
+    /// Null: the whole clip.
+    [[nodiscard]] SuppleResult requestClip(uint32_t clip, const SuppleClipRequest* request = nullptr) const {
+        return suppleRequestClip(context_, handle_, clip, request);
+    }
     /// The box of the cage.
     [[nodiscard]] SuppleResult clipBounds(uint32_t clip, SuppleBounds& out) const {
         return suppleGetClipBounds(context_, handle_, clip, &out);

@@ -169,6 +169,52 @@ SUPPLE_API SuppleResult suppleGetClipMarkersBetween(SuppleContext context, Suppl
                                                     double from, double to, uint32_t flags, SuppleClipMarker* out,
                                                     uint32_t* count);
 
+/* ---------------------------------------------------------------------------------------------------- streaming */
+
+/** What a host wants of a stretch of a clip. */
+typedef enum SuppleClipUse {
+    /** It is played soon: its segments are brought to the device. They go again when segments that were asked for later
+     * need the room. */
+    SUPPLE_CLIP_REQUEST = 0,
+    SUPPLE_CLIP_PIN = 1,     /**< the same, and they stay until they are released or merely requested */
+    SUPPLE_CLIP_RELEASE = 2, /**< they go first when room is needed; what is on its way is given up */
+    SUPPLE_CLIP_USE_MAX_ENUM = 0x7FFFFFFF
+} SuppleClipUse;
+
+/** A stretch of a clip, and what is wanted of it. */
+typedef struct SuppleClipRequest {
+    uint32_t structSize;
+    SuppleClipUse use; /**< 0: its segments are brought to the device */
+    double begin;      /**< seconds into the clip: the segments from the one that has this time */
+    double end; /**< to the one that has this time; 0: to the clip's end. What lies beyond the clip does not count */
+} SuppleClipRequest;
+
+/** Asks for segments of a clip, of an asset with a pool (SuppleAssetDesc.clipPoolBytes). Until a segment is there, its
+ * times play the clip's coarse twin. A segment has 32 frames, at most 1.4 seconds of most clips. Of clips without a
+ * twin, and of assets without a pool, all is there already, and the call does nothing.
+ *
+ * request: null asks for the whole clip. Asking again for what is there only makes it newer: a game may do so whenever
+ * a clip starts. Whoever goes on through a long clip asks for a few seconds ahead. A stretch does not go on at the
+ * clip's beginning: at the seam of a loop, ask for both ends.
+ *
+ * What has been asked for before the asset's first group that plays is created is there from the beginning. Later
+ * segments go up with the frames that record groups of the asset or call suppleRecordUploads, those that were asked for
+ * first before others: in each frame at most half of the upload budget that suppleBeginFrame finds
+ * (suppleSetUploadBudget), without a budget 64 KiB, and 16 bytes for each segment that comes or goes. These bytes count
+ * in SuppleUploadState.frameBytes of suppleGetUploadState, but not in those of assets and groups. Segments play from
+ * the next suppleBeginFrame on. suppleGetClipInfo tells what is there, getters of joints have the bits of what plays.
+ * suppleReloadAsset asks for the same of clips of the same name.
+ *
+ * If there is no room for a segment, because all that is there is pinned or was asked for later, it waits for some.
+ * What is pinned always finds room. Segments move within the pool if what is free lies in pieces that are too small:
+ * they play on meanwhile, unless the budget of a frame has no room for one of them; then its twin plays until it is
+ * there again.
+ *
+ * For one thread, as what creates assets is. Errors: no such clip or use; begin or end negative, not finite, or begin
+ * behind end; SUPPLE_ERROR_LIMIT: more is pinned than the pool has. */
+SUPPLE_API SuppleResult suppleRequestClip(SuppleContext context, SuppleAsset asset, uint32_t clip,
+                                          const SuppleClipRequest* request);
+
 /* ---------------------------------------------------------------------------------------------------- playback */
 
 /** One clip that an instance plays. T is the group's time (suppleSetTime). The clip's time is

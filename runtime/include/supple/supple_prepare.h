@@ -33,10 +33,13 @@ typedef struct SupplePrepareDesc {
     SuppleLogFunction log; /**< optional: errors, and warnings about the file */
     void* logUser;
     /** How far packing may move a vertex from where a clip has it, as a part of the extent, 0..0.1: 1e-4 suits most
-     * games (docs/playback.md). Clips then take a fifth to an eighth of the memory on the device. 0: they stay as they are.
-     * Clips that are packed already stay, too. Packing takes a while: let cooked files keep it. */
+     * games (docs/playback.md). Clips then take a fifth to an eighth of the memory on the device. 0: they stay as they
+     * are. Clips that are packed already stay, too. Packing takes a while: let cooked files keep it. */
     float clipError;
-    uint32_t reserved; /**< 0 */
+    /** How far a clip's coarse twin may be from the clip, in the same unit, 0..0.1: 1e-2 suits clips that are streamed
+     * (SuppleAssetDesc.clipPoolBytes, docs/playback.md), others need no twin. 0: clips get none. Twins take 0.4 to 0.5
+     * of what packed clips do, in addition. Errors: it is not 0 and not more than clipError. */
+    float coarseClipError;
 } SupplePrepareDesc;
 
 /** Reads a character and builds what its groups will need: skin tables, the tables of each scheme, and the tables of

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <supple/supple.h>
+#include <supple/supple_cpu.h>
 
 int main(void) {
     SuppleContext context = NULL;
@@ -10,6 +11,10 @@ int main(void) {
     }
     if (suppleCreateContext(NULL, &context) != SUPPLE_ERROR_ARGUMENT || context != NULL) {
         return 2;
+    }
+    SuppleCpuGroup surfaces = NULL;
+    if (suppleCpuCreateGroup(NULL, &surfaces) != SUPPLE_ERROR_ARGUMENT || surfaces != NULL) {
+        return 3;
     }
     printf("C %d.%d.%d %s\n", SUPPLE_VERSION_MAJOR, SUPPLE_VERSION_MINOR, SUPPLE_VERSION_PATCH,
            suppleResultString(SUPPLE_ERROR_ARGUMENT));

@@ -1,11 +1,11 @@
 // The exact limit surface against stored vectors, against the fragments at their samples, and against its own
 // derivatives.
+#include "cpu/catmull_clark.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
-#include "tools/reference/catmull_clark.h"
 #include "tools/reference/fragments.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Arithmetic must round as written: both faces at an edge make its samples of the same operands in the same order. The
 // sums are those of docs/blend.md.
-#include "tools/reference/blend.h"
+#include "cpu/blend.h"
 
 #include "shaders/shared/blend.h"
 
@@ -33,6 +33,23 @@ constexpr double kTinyNormal = 1e-12;
 } // namespace
 
 template <class T>
+ChartCoefficients<T> coefficientsOf(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t number,
+                                    std::span<const glm::vec<3, T>> positions) {
+    const Chart& chart = mesh.charts[number];
+    const FitMatrix& matrix = matrices[chart.chartClass];
+    const glm::vec<3, T> vertex = positions[chart.vertex];
+    ChartCoefficients<T> c;
+    for (uint32_t row = 0; row < kCoefficients; ++row) {
+        glm::vec<3, T> sum(T(0));
+        for (uint32_t i = 0; i < matrix.ringPoints; ++i) {
+            sum += T(matrix.weight(row, i)) * (positions[mesh.ring[chart.firstRing + i]] - vertex);
+        }
+        c[row] = row == 0 ? vertex + sum : sum;
+    }
+    return c;
+}
+
+template <class T>
 std::vector<ChartCoefficients<T>> construct(const Mesh& mesh, std::span<const glm::vec<3, T>> positions) {
     std::vector<FitMatrix> matrices;
     for (const ChartClass& chartClass : mesh.classes) {
@@ -40,17 +57,8 @@ std::vector<ChartCoefficients<T>> construct(const Mesh& mesh, std::span<const gl
     }
     std::vector<ChartCoefficients<T>> all;
     all.reserve(mesh.charts.size());
-    for (const Chart& chart : mesh.charts) {
-        const FitMatrix& matrix = matrices[chart.chartClass];
-        const glm::vec<3, T> vertex = positions[chart.vertex];
-        ChartCoefficients<T>& c = all.emplace_back();
-        for (uint32_t row = 0; row < kCoefficients; ++row) {
-            glm::vec<3, T> sum(T(0));
-            for (uint32_t i = 0; i < matrix.ringPoints; ++i) {
-                sum += T(matrix.weight(row, i)) * (positions[mesh.ring[chart.firstRing + i]] - vertex);
-            }
-            c[row] = row == 0 ? vertex + sum : sum;
-        }
+    for (uint32_t chart = 0; chart < mesh.charts.size(); ++chart) {
+        all.push_back(coefficientsOf<T>(mesh, matrices, chart, positions));
     }
     return all;
 }
@@ -405,6 +413,8 @@ SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<doubl
     return sum;
 }
 
+template ChartCoefficients<double> coefficientsOf<double>(const Mesh&, std::span<const FitMatrix>, uint32_t,
+                                                          std::span<const glm::dvec3>);
 template std::vector<ChartCoefficients<float>> construct<float>(const Mesh&, std::span<const glm::vec3>);
 template std::vector<ChartCoefficients<double>> construct<double>(const Mesh&, std::span<const glm::dvec3>);
 template class Evaluator<float>;

@@ -1,7 +1,6 @@
-#include "tools/reference/loop.h"
+#include "cpu/loop.h"
 
-#include "tools/reference/fragment.h"
-#include "tools/reference/fragments.h"
+#include "cpu/fragment.h"
 
 #include <array>
 #include <cmath>
@@ -11,7 +10,8 @@ namespace {
 
 using subdivision::Fan;
 using subdivision::Fragment;
-using subdivision::FragmentNet;
+using subdivision::LevelNet;
+using subdivision::LimitShape;
 
 constexpr int kMostLevels = 40;
 
@@ -43,12 +43,12 @@ constexpr std::array<Mirror, 6> kMirrors = {{{0, {-1, 0}, {0, 0}, {-1, 1}, {0, 1
 /// the point that makes a parallelogram with the triangle at the crease.
 class Lattice {
 public:
-    Lattice(const FragmentNet<double>& net, const Fan& fan, uint32_t sector)
+    Lattice(const LevelNet& net, const Fan& fan, uint32_t sector)
         : points_(net.points()), fan_(fan), sector_(sector),
           facet_(false), sharpness_{net.sharpnessOf(sector),
                                     net.sharpnessOf((sector + 1) % (fan.sectors + (fan.open ? 1 : 0))), 0.0f},
           sharp_{sharpness_[0] > 0.0f, sharpness_[1] > 0.0f, false} {}
-    explicit Lattice(const FragmentNet<double>& net)
+    explicit Lattice(const LevelNet& net)
         : points_(net.points()), facet_(true), sharpness_{net.sharpnessOf(0), net.sharpnessOf(1), net.sharpnessOf(2)},
           sharp_{sharpness_[0] > 0.0f, sharpness_[1] > 0.0f, sharpness_[2] > 0.0f} {}
 
@@ -88,7 +88,7 @@ private:
         return points_[facet_ ? subdivision::facetPointIndex(1, p.a, p.b) : pointIndex(fan_, sector_, p.a, p.b)];
     }
 
-    const std::vector<glm::dvec3>& points_;
+    std::span<const glm::dvec3> points_;
     Fan fan_;
     uint32_t sector_ = 0;
     bool facet_;
@@ -116,15 +116,18 @@ Point boxSpline(const Lattice& lattice, const Place& origin, int32_t orientation
     }};
     Point point;
     point.position = centre;
-    for (int m = 0; m <= 4; ++m) {
-        for (int n = 0; m + n <= 4; ++n) {
-            const glm::dvec3& own = c[static_cast<size_t>(m)][static_cast<size_t>(n)];
-            point.position += own * std::pow(x, m) * std::pow(y, n);
-            point.du += m == 0 ? glm::dvec3(0.0) : own * (m * std::pow(x, m - 1) * std::pow(y, n));
-            point.dv += n == 0 ? glm::dvec3(0.0) : own * (n * std::pow(x, m) * std::pow(y, n - 1));
-            point.duu += m < 2 ? glm::dvec3(0.0) : own * (m * (m - 1) * std::pow(x, m - 2) * std::pow(y, n));
-            point.duv += m == 0 || n == 0 ? glm::dvec3(0.0) : own * (m * n * std::pow(x, m - 1) * std::pow(y, n - 1));
-            point.dvv += n < 2 ? glm::dvec3(0.0) : own * (n * (n - 1) * std::pow(x, m) * std::pow(y, n - 2));
+    const std::array<double, 5> xs{1.0, x, x * x, x * x * x, x * x * x * x};
+    const std::array<double, 5> ys{1.0, y, y * y, y * y * y, y * y * y * y};
+    for (size_t m = 0; m <= 4; ++m) {
+        for (size_t n = 0; m + n <= 4; ++n) {
+            const glm::dvec3& own = c[m][n];
+            const auto dm = static_cast<double>(m), dn = static_cast<double>(n);
+            point.position += own * (xs[m] * ys[n]);
+            point.du += m == 0 ? glm::dvec3(0.0) : own * (dm * xs[m - 1] * ys[n]);
+            point.dv += n == 0 ? glm::dvec3(0.0) : own * (dn * xs[m] * ys[n - 1]);
+            point.duu += m < 2 ? glm::dvec3(0.0) : own * (dm * (dm - 1.0) * xs[m - 2] * ys[n]);
+            point.duv += m == 0 || n == 0 ? glm::dvec3(0.0) : own * (dm * dn * xs[m - 1] * ys[n - 1]);
+            point.dvv += n < 2 ? glm::dvec3(0.0) : own * (dn * (dn - 1.0) * xs[m] * ys[n - 2]);
         }
     }
     return point;
@@ -238,28 +241,13 @@ void addSpokes(const Lattice& lattice, double x, double y, Point& point) {
 
 } // namespace
 
-LimitSurface::LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
-    : mesh_(mesh), isolated_(subdivision::isolate<double>(mesh, positions)), sectors_(mesh.cage.faceCount()) {
-    const FragmentNet<double> net(mesh, isolated_);
-    for (uint32_t f = 0; f < mesh.fragments.size(); ++f) {
-        const Fragment& fragment = mesh.fragments[f];
-        const Fan fan = net.fanOf(fragment);
-        if (fragment.kind == subdivision::FragmentKind::vertex && !patterns_.contains(fan)) {
-            patterns_.emplace(fan, fanPattern(fan, 1));
-        }
-        for (uint32_t h = 0; h < fragment.sectors; ++h) {
-            sectors_[mesh.sectorFaces[fragment.firstSector + h]] = {f, h};
-        }
-    }
-}
-
 Point LimitSurface::at(uint32_t triangle, double v, double w) const {
     const std::array<double, 3> weights = {1.0 - v - w, v, w};
     uint32_t corner = 0;
     while (corner < 3 && weights[corner] <= 0.5) {
         ++corner;
     }
-    const Sector& sector = sectors_[4 * size_t{triangle} + corner];
+    const Sector& sector = pose_->shape().sectors()[4 * size_t{triangle} + corner];
     Point point = corner == 3 ? inMiddle(sector, 1.0 - 2.0 * weights[0], 1.0 - 2.0 * weights[1])
                               : atDistance(sector, weights[(corner + 1) % 3], weights[(corner + 2) % 3]);
     const glm::dvec3 a = point.du, b = point.dv;
@@ -278,19 +266,17 @@ Point LimitSurface::at(uint32_t triangle, double v, double w) const {
 }
 
 Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
-    const Fragment& fragment = mesh_.fragments[sector.fragment];
-    FragmentNet<double> net(mesh_, isolated_);
-    net.load(fragment);
-    const Fan fan = net.fanOf(fragment);
-    if (a + b < std::exp2(-kMostLevels)) {
-        return catmull_clark::limitAtCentre(mesh_, isolated_, sector.fragment, sector.number);
+    const LimitShape& shape = pose_->shape();
+    const Fragment& fragment = shape.mesh().fragments[sector.fragment];
+    const bool uniform = shape.isUniform(sector.fragment);
+    if (!uniform && a + b < std::exp2(-kMostLevels)) {
+        return catmull_clark::limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number);
     }
     int exponent = 0;
     std::frexp(a + b, &exponent);
-    const int level = std::max(1 - exponent, 2); // 2^-level <= a + b < 2^(1 - level)
-    for (int j = 2; j <= level; ++j) {
-        net.refine(fan, patterns_.at(fan), pointCount(fan, 3));
-    }
+    const int level = uniform ? 2 : std::max(1 - exponent, 2); // 2^-level <= a + b < 2^(1 - level)
+    const LevelNet net(*pose_, sector.fragment, static_cast<uint32_t>(level));
+    const Fan fan{Subdivision::loop, fragment.sectors, fragment.open};
     const Lattice lattice(net, fan, sector.number);
     const double scale = std::exp2(level), x = a * scale, y = b * scale;
     Point point;
@@ -298,21 +284,24 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
         point = boxSpline(lattice, {1, 0}, 1, x - 1.0, y);
     } else if (y >= 1.0) {
         point = boxSpline(lattice, {0, 1}, 1, x, y - 1.0);
+    } else if (x + y < 1.0) { // of a uniform vertex alone: elsewhere a finer level has the place
+        point = boxSpline(lattice, {0, 0}, 1, x, y);
     } else {
         point = boxSpline(lattice, {1, 1}, -1, 1.0 - x, 1.0 - y);
         point.du = -point.du, point.dv = -point.dv;
     }
     addSpokes(lattice, x, y, point);
+    point.position += net.origin();
     point.du *= scale, point.dv *= scale;
     catmull_clark::turnSecondDerivatives({scale, 0.0}, {0.0, scale}, point);
     return point;
 }
 
 Point LimitSurface::inMiddle(const Sector& facet, double x, double y) const {
-    FragmentNet<double> net(mesh_, isolated_);
-    net.load(mesh_.fragments[facet.fragment]);
+    const LevelNet net(*pose_, facet.fragment, 1);
     const Lattice lattice(net);
     Point point = boxSpline(lattice, {0, 0}, 1, x, y);
+    point.position += net.origin();
     const std::array<double, 3> weights = {1.0 - x - y, x, y};
     const std::array<glm::dvec2, 3> slopes = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
     for (size_t corner = 0; corner < 3; ++corner) {

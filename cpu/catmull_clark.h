@@ -1,16 +1,14 @@
 // The limit surface of Catmull-Clark at any parameter, in double: bicubic B-spline leaves of ever smaller quads round a
-// vertex, where creases are weights (docs/catmull_clark.md). For tests, comparisons and queries.
+// vertex, where creases are weights (docs/catmull_clark.md).
 #pragma once
 
-#include "surface/subdivision/mesh.h"
-#include "surface/subdivision/pattern.h"
-#include "tools/reference/jet.h"
+#include "cpu/jet.h"
+#include "cpu/limit_nets.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace supple::surface::catmull_clark {
 
@@ -35,28 +33,26 @@ void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& poin
 /// face f gives one quad per corner, in the order of the corners (surface::refine()).
 class LimitSurface {
 public:
-    /// `mesh`: of Catmull-Clark; must outlive this. `positions`: of the cage it was built from.
-    LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions);
+    /// `pose`: of a mesh of Catmull-Clark; must outlive this.
+    explicit LimitSurface(const subdivision::LimitPose& pose) : pose_(&pose) {}
+    /// The mesh must outlive it. The positions are those of the cage that it was built from.
+    LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
+        : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 
-    [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(sectors_.size() / 4); }
+    [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 
     /// At (u, v) of a quad, both from 0 to 1, u from corner 0 to corner 1. The position is exact to rounding but within
-    /// 2^-40 of a corner, where it is the corner's. There all derivatives are zero. The normal is the limit's, but for
-    /// a run of several faces between creases at a corner, where it is a mean (docs/subdivision.md).
+    /// 2^-40 of a corner, where it is the corner's. There all derivatives are zero, but of corners where all faces are
+    /// regular. The normal is the limit's, but for a run of several faces between creases at a corner, where it is a
+    /// mean (docs/subdivision.md).
     [[nodiscard]] Point at(uint32_t quad, double u, double v) const;
 
 private:
-    /// A quarter of a quad: the sector of a fragment.
-    struct Sector {
-        uint32_t fragment = 0, number = 0;
-    };
     /// (a, b): from the quarter's corner along its two edges, up to 1/2. Derivatives in a and b.
-    [[nodiscard]] Point inQuarter(const Sector& sector, double a, double b) const;
+    [[nodiscard]] Point inQuarter(const subdivision::LimitShape::Sector& sector, double a, double b) const;
 
-    const subdivision::Mesh& mesh_;
-    std::vector<glm::dvec3> isolated_;                          ///< points of the level at which leaves begin
-    std::map<subdivision::Fan, subdivision::Pattern> patterns_; ///< of a step from radius 2 to radius 3
-    std::vector<Sector> sectors_;                               ///< four per quad: of its corners
+    std::shared_ptr<const subdivision::PosedLimit> own_; ///< null: the pose is another one's
+    const subdivision::LimitPose* pose_;
 };
 
 } // namespace supple::surface::catmull_clark

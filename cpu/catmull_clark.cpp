@@ -1,9 +1,8 @@
 // Equation numbers are those of docs/catmull_clark.md.
-#include "tools/reference/catmull_clark.h"
+#include "cpu/catmull_clark.h"
 
+#include "cpu/fragment.h"
 #include "surface/chains/arrangement.h"
-#include "tools/reference/fragment.h"
-#include "tools/reference/fragments.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,8 @@ using subdivision::Fan;
 using subdivision::Fragment;
 using subdivision::FragmentNet;
 using subdivision::kNoPoint;
+using subdivision::LevelNet;
+using subdivision::LimitShape;
 
 constexpr int kMostLevels = 40;
 
@@ -71,9 +72,8 @@ struct Leaf {
     Weights a, b;
 };
 
-Point evaluate(const FragmentNet<double>& net, const Fan& fan, uint32_t sector, const Leaf& leaf) {
-    const std::vector<glm::dvec3>& points = net.points();
-    const glm::dvec3 centre = points[0];
+Point evaluate(const LevelNet& net, const Fan& fan, uint32_t sector, const Leaf& leaf) {
+    const std::span<const glm::dvec3> points = net.points();
     Point sum;
     for (int32_t j = 0; j < 4; ++j) {
         for (int32_t i = 0; i < 4; ++i) {
@@ -81,7 +81,7 @@ Point evaluate(const FragmentNet<double>& net, const Fan& fan, uint32_t sector, 
             if (index == kNoPoint || index >= points.size()) {
                 continue; // behind a border, where weights are zero
             }
-            const glm::dvec3 p = points[index] - centre;
+            const glm::dvec3& p = points[index];
             const size_t x = static_cast<size_t>(i), y = static_cast<size_t>(j);
             sum.position += leaf.a.value[x] * leaf.b.value[y] * p;
             sum.du += leaf.a.slope[x] * leaf.b.value[y] * p;
@@ -91,7 +91,7 @@ Point evaluate(const FragmentNet<double>& net, const Fan& fan, uint32_t sector, 
             sum.dvv += leaf.a.value[x] * leaf.b.bend[y] * p;
         }
     }
-    sum.position += centre;
+    sum.position += net.origin();
     return sum;
 }
 
@@ -139,29 +139,16 @@ void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& poin
     point.dvv = v.x * v.x * aa + 2.0 * v.x * v.y * ab + v.y * v.y * bb;
 }
 
-LimitSurface::LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
-    : mesh_(mesh), isolated_(subdivision::isolate<double>(mesh, positions)), sectors_(mesh.cage.faceCount()) {
-    const FragmentNet<double> net(mesh, isolated_);
-    for (uint32_t f = 0; f < mesh.fragments.size(); ++f) {
-        const Fragment& fragment = mesh.fragments[f];
-        if (const Fan fan = net.fanOf(fragment); !patterns_.contains(fan)) {
-            patterns_.emplace(fan, fanPattern(fan, 1));
-        }
-        for (uint32_t h = 0; h < fragment.sectors; ++h) {
-            sectors_[mesh.sectorFaces[fragment.firstSector + h]] = {f, h};
-        }
-    }
-}
-
 Point LimitSurface::at(uint32_t quad, double u, double v) const {
     const bool right = u > 1.0 - u, up = v > 1.0 - v;
     const uint32_t corner = up ? (right ? 2 : 3) : (right ? 1 : 0);
     const double across = right ? 1.0 - u : u, along = up ? 1.0 - v : v;
     const bool turned = corner % 2 == 1; // a runs along v
-    const Sector& sector = sectors_[4 * size_t{quad} + corner];
+    const LimitShape& shape = pose_->shape();
+    const LimitShape::Sector& sector = shape.sectors()[4 * size_t{quad} + corner];
     const double a = turned ? along : across, b = turned ? across : along;
-    Point point = std::max(a, b) < std::exp2(-kMostLevels)
-                      ? limitAtCentre(mesh_, isolated_, sector.fragment, sector.number)
+    Point point = std::max(a, b) < std::exp2(-kMostLevels) && !shape.isUniform(sector.fragment)
+                      ? limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number)
                       : inQuarter(sector, a, b);
     const glm::dvec3 da = point.du, db = point.dv;
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};
@@ -173,18 +160,15 @@ Point LimitSurface::at(uint32_t quad, double u, double v) const {
     return point;
 }
 
-Point LimitSurface::inQuarter(const Sector& sector, double a, double b) const {
-    const Fragment& fragment = mesh_.fragments[sector.fragment];
-    FragmentNet<double> net(mesh_, isolated_);
-    net.load(fragment);
-    const Fan fan = net.fanOf(fragment);
+Point LimitSurface::inQuarter(const LimitShape::Sector& sector, double a, double b) const {
+    const LimitShape& shape = pose_->shape();
+    const Fragment& fragment = shape.mesh().fragments[sector.fragment];
     int exponent = 0;
     std::frexp(std::max(a, b), &exponent);
-    const int level = std::clamp(1 - exponent, 2, kMostLevels); // 2^-level <= the larger one < 2^(1 - level)
-    const subdivision::Pattern& pattern = patterns_.at(fan);
-    for (int j = 2; j <= level; ++j) {
-        net.refine(fan, pattern, pointCount(fan, 3));
-    }
+    // 2^-level <= the larger one < 2^(1 - level)
+    const int level = shape.isUniform(sector.fragment) ? 2 : std::clamp(1 - exponent, 2, kMostLevels);
+    const LevelNet net(*pose_, sector.fragment, static_cast<uint32_t>(level));
+    const Fan fan{Subdivision::catmullClark, fragment.sectors, fragment.open};
     const double scale = std::exp2(level), x = a * scale, y = b * scale;
     const bool farA = x >= 1.0, farB = y >= 1.0;
     const uint32_t spokes = fragment.spokes();

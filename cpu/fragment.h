@@ -3,6 +3,7 @@
 // sums are those of docs/subdivision.md.
 #pragma once
 
+#include "cpu/stencils.h"
 #include "surface/subdivision/masks.h"
 #include "surface/subdivision/mesh.h"
 #include "surface/subdivision/pattern.h"
@@ -30,6 +31,16 @@ template <class T>
 [[nodiscard]] Vec3<T> unitOrZero(const Vec3<T>& v) {
     const T length = std::sqrt((v.x * v.x + v.y * v.y) + v.z * v.z);
     return length > T(0) ? v / length : Vec3<T>(T(0));
+}
+
+/// The vertices of the isolated level: one applyStencils() per step.
+template <class T>
+[[nodiscard]] std::vector<Vec3<T>> isolate(const Mesh& mesh, std::span<const Vec3<T>> positions) {
+    std::vector<Vec3<T>> points(positions.begin(), positions.end());
+    for (const Stencils& step : mesh.stencils) {
+        points = applyStencils<T>(step, std::span<const Vec3<T>>(points));
+    }
+    return points;
 }
 
 /// Which side of its axis a sector lies on; at a crease the two have normals of their own.
@@ -143,18 +154,30 @@ public:
         return {mesh_.subdivision, fragment.sectors, fragment.open};
     }
     [[nodiscard]] const std::vector<Vec>& points() const { return points_; }
+    /// What recentre() has taken from them, in all.
+    [[nodiscard]] const Vec& origin() const { return origin_; }
 
     /// Begins with a fragment on the isolated level.
     void load(const Fragment& fragment) {
         const uint32_t count =
             fragment.kind == FragmentKind::facet ? facetPointCount(1) : pointCount(fanOf(fragment), 2);
         points_.clear();
+        origin_ = Vec(T(0));
         for (uint32_t i = 0; i < count; ++i) {
             points_.push_back(isolated_[mesh_.net[fragment.firstNet + i]]);
         }
         const auto first = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
         spokes_.assign(first, first + fragment.spokes());
         centreSharpness_ = fragment.centreSharpness;
+    }
+
+    /// The points become differences from the first. Rings shrink from level to level: so their rounding does too.
+    void recentre() {
+        const Vec centre = points_[0];
+        for (Vec& point : points_) {
+            point -= centre;
+        }
+        origin_ += centre;
     }
 
     [[nodiscard]] float sharpnessOf(uint32_t spoke) const { return spoke == kNoSpoke ? 0.0f : spokes_[spoke]; }
@@ -254,6 +277,7 @@ private:
     const Mesh& mesh_;
     std::span<const Vec> isolated_;
     std::vector<Vec> points_, refined_;
+    Vec origin_{T(0)};
     std::vector<float> spokes_;
     float centreSharpness_ = 0.0f;
 };

@@ -1,11 +1,11 @@
 // The blending surface on the CPU, in float or double. Sums have the order of docs/blend.md, so that float gives the
-// bits of the device. For tests and comparisons.
+// bits of the device.
 #pragma once
 
+#include "cpu/chart_point.h"
+#include "cpu/jet.h"
 #include "surface/blend/mesh.h"
 #include "surface/blend/weights.h"
-#include "tools/reference/chart_point.h"
-#include "tools/reference/jet.h"
 
 #include <array>
 #include <cstdint>
@@ -18,6 +18,11 @@ namespace supple::surface::blend {
 /// The coefficients of one chart: c_ab at 3 a + b.
 template <class T>
 using ChartCoefficients = std::array<glm::vec<3, T>, kCoefficients>;
+
+/// The coefficients of a chart. `matrices`: by class. `positions`: as below.
+template <class T>
+[[nodiscard]] ChartCoefficients<T> coefficientsOf(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t chart,
+                                                  std::span<const glm::vec<3, T>> positions);
 
 /// The coefficients of all charts. `positions`: of the vertices of Mesh::cage, which Mesh::stencils make of the host's.
 template <class T>
