@@ -198,7 +198,7 @@ PassCost recordSizes(const Frame& frame, Group& group) {
 }
 
 PassCost recordList(const Frame& frame, Group& group) {
-    if (group.culling() == nullptr) {
+    if (!group.listsSeen()) {
         return {};
     }
     if (group.culling()->instanceUnits() > 0) {
@@ -242,7 +242,7 @@ PassCost recordSolve(const Frame& frame, Group& group) {
 }
 
 PassCost recordRates(const Frame& frame, Group& group) {
-    if (!choosesRates(group)) {
+    if (!choosesRates(group) || !group.listsSeen()) {
         return {};
     }
     frame.dispatches.disjointBarrier();

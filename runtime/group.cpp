@@ -480,6 +480,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
+    changed = findList(frame.number) || changed;
     const bool pastMoves =
         step != pastStep_ && surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); });
     tasksVersion_ += changed || pastMoves ? 1 : 0;
@@ -512,6 +513,18 @@ bool Group::findUnseen() {
     }
     // Groups that draw the same instances read their deformed cages, wherever their views look.
     return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_.boxes());
+}
+
+bool Group::findList(uint64_t frame) {
+    const bool before = listsSeen_, empty = windows().visible == 0;
+    if (!empty || handsOver_) {
+        emptyList_.renew();
+    }
+    listsSeen_ = view_ != nullptr && emptyList_.due();
+    if (empty && listsSeen_) {
+        emptyList_.record(frame);
+    }
+    return listsSeen_ != before;
 }
 
 PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -575,6 +588,7 @@ void Group::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
     staticsThere_ = false;
     noDraws_.cancelFrame(frame);
+    emptyList_.cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();
         ++tasksVersion_;

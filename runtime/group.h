@@ -97,6 +97,10 @@ public:
     /// Visible instances that the last recording has left out before they were posed.
     [[nodiscard]] uint32_t unposed() const { return outOfSight_.count(); }
 
+    /// Groups of a view: whether the frame lists what is seen. Where nothing was listed and nothing is to list, lists,
+    /// arguments and draws stand.
+    [[nodiscard]] bool listsSeen() const { return listsSeen_; }
+
     /// Whether the device finds the bounds of instances.
     [[nodiscard]] bool hasBounds() const { return culling_ != nullptr || listedBounds_ != nullptr; }
     [[nodiscard]] SuppleBufferRange bounds() const; ///< if hasBounds()
@@ -187,6 +191,8 @@ private:
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// Finds listsSeen(). True if it is another than before.
+    bool findList(uint64_t frame);
     /// With update rates: chooses them by sizes on the screen, and lists what is posed.
     PassCost recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame);
     /// What is hashed of the group, a hash each.
@@ -226,7 +232,8 @@ private:
     gpu::TaskNeeds taskNeeds_;
     uint32_t patchesAtLevels_ = 0; ///< in a view
     glm::vec3 pastStep_{0.0f};     ///< of the last recording
-    RecordedOnce noDraws_;
+    RecordedOnce noDraws_, emptyList_;
+    bool listsSeen_ = false;
     bool outputsAsked_ = false, staticsThere_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };

@@ -352,7 +352,7 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (endOfRuns_ > 0) {
         copy(words_.buffer(), kLodRuns * VkDeviceSize{4}, runWords_.data(), endOfRuns_ * kRunBytes);
     }
-    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, kSizeBytes, 0);
+    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0); // counts of groups too
     return bytes;
 }
 

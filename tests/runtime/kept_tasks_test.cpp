@@ -338,6 +338,15 @@ std::vector<Event> events() {
          [](Scene s) {
              s.lookFrom({0.0f, 0.0f, 14.0f});
          }},
+        {"all are out of sight",
+         [](Scene s) {
+             s.lookFrom({200.0f, 0.0f, 5.0f});
+         }},
+        {"a frame of them is cancelled", [](Scene s) { s.cancel(); }},
+        {"they are in sight again",
+         [](Scene s) {
+             s.lookFrom({0.0f, 0.0f, 14.0f});
+         }},
         {"there is no room for all", [](Scene s) { s.setBudget(60); }},
         {"there is room again", [](Scene s) { s.setBudget(0); }},
         {"the groups come in another order", [](Scene s) { s.swapOrder(); }},
