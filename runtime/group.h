@@ -232,7 +232,8 @@ private:
     gpu::TaskNeeds taskNeeds_;
     uint32_t patchesAtLevels_ = 0; ///< in a view
     glm::vec3 pastStep_{0.0f};     ///< of the last recording
-    RecordedOnce noDraws_, emptyList_;
+    RecordedOnce noDraws_;
+    RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
     bool listsSeen_ = false;
     bool outputsAsked_ = false, staticsThere_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
