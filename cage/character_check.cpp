@@ -282,10 +282,11 @@ void Check::drivers() {
         require(sound, name + "an input names no node that turns, or its axis has not unit length, or its weight is "
                               "out of range");
         std::vector<uint32_t> targets = own.targets;
-        std::ranges::sort(targets);
-        require(std::ranges::adjacent_find(targets) == targets.end(), name + "a morph target is there twice");
-        const bool ofOnePart = std::ranges::any_of(character_.parts, [&](const Part& part) {
-            return std::ranges::all_of(own.targets, [&](uint32_t target) {
+        std::sort(targets.begin(), targets.end());
+        require(std::adjacent_find(targets.begin(), targets.end()) == targets.end(),
+                name + "a morph target is there twice");
+        const bool ofOnePart = std::any_of(character_.parts.begin(), character_.parts.end(), [&](const Part& part) {
+            return std::all_of(own.targets.begin(), own.targets.end(), [&](uint32_t target) {
                 return target >= part.firstTarget && target - part.firstTarget < part.targetCount;
             });
         });

@@ -15,24 +15,24 @@ namespace {
 using Edge = std::pair<uint32_t, uint32_t>; ///< smaller vertex first
 
 /// A face's side, and its corners at the edge's smaller and larger vertex.
-struct Side {
+struct EdgeSide {
     Edge edge;
     uint32_t atSmaller = 0;
     uint32_t atLarger = 0;
 };
 
-std::vector<Side> sidesOf(const Cage& cage) {
-    std::vector<Side> sides;
+std::vector<EdgeSide> sidesOf(const Cage& cage) {
+    std::vector<EdgeSide> sides;
     sides.reserve(cage.cornerCount());
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         for (uint32_t corner = cage.faceStarts[face]; corner < cage.faceStarts[face + 1]; ++corner) {
             const uint32_t next = nextCorner(cage, face, corner);
             const uint32_t a = cage.faceVertices[corner];
             const uint32_t b = cage.faceVertices[next];
-            sides.push_back(a < b ? Side{{a, b}, corner, next} : Side{{b, a}, next, corner});
+            sides.push_back(a < b ? EdgeSide{{a, b}, corner, next} : EdgeSide{{b, a}, next, corner});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    std::sort(sides.begin(), sides.end(), [](const EdgeSide& x, const EdgeSide& y) {
         return std::tie(x.edge, x.atSmaller) < std::tie(y.edge, y.atSmaller);
     });
     return sides;
@@ -53,7 +53,7 @@ std::vector<Edge> hardEdges(const Cage& cage) {
 
 std::vector<uint32_t> smoothGroups(const Cage& cage) {
     DisjointSets sets(cage.cornerCount());
-    const std::vector<Side> sides = sidesOf(cage);
+    const std::vector<EdgeSide> sides = sidesOf(cage);
     const std::vector<Edge> hard = hardEdges(cage);
     const bool authored = !cage.cornerNormals.empty();
     const auto unite = [&](uint32_t a, uint32_t b) {
@@ -62,7 +62,7 @@ std::vector<uint32_t> smoothGroups(const Cage& cage) {
         }
     };
     for (size_t i = 1; i < sides.size(); ++i) {
-        const Side& side = sides[i];
+        const EdgeSide& side = sides[i];
         if (sides[i - 1].edge == side.edge && (authored || !std::binary_search(hard.begin(), hard.end(), side.edge))) {
             unite(sides[i - 1].atSmaller, side.atSmaller);
             unite(sides[i - 1].atLarger, side.atLarger);

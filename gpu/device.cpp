@@ -275,7 +275,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
         // Loaders and drivers hand out what the instance's version has. Only these functions are newer than 1.1.
         constexpr std::array<std::string_view, 3> kNewer{"vkGetBufferDeviceAddress", "vkCmdPipelineBarrier2",
                                                          "vkCmdWriteTimestamp2"};
-        const bool isNew = std::ranges::find(kNewer, name) != kNewer.end();
+        const bool isNew = std::find(kNewer.begin(), kNewer.end(), name) != kNewer.end();
         return Error{ErrorCode::unsupported, isNew ? text + ": " + kNewInstance : text};
     }
 

@@ -576,8 +576,10 @@ constexpr bool isPose(const Row& row) {
     return row.pass == SUPPLE_PASS_POSE;
 }
 /// The places of poses: they follow each other, before the cage stages.
-constexpr uint32_t kFirstPosePlace = static_cast<uint32_t>(std::ranges::find_if(kPasses, isPose) - kPasses);
-constexpr uint32_t kLastPosePlace = kFirstPosePlace + static_cast<uint32_t>(std::ranges::count_if(kPasses, isPose)) - 1;
+constexpr uint32_t kFirstPosePlace =
+    static_cast<uint32_t>(std::find_if(std::begin(kPasses), std::end(kPasses), isPose) - kPasses);
+constexpr uint32_t kLastPosePlace =
+    kFirstPosePlace + static_cast<uint32_t>(std::count_if(std::begin(kPasses), std::end(kPasses), isPose)) - 1;
 static_assert(std::all_of(kPasses + kFirstPosePlace, kPasses + kLastPosePlace + 1, isPose));
 
 /// The group's tasks of the places from `first` to `last`, over those that are kept. False: there are others.

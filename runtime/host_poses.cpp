@@ -185,13 +185,13 @@ void HostPoses::setBindPose(uint32_t instance) {
 
 void HostPoses::setRestPose(uint32_t instance) {
     skinning::restPose(asset_->character, memory_.pose);
-    std::ranges::fill(held(instance), glm::vec4(0.0f));
+    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
     setPose(instance);
 }
 
 void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
     skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, memory_.pose);
-    std::ranges::fill(held(instance), glm::vec4(0.0f));
+    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
     skinning::Layer layer;
     layer.clip = &asset_->character.clips[clip];
     layer.time = time;
@@ -202,7 +202,7 @@ void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
 void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
     const skinning::RootSelection root = rootSelection(*asset_, desc);
     skinning::restPose(asset_->character, memory_.pose);
-    std::ranges::fill(held(instance), glm::vec4(0.0f));
+    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
         const skinning::Layer layer = layerOf(*asset_, desc.layers[i]);
         skinning::applyLayer(asset_->character, asset_->rig, layer, root, memory_.scratch, memory_.pose);

@@ -11,6 +11,11 @@ namespace supple::runtime {
 
 namespace {
 
+template <class T>
+void copyTo(std::span<T> from, std::span<T> to) {
+    std::copy(from.begin(), from.end(), to.begin());
+}
+
 /// Rows of a column-major matrix.
 shared::Affine affineOf(const glm::mat4& m) {
     const glm::mat4 rows = glm::transpose(m);
@@ -116,8 +121,8 @@ void HostSprings::keepForUndo(uint32_t slot) {
     undone_.push_back(slot);
     undoSlots_[slot] = slots_[slot];
     slots_[slot].frame = frame_;
-    std::ranges::copy(of(before_, slot), of(undoBefore_, slot).begin());
-    std::ranges::copy(stateOf(states_, slot), stateOf(undoStates_, slot).begin());
+    copyTo(of(before_, slot), of(undoBefore_, slot));
+    copyTo(stateOf(states_, slot), stateOf(undoStates_, slot));
 }
 
 void HostSprings::pose(uint32_t slot, double part) {
@@ -146,8 +151,8 @@ bool HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4
         twin_.step(shown_, now, state);
     }
     own.time = time_;
-    std::ranges::copy(of(posed_, slot), of(before_, slot).begin());
-    std::ranges::copy(of(posed_, slot), shown_.begin());
+    copyTo(of(posed_, slot), of(before_, slot));
+    copyTo(of(posed_, slot), std::span(shown_));
     twin_.show(state, due.part, shown_);
     shownTwin_.poseLocals(placedWords_, shown_, {});
     return true;
@@ -172,8 +177,8 @@ void HostSprings::cancelFrame(uint64_t frame) {
     for (const uint32_t slot : undone_) {
         undoSlots_[slot].isPosed = slots_[slot].isPosed; // by calls since then
         slots_[slot] = undoSlots_[slot];
-        std::ranges::copy(of(undoBefore_, slot), of(before_, slot).begin());
-        std::ranges::copy(stateOf(undoStates_, slot), stateOf(states_, slot).begin());
+        copyTo(of(undoBefore_, slot), of(before_, slot));
+        copyTo(stateOf(undoStates_, slot), stateOf(states_, slot));
     }
     undone_.clear();
 }

@@ -160,7 +160,7 @@ void Playback::forgetEndsOf(Holds&& holds) {
         const skinning::PlaybackState own = states_.state(slot);
         const skinning::PlaybackDesc desc =
             own.inBindPose() ? skinning::PlaybackDesc{} : own.read(*asset_->clipTable, memory);
-        if (std::ranges::any_of(desc.layers, holds)) {
+        if (std::any_of(desc.layers.begin(), desc.layers.end(), holds)) {
             rates_.forget(slot);
         }
     }

@@ -20,6 +20,7 @@ supple_test_packages=(
     abigail-tools pkg-config
     doxygen python3
     g++-mingw-w64-x86-64-posix
+    clang libc++-dev libc++abi-dev
     blender python3-numpy chromium
 )
 # To make Debian packages: tools/package.sh, not the tests.

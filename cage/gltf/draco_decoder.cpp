@@ -39,7 +39,7 @@ namespace {
 // vertex for each attribute, beside the value and its integers: measured, and rounded up.
 constexpr uint64_t kConnectivityBytes = 64;
 constexpr uint64_t kSeamBytes = 16;
-constexpr uint64_t kVertexBytes = 16;
+constexpr uint64_t kDecodedVertexBytes = 16;
 
 /// What a mesh claims to have, as the beginning of its connectivity says.
 struct Claims {
@@ -77,7 +77,7 @@ public:
             for (int i = 0; i < points.num_attributes(); ++i) {
                 const draco::PointAttribute& attribute = *points.attribute(i);
                 each += static_cast<uint64_t>(attribute.byte_stride()) + 4 * uint64_t{attribute.num_components()} +
-                        kVertexBytes;
+                        kDecodedVertexBytes;
             }
             if (points.num_points() > kMaxVertices) {
                 refuse(element_, "more than " + std::to_string(kMaxVertices) + " vertices", ErrorCode::limit);

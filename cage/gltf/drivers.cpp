@@ -113,7 +113,7 @@ private:
         for (const Json& target : list("targets", kMaxDriverTargets)) {
             checkIndex(target, place_ + " targets", "morph target", targetCount_);
             const auto index = static_cast<uint32_t>(target.index());
-            if (std::ranges::count(driver_.targets, index) != 0) {
+            if (std::count(driver_.targets.begin(), driver_.targets.end(), index) != 0) {
                 refuse(place_ + " targets", at("morph target", index) + " is there twice");
             }
             driver_.targets.push_back(index);
@@ -205,8 +205,8 @@ void checkSolution(const PoseDriver& driver, const std::string& place, Warnings&
              "its poses are hard to tell apart (condition " + shortNumber(solved->condition) +
                  "): between and beyond them weights may be far off; a smaller width helps");
     }
-    const auto beyond =
-        std::ranges::find_if(driver.values, [&](float value) { return value < driver.low || value > driver.high; });
+    const auto beyond = std::find_if(driver.values.begin(), driver.values.end(),
+                                     [&](float value) { return value < driver.low || value > driver.high; });
     if (beyond != driver.values.end()) {
         warn(warnings, place,
              "the value " + shortNumber(static_cast<double>(*beyond)) + " is beyond its clamp, which is what it sets");

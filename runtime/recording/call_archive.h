@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "runtime/recording/call_memory.h"
 #include "supple/supple.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <memory_resource>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -96,7 +96,7 @@ private:
 /// more, and says so. Lists and texts live in `memory`: little more than the bytes that are read.
 class CallReader {
 public:
-    CallReader(std::span<const std::byte> bytes, std::pmr::memory_resource& memory) : left_(bytes), memory_(&memory) {}
+    CallReader(std::span<const std::byte> bytes, CallMemory& memory) : left_(bytes), memory_(&memory) {}
 
     template <class... T>
     void operator()(T&... values) {
@@ -127,8 +127,9 @@ public:
             fail(count);
             return;
         }
+        static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
         // Never null, as it was not: some structs tell an empty list from none.
-        auto* own = static_cast<T*>(memory_->allocate((count + size_t{1}) * sizeof(T), alignof(T)));
+        auto* own = static_cast<T*>(memory_->allocate((count + size_t{1}) * sizeof(T)));
         std::uninitialized_value_construct_n(own, count + size_t{1});
         elements = own;
         if constexpr (RawNumber<T>) {
@@ -203,7 +204,7 @@ private:
     }
 
     std::span<const std::byte> left_;
-    std::pmr::memory_resource* memory_;
+    CallMemory* memory_;
     bool ok_ = true;
 };
 

@@ -36,15 +36,15 @@ private:
     /// Whose a call is: of an asset, a view or a group, and of an instance of that group.
     struct Owner {
         uint64_t id = 0;
-        uint32_t slot = 0, generation = 0; ///< of an instance; a generation of 0: the group's own
-        auto operator<=>(const Owner&) const = default;
+        uint32_t slot = 0, generation = 0;              ///< of an instance; a generation of 0: the group's own
+        auto operator<=>(const Owner&) const = default; // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0 here
     };
     /// A later call with the same key makes up for an earlier one.
     struct Key {
         Owner owner;
         uint32_t call = 0;  ///< kCallNumber
         uint64_t index = 0; ///< of a part, a mask, ...; of calls that build upon each other, their order
-        auto operator<=>(const Key&) const = default;
+        auto operator<=>(const Key&) const = default; // NOLINT(modernize-use-nullptr): the same
     };
     struct Kept {
         uint64_t sequence = 0;

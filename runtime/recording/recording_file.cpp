@@ -39,7 +39,7 @@ std::optional<Chunk> takeChunk(std::span<const std::byte>& left) {
 void forEachHashes(std::span<const std::byte> chunks, const std::function<void(const FrameHashes&)>& tell) {
     while (const std::optional<Chunk> chunk = takeChunk(chunks)) {
         if (chunk->kind == ChunkKind::hashes) {
-            std::pmr::monotonic_buffer_resource memory;
+            CallMemory memory;
             FrameHashes hashes;
             CallReader reader(chunk->bytes, memory);
             reader(hashes);

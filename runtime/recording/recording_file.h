@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,15 +54,14 @@ public:
 
 private:
     RecordingReader(std::span<const std::byte> bytes, std::string name)
-        : all_(bytes), left_(bytes), name_(std::move(name)),
-          memory_(std::make_unique<std::pmr::monotonic_buffer_resource>()) {}
+        : all_(bytes), left_(bytes), name_(std::move(name)), memory_(std::make_unique<CallMemory>()) {}
     [[nodiscard]] Error refused(const std::string& reason) const;
     [[nodiscard]] Result<std::optional<RecordingEvent>> read(const Chunk& chunk);
 
     std::span<const std::byte> all_, left_;
     std::string name_, deviceName_;
     RecordedContext context_;
-    std::unique_ptr<std::pmr::monotonic_buffer_resource> memory_;
+    std::unique_ptr<CallMemory> memory_;
 };
 
 } // namespace supple::runtime
