@@ -1,22 +1,17 @@
-// A single sample of an irregular quad (docs/catmull_clark.md). Before the include, what quad.glsl needs; with LOCAL_NET also
-//   vec3 netPoint(const PatchPlace at, uint k)        ownPoint(), from workgroup memory
+// A single sample of an irregular quad (docs/catmull_clark.md). Before the include, what quad.glsl needs.
 #include "shaders/catmull_clark/quad.glsl"
 
 // Where a net's points come from, as they are seen from a corner.
 struct NetSource {
-    bool own; // the quad's, else of a chain
     uint netList, first;
     uint corner; // 0 for a chain: its net lists are the corner's
 };
 NetSource ownNet(const PatchPlace at, IrregularQuad quad, uint corner) {
-    return NetSource(true, at.record + kQuadNetElement, quad.first, corner);
+    return NetSource(at.record + kQuadNetElement, quad.first, corner);
 }
-NetSource chainNet(Chain chain, uint level) { return NetSource(false, chain.netLists, levelPoints(chain, level), 0u); }
+NetSource chainNet(Chain chain, uint level) { return NetSource(chain.netLists, levelPoints(chain, level), 0u); }
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
     uint place = SUPPLE_QUAD_NET_PLACE(net.corner, k % kNetSide, k / kNetSide);
-#ifdef LOCAL_NET
-    if (net.own) return netPoint(at, place);
-#endif
     return poolPoint(at, net.first + netListPoint(net.netList, place));
 }
 

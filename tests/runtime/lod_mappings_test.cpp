@@ -186,6 +186,12 @@ TEST_P(LodMappings, OfPrep) {
     expectSame({PatchClass::regular, PatchClass::perturbed});
 }
 
+TEST_P(LodMappings, OfCatmullClark) {
+    compareZoo(SUPPLE_SCHEME_CATMULL_CLARK, 40);
+    compareLow(torus(12, 9), SUPPLE_SCHEME_CATMULL_CLARK);
+    expectSame({PatchClass::regular, PatchClass::irregular, PatchClass::irregularSharp, PatchClass::creased});
+}
+
 TEST_P(LodMappings, OfLoop) {
     compareZoo(SUPPLE_SCHEME_LOOP, 48);
     compareLow(quartered(quartered(gyroBipyramid(6))), SUPPLE_SCHEME_LOOP);
