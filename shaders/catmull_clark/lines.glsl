@@ -10,7 +10,8 @@
 struct HalfLine {
     uint corner, firstStep;
     bool isSide, isSwapped;
-    float across; // how far it lies from the edge
+    float across;  // how far it lies from the edge
+    float nearest; // of a side: how near samples come to the corner, where tangents want to know
     LodPattern along;
     SampleRow samples; // from the corner on
 };
@@ -53,8 +54,8 @@ struct LinePlace {
 LinePlace linePlace(HalfLine h, uint lastLevel, uint k, vec2 pair) {
     float a = pair.x, b = h.across;
     if (lastLevel == 1u || (h.isSide && a == pair.y)) return LinePlace(1u, 2.0 * a, 2.0 * b, 1.0);
-    // At the corner the directions of the nearest leaf stand in.
-    if (h.isSide && k == 0u) return LinePlace(lastLevel, 1.0, 0.0, 1.0);
+    // At the corner the directions of the nearest leaf that has samples stand in.
+    if (h.isSide && k == 0u) return LinePlace(chainPlace(h.nearest, lastLevel).level, 1.0, 0.0, 1.0);
     float far = max(a, b), scale = powerOfTwo(float(lastLevel));
     precise float share = far * scale;
     if (share < 1.0) {
@@ -181,7 +182,7 @@ HalfLine innerHalf(uint place, uint n, bool isSecond) {
     SampleRow samples;
     samples.first = zero.y * (last + 1u) + zero.x;
     samples.step = one.y * (last + 1u) + one.x - samples.first;
-    return HalfLine(corner, 1u, false, false, localPair(place, 1u - odd, b, last).x, localPattern(place, odd), samples);
+    return HalfLine(corner, 1u, false, false, localPair(place, 1u - odd, b, last).x, 0.0, localPattern(place, odd), samples);
 }
 HalfLine sideHalf(uint place, uint side, bool isSecond) {
     SampleRow samples = sideRowOf(side, last);
@@ -189,7 +190,14 @@ HalfLine sideHalf(uint place, uint side, bool isSecond) {
         samples.first += last * samples.step;
         samples.step = 0u - samples.step;
     }
-    return HalfLine(isSecond ? (side + 1u) & 3u : side, isSecond ? 1u : 0u, true, isSecond, 0.0, localPattern(place, 2u + side), samples);
+    float nearest = 0.0;
+    if (kTangents) {
+        vec2 inside = vec2(localPair(place, 0u, 1u, last).x, localPair(place, 1u, 1u, last).x);
+        vec2 onSides = vec2(localPair(place, 2u + side, 1u, last).x, localPair(place, 2u + ((side + 3u) & 3u), 1u, last).x);
+        nearest = min(min(inside.x, inside.y), min(onSides.x, onSides.y));
+    }
+    return HalfLine(isSecond ? (side + 1u) & 3u : side, isSecond ? 1u : 0u, true, isSecond, 0.0, nearest, localPattern(place, 2u + side),
+                    samples);
 }
 void evaluateWide() {
     Share share = shareOfGroup();

@@ -3,6 +3,7 @@
 #include "runtime/arrays/character_arrays.h"
 #include "surface/lod/grid.h"
 #include "surface/patch_class.h"
+#include "tests/support/exact_tables.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/meshes.h"
@@ -189,6 +190,9 @@ TEST_P(LodMappings, OfPrep) {
 TEST_P(LodMappings, OfCatmullClark) {
     compareZoo(SUPPLE_SCHEME_CATMULL_CLARK, 40);
     compareLow(torus(12, 9), SUPPLE_SCHEME_CATMULL_CLARK);
+    for (uint32_t seed = 1; seed <= 6; ++seed) {
+        compare(perturbed(straightCrease(), 0.05f, seed), SUPPLE_SCHEME_CATMULL_CLARK);
+    }
     expectSame({PatchClass::regular, PatchClass::irregular, PatchClass::irregularSharp, PatchClass::creased});
 }
 
