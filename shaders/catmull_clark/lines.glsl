@@ -81,7 +81,8 @@ NetRow lineRow(const PatchPlace at, NetIndices net, vec3 middle, bool upper, Lea
         vec3 p[4];
         [[unroll]] for (uint j = 0u; j < 4u; ++j)
             p[j] = offsetFrom(middle, poolPoint(at, SELECT(upper, net.of[kNetSide * (j + 1u) + i], net.of[kNetSide * j + i])));
-        collapseColumn(p, y, row.point[i], row.slope[i]);
+        row.point[i] = sumInside(y.w, p[0], p[1], p[2], p[3]);
+        row.slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
     }
     return row;
 }

@@ -69,7 +69,8 @@ NetRow netRow(NetOffsets net, bool upper, LeafWeights y) {
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
         vec3 p[4];
         [[unroll]] for (uint j = 0u; j < 4u; ++j) p[j] = SELECT3(upper, net.p[kNetSide * (j + 1u) + i], net.p[kNetSide * j + i]);
-        collapseColumn(p, y, row.point[i], row.slope[i]);
+        row.point[i] = sumInside(y.w, p[0], p[1], p[2], p[3]);
+        row.slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
     }
     return row;
 }

@@ -7,10 +7,6 @@
 struct NetRow {
     vec3 point[kNetSide], slope[kNetSide];
 };
-void collapseColumn(vec3 p[4], LeafWeights y, out vec3 point, out vec3 slope) {
-    point = sumInside(y.w, p[0], p[1], p[2], p[3]);
-    slope = blend4(y.d, p[0], p[1], p[2], p[3]);
-}
 // The columns of the left or the right cells.
 struct CellRow {
     vec3 point[4], slope[4];
