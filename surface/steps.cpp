@@ -261,7 +261,8 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
         push.firstVertex = builder.evaluation.firstEdgeVertex;
         push.firstCorner = builder.evaluation.firstCornerVertex;
         push.verticesPerInstance = builder.evaluation.verticesPerInstance;
-        const DispatchSize size = builder.lanes(push.count * (builder.device.mapping.wide ? push.rate : 1));
+        const uint32_t lanes = !builder.device.mapping.wide ? 1 : which == Kernel::catmullClarkEdge ? 2 : push.rate;
+        const DispatchSize size = builder.lanes(push.count * lanes);
         builder.add(*pass.steps, SetKind::evaluate, kernel, size, push);
     }
 }
