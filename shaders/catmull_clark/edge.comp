@@ -65,6 +65,7 @@ void main() {
 #include "shaders/lod/lines.h"
 #include "shaders/catmull_clark/half_line.glsl"
 
+vec2 linePair(uint k) { return parameterPair(k, last); }
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame) {
     bool isCorner = !h.isSwapped && k == 0u;
     if (isCorner && !at.begins) return;

@@ -1,7 +1,6 @@
 // Half of a line of samples of an irregular quad (docs/catmull_clark.md), from the middle of the line to a corner: of a side, or of a
 // row inside. A net is collapsed once for all samples that lie in one level. They have the bits that they have in nets.glsl.
-// Before the include: what rows.glsl needs, and
-//   void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame)      sample k of a half
+// Before the include: what rows.glsl needs. Behind it the functions that are declared here.
 #include "shaders/chains/offset.glsl"
 #include "shaders/catmull_clark/rows.glsl"
 
@@ -12,19 +11,11 @@ struct HalfLine {
     bool isSide, isSwapped;
     float across;  // how far it lies from the edge
     float nearest; // of a side: how near samples come to the corner, where tangents want to know
-#ifdef LEVELS
-    LodPattern along;
-#endif
     SampleRow samples; // from the corner on
 };
+// How far step k lies from the corner, and from the line's other end; and where it is stored.
+vec2 linePair(uint k);
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame);
-vec2 linePair(HalfLine h, uint k) {
-#ifdef LEVELS
-    return lodPair(h.along, k, last);
-#else
-    return parameterPair(k, last);
-#endif
-}
 uint edgeOf(HalfLine h) { return h.isSwapped ? (h.corner + 3u) & 3u : h.corner; }
 uint otherEdgeOf(HalfLine h) { return h.isSwapped ? h.corner : (h.corner + 3u) & 3u; }
 
@@ -63,7 +54,8 @@ struct LinePlace {
 // `lastLevel`: 1 where there is no chain.
 LinePlace linePlace(HalfLine h, uint lastLevel, uint k, vec2 pair) {
     float a = pair.x, b = h.across;
-    if (lastLevel == 1u || (h.isSide && a == pair.y)) return LinePlace(1u, 2.0 * a, 2.0 * b, 1.0);
+    precise float ownX = 2.0 * a, ownY = 2.0 * b;
+    if (lastLevel == 1u || (h.isSide && a == pair.y)) return LinePlace(1u, ownX, ownY, 1.0);
     // At the corner the directions of the nearest leaf that has samples stand in.
     if (h.isSide && k == 0u) return LinePlace(chainPlace(h.nearest, lastLevel).level, 1.0, 0.0, 1.0);
     float far = max(a, b), scale = powerOfTwo(float(lastLevel));
@@ -81,8 +73,7 @@ LinePlace linePlace(HalfLine h, uint lastLevel, uint k, vec2 pair) {
 struct LineLevel {
     uint level;
     float y, sharpness; // of the edge that the line runs to
-    vec3 middle;
-    NetRow row;
+    vec3 middle, point[kNetSide], slope[kNetSide];
     vec3 side[4]; // what positions on a side are made of
 };
 NetRow lineRow(const PatchPlace at, NetIndices net, vec3 middle, bool upper, LeafWeights y) {
@@ -125,7 +116,9 @@ LineLevel lineLevel(const PatchPlace at, IrregularQuad quad, HalfLine h, Chain c
     l.y = y;
     l.sharpness = sharpnessOf(quad, otherEdgeOf(h), level);
     l.middle = poolPoint(at, net.of[kNetMiddle]);
-    l.row = lineRow(at, net, l.middle, upper, chainWeights(upper, y, edge));
+    NetRow row = lineRow(at, net, l.middle, upper, chainWeights(upper, y, edge));
+    l.point = row.point;
+    l.slope = row.slope;
     if (h.isSide) {
         l.side = linePoints(at, net, !isOwn, besideLine(edge));
         if (isOwn && isCubic(quad, edgeOf(h))) l.side = turnedCubic(sideCubic(at, quad, edgeOf(h)), h.isSwapped);
@@ -172,13 +165,13 @@ void evaluateHalf(const PatchPlace at, IrregularQuad quad, HalfLine h) {
     uint k = h.steps;
     while (k > h.firstStep) {
         --k;
-        vec2 pair = linePair(h, k);
+        vec2 pair = linePair(k);
         bool isCorner = h.isSide && k == 0u;
         LinePlace s = linePlace(h, chain.lastLevel, k, pair);
         if (s.level != l.level || s.y != l.y) l = lineLevel(at, quad, h, chain, s.level, s.y);
         bool right = s.level > 1u && s.x >= 1.0;
         LeafWeights x = chainWeights(right, s.x, l.sharpness);
-        CellRow cell = cellRow(l.row, right);
+        CellRow cell = cellRow(NetRow(l.point, l.slope), right);
         vec3 along = rowAlongX(cell, x.d), across = rowAlongY(cell, x.w), position;
         if (h.isSide) position = pointOnSide(l, cubic, origin, pair, x.w);
         else position = pointInside(l, cell, origin, x.w);

@@ -2,6 +2,8 @@
 // quarter and that of the quarter opposite; the others are sides. Before the include: what half_line.glsl needs.
 #include "shaders/catmull_clark/half_line.glsl"
 
+LodPattern laneAlong; // of the half
+vec2 linePair(uint k) { return lodPair(laneAlong, k, last); }
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame) {
     uint vertex = at.vertex + h.samples.first + k * h.samples.step;
     storeSurfaceVertex(vertex, vertex, SELECT3(at.empty, vec3(0.0), position), frame);
@@ -14,7 +16,7 @@ HalfLine innerHalf(uint place, uint n, bool isSecond) {
     SampleRow samples;
     samples.first = zero.y * (last + 1u) + zero.x;
     samples.step = one.y * (last + 1u) + one.x - samples.first;
-    return HalfLine(corner, 1u, rows + 1u, false, false, localPair(place, 1u - odd, b, last).x, 0.0, localPattern(place, odd), samples);
+    return HalfLine(corner, 1u, rows + 1u, false, false, localPair(place, 1u - odd, b, last).x, 0.0, samples);
 }
 HalfLine sideHalf(uint place, uint side, bool isSecond) {
     SampleRow samples = sideRowOf(side, last);
@@ -28,8 +30,7 @@ HalfLine sideHalf(uint place, uint side, bool isSecond) {
         vec2 onSides = vec2(localPair(place, 2u + side, 1u, last).x, localPair(place, 2u + ((side + 3u) & 3u), 1u, last).x);
         nearest = min(min(inside.x, inside.y), min(onSides.x, onSides.y));
     }
-    return HalfLine(isSecond ? (side + 1u) & 3u : side, isSecond ? 1u : 0u, last / 2u + 1u, true, isSecond, 0.0, nearest,
-                    localPattern(place, 2u + side), samples);
+    return HalfLine(isSecond ? (side + 1u) & 3u : side, isSecond ? 1u : 0u, last / 2u + 1u, true, isSecond, 0.0, nearest, samples);
 }
 void evaluateWide() {
     Share share = shareOfGroup();
@@ -41,6 +42,7 @@ void evaluateWide() {
     [[dont_unroll]] for (uint k = 0u; k < 2u; ++k) {
         HalfLine h = innerHalf(line.place, line.isSide ? 0u : line.n, k == 1u);
         if (line.isSide) h = sideHalf(line.place, line.n, k == 1u);
+        laneAlong = localPattern(line.place, line.isSide ? 2u + line.n : h.corner & 1u);
         evaluateHalf(at, quad, h);
     }
 }
