@@ -129,8 +129,8 @@ inline constexpr PatchClassRow kPatchClasses[] = {
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
     return rowOf(patchClass).name;
 }
-/// At levels a lane of the wide mapping takes a line of samples: shaders/evaluate/lines.glsl, and the evaluate.comp of
-/// P_m, Loop and the blending surface. Kernels are told (kLinesConstant, kRunHasLines).
+/// At levels a lane of the wide mapping takes a line of samples: lines.glsl of bicubic patches and Catmull-Clark, and
+/// evaluate.comp of P_m, Loop and the blending surface. Kernels are told (kLinesConstant, kRunHasLines).
 [[nodiscard]] constexpr bool hasLines(PatchClass patchClass) {
     return rowOf(patchClass).isBicubic() || rowOf(patchClass).hasSectors() ||
            rowOf(patchClass).atLevels == Kernel::catmullClarkEvaluateLevels || patchClass == PatchClass::loopRegular ||
