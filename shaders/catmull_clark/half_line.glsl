@@ -156,6 +156,7 @@ void evaluateHalf(const PatchPlace at, IrregularQuad quad, HalfLine h) {
     vec3 origin = vec3(0.0);
     if (kChains && hasChain(quad, h.corner)) {
         chain = chainOf(at, quad, h.corner);
+        chain.lastLevel = max(chain.lastLevel, 2u); // the instance of an empty patch may say less
         origin = chainOrigin(at, chain);
     }
     bool isChained = chain.netLists != 0u, cubic = isCubic(quad, edgeOf(h));
