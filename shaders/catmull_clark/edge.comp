@@ -62,14 +62,13 @@ void main() {
     if (hasChain(quad, 1u)) storeQuarter(at, quad, quarterOf(at, quad, 1u, middle, middle), false, true);
 }
 #else
-#include "shaders/lod/lines.h"
+#include "shaders/lod/lines.h" // SampleRow
 #include "shaders/catmull_clark/half_line.glsl"
 
 vec2 linePair(uint k) { return parameterPair(k, last); }
+uint frameCorner(HalfLine h) { return h.isSwapped ? 1u : 0u; }
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame) {
-    bool isCorner = !h.isSwapped && k == 0u;
-    if (isCorner && !at.begins) return;
-    uint to = isCorner ? at.corner : h.samples.first + k * h.samples.step;
+    uint to = k == 0u ? at.corner : h.samples.first + k * h.samples.step;
     storeSurfaceVertex(at.first + to, to, position, frame);
 }
 
@@ -85,9 +84,9 @@ void main() {
     SampleRow samples;
     samples.first = at.along + (isSecond ? last : 0u) - 1u;
     samples.step = isSecond ? 0u - 1u : 1u;
-    // The middle belongs to the first half.
-    HalfLine h = HalfLine(isSecond ? (side + 1u) & 3u : side, isSecond ? 1u : 0u, isSecond ? (last + 1u) / 2u : last / 2u + 1u, true,
-                          isSecond, 0.0, 0.0, samples);
-    evaluateHalf(at, quadOf(at.record), h);
+    // The middle belongs to the first half, and so does the corner where the side begins.
+    uint corner = isSecond ? (side + 1u) & 3u : side, firstStep = !isSecond && at.begins ? 0u : 1u;
+    uint endStep = isSecond ? (last + 1u) / 2u : last / 2u + 1u;
+    evaluateHalf(at, quadOf(at.record), HalfLine(corner, firstStep, endStep, true, isSecond, 0.0, 0.0, samples));
 }
 #endif

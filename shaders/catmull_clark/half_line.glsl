@@ -1,39 +1,31 @@
-// Half of a line of samples of an irregular quad (docs/catmull_clark.md), from the middle of the line to a corner: of a side, or of a
-// row inside. A net is collapsed once for all samples that lie in one level. They have the bits that they have in nets.glsl.
-// Before the include: what rows.glsl needs. Behind it the functions that are declared here.
+// Half of a line of samples of an irregular quad (docs/catmull_clark.md): half of a side, from its middle to a corner, or a row of a
+// quarter, from the middle of the quad outwards. A net is collapsed once for all samples that lie in one level. They have the bits that
+// they have in nets.glsl, whose functions do the same for a whole quarter: what changes here changes there.
+// Before the include: what rows.glsl needs, lod/lines.h, and
+//   const bool kChains                                whether some corner has a chain
+//   const bool kTangents
+//   DEPTH_OF_INSTANCE                                 a macro, at levels (chains/chain_place.glsl)
+// Behind it the functions that are declared here.
 #include "shaders/chains/offset.glsl"
 #include "shaders/catmull_clark/rows.glsl"
 
-// Half of a line, as its corner sees it: steps count from there. Of one along the corner's second edge both edges change places, so that
-// it is the first.
+// A half, as its corner sees it: steps count from the edge that it crosses, or on a side from the corner. Where it runs along the
+// corner's second edge, both edges change places, so that this is the first.
 struct HalfLine {
-    uint corner, firstStep, steps; // the last step lies before `steps`
+    uint corner, firstStep, endStep;
     bool isSide, isSwapped;
-    float across;  // how far it lies from the edge
-    float nearest; // of a side: how near samples come to the corner, where tangents want to know
-    SampleRow samples; // from the corner on
+    float across;      // how far it lies from the edge beside it
+    float nearest;     // of a side: how near samples come to the corner, where tangents want to know
+    SampleRow samples; // that of step 0, and the way to the next
 };
-// How far step k lies from the corner, and from the line's other end; and where it is stored.
+// How far step k lies from where steps begin, and from the line's other end.
 vec2 linePair(uint k);
+// The corner that frames are turned from (turnedFrame()).
+uint frameCorner(HalfLine h);
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame);
 uint edgeOf(HalfLine h) { return h.isSwapped ? (h.corner + 3u) & 3u : h.corner; }
 uint otherEdgeOf(HalfLine h) { return h.isSwapped ? h.corner : (h.corner + 3u) & 3u; }
 
-// Where the points of a net lie in the pool.
-struct NetIndices {
-    uint of[kNetPoints];
-};
-NetIndices netIndices(uint netList, uint first) {
-    NetIndices net;
-    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) {
-        uvec4 words = tableElement(netList + e);
-        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
-            uint k = 8u * e + c;
-            if (k < kNetPoints) net.of[k] = first + halfOf(words[c / 2u], c);
-        }
-    }
-    return net;
-}
 NetIndices seenFrom(NetIndices net, uint corner, bool isSwapped) {
     NetIndices once, twice, swapped;
     bool isOdd = (corner & 1u) != 0u, isBeyond = corner >= 2u;
@@ -56,8 +48,8 @@ LinePlace linePlace(HalfLine h, uint lastLevel, uint k, vec2 pair) {
     float a = pair.x, b = h.across;
     precise float ownX = 2.0 * a, ownY = 2.0 * b;
     if (lastLevel == 1u || (h.isSide && a == pair.y)) return LinePlace(1u, ownX, ownY, 1.0);
-    // At the corner the directions of the nearest leaf that has samples stand in.
-    if (h.isSide && k == 0u) return LinePlace(chainPlace(h.nearest, lastLevel).level, 1.0, 0.0, 1.0);
+    // At the corner the directions of the nearest leaf that has samples stand in. Without tangents nobody asks for them.
+    if (kTangents && h.isSide && k == 0u) return LinePlace(chainPlace(h.nearest, lastLevel).level, 1.0, 0.0, 1.0);
     float far = max(a, b), scale = powerOfTwo(float(lastLevel));
     precise float share = far * scale;
     if (share < 1.0) {
@@ -76,23 +68,28 @@ struct LineLevel {
     vec3 middle, point[kNetSide], slope[kNetSide];
     vec3 side[4]; // what positions on a side are made of
 };
+// As netRow().
 NetRow lineRow(const PatchPlace at, NetIndices net, vec3 middle, bool upper, LeafWeights y) {
     NetRow row;
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
         vec3 p[4];
-        [[unroll]] for (uint j = 0u; j < 4u; ++j)
-            p[j] = offsetFrom(middle, poolPoint(at, SELECT(upper, net.of[kNetSide * (j + 1u) + i], net.of[kNetSide * j + i])));
+        [[unroll]] for (uint j = 0u; j < 4u; ++j) {
+            uint index = SELECT(upper, net.of[kNetSide * (j + 1u) + i], net.of[kNetSide * j + i]);
+            p[j] = offsetFrom(middle, poolPoint(at, index));
+        }
         row.point[i] = sumInside(y.w, p[0], p[1], p[2], p[3]);
         row.slope[i] = blend4(y.d, p[0], p[1], p[2], p[3]);
     }
     return row;
 }
-// Of a chain's level those of its second half; the first belongs to the levels that follow.
+// Four points of a side, from the corner outwards, as halfOf() and chainLine() have them. Of a chain's level those of the line's second
+// half; the first belongs to the levels that follow.
 vec3[4] linePoints(const PatchPlace at, NetIndices net, bool second, float share) {
     vec3 e[4];
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         uint line = SELECT(second, net.of[kNetSide + k + 1u], net.of[kNetSide + k]);
-        uint one = SELECT(second, net.of[k + 1u], net.of[k]), other = SELECT(second, net.of[2u * kNetSide + k + 1u], net.of[2u * kNetSide + k]);
+        uint one = SELECT(second, net.of[k + 1u], net.of[k]);
+        uint other = SELECT(second, net.of[2u * kNetSide + k + 1u], net.of[2u * kNetSide + k]);
         e[k] = onLine(poolPoint(at, line), poolPoint(at, one), poolPoint(at, other), share);
     }
     return e;
@@ -136,14 +133,8 @@ vec3 pointOnSide(LineLevel l, bool cubic, vec3 origin, vec2 pair, vec4 w) {
     }
     return !cubic && pair.x == pair.y ? middleOfLine(l.side[1], l.side[2], l.side[3]) : offset;
 }
-// Where sides are evaluated by themselves, frames are those of a quad that is turned so that the side comes first.
 Frame frameOnLine(HalfLine h, vec3 along, vec3 across) {
-#ifdef LEVELS
-    uint corner = h.corner;
-#else
-    uint corner = h.isSwapped ? 1u : 0u;
-#endif
-    return turnedFrame(corner, SELECT3(h.isSwapped, across, along), SELECT3(h.isSwapped, along, across));
+    return turnedFrame(frameCorner(h), SELECT3(h.isSwapped, across, along), SELECT3(h.isSwapped, along, across));
 }
 // At a corner with a chain: the direction of the nearest leaf on the other edge.
 vec3 cornerAcross(const PatchPlace at, IrregularQuad quad, HalfLine h, Chain chain, LineLevel l) {
@@ -156,14 +147,17 @@ void evaluateHalf(const PatchPlace at, IrregularQuad quad, HalfLine h) {
     vec3 origin = vec3(0.0);
     if (kChains && hasChain(quad, h.corner)) {
         chain = chainOf(at, quad, h.corner);
-        chain.lastLevel = max(chain.lastLevel, 2u); // the instance of an empty patch may say less
         origin = chainOrigin(at, chain);
     }
     bool isChained = chain.netLists != 0u, cubic = isCubic(quad, edgeOf(h));
     vec3 limit = poolPoint(at, componentOf(quad.points, h.corner));
+    if (!kTangents && h.isSide && isChained && h.firstStep == 0u) { // all that the corner has is stored: it needs no net
+        store(at, h, 0u, limit, withStoredNormal(at, quad, h.corner, Frame(vec3(0.0), vec3(0.0), vec3(0.0))));
+        h.firstStep = 1u;
+    }
     LineLevel l;
     l.level = 0u;
-    uint k = h.steps;
+    uint k = h.endStep;
     while (k > h.firstStep) {
         --k;
         vec2 pair = linePair(k);
@@ -177,7 +171,7 @@ void evaluateHalf(const PatchPlace at, IrregularQuad quad, HalfLine h) {
         if (h.isSide) position = pointOnSide(l, cubic, origin, pair, x.w);
         else position = pointInside(l, cell, origin, x.w);
         if (s.share < 1.0) position = onCone(limit, position, s.share);
-        if (isCorner || max(pair.x, h.across) == 0.0) position = limit;
+        if (isCorner || (!isChained && max(pair.x, h.across) == 0.0)) position = limit;
         if (kTangents && isCorner && isChained) across = cornerAcross(at, quad, h, chain, l);
         Frame frame = frameOnLine(h, along, across);
         if (isCorner || (isChained && s.share == 0.0)) frame = withStoredNormal(at, quad, h.corner, frame);

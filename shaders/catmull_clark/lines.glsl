@@ -1,9 +1,11 @@
 // Irregular quads at levels in the wide mapping: a lane takes a line of samples (docs/catmull_clark.md). A line inside is a row of a
-// quarter and that of the quarter opposite; the others are sides. Before the include: what half_line.glsl needs.
+// quarter and that of the quarter opposite, which alone runs along the same parameter: the quarters beside collapse nets the other way.
+// The other lines are sides. Before the include: what half_line.glsl needs.
 #include "shaders/catmull_clark/half_line.glsl"
 
-LodPattern laneAlong; // of the half
+LodPattern laneAlong; // the pattern along the half
 vec2 linePair(uint k) { return lodPair(laneAlong, k, last); }
+uint frameCorner(HalfLine h) { return h.corner; }
 void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame) {
     uint vertex = at.vertex + h.samples.first + k * h.samples.step;
     storeSurfaceVertex(vertex, vertex, SELECT3(at.empty, vec3(0.0), position), frame);
@@ -40,8 +42,9 @@ void evaluateWide() {
     IrregularQuad quad = quadOf(at.record);
     last = at.capacity;
     [[dont_unroll]] for (uint k = 0u; k < 2u; ++k) {
-        HalfLine h = innerHalf(line.place, line.isSide ? 0u : line.n, k == 1u);
+        HalfLine h;
         if (line.isSide) h = sideHalf(line.place, line.n, k == 1u);
+        else h = innerHalf(line.place, line.n, k == 1u);
         laneAlong = localPattern(line.place, line.isSide ? 2u + line.n : h.corner & 1u);
         evaluateHalf(at, quad, h);
     }

@@ -16,16 +16,10 @@
 struct Net {
     vec3 p[kNetPoints];
 };
-// `net list`: which points from `first` on.
 Net netOf(const PatchPlace at, uint netList, uint first) {
+    NetIndices indices = netIndices(netList, first);
     Net net;
-    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) {
-        uvec4 words = tableElement(netList + e);
-        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
-            uint k = 8u * e + c;
-            if (k < kNetPoints) net.p[k] = poolPoint(at, first + halfOf(words[c / 2u], c));
-        }
-    }
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) net.p[k] = poolPoint(at, indices.of[k]);
     return net;
 }
 Net quadNet(const PatchPlace at, IrregularQuad quad) { return netOf(at, at.record + kQuadNetElement, quad.first); }

@@ -1,7 +1,23 @@
-// Rows of samples of irregular quads (docs/catmull_clark.md): a net collapsed at one distance from an edge. Before the include, what
-// quad.glsl needs, and
+// Nets of irregular quads, and rows of samples (docs/catmull_clark.md): a net collapsed at one distance from an edge. Before the
+// include, what quad.glsl needs, and
 //   uint last                                         number of the last sample along a side
 #include "shaders/catmull_clark/quad.glsl"
+
+// Where the points of a net lie in the pool. `netList`: which points from `first` on.
+struct NetIndices {
+    uint of[kNetPoints];
+};
+NetIndices netIndices(uint netList, uint first) {
+    NetIndices net;
+    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) {
+        uvec4 words = tableElement(netList + e);
+        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
+            uint k = 8u * e + c;
+            if (k < kNetPoints) net.of[k] = first + halfOf(words[c / 2u], c);
+        }
+    }
+    return net;
+}
 
 // All columns of a net at one y, in the lower or the upper cells; from the net's middle.
 struct NetRow {

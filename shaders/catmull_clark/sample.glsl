@@ -1,4 +1,5 @@
-// A single sample of an irregular quad (docs/catmull_clark.md). Before the include, what quad.glsl needs.
+// A single sample of an irregular quad (docs/catmull_clark.md): a point of a side, by which levels are measured, and all that texture
+// coordinates want of a sample. Before the include, what quad.glsl needs.
 #include "shaders/catmull_clark/quad.glsl"
 
 // Where a net's points come from, as they are seen from a corner.
@@ -85,6 +86,7 @@ Leaf leafAt(const PatchPlace at, NetSource net, bool secondX, bool secondY, Leaf
                 blend4(x.w, slope[0], slope[1], slope[2], slope[3]));
 }
 
+// Of texture coordinates: nobody reads the frame's normal.
 void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, out vec3 position, out Frame frame) {
     bool right = u.x > u.y, up = v.x > v.y;
     uint corner = up ? (right ? 2u : 3u) : (right ? 1u : 0u);
@@ -122,7 +124,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     Leaf leaf = leafAt(at, net, secondX, secondY, x, y);
     position = placed(origin, leaf.first, leaf.offset);
-    if (kTangents && chain.netLists != 0u && onU && onV) { // those along the second edge
+    if (chain.netLists != 0u && onU && onV) { // those along the second edge
         LeafWeights begin = leafWeights(0.0, 0.0), across = leafWeights(0.0, sharpnessOf(quad, (corner + 3u) & 3u, chain.lastLevel));
         leaf.alongY = leafAt(at, net, false, true, across, begin).alongY;
     }
@@ -130,7 +132,6 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     if (onU && onV) {
         position = poolPoint(at, componentOf(quad.points, corner));
-        frame = withStoredNormal(at, quad, corner, frame);
     } else if (onU || onV) {
         position = sidePoint(at, quad, onV ? (up ? 2u : 0u) : (right ? 1u : 3u), onV ? u : v);
     } else if (way < 1.0) {

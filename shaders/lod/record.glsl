@@ -139,11 +139,12 @@ LodPattern localPattern(uint place, uint k) {
 }
 vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
 
-// The line of a lane where grids have rows: side n, or one of those inside, of which patches have two less than samples along a side.
+// The line of a lane where grids have rows: side n, or one of those inside, of which patches have two fewer than samples along a side.
 // Lines inside come first, those of all patches. Sides begin with a subgroup of 32 lanes where there is room for that: fewer subgroups
 // then do both.
 struct QuadLine {
-    uint place, n;
+    uint place;
+    uint n; // from 0
     bool isSide;
 };
 QuadLine quadLineOfLane(Share share) {
