@@ -129,11 +129,11 @@ inline constexpr PatchClassRow kPatchClasses[] = {
 [[nodiscard]] constexpr const char* className(PatchClass patchClass) {
     return rowOf(patchClass).name;
 }
-/// At levels a lane of the wide mapping takes a line of samples: shaders/evaluate/lines.glsl, and the evaluate.comp of
-/// P_m, Loop and the blending surface. Kernels are told (kLinesConstant, kRunHasLines).
+/// At levels a lane of the wide mapping takes a line of samples: lines.glsl of bicubic patches and Catmull-Clark, and
+/// evaluate.comp of P_m, Loop and the blending surface. Kernels are told (kLinesConstant, kRunHasLines).
 [[nodiscard]] constexpr bool hasLines(PatchClass patchClass) {
-    return rowOf(patchClass).isBicubic() || rowOf(patchClass).hasSectors() || patchClass == PatchClass::loopRegular ||
-           patchClass == PatchClass::blendRegular;
+    return rowOf(patchClass).isBicubic() || rowOf(patchClass).hasSectors() || rowOf(patchClass).hasQuarters() ||
+           patchClass == PatchClass::loopRegular || patchClass == PatchClass::blendRegular;
 }
 static_assert(shared::kMostLines <= shared::kMaxLanes, "a workgroup has a lane for each line of a patch");
 [[nodiscard]] constexpr Domain domainOf(PatchClass patchClass) {

@@ -237,6 +237,14 @@ void addPatch(ProgramBuilder& builder, const PatchRange& range) {
     builder.add(builder.program.patch, SetKind::construct, kernel, builder.lanes(push.count), push);
 }
 
+uint32_t lanesOfEdge(const ProgramBuilder& builder, Kernel which) {
+    if (!builder.device.mapping.wide) {
+        return 1;
+    }
+    // A lane takes half of an irregular quad's side (shaders/catmull_clark/edge.comp), else a sample.
+    return which == Kernel::catmullClarkEdge ? 2 : builder.evaluation.rate;
+}
+
 void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
     constexpr std::pair<Kernel, const char*> kKinds[] = {{Kernel::evaluateEdge, "supple evaluate edges"},
                                                          {Kernel::evaluateEdge, "supple evaluate edges, perturbed"},
@@ -261,7 +269,7 @@ void addEdges(ProgramBuilder& builder, const ProgramBuilder::VertexPass& pass) {
         push.firstVertex = builder.evaluation.firstEdgeVertex;
         push.firstCorner = builder.evaluation.firstCornerVertex;
         push.verticesPerInstance = builder.evaluation.verticesPerInstance;
-        const DispatchSize size = builder.lanes(push.count * (builder.device.mapping.wide ? push.rate : 1));
+        const DispatchSize size = builder.lanes(push.count * lanesOfEdge(builder, which));
         builder.add(*pass.steps, SetKind::evaluate, kernel, size, push);
     }
 }

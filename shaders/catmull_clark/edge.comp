@@ -1,6 +1,6 @@
 // Indexed mesh: evaluates the samples along sides of irregular quads of exact Catmull-Clark patches, each once, and at corners, each
 // with one of the sides that begin there (evaluate/edge.comp). Frames are those of the quad, turned so that the side comes first.
-// Narrow mapping: one lane per side. Wide mapping: one lane per sample.
+// Narrow mapping: one lane per side. Wide mapping: one lane per half of a side.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -30,10 +30,11 @@ PatchPlace placeOf(uint instance, uint record, uvec4 edge) {
 }
 vec3 poolPoint(const PatchPlace at, uint i) { return poolVector(at.base + i); }
 
+uint last;
+
 #ifndef WIDE
 const bool kInside = false;
 const bool kSides = true;
-uint last;
 void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
     if (!own || (i == 0u && !at.begins)) return;
     uint to = i == 0u ? at.corner : at.along + i - 1u;
@@ -61,19 +62,31 @@ void main() {
     if (hasChain(quad, 1u)) storeQuarter(at, quad, quarterOf(at, quad, 1u, middle, middle), false, true);
 }
 #else
-#include "shaders/catmull_clark/sample.glsl"
+#include "shaders/lod/lines.h" // SampleRow
+#include "shaders/catmull_clark/half_line.glsl"
+
+vec2 linePair(uint k) { return parameterPair(k, last); }
+uint frameCorner(HalfLine h) { return h.isSwapped ? 1u : 0u; }
+void store(const PatchPlace at, HalfLine h, uint k, vec3 position, Frame frame) {
+    uint to = k == 0u ? at.corner : h.samples.first + k * h.samples.step;
+    storeSurfaceVertex(at.first + to, to, position, frame);
+}
 
 void main() {
-    uint rate = fixedRate(), id = invocationIndex(), lanes = push.count * rate;
+    last = fixedRate();
+    uint id = invocationIndex(), lanes = 2u * push.count;
     if (id >= lanes * instanceCount()) return;
-    uint entry = id / lanes, lane = id - entry * lanes, edge = lane / rate, k = lane - edge * rate;
-    uint record = push.table + edge * kEdgeElements;
+    // First halves lie beside each other, and so do second ones.
+    uint entry = id / lanes, lane = id - entry * lanes;
+    bool isSecond = lane >= push.count;
+    uint record = push.table + (isSecond ? lane - push.count : lane) * kEdgeElements, side = tableElement(record).y;
     PatchPlace at = placeOf(instanceSlot(entry), record, tableElement(record + 2u));
-    if (k == 0u && !at.begins) return;
-    vec3 position;
-    Frame f;
-    sampleOnSide(at, tableElement(record).y, parameterPair(k, rate), position, f);
-    uint to = k == 0u ? at.corner : at.along + k - 1u;
-    storeSurfaceVertex(at.first + to, to, position, f);
+    SampleRow samples;
+    samples.first = at.along + (isSecond ? last : 0u) - 1u;
+    samples.step = isSecond ? 0u - 1u : 1u;
+    // The middle belongs to the first half, and so does the corner where the side begins.
+    uint corner = isSecond ? (side + 1u) & 3u : side, firstStep = !isSecond && at.begins ? 0u : 1u;
+    uint endStep = isSecond ? (last + 1u) / 2u : last / 2u + 1u;
+    evaluateHalf(at, quadOf(at.record), HalfLine(corner, firstStep, endStep, true, isSecond, 0.0, 0.0, samples));
 }
 #endif

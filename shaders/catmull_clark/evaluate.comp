@@ -10,11 +10,9 @@
 
 const uint kRecordElements = kQuadRecordElements;
 const uint kForm = kLodQuadForm;
-const uint kParts = kNetPoints;
+#define OWN_WIDE
 #ifdef LEVELS
 #define DEPTH_OF_INSTANCE
-#else
-#define OWN_WIDE
 #endif
 #include "shaders/evaluate/harness.glsl"
 #include "shaders/evaluate/pairs.glsl"
@@ -28,10 +26,11 @@ vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at
 
 layout(constant_id = kInteriorConstant) const bool kInterior = false; // edges have the samples on borders
 
+uint last;
+
 #if !defined(WIDE) || !defined(LEVELS)
 const bool kInside = true;
 const bool kSides = !kInterior;
-uint last;
 void store(const PatchPlace at, bool own, uint i, uint j, vec3 position, Frame frame) {
     uint to = kInterior ? (j - 1u) * (last - 1u) + i - 1u : j * (last + 1u) + i;
     if (own) storeSurfaceVertex(at.vertex + to, at.own + to, SELECT3(at.empty, vec3(0.0), position), frame);
@@ -60,21 +59,5 @@ void evaluatePatch(const PatchPlace at) {
 }
 #endif
 #else
-shared vec4 localPoints[kMaxPatchesPerGroup * kParts];
-uint localPlace; // of the lane's patch
-
-vec3 netPoint(const PatchPlace at, uint k) { return localPoints[localPlace * kParts + k].xyz; }
-#define LOCAL_NET
-#include "shaders/catmull_clark/sample.glsl"
-
-void loadPart(uint to, const PatchPlace at, uint k) {
-    localPoints[to] = vec4(ownPoint(at, quadOf(at.record).first, k), 0.0);
-}
-
-void evaluateSample(uint place, const PatchPlace at, uint index, out vec3 position, out Frame frame) {
-    localPlace = place;
-    uint j = index / (at.capacity + 1u), i = index - j * (at.capacity + 1u);
-    vec2 u = lodU(place, at.capacity, i, j), v = lodV(place, at.capacity, i, j);
-    irregularSample(at, quadOf(at.record), u, v, position, frame);
-}
+#include "shaders/catmull_clark/lines.glsl"
 #endif

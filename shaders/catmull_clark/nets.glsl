@@ -11,21 +11,15 @@
 // long to compile. On lavapipe lanes go through both sides of every `if`, and once more through a loop that is tested at the top. So
 // borders are not told apart sample by sample, loops are tested at the bottom, and what must not be stored is computed all the same.
 #include "shaders/chains/offset.glsl"
-#include "shaders/catmull_clark/quad.glsl"
+#include "shaders/catmull_clark/rows.glsl"
 
 struct Net {
     vec3 p[kNetPoints];
 };
-// `net list`: which points from `first` on.
 Net netOf(const PatchPlace at, uint netList, uint first) {
+    NetIndices indices = netIndices(netList, first);
     Net net;
-    [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) {
-        uvec4 words = tableElement(netList + e);
-        [[unroll]] for (uint c = 0u; c < 8u; ++c) {
-            uint k = 8u * e + c;
-            if (k < kNetPoints) net.p[k] = poolPoint(at, first + halfOf(words[c / 2u], c));
-        }
-    }
+    [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) net.p[k] = poolPoint(at, indices.of[k]);
     return net;
 }
 Net quadNet(const PatchPlace at, IrregularQuad quad) { return netOf(at, at.record + kQuadNetElement, quad.first); }
@@ -64,10 +58,6 @@ NetOffsets offsetsOf(Net net) {
     return offsets;
 }
 
-// All columns of a net at one y, in the lower or the upper cells; from the net's middle.
-struct NetRow {
-    vec3 point[kNetSide], slope[kNetSide];
-};
 NetRow netRow(NetOffsets net, bool upper, LeafWeights y) {
     NetRow row;
     [[unroll]] for (uint i = 0u; i < kNetSide; ++i) {
@@ -78,24 +68,6 @@ NetRow netRow(NetOffsets net, bool upper, LeafWeights y) {
     }
     return row;
 }
-// The columns of the left or the right cells.
-struct CellRow {
-    vec3 point[4], slope[4];
-};
-CellRow cellRow(NetRow row, bool right) {
-    CellRow cell;
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        cell.point[k] = SELECT3(right, row.point[k + 1u], row.point[k]);
-        cell.slope[k] = SELECT3(right, row.slope[k + 1u], row.slope[k]);
-    }
-    return cell;
-}
-vec3 rowPoint(CellRow row, vec4 w) { return sumInside(w, row.point[0], row.point[1], row.point[2], row.point[3]); }
-vec3 rowAlongX(CellRow row, vec4 d) { return blend4(d, row.point[0], row.point[1], row.point[2], row.point[3]); }
-vec3 rowAlongY(CellRow row, vec4 w) { return blend4(w, row.slope[0], row.slope[1], row.slope[2], row.slope[3]); }
-vec3 rowAlongX(NetRow row, bool right, vec4 d) { return rowAlongX(cellRow(row, right), d); }
-vec3 rowAlongY(NetRow row, bool right, vec4 w) { return rowAlongY(cellRow(row, right), w); }
-
 #ifdef LEVELS
 LodPattern patterns[6];
 const bool kOwnBorders = true; // whose samples lie elsewhere than those of the rows inside
@@ -148,10 +120,6 @@ QuarterPlace quarterPlace(uint corner) {
     uint below = last / 2u + 1u, above = (last + 1u) / 2u;
     uint countU = isRight(corner) ? above : below, countV = isUpper(corner) ? above : below;
     return QuarterPlace(corner, turned ? countV : countU, turned ? countU : countV);
-}
-uvec2 placeInQuad(uint corner, uint a, uint b) {
-    uint x = (corner & 1u) == 0u ? a : b, y = (corner & 1u) == 0u ? b : a;
-    return uvec2(SELECT(isRight(corner), last - x, x), SELECT(isUpper(corner), last - y, y));
 }
 void storeInQuarter(const PatchPlace at, bool own, uint corner, uint a, uint b, vec3 position, vec3 da, vec3 db) {
     uvec2 place = placeInQuad(corner, a, b);

@@ -1,22 +1,18 @@
-// A single sample of an irregular quad (docs/catmull_clark.md). Before the include, what quad.glsl needs; with LOCAL_NET also
-//   vec3 netPoint(const PatchPlace at, uint k)        ownPoint(), from workgroup memory
+// A single sample of an irregular quad (docs/catmull_clark.md): a point of a side, by which levels are measured, and all that texture
+// coordinates want of a sample. Before the include, what quad.glsl needs.
 #include "shaders/catmull_clark/quad.glsl"
 
 // Where a net's points come from, as they are seen from a corner.
 struct NetSource {
-    bool own; // the quad's, else of a chain
     uint netList, first;
     uint corner; // 0 for a chain: its net lists are the corner's
 };
 NetSource ownNet(const PatchPlace at, IrregularQuad quad, uint corner) {
-    return NetSource(true, at.record + kQuadNetElement, quad.first, corner);
+    return NetSource(at.record + kQuadNetElement, quad.first, corner);
 }
-NetSource chainNet(Chain chain, uint level) { return NetSource(false, chain.netLists, levelPoints(chain, level), 0u); }
+NetSource chainNet(Chain chain, uint level) { return NetSource(chain.netLists, levelPoints(chain, level), 0u); }
 vec3 sourcePoint(const PatchPlace at, NetSource net, uint k) {
     uint place = SUPPLE_QUAD_NET_PLACE(net.corner, k % kNetSide, k / kNetSide);
-#ifdef LOCAL_NET
-    if (net.own) return netPoint(at, place);
-#endif
     return poolPoint(at, net.first + netListPoint(net.netList, place));
 }
 
@@ -90,6 +86,7 @@ Leaf leafAt(const PatchPlace at, NetSource net, bool secondX, bool secondY, Leaf
                 blend4(x.w, slope[0], slope[1], slope[2], slope[3]));
 }
 
+// Of texture coordinates: nobody reads the frame's normal.
 void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, out vec3 position, out Frame frame) {
     bool right = u.x > u.y, up = v.x > v.y;
     uint corner = up ? (right ? 2u : 3u) : (right ? 1u : 0u);
@@ -127,7 +124,7 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     Leaf leaf = leafAt(at, net, secondX, secondY, x, y);
     position = placed(origin, leaf.first, leaf.offset);
-    if (kTangents && chain.netLists != 0u && onU && onV) { // those along the second edge
+    if (chain.netLists != 0u && onU && onV) { // those along the second edge
         LeafWeights begin = leafWeights(0.0, 0.0), across = leafWeights(0.0, sharpnessOf(quad, (corner + 3u) & 3u, chain.lastLevel));
         leaf.alongY = leafAt(at, net, false, true, across, begin).alongY;
     }
@@ -135,7 +132,6 @@ void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, ou
 
     if (onU && onV) {
         position = poolPoint(at, componentOf(quad.points, corner));
-        frame = withStoredNormal(at, quad, corner, frame);
     } else if (onU || onV) {
         position = sidePoint(at, quad, onV ? (up ? 2u : 0u) : (right ? 1u : 3u), onV ? u : v);
     } else if (way < 1.0) {

@@ -115,24 +115,17 @@ void evaluateSideOf(const PatchPlace at, uint place, uint side) {
     Row row = sideRow(loadCorner(at, net, side), loadCorner(at, net, (side + 1u) & 3u), side == 2u, h);
     evaluateSide(at, row, side, localPattern(place, 2u + side), normalSlots(at.record));
 }
-// Sides begin with a subgroup of 32 lanes where there is room for that. Fewer subgroups then run both loops.
-uint firstSideLane(uint inside, uint count) {
-    uint rounded = (inside + 31u) & ~31u;
-    return rounded + 4u * count <= gl_WorkGroupSize.x ? rounded : inside;
-}
 void evaluateWide() {
     Share share = shareOfGroup();
-    uint lines = share.side - 2u, inside = share.count * lines, sides = firstSideLane(inside, share.count);
-    uint lane = gl_LocalInvocationID.x;
-    if (lane < inside) {
-        uint place = lane / lines, n = lane - place * lines + 1u;
-        PatchPlace at = PATCH_IN_PLACE(share, place);
+    QuadLine line = quadLineOfLane(share);
+    if (line.place >= share.count) return;
+    PatchPlace at = PATCH_IN_PLACE(share, line.place);
+    if (line.isSide) {
+        evaluateSideOf(at, line.place, line.n);
+    } else {
         Patch c = loadPatch(at);
         if (kColumns) c = transposed(c);
-        evaluateLine(at, c, n, localPattern(place, acrossPattern()), localPattern(place, 1u - acrossPattern()));
-    } else if (lane >= sides && lane < sides + 4u * share.count) {
-        uint place = (lane - sides) / 4u;
-        evaluateSideOf(PATCH_IN_PLACE(share, place), place, (lane - sides) & 3u);
+        evaluateLine(at, c, line.n + 1u, localPattern(line.place, acrossPattern()), localPattern(line.place, 1u - acrossPattern()));
     }
 }
 #else

@@ -139,6 +139,24 @@ LodPattern localPattern(uint place, uint k) {
 }
 vec2 localPair(uint place, uint k, uint i, uint capacity) { return lodPair(localPattern(place, k), i, capacity); }
 
+// The line of a lane where grids have rows: side n, or one of those inside, of which patches have two fewer than samples along a side.
+// Lines inside come first, those of all patches. Sides begin with a subgroup of 32 lanes where there is room for that: fewer subgroups
+// then do both.
+struct QuadLine {
+    uint place;
+    uint n; // from 0
+    bool isSide;
+};
+QuadLine quadLineOfLane(Share share) {
+    uint lines = share.side - 2u, inside = share.count * lines, lane = gl_LocalInvocationID.x;
+    if (lane < inside) {
+        uint place = lane / lines;
+        return QuadLine(place, lane - place * lines, false);
+    }
+    uint sides = (inside + 31u) & ~31u;
+    if (sides + 4u * share.count > gl_WorkGroupSize.x) sides = inside;
+    return QuadLine(lane < sides ? share.count : (lane - sides) / 4u, (lane - sides) & 3u, true);
+}
 // The line of a lane where grids have rings: line n of as many as a sector of a patch has.
 struct RingLine {
     uint place, sector, n, lines;

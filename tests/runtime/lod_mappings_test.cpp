@@ -3,6 +3,7 @@
 #include "runtime/arrays/character_arrays.h"
 #include "surface/lod/grid.h"
 #include "surface/patch_class.h"
+#include "tests/support/exact_tables.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/lod_random.h"
 #include "tests/support/meshes.h"
@@ -18,6 +19,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <string>
 
 namespace supple::test {
 namespace {
@@ -147,11 +149,31 @@ protected:
         mappings_.compare(withUvsOfPositions(cage), scheme, RandomLevels::Range::low);
         mappings_.compare(withUvsOfPositions(cage), scheme, RandomLevels::Range::least);
     }
+    /// Some of the zoo: it has five variants of a cage, smooth ones and sharp ones, and a step that five does not
+    /// divide meets them all.
     void compareZoo(SuppleScheme scheme, size_t step) {
         const std::vector<SubdivisionCage>& zoo = subdivisionZoo();
         for (size_t z = 0; z < zoo.size(); z += step) {
+            SCOPED_TRACE(zoo[z].name);
             compare(zoo[z].cage, scheme);
         }
+    }
+    /// Edges of different sharpness at a corner, fractions, darts, sharp vertices, endless creases, boundaries, holes.
+    void compareSharp(SuppleScheme scheme) {
+        const std::set<std::string> names{"dart of 1.200000", "dart at a sharp vertex of 3.300000",
+                                          "creases of different sharpness", "crease into a boundary"};
+        size_t found = 0;
+        for (const SubdivisionCage& zoo : subdivisionZoo()) {
+            if (names.contains(zoo.name)) {
+                SCOPED_TRACE(zoo.name);
+                compare(zoo.cage, scheme);
+                ++found;
+            }
+        }
+        EXPECT_EQ(found, names.size());
+        cage::Cage holed = withRandomSharpness(perturbed(torus(6, 5), 0.05f, 3), 3);
+        holed.holes = {2, 9, 10};
+        compare(holed, scheme);
     }
     void expectSame(const std::set<PatchClass>& classes) const {
         mappings_.expectSame(classes);
@@ -186,6 +208,16 @@ TEST_P(LodMappings, OfPrep) {
     expectSame({PatchClass::regular, PatchClass::perturbed});
 }
 
+TEST_P(LodMappings, OfCatmullClark) {
+    compareZoo(SUPPLE_SCHEME_CATMULL_CLARK, 41);
+    compareSharp(SUPPLE_SCHEME_CATMULL_CLARK);
+    compareLow(torus(12, 9), SUPPLE_SCHEME_CATMULL_CLARK);
+    for (uint32_t seed = 1; seed <= 6; ++seed) {
+        compare(perturbed(straightCrease(), 0.05f, seed), SUPPLE_SCHEME_CATMULL_CLARK);
+    }
+    expectSame({PatchClass::regular, PatchClass::irregular, PatchClass::irregularSharp, PatchClass::creased});
+}
+
 TEST_P(LodMappings, OfLoop) {
     compareZoo(SUPPLE_SCHEME_LOOP, 48);
     compareLow(quartered(quartered(gyroBipyramid(6))), SUPPLE_SCHEME_LOOP);
@@ -193,7 +225,8 @@ TEST_P(LodMappings, OfLoop) {
 }
 
 TEST_P(LodMappings, OfBlend) {
-    compareZoo(SUPPLE_SCHEME_BLEND, 40);
+    compareZoo(SUPPLE_SCHEME_BLEND, 41);
+    compareSharp(SUPPLE_SCHEME_BLEND);
     compareLow(torus(12, 9), SUPPLE_SCHEME_BLEND);
     expectSame({PatchClass::blend, PatchClass::blendSharp, PatchClass::blendRegular});
 }
