@@ -35,6 +35,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
         status = desc.asset->makeSkinning(*desc.device, desc.mode);
     }
     status = status && desc.room.springs ? set->takeSprings() : status;
+    status = status && desc.room.jiggles ? set->takeJiggles() : status;
     if (!status) {
         return status.error();
     }
@@ -62,6 +63,12 @@ Status InstanceSet::takeSprings() {
                                            std::to_string(kMostWork)};
     }
     return success();
+}
+
+Status InstanceSet::takeJiggles() {
+    const Status made = desc_.asset->makeJiggles(*desc_.device);
+    desc_.room.jiggles = desc_.asset->jiggleCount > 0;
+    return made;
 }
 
 uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {

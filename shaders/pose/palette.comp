@@ -57,10 +57,15 @@ void keepGlobal(uint matrices, uint node, Affine global) {
     }
 }
 
+// Springs have made the matrices of a step's nodes that they need.
+bool isGlobalAlready(uint node) {
+    return push.springs != 0u && isStep() && (table(kNodeElements * node).y & kNodeOfSprings) != 0u;
+}
 Affine globalOf(uint matrices, uint node) {
-    uint parent = parentOf(node);
-    precise Affine global = localMatrix(node, localAt(matrices + kAffineElements * node));
+    uint parent = parentOf(node), rows = matrices + kAffineElements * node;
+    precise Affine global = localMatrix(node, localAt(rows));
     if (parent != kNoNode) global = combined(globalAt(matrices, parent), global);
+    if (isGlobalAlready(node)) global = placeAt(rows);
     return global;
 }
 
@@ -90,7 +95,8 @@ void main() {
     uint matrices = entry * push.scratchStride;
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     bool bindPose = (state(posedSlot() * push.stateStride).y & kStateBindPose) != 0u;
-    Affine place = placeAt(matrices + kAffineElements * push.nodeCount);
+    precise Affine place = identity();
+    if (!isStep()) place = placeAt(matrices + kAffineElements * push.nodeCount);
     // Matrices change in their places: lanes beyond the instances must not store.
     if (kWide) {
         for (uint level = 0u; level < push.levelCount; ++level) {

@@ -56,15 +56,7 @@ void keepSpring(uint i, vec4 v) {
     if (listed) springs.at[tails + i] = own;
 }
 #include "shaders/pose/springs.h"
-
-Affine movedRows(uint word) {
-    vec4 rows[3];
-    for (uint i = 0u; i < 3u; ++i) {
-        uint w = word + 4u * i;
-        rows[i] = uintBitsToFloat(uvec4(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u), instanceWord(w + 3u)));
-    }
-    return rowsOf(rows[0], rows[1], rows[2]);
-}
+#include "shaders/pose/moves.glsl"
 
 // Behind what other lanes of the workgroup have stored.
 void meet() {

@@ -89,14 +89,15 @@
 // Ends (vec4 elements, in groups with update rates): two poses an instance, `endStride` apart, at the two grid times that a time
 // lies between; of number 1 and 2. They stand in model space, or where the instance has travelled to from there: the transform is
 // left out. They serve later frames, so they have a buffer that stays on this queue.
+// In groups where vertices jiggle the buffer has the pose of each step instead, in the order of the list, in model space.
 //
 // List of what is posed (words), in groups with update rates, made anew for every frame. For each window of instances: an entry for
 // every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
 // low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
 // In groups with springs the list has, for each window: an entry for every pose that is shown, `shown` of them; an entry for each
-// step of springs that is due, slot | kPosedBefore if it is posed as before the last call; from `times` on the times
-// of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | a jump, the
+// step of springs that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion travels; from
+// `times` on the times of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | a jump | the last digits of the first one's number, the
 // part of the way from the step before the last to the last, as a float, where its moves begin or 0, its entry among those that are
 // shown); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
@@ -144,6 +145,7 @@ SUPPLE_SHARED_CONST kContactElements = 2u;
 SUPPLE_SHARED_CONST kNodeFixed = 1u;      // its local matrix is
 SUPPLE_SHARED_CONST kNodeOfSprings = 2u;  // steps of springs need it
 SUPPLE_SHARED_CONST kNodeInChain = 4u;    // it swings, or hangs on one that does
+SUPPLE_SHARED_CONST kNodeOfJiggles = 8u;  // steps need it for vertices that jiggle
 
 // Packed clips.
 SUPPLE_SHARED_CONST kPackedClip = 0x80000000u;
@@ -199,12 +201,14 @@ SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 
 // Springs.
 SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
+SUPPLE_SHARED_CONST kPosedTravels = 0x80000000u;
 SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
 SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
 SUPPLE_SHARED_CONST kSpringWords = 6u;
 SUPPLE_SHARED_CONST kMoveWords = 12u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
 SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
+SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
 SUPPLE_SHARED_CONST kColliderElements = 3u;
@@ -213,6 +217,8 @@ SUPPLE_SHARED_CONST kColliderPlane = 2u;
 SUPPLE_SHARED_CONST kPosedColliderElements = 2u;
 SUPPLE_SHARED_CONST kSpringJoints = 3u; // where they begin in an instance's run
 SUPPLE_SHARED_CONST kSpringJointElements = 4u;
+
+SUPPLE_SHARED_CONST kStepsHavePoses = 0x80000000u; // of `stepNodes`: what jiggles needs palettes and morph weights of steps
 
 // Drivers.
 SUPPLE_SHARED_CONST kShareElements = 4u;
@@ -267,7 +273,7 @@ struct PosePush {
     uint endStride;    // from one end of an instance to the next
     uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
     uint shown;        // entries before this one are shown, others are steps of springs
-    uint stepNodes;    // flags of nodes that steps of springs need
+    uint stepNodes;    // flags of nodes that steps need, all if there are none; kStepsHavePoses
     uint stateBefore;  // from an instance's state to what it played before the last call
     uint springs;      // section of the clip table
     uint springScratch;
