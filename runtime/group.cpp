@@ -281,6 +281,7 @@ void Group::addMembers(const GroupShared& shared) {
     addMember(asset_->buffers);
     addMember(asset_->centered);
     addMember(asset_->clips);
+    addMember(asset_->jiggles);
     if (!follows()) {
         addMember(*instances_);
     }
