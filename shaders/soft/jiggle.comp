@@ -6,7 +6,6 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/vectors.h"
-#include "shaders/pose/limbs.h"
 #include "shaders/soft/jiggle.h"
 
 layout(constant_id = kMorphsConstant) const bool kMorphs = false;

@@ -3,6 +3,7 @@
 #ifndef SUPPLE_SOFT_JIGGLE_H
 #define SUPPLE_SOFT_JIGGLE_H
 
+#include "shaders/pose/limbs.h"
 #include "shaders/pose/swing.h"
 #include "shaders/shared/jiggle.h"
 #include "shaders/shared/pose.h"

@@ -1,7 +1,6 @@
 // The arithmetic of what jiggles, against float64; the table that it is in.
 #include "skinning/jiggle_table.h"
 
-#include "shaders/pose/limbs.h"
 #include "shaders/soft/jiggle.h"
 #include "tests/support/rigged_tube.h"
 

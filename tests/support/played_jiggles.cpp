@@ -1,6 +1,5 @@
 #include "tests/support/played_jiggles.h"
 
-#include "shaders/pose/limbs.h"
 #include "skinning/jiggle_table.h"
 
 namespace supple::test {

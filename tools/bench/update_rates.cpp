@@ -128,8 +128,11 @@ public:
             desc.scheme = SUPPLE_SCHEME_CAGE;
             desc.capacity = characters_;
             desc.poseSource = SUPPLE_POSES_PLAYBACK;
-            const uint32_t moves = kind.has == Has::jiggles ? SUPPLE_GROUP_SOFT : SUPPLE_GROUP_SPRINGS;
-            desc.flags = kind.interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : kind.swings ? moves : 0;
+            if (kind.interval != 0) {
+                desc.flags = SUPPLE_GROUP_UPDATE_RATES;
+            } else if (kind.swings) {
+                desc.flags = kind.has == Has::jiggles ? SUPPLE_GROUP_SOFT : SUPPLE_GROUP_SPRINGS;
+            }
             const Result<SuppleGroup> made = workbench_.createGroup(desc, kind.interval);
             if (!made) {
                 return made.error();
