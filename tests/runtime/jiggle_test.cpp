@@ -130,7 +130,8 @@ TEST_F(Jiggles, HaveTheWordsOfTheCpu) {
                     EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
                     const double apart = cagesApart(soft.shown(i), stiff.shown(i));
                     EXPECT_LT(apart, 0.07) << "the limit, and a turn";
-                    EXPECT_EQ(apart > 0.0, f > 0) << "at rest in the pose; then it moves";
+                    EXPECT_TRUE(f > 0 || apart == 0.0) << "at rest in the pose";
+                    EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
                     moved = std::max(moved, apart);
                 }
             }

@@ -99,7 +99,7 @@ TEST(Jiggles, StayWithinTheirLimit) {
 }
 
 TEST(Jiggles, FramesThatMoveSteadilyMoveNothing) {
-    const cage::Jiggle own{4.0f, 0.2f, 0.05f};
+    const cage::Jiggle own{4.0f, 0.2f, 1.0f};
     const vec4 spring = jiggleSpring(own);
     Jiggling jiggling = settledAt(vec3(0.1f, 1.0f, 0.2f));
     JiggleStep now = standing();
