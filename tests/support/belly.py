@@ -34,8 +34,8 @@ def rings():
         radius = max(body if t < 0.78 else 0.0, head, 0.06)
         for k in range(AROUND):
             angle = 2.0 * math.pi * k / AROUND
-            front = max(math.cos(angle), 0.0) ** 2 * smooth((t - 0.12) / 0.2) * smooth((0.62 - t) / 0.25)
-            points.append([radius * math.sin(angle), y, radius * math.cos(angle) + 0.16 * front])
+            front = (0.5 + 0.5 * math.cos(angle)) ** 2 * smooth((t - 0.05) / 0.3) * smooth((0.68 - t) / 0.35)
+            points.append([radius * math.sin(angle), y, radius * math.cos(angle) + 0.13 * front])
     return points
 
 
