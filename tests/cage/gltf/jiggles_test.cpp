@@ -27,7 +27,7 @@ GltfBuilder painted(const std::string& jiggles, const std::string& attributes = 
     b.more = R"(,"extensionsUsed":["SUPPLE_deformers"])";
     return b;
 }
-GltfBuilder but(const std::string& from, const std::string& to) {
+GltfBuilder paintedBut(const std::string& from, const std::string& to) {
     return painted("[" + replaced(kJiggle, from, to) + "]");
 }
 
@@ -71,17 +71,17 @@ TEST(GltfJiggles, FaultsAreNamed) {
         EXPECT_TRUE(lenient.weights.jiggles.empty());
         EXPECT_GE(lenient.warnings.size(), 1u) << "it is left out alone";
     };
-    is(but(R"("weights":"_SUPPLE_JIGGLE_0",)", ""), place + ": weights is missing");
-    is(but(R"("_SUPPLE_JIGGLE_0")", "7"), place + " weights: not a string");
-    is(but(R"("_SUPPLE_JIGGLE_0")", R"("NORMAL")"),
+    is(paintedBut(R"("weights":"_SUPPLE_JIGGLE_0",)", ""), place + ": weights is missing");
+    is(paintedBut(R"("_SUPPLE_JIGGLE_0")", "7"), place + " weights: not a string");
+    is(paintedBut(R"("_SUPPLE_JIGGLE_0")", R"("NORMAL")"),
        place + R"( weights: "NORMAL" is no name of an application's attribute: it has no _)");
-    is(but(R"("_SUPPLE_JIGGLE_0")", R"("_FAT")"), place + R"(: no vertex has a weight of "_FAT")");
+    is(paintedBut(R"("_SUPPLE_JIGGLE_0")", R"("_FAT")"), place + R"(: no vertex has a weight of "_FAT")");
     is(painted("[" + kJiggle + "]", R"("_SUPPLE_JIGGLE_0":6)"),
        place + R"(: no vertex has a weight of "_SUPPLE_JIGGLE_0")");
-    is(but(R"("frequency":3.5)", R"("frequency":31)"), place + " frequency: not a number from 0.05 to 30");
-    is(but(R"("damping":0.25)", R"("damping":-1)"), place + " damping: not a number from 0 to 10");
-    is(but(R"("limit":0.04)", R"("limit":0)"), place + " limit: not a number from 1e-06 to 1e+09");
-    is(but(R"("limit":0.04)", R"("limit":"a")"), place + " limit: not a number from 1e-06 to 1e+09");
+    is(paintedBut(R"("frequency":3.5)", R"("frequency":31)"), place + " frequency: not a number from 0.05 to 30");
+    is(paintedBut(R"("damping":0.25)", R"("damping":-1)"), place + " damping: not a number from 0 to 10");
+    is(paintedBut(R"("limit":0.04)", R"("limit":0)"), place + " limit: not a number from 1e-06 to 1e+09");
+    is(paintedBut(R"("limit":0.04)", R"("limit":"a")"), place + " limit: not a number from 1e-06 to 1e+09");
     is(painted("{}"), "t.glb: mesh 0 SUPPLE_deformers jiggle: not an array");
     is(painted("[7]"), place + ": not an object");
     const std::string weights = "t.glb: mesh 0 primitive 0 _SUPPLE_JIGGLE_0";
