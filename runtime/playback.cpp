@@ -554,7 +554,7 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
     const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    const uint32_t number = (static_cast<uint32_t>(due.first) & 15u) << kSpringNumberShift;
+    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
     list_.addSwinging(slotInWindow, due.count | jump | number | (due.settles ? kSpringSettles : 0), due.part,
                       due.moves);
     for (uint32_t k = 0; k < due.count; ++k) {

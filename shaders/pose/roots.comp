@@ -24,7 +24,7 @@ void main() {
         Transform root = posedTransform(first, header.z, sinceBegin);
         storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
-            // A loop, so that the code is there once: where it stands, then for springs the way alone.
+            // A loop, so that the code is there once: where it stands, then for steps the way alone.
             for (uint way = 0u; way < (isStep() ? 2u : 1u); ++way) {
                 precise Affine place = identity();
                 if (isPlaced() && way == 0u) place = transformOf(first);

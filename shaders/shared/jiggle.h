@@ -3,8 +3,8 @@
 // Table (uvec4 elements), two for every vertex that jiggles: (cage vertex; weight, limit as float bits; 0);
 // (exp(h [[0, 1], [-k, -c]]) of a step h, row after row, as float bits), by which a spring goes on for a step
 //
-// State (vec4 elements, one run of `stateStride` an instance): kJiggleWays times three rows, where root motion had taken the
-// instance at a step, by the last digits of the step's number; then kJiggleElements for every vertex:
+// State (vec4 elements, one run of `stateStride` an instance): kSpringNumbers times three rows, where root motion had taken the
+// instance at a step, by the last bits of the step's number; then kJiggleElements for every vertex:
 //   (offset from the goal; x of `before`), (its speed; y of `before`), (goal; z of `before`), (speed of the goal; what is known)
 // The goal is where joints have the vertex in the step's pose; `before` is the offset a step earlier. Known is nothing (0), the
 // goal (1), or its speed too (2). All of it lies in the model's frame of the last step, without what root motion has travelled.
@@ -24,8 +24,7 @@ SUPPLE_SHARED_CONST kJigglePlaceBinding = 8u; // the scratch memory of the pose 
 SUPPLE_SHARED_CONST kJigglePlaceTexelBinding = 9u;
 
 SUPPLE_SHARED_CONST kJiggleTableElements = 2u;
-SUPPLE_SHARED_CONST kJiggleWays = 16u;
-SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run
+SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run: behind 3 * kSpringNumbers
 SUPPLE_SHARED_CONST kJiggleElements = 4u;
 
 struct JigglePush {

@@ -95,11 +95,11 @@
 // every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
 // low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
-// In groups with springs the list has, for each window: an entry for every pose that is shown, `shown` of them; an entry for each
-// step of springs that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion travels; from
-// `times` on the times of all these; then kSpringWords for each instance that swings: (slot, the first of its steps, how many | kSpringSettles | a jump | the last digits of the first one's number, the
-// part of the way from the step before the last to the last, as a float, where its moves begin or 0, its entry among those that are
-// shown); moves: for each step the
+// In groups with springs or vertices that jiggle the list has, for each window: an entry for every pose that is shown, `shown` of
+// them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
+// travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
+// of its steps, how many | kSpringSettles | a jump | the last 4 bits of the first one's number, the part of the way from the step
+// before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
 //
 // Springs (vec4 elements, one run of `springStride` an instance): three rows of what it had travelled at the last step; then
@@ -208,7 +208,8 @@ SUPPLE_SHARED_CONST kSpringWords = 6u;
 SUPPLE_SHARED_CONST kMoveWords = 12u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
 SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
-SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits
+SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number
+SUPPLE_SHARED_CONST kSpringNumbers = 16u;     // that these tell apart: more than a frame has steps
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
 SUPPLE_SHARED_CONST kColliderElements = 3u;
@@ -218,7 +219,8 @@ SUPPLE_SHARED_CONST kPosedColliderElements = 2u;
 SUPPLE_SHARED_CONST kSpringJoints = 3u; // where they begin in an instance's run
 SUPPLE_SHARED_CONST kSpringJointElements = 4u;
 
-SUPPLE_SHARED_CONST kStepsHavePoses = 0x80000000u; // of `stepNodes`: what jiggles needs palettes and morph weights of steps
+// Beside flags of nodes in PosePush::stepNodes: what jiggles needs palettes and morph weights of steps.
+SUPPLE_SHARED_CONST kStepsHavePoses = 0x80000000u;
 
 // Drivers.
 SUPPLE_SHARED_CONST kShareElements = 4u;
@@ -270,9 +272,9 @@ struct PosePush {
     uint transition;   // first element of the transition in an instance's state
     uint contacts;     // section of the clip table
     uint footCount;    // 0: none is planted
-    uint endStride;    // from one end of an instance to the next
+    uint endStride;    // from one end of an instance, or the pose of one step, to the next
     uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
-    uint shown;        // entries before this one are shown, others are steps of springs
+    uint shown;        // entries before this one are shown, others are steps
     uint stepNodes;    // flags of nodes that steps need, all if there are none; kStepsHavePoses
     uint stateBefore;  // from an instance's state to what it played before the last call
     uint springs;      // section of the clip table

@@ -40,10 +40,10 @@ void main() {
     uint words = push.swinging + kSpringWords * entry;
     uint slot = slotOf(instanceWord(words)), first = instanceWord(words + 1u), flags = instanceWord(words + 2u);
     uint moves = instanceWord(words + 4u), steps = min(flags & 255u, kMostSpringSteps);
-    uint jump = (flags >> kSpringJumpShift) & 15u, number = (flags >> kSpringNumberShift) & (kJiggleWays - 1u);
+    uint jump = (flags >> kSpringJumpShift) & 15u, number = (flags >> kSpringNumberShift) & (kSpringNumbers - 1u);
     uint ways = slot * push.stateStride, state = ways + kJiggleVertices + kJiggleElements * vertex;
     Jiggling jiggling = jigglingOf(jiggles.at[state], jiggles.at[state + 1u], jiggles.at[state + 2u], jiggles.at[state + 3u]);
-    uint wayBefore = ways + 3u * ((number + kJiggleWays - 1u) & (kJiggleWays - 1u));
+    uint wayBefore = ways + 3u * ((number + kSpringNumbers - 1u) & (kSpringNumbers - 1u));
     precise Affine before = rowsOf(jiggles.at[wayBefore], jiggles.at[wayBefore + 1u], jiggles.at[wayBefore + 2u]);
     for (uint k = 0u; k < steps; ++k) {
         uint posed = push.shown + first + k;
@@ -68,7 +68,7 @@ void main() {
         jiggles.at[state + 1u] = vec4(jiggling.speed, jiggling.before.y);
         jiggles.at[state + 2u] = vec4(jiggling.goal, jiggling.before.z);
         jiggles.at[state + 3u] = vec4(jiggling.goalSpeed, jiggling.known);
-        uint wayNow = ways + 3u * ((number + steps - 1u) & (kJiggleWays - 1u));
+        uint wayNow = ways + 3u * ((number + steps - 1u) & (kSpringNumbers - 1u));
         if (vertex == 0u) {
             jiggles.at[wayNow] = before.x;
             jiggles.at[wayNow + 1u] = before.y;
