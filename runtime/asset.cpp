@@ -1,5 +1,6 @@
 #include "runtime/asset.h"
 
+#include "shaders/shared/pose.h"
 #include "skinning/jiggle_table.h"
 
 #include <algorithm>
@@ -216,12 +217,10 @@ Status Asset::makeJiggles(const gpu::Device& device) {
         return success();
     }
     skinning::JiggleTable table = skinning::buildJiggleTable(character);
-    // Eight steps must not bring an invocation near the 65,536 rounds of its loops where some drivers end it.
-    constexpr uint32_t kMostWork = 7000;
-    if (table.mostWork > kMostWork) {
+    if (table.mostWork > shared::kMostStepWork) {
         return Error{ErrorCode::limit, "a vertex that jiggles has " + std::to_string(table.mostWork) +
                                            " morph targets and pairs of joints, of at most " +
-                                           std::to_string(kMostWork)};
+                                           std::to_string(shared::kMostStepWork)};
     }
     if (table.vertexCount == 0) {
         return success();

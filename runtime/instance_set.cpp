@@ -1,5 +1,7 @@
 #include "runtime/instance_set.h"
 
+#include "shaders/shared/pose.h"
+
 #include <algorithm>
 
 namespace supple::runtime {
@@ -55,12 +57,10 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
 Status InstanceSet::takeSprings() {
     const skinning::ClipTable& table = *desc_.asset->clipTable;
     desc_.room.springs = table.springs != 0;
-    // Eight steps must not bring an invocation near the 65,536 rounds of its loops where some drivers end it.
-    constexpr uint32_t kMostWork = 7000;
-    if (table.springWork > kMostWork) {
+    if (table.springWork > shared::kMostStepWork) {
         return Error{ErrorCode::limit, "its springs have " + std::to_string(table.springWork) +
                                            " joints, colliders and tests of one against the other, of at most " +
-                                           std::to_string(kMostWork)};
+                                           std::to_string(shared::kMostStepWork)};
     }
     return success();
 }

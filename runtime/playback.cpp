@@ -51,7 +51,7 @@ Status Playback::create(const Desc& desc) {
     modifiers_ = InstanceModifiers(desc.room.modifiers ? desc.capacity : 0, push_.morphCount);
     states_ = PlayedStates(
         {push_, desc.room, transitionElements(table, desc.layout, desc.room), desc.capacity, desc.framesInFlight});
-    masks_ = PlayedMasks(*desc.asset);
+    masks_ = PlayedMasks(*desc.asset, desc.room.hasSteps());
     twin_ = skinning::PoseTwin(table, desc.layout, push_.transition);
     transforms_.resize(desc.capacity, glm::mat4(1.0f));
     positions_.resize(desc.capacity, glm::dvec3(0.0));
@@ -309,10 +309,12 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
     states_.markChanged(slot);
 }
 
-void Playback::keepBefore(uint32_t slot) {
-    if (springs_.change(slot, time_)) {
+bool Playback::keepBefore(uint32_t slot) {
+    const bool keeps = springs_.change(slot, time_);
+    if (keeps) {
         states_.keepBefore(slot);
     }
+    return keeps;
 }
 
 bool Playback::travels(uint32_t slot) {
@@ -412,11 +414,19 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     if (hasDrivers() || weights == nullptr) {
         rates_.forget(slot);
     }
+    if (hasJiggles()) { // joints do not know of weights
+        keepBefore(slot);
+    }
     own.setMorphWeights(weights, push_.morphCount);
     states_.markChanged(slot);
 }
 
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
+    for (uint32_t slot = 0; hasSteps() && slot < capacity_; ++slot) {
+        if (keepBefore(slot)) {
+            states_.markChanged(slot);
+        }
+    }
     masks_.set(mask, joints, morphs);
     evaluated_ = kNoSlot;
     forgetEndsOf([mask](const auto& layer) { return layer.mask == mask; });
@@ -555,8 +565,8 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
     const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
     const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
-    list_.addSwinging(slotInWindow, due.count | jump | number | (due.settles ? kSpringSettles : 0), due.part,
-                      due.moves);
+    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
+    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, due.moves);
     for (uint32_t k = 0; k < due.count; ++k) {
         const double time = springTime(due.first + k);
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);

@@ -221,8 +221,8 @@ private:
         return VkDeviceSize{posesInFrame_} * push_.scratchStride * gpu::kVec4Bytes;
     }
     [[nodiscard]] VkDeviceSize springBytes() const { return VkDeviceSize{push_.springStride} * 16; }
-    /// What the slot plays changes: due steps are still posed by what it has played.
-    void keepBefore(uint32_t slot);
+    /// What the slot plays changes: due steps are still posed by what it has played. Whether there are any.
+    bool keepBefore(uint32_t slot);
     [[nodiscard]] bool travels(uint32_t slot);
     void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
     [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;

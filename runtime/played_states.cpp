@@ -37,6 +37,7 @@ void PlayedStates::keepBefore(uint32_t slot) {
     const std::span<uint32_t> own = words(slot);
     const size_t played = 4 * size_t{desc_.push.stateBefore};
     std::copy_n(own.begin(), played, own.begin() + static_cast<ptrdiff_t>(played));
+    skinning::PlaybackState(own.subspan(played)).nameMasksBefore();
     beforeDue_[slot] = true;
 }
 

@@ -48,7 +48,8 @@ public:
     /// Another transition has begun: its words are due on the device.
     void markTransition(uint32_t slot) { transitionDue_[slot] = true; }
 
-    /// With steps: what the slot plays now is also what it has played before the next change.
+    /// With steps: what the slot plays now is also what it has played before the next change, with the masks of the
+    /// last frame.
     void keepBefore(uint32_t slot);
     /// What it has played then.
     [[nodiscard]] std::span<const uint32_t> before(uint32_t slot) const {

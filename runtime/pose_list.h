@@ -79,7 +79,7 @@ public:
     };
     struct Window {
         Run poses, mixes;
-        uint32_t shown = 0; ///< of the poses, before steps of springs
+        uint32_t shown = 0; ///< of the poses, before steps
         Run swinging;       ///< kSpringWords for each
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }

@@ -85,7 +85,7 @@ std::vector<int> jiggleAccessors(const file::Primitive& primitive, std::span<con
 }
 
 void appendJiggleWeights(const Document& document, std::span<const int> accessors, size_t firstVertex, size_t count,
-                         const std::string& element, std::span<const PaintedJiggle> jiggles,
+                         const std::string& element, std::span<PaintedJiggle> jiggles,
                          std::vector<JiggleWeight>& weights) {
     if (!weights.empty()) {
         weights.resize(firstVertex + count);
@@ -101,6 +101,7 @@ void appendJiggleWeights(const Document& document, std::span<const int> accessor
         weights.resize(firstVertex + count);
         for (size_t v = 0; v < count; ++v) {
             JiggleWeight& painted = weights[firstVertex + v];
+            jiggles[j].isPainted = jiggles[j].isPainted || own[v] > 0.0f;
             if (own[v] > painted.weight) {
                 painted = {static_cast<uint32_t>(j), own[v]};
             }
@@ -119,10 +120,11 @@ std::vector<Jiggle> usedJiggles(const Document& document, std::span<const Painte
     std::vector<Jiggle> used;
     for (size_t j = 0; j < jiggles.size(); ++j) {
         if (document.leniency->leaveOut([&] {
-                if (places[j] == kNone) {
+                if (!jiggles[j].isPainted) {
                     refuse(jiggles[j].place, "no vertex has a weight of " + cage::quoted(jiggles[j].weights));
                 }
-            })) {
+            }) &&
+            places[j] != kNone) {
             places[j] = static_cast<uint32_t>(used.size());
             used.push_back(jiggles[j].jiggle);
         }

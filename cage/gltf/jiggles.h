@@ -15,6 +15,7 @@ namespace supple::cage::gltf {
 struct PaintedJiggle {
     Jiggle jiggle;
     std::string weights, place;
+    bool isPainted = false; ///< a vertex has a weight of it, be it the most or not
 };
 
 /// Those of a mesh.
@@ -27,10 +28,11 @@ struct PaintedJiggle {
 /// Appends what a primitive's `count` vertices have. A vertex that several jiggles are painted on has the one with most
 /// weight, the first of equal ones. `weights` stays empty until a vertex has some.
 void appendJiggleWeights(const Document& document, std::span<const int> accessors, size_t firstVertex, size_t count,
-                         const std::string& element, std::span<const PaintedJiggle> jiggles,
+                         const std::string& element, std::span<PaintedJiggle> jiggles,
                          std::vector<JiggleWeight>& weights);
 
-/// Leaves out jiggles that no vertex has, of all vertices of a mesh.
+/// Leaves out jiggles that no vertex has, of all vertices of a mesh. One that is painted nowhere is a fault; one that
+/// has the most weight nowhere is not.
 [[nodiscard]] std::vector<Jiggle> usedJiggles(const Document& document, std::span<const PaintedJiggle> jiggles,
                                               std::vector<JiggleWeight>& weights);
 

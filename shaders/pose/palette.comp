@@ -69,11 +69,14 @@ Affine globalOf(uint matrices, uint node) {
     return global;
 }
 
+// Of a step, only what painted vertices hang on.
+bool isNeeded(uint node) { return !isStep() || (table(kNodeElements * node).y & kNodeOfJiggles) != 0u; }
+
 void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {
     precise Affine own = identity();
+    uint first = push.joints + kJointElements * joint, node = table(first + 3u).x;
+    if (!isNeeded(node)) return;
     if (!bindPose) {
-        uint first = push.joints + kJointElements * joint;
-        uint node = table(first + 3u).x;
         Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
         own = combined(globalAt(matrices, node), inverseBind);
     }
@@ -102,6 +105,7 @@ void main() {
         for (uint level = 0u; level < push.levelCount; ++level) {
             uvec4 nodes = table(push.levels + level);
             for (uint node = nodes.x + lane; node < nodes.y; node += lanes) {
+                if (!isNeeded(node)) continue;
                 Affine global = globalOf(matrices, node);
                 if (within) keepGlobal(matrices, node, global);
             }
@@ -111,6 +115,7 @@ void main() {
         }
     } else {
         for (uint node = 0u; node < push.nodeCount; ++node) {
+            if (!isNeeded(node)) continue;
             Affine global = globalOf(matrices, node);
             if (within) keepGlobal(matrices, node, global);
         }

@@ -100,10 +100,7 @@ void main() {
         locals = (first + k) * push.scratchStride;
         precise Affine way = identity();
         if ((state(posedState()).y & kStateTravels) != 0u) way = scratchRows(locals + push.springScratch);
-        now.move = before;
-        if (moves != 0u) now.move = combined(movedRows(moves + kMoveWords * k), now.move);
-        now.move = combined(undone(way), now.move);
-        if (jump == k + 1u) now.move = identity();
+        now.move = stepMove(before, way, moves, k, jump == k + 1u);
         before = way;
         now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);

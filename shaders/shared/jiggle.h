@@ -4,10 +4,10 @@
 // (exp(h [[0, 1], [-k, -c]]) of a step h, row after row, as float bits), by which a spring goes on for a step
 //
 // State (vec4 elements, one run of `stateStride` an instance): kSpringNumbers times three rows, where root motion had taken the
-// instance at a step, by the last bits of the step's number; then kJiggleElements for every vertex:
+// instance at a step, by the low 4 bits of the step's number; then kJiggleElements for every vertex:
 //   (offset from the goal; x of `before`), (its speed; y of `before`), (goal; z of `before`), (speed of the goal; what is known)
 // The goal is where joints have the vertex in the step's pose; `before` is the offset a step earlier. Known is nothing (0), the
-// goal (1), or its speed too (2). All of it lies in the model's frame of the last step, without what root motion has travelled.
+// goal (1), what may be a part of its speed (2), or its speed too (3). All of it lies in the model's frame of the last step, without what root motion has travelled.
 #ifndef SUPPLE_SHARED_JIGGLE_H
 #define SUPPLE_SHARED_JIGGLE_H
 

@@ -82,7 +82,8 @@
 //              takes in w
 //
 // Masks (floats, four an element), kMaxMasks runs of `maskStride` elements: one value a node, from the next whole
-// element on one a morph target.
+// element on one a morph target. In groups with steps as many more: what they were in the last frame. What an instance has
+// played before the last call names these.
 //
 // Pose (vec4 elements, one run of `poseStride` an instance): what the deform pass reads (shaders/shared/deform.h).
 //
@@ -98,7 +99,7 @@
 // In groups with springs or vertices that jiggle the list has, for each window: an entry for every pose that is shown, `shown` of
 // them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
 // travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
-// of its steps, how many | kSpringSettles | a jump | the last 4 bits of the first one's number, the part of the way from the step
+// of its steps, how many | kSpringSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
 // before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
 //
@@ -204,12 +205,16 @@ SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
 SUPPLE_SHARED_CONST kPosedTravels = 0x80000000u;
 SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
 SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
+// Rounds of an invocation's loops in a step: eight must not come near the 65,536 where some drivers end it.
+SUPPLE_SHARED_CONST kMostStepWork = 7000u;
 SUPPLE_SHARED_CONST kSpringWords = 6u;
 SUPPLE_SHARED_CONST kMoveWords = 12u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
 SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
 SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number
 SUPPLE_SHARED_CONST kSpringNumbers = 16u;     // that these tell apart: more than a frame has steps
+SUPPLE_SHARED_CONST kSpringSkippedShift = 16u; // 15 bits, beside kSpringSettles: steps that are left out
+SUPPLE_SHARED_CONST kMostSkippedSteps = 0x7FFFu; // nine minutes; more count as these
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
 SUPPLE_SHARED_CONST kColliderElements = 3u;

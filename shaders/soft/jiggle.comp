@@ -31,7 +31,7 @@ Affine scratchRows(uint i) { return rowsOf(scratch(i), scratch(i + 1u), scratch(
 
 void main() {
     uint id = invocationIndex(), count = push.vertexCount * push.instanceCount;
-    bool within = id < count; // lanes beyond must not step once more
+    bool within = id < count; // lanes beyond must not step once more: what they read and make of it nobody sees
     id = min(id, count - 1u);
     uint entry = id / push.vertexCount, vertex = id - entry * push.vertexCount;
     uvec4 own = jiggleTable(kJiggleTableElements * vertex);
@@ -43,20 +43,18 @@ void main() {
     uint jump = (flags >> kSpringJumpShift) & 15u, number = (flags >> kSpringNumberShift) & (kSpringNumbers - 1u);
     uint ways = slot * push.stateStride, state = ways + kJiggleVertices + kJiggleElements * vertex;
     Jiggling jiggling = jigglingOf(jiggles.at[state], jiggles.at[state + 1u], jiggles.at[state + 2u], jiggles.at[state + 3u]);
-    uint wayBefore = ways + 3u * ((number + kSpringNumbers - 1u) & (kSpringNumbers - 1u));
-    precise Affine before = rowsOf(jiggles.at[wayBefore], jiggles.at[wayBefore + 1u], jiggles.at[wayBefore + 2u]);
+    uint wayAt = ways + 3u * ((number + kSpringNumbers - 1u) & (kSpringNumbers - 1u));
+    precise Affine wayBefore = rowsOf(jiggles.at[wayAt], jiggles.at[wayAt + 1u], jiggles.at[wayAt + 2u]);
     for (uint k = 0u; k < steps; ++k) {
         uint posed = push.shown + first + k;
         precise Affine way = identity();
         if ((instanceEntry(posed) & kPosedTravels) != 0u) way = scratchRows(posed * push.scratchStride + push.way);
         precise JiggleStep now;
-        now.move = before;
-        if (moves != 0u) now.move = combined(movedRows(moves + kMoveWords * k), now.move);
-        now.move = combined(undone(way), now.move);
         now.jumps = jump == k + 1u;
-        if (now.jumps) now.move = identity();
+        now.move = stepMove(wayBefore, way, moves, k, now.jumps);
         now.settles = (flags & kSpringSettles) != 0u;
-        before = way;
+        now.skipped = (flags >> kSpringSkippedShift) & kMostSkippedSteps;
+        wayBefore = way;
         precise vec3 goal = vec3(deformedVertex(own.x, (first + k) * push.stepStride));
         jiggling = jiggledStep(jiggling, goal, now, spring, uintBitsToFloat(own.z));
     }
@@ -70,9 +68,9 @@ void main() {
         jiggles.at[state + 3u] = vec4(jiggling.goalSpeed, jiggling.known);
         uint wayNow = ways + 3u * ((number + steps - 1u) & (kSpringNumbers - 1u));
         if (vertex == 0u) {
-            jiggles.at[wayNow] = before.x;
-            jiggles.at[wayNow + 1u] = before.y;
-            jiggles.at[wayNow + 2u] = before.z;
+            jiggles.at[wayNow] = wayBefore.x;
+            jiggles.at[wayNow + 1u] = wayBefore.y;
+            jiggles.at[wayNow + 2u] = wayBefore.z;
         }
     }
     uint cage = slot * push.cageStride + own.x;

@@ -1,10 +1,8 @@
 // Vertices that jiggle, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
 // them.
-#include "tests/support/jiggles.h"
-
 #include "runtime/spring_clock.h"
+#include "tests/support/jiggling_groups.h"
 #include "tests/support/limited_device.h"
-#include "tests/support/played_group.h"
 #include "tests/support/played_jiggles.h"
 
 #include <algorithm>
@@ -16,37 +14,6 @@ namespace supple::test {
 namespace {
 
 class Jiggles : public CrowdContexts {};
-
-constexpr uint32_t kSoft = SUPPLE_GROUP_SOFT;
-using Floats = std::vector<float>;
-
-double cagesApart(const Floats& a, const Floats& b) {
-    double most = 0.0;
-    for (size_t k = 0; k < a.size(); ++k) {
-        most = std::max(most, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
-    }
-    return most;
-}
-
-/// A group of cages whose vertices jiggle.
-class JigglingGroup : public PlayedGroup {
-public:
-    JigglingGroup(CrowdContext& context, const SuppleGroupDesc& desc) : PlayedGroup(context, desc) {}
-
-    void jiggle(double time) {
-        EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
-        crowd.context().run(crowd.group());
-        cages = as<float>(crowd.read(crowd.output().info.deformedCage));
-    }
-    /// What an instance showed in the last frame.
-    [[nodiscard]] Floats shown(uint32_t i) const {
-        const size_t stride = size_t{4} * group().instances().cageStride();
-        const auto begin = cages.begin() + static_cast<ptrdiff_t>(instances[i].slot * stride);
-        return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{character().cage.vertexCount()})};
-    }
-
-    Floats cages;
-};
 
 /// The same on the CPU.
 class JigglesOfTheCpu {
@@ -140,6 +107,38 @@ TEST_F(Jiggles, HaveTheWordsOfTheCpu) {
     }
 }
 
+TEST_F(Jiggles, TheirGoalsHaveWhatDriversSet) {
+    const ValidationGuard guard;
+    Result<cage::Character> arm = cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb");
+    ASSERT_TRUE(arm.ok());
+    arm->jiggles = {{3.0f, 0.1f, 0.05f}};
+    arm->weights.jiggles.assign(arm->cage.vertexCount(), {0, 1.0f});
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        cage::Character undriven = *arm;
+        undriven.drivers.clear();
+        JigglingGroup soft(own, playedGroup(own.createAsset(*arm), 2, kSoft));
+        JigglingGroup plain(own, playedGroup(own.createAsset(undriven), 2, kSoft));
+        ASSERT_TRUE(soft.crowd.valid() && plain.crowd.valid());
+        JigglesOfTheCpu cpu(soft);
+        double apart = 0.0;
+        for (uint32_t i = 0; i < 2; ++i) {
+            soft.play(i, 0, 0.2 * i);
+            plain.play(i, 0, 0.2 * i);
+        }
+        for (uint32_t f = 0; f < 24; ++f) {
+            const double time = 0.35 + 0.021 * f;
+            soft.jiggle(time);
+            plain.jiggle(time);
+            for (uint32_t i = 0; i < 2; ++i) {
+                EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
+                apart = std::max(apart, cagesApart(soft.shown(i), plain.shown(i)));
+            }
+        }
+        EXPECT_GT(apart, 1e-3) << "drivers move something";
+    }
+}
+
 /// Frames of a rate that come to every sixth of a second.
 std::vector<double> jiggledFrames(uint32_t rate, uint32_t sixths) {
     std::vector<double> times;
@@ -166,6 +165,10 @@ void jiggleCallAt(JigglingGroup& stage, uint32_t sixth, double time) {
         turn.rotation[1] = 0.5f;
         turn.rotation[3] = 0.8660254f;
         stage.modify(1, turn);
+        stage.setMorphWeights(3, 1.0f); // of targets that move what is painted
+    }
+    if (sixth == 5) {
+        stage.setMask(1, 0.25f);
     }
     if (sixth == 4) {
         stage.place(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
@@ -180,6 +183,12 @@ std::vector<std::vector<Floats>> shownAtSixths(CrowdContext& own, SuppleAsset as
     JigglingGroup stage(own, playedGroup(asset, kCount, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
     for (uint32_t i = 0; stage.crowd.valid() && i < kCount; ++i) {
         stage.play(i, 1 + i % 2, 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0, i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
+    }
+    if (stage.crowd.valid()) { // two clips, one of them through a mask
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(4, 0.2)};
+        stage.setMask(1, 1.0f);
+        layers[1].mask = 1;
+        stage.play(2, layers);
     }
     std::vector<std::vector<Floats>> shown;
     for (const double time : times) {
@@ -237,137 +246,6 @@ TEST_F(Jiggles, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
         first = first.empty() ? shown : first;
         EXPECT_EQ(shown, first);
     }
-}
-
-/// Two groups that do the same, but for what a test does to the first.
-class TwoJiggling {
-public:
-    TwoJiggling(CrowdContext& context, uint32_t capacity)
-        : asset(context.createAsset(jigglingWren())), other(context, playedGroup(asset, capacity, kSoft)),
-          plain(context, playedGroup(context.createAsset(jigglingWren()), capacity, kSoft)) {
-        for (uint32_t i = 0; i < capacity; ++i) {
-            other.play(i, 2, 0.1 * i);
-            plain.play(i, 2, 0.1 * i);
-        }
-    }
-    void run(uint32_t step) {
-        other.jiggle(step / 60.0);
-        plain.jiggle(step / 60.0);
-    }
-    [[nodiscard]] bool same(uint32_t i) const { return other.shown(i) == plain.shown(i); }
-
-    SuppleAsset asset;
-    JigglingGroup other, plain;
-};
-
-TEST_F(Jiggles, GoOnWhenTheCapacityChanges) {
-    const ValidationGuard guard;
-    for (const SuppleMapping mapping : kMappings) {
-        TwoJiggling both(context(mapping), 3);
-        for (uint32_t step = 0; step < 30; ++step) {
-            if (step == 11 || step == 19) {
-                EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 11 ? 9 : 5),
-                          SUPPLE_OK);
-            }
-            both.run(step);
-            for (uint32_t i = 0; i < 3; ++i) {
-                EXPECT_TRUE(both.same(i)) << step;
-            }
-        }
-    }
-}
-
-TEST_F(Jiggles, AFrameThatIsCancelledHasNotBeen) {
-    const ValidationGuard guard;
-    TwoJiggling both(context(SUPPLE_MAPPING_NARROW), 2);
-    for (uint32_t step = 0; step < 24; ++step) {
-        if (step % 5 == 3 || step == 0) {
-            EXPECT_EQ(suppleSetTime(both.other.handle(), both.other.crowd.group(), step / 60.0), SUPPLE_OK);
-            both.other.crowd.context().cancel(both.other.crowd.group());
-        }
-        both.run(step);
-        EXPECT_TRUE(both.same(0) && both.same(1)) << step;
-    }
-}
-
-TEST_F(Jiggles, HiddenInstancesCatchUpOrSettle) {
-    const ValidationGuard guard;
-    TwoJiggling both(context(SUPPLE_MAPPING_NARROW), 2);
-    for (uint32_t step = 0; step < 90; ++step) {
-        const bool hidden = (step > 10 && step < 18) || (step > 30 && step < 39);
-        both.other.crowd.setVisible(both.other.instances[1], !hidden);
-        both.run(step);
-        EXPECT_TRUE(both.same(0)) << step;
-        if (!hidden && step < 39) {
-            EXPECT_TRUE(both.same(1)) << step << ": 8 steps were due at most";
-        }
-        if (step == 39) {
-            EXPECT_FALSE(both.same(1)) << "9 were due";
-        }
-    }
-    EXPECT_LT(cagesApart(both.other.shown(1), both.plain.shown(1)), 0.02) << "it comes together again";
-}
-
-TEST_F(Jiggles, SettleWhenTheirAssetIsLoadedAnew) {
-    const ValidationGuard guard;
-    TwoJiggling both(context(SUPPLE_MAPPING_NARROW), 2);
-    cage::Character none = jigglingWren();
-    none.jiggles.clear();
-    none.weights.jiggles.clear();
-    for (uint32_t step = 0; step < 30; ++step) {
-        if (step == 10 || step == 20) {
-            EXPECT_EQ(both.other.crowd.context().reloadAsset(both.asset, step == 10 ? none : jigglingWren()),
-                      SUPPLE_OK);
-        }
-        both.run(step);
-        EXPECT_EQ(both.same(0), step < 10) << step;
-    }
-    EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.12) << "both are within the limits";
-}
-
-TEST_F(Jiggles, TeleportsKeepHowTheyMove) {
-    const ValidationGuard guard;
-    TwoJiggling both(context(SUPPLE_MAPPING_NARROW), 2);
-    const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(64.0f, 0.0f, 0.0f));
-    double told = 0.0, untold = 0.0;
-    for (uint32_t step = 0; step < 40; ++step) {
-        if (step == 20) {
-            both.other.place(0, far);
-            both.other.crowd.teleport(both.other.instances[0]);
-            both.other.place(1, far);
-        }
-        both.run(step);
-        const auto off = [&](uint32_t i) {
-            Floats here = both.other.shown(i);
-            for (size_t k = 0; k < here.size(); k += 4) {
-                here[k] -= step >= 20 ? 64.0f : 0.0f;
-            }
-            return cagesApart(here, both.plain.shown(i));
-        };
-        told = std::max(told, off(0));
-        untold = std::max(untold, off(1));
-    }
-    EXPECT_LT(told, 0.01) << "the goals' own change of speed in a step is not seen";
-    EXPECT_GT(untold, 0.03);
-}
-
-TEST_F(Jiggles, AbsurdPlacesLeaveThemAgain) {
-    const ValidationGuard guard;
-    TwoJiggling both(context(SUPPLE_MAPPING_NARROW), 2);
-    for (uint32_t step = 0; step < 120; ++step) {
-        if (step == 5 || step == 7) {
-            glm::mat4 place(1.0f);
-            place[3].x = step == 5 ? 1e30f : 0.0f;
-            place[0].x = step == 5 ? 1e-25f : 1.0f;
-            both.other.place(0, place);
-        }
-        both.run(step);
-        EXPECT_TRUE(both.same(1)) << step;
-        if (step > 8) {
-            EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.13) << step;
-        }
-    }
-    EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.03);
 }
 
 TEST_F(Jiggles, AreRefusedWhereTheyCannotBe) {

@@ -15,7 +15,7 @@ using namespace shared;
 using test::Noise;
 
 JiggleStep standing() {
-    return {identity(), false, false};
+    return {identity(), false, false, 0};
 }
 
 /// y'' = -k y - c y', goal straight within steps, in many small steps of Runge and Kutta's.
@@ -47,7 +47,7 @@ TEST(Jiggles, FollowTheDifferentialEquation) {
         const vec4 spring = jiggleSpring(own);
         Reference reference;
         Jiggling jiggling = settledAt(vec3(0.0f));
-        jiggling.known = 2.0f; // the goal has stood still
+        jiggling.known = 3.0f; // the goal has stood still
         double most = 0.0, off = 0.0;
         for (int n = 1; n < 300; ++n) {
             const double t = n / 60.0;
@@ -62,25 +62,70 @@ TEST(Jiggles, FollowTheDifferentialEquation) {
 }
 
 TEST(Jiggles, KeepTheirEnergyForHours) {
-    const cage::Jiggle own{4.0f, 0.0f, 1e6f};
-    const vec4 spring = jiggleSpring(own);
-    const double k = std::pow(2.0 * 3.14159265358979 * 4.0, 2.0);
-    Jiggling jiggling = settledAt(vec3(0.0f));
-    jiggling.known = 2.0f;
-    jiggling.offset = vec3(0.05f, 0.0f, 0.02f);
-    const auto energy = [&] {
-        const glm::dvec3 y(jiggling.offset), z(jiggling.speed);
-        return glm::dot(z, z) + k * glm::dot(y, y);
-    };
-    const double first = energy();
-    double most = 0.0;
-    for (int n = 0; n < 100'000; ++n) {
-        jiggling = jiggledStep(jiggling, vec3(0.0f), standing(), spring, own.limit);
-        most = std::max(most, energy());
+    for (const float frequency : {0.05f, 1.0f, 4.0f, 15.0f, 30.0f}) {
+        const cage::Jiggle own{frequency, 0.0f, 1e6f};
+        const vec4 spring = jiggleSpring(own);
+        const double k = std::pow(2.0 * 3.14159265358979 * static_cast<double>(frequency), 2.0);
+        Jiggling jiggling = settledAt(vec3(0.0f));
+        jiggling.known = 3.0f;
+        jiggling.offset = vec3(0.05f, 0.0f, 0.02f);
+        const auto energy = [&] {
+            const glm::dvec3 y(jiggling.offset), z(jiggling.speed);
+            return glm::dot(z, z) + k * glm::dot(y, y);
+        };
+        const double first = energy();
+        double most = 0.0;
+        for (int n = 0; n < 1'000'000; ++n) {
+            jiggling = jiggledStep(jiggling, vec3(0.0f), standing(), spring, own.limit);
+            most = std::max(most, energy());
+        }
+        EXPECT_LE(most, first * (1.0 + 2e-5)) << frequency << ": an undamped spring gains nothing";
+        EXPECT_GT(energy(), 0.8 * first) << frequency << ": and loses little in 4.6 hours";
+        std::printf("%.2f Hz: energy after 1,000,000 steps: %.4f of its start\n", static_cast<double>(frequency),
+                    energy() / first);
     }
-    EXPECT_LE(most, first * (1.0 + 1e-6)) << "an undamped spring gains nothing";
-    EXPECT_GT(energy(), 0.9 * first) << "and loses little in half an hour";
-    std::printf("energy after 100,000 steps: %.4f of its start\n", energy() / first);
+}
+
+TEST(Jiggles, StepsThatAreLeftOutSwingOn) {
+    for (const cage::Jiggle& own : {cage::Jiggle{3.0f, 0.1f, 0.06f}, cage::Jiggle{9.0f, 0.0f, 0.06f},
+                                    cage::Jiggle{0.05f, 0.0f, 0.06f}, cage::Jiggle{4.0f, 2.0f, 0.06f}}) {
+        const vec4 spring = jiggleSpring(own);
+        for (const uint32_t skipped : {1u, 9u, 12u, 100u, 511u, 32767u}) {
+            Jiggling run = settledAt(vec3(0.3f));
+            run.known = 3.0f;
+            run.offset = vec3(0.03f, 0.0f, 0.01f);
+            run.goalSpeed = vec3(7.0f); // what it was counts for nothing
+            Jiggling left = run;
+            run.goalSpeed = vec3(0.0f);
+            for (uint32_t n = 0; n < skipped; ++n) {
+                run = jiggledStep(run, vec3(0.3f), standing(), spring, 1e6f);
+            }
+            left = jiggledStep(left, vec3(0.9f), {identity(), true, false, skipped}, spring, 1e6f);
+            const float off = 2e-6f * static_cast<float>(10 + skipped / 10);
+            EXPECT_LT(glm::length(left.offset - run.offset), off) << own.frequency << ", " << skipped;
+            EXPECT_LT(glm::length(left.before - run.before), off) << own.frequency << ", " << skipped;
+            EXPECT_EQ(left.goal, vec3(0.9f));
+            EXPECT_EQ(left.known, 1.0f);
+            const Jiggling held = jiggledStep(left, vec3(0.9f), {identity(), true, false, skipped}, spring, 0.01f);
+            EXPECT_LE(glm::length(held.offset), 0.0100001f);
+        }
+    }
+    const vec4 spring = jiggleSpring({});
+    const Jiggling unknown = jigglingOf(vec4(0.01f), vec4(0.0f), vec4(0.0f), vec4(0.0f));
+    EXPECT_EQ(jiggledStep(unknown, vec3(1.0f), {identity(), true, false, 12}, spring, 1.0f).offset, vec3(0.0f))
+        << "there was nothing";
+}
+
+TEST(Jiggles, FirstSpeedsAreNotBelieved) {
+    const cage::Jiggle own{2.5f, 0.12f, 0.12f};
+    const vec4 spring = jiggleSpring(own);
+    Jiggling jiggling = settledAt(vec3(0.0f));
+    float at = 0.02f; // for a part of the first step alone
+    for (int n = 0; n < 60; ++n) {
+        jiggling = jiggledStep(jiggling, vec3(at, 0.0f, 0.0f), standing(), spring, own.limit);
+        EXPECT_LT(glm::length(jiggling.offset), 1e-5f) << n;
+        at += 0.0833f;
+    }
 }
 
 TEST(Jiggles, StayWithinTheirLimit) {
@@ -123,7 +168,7 @@ TEST(Jiggles, AbsurdNumbersLeaveThemInTwoSteps) {
     const vec4 spring = jiggleSpring(own);
     for (const float absurd : {std::nanf(""), INFINITY, 1e38f}) {
         Jiggling jiggling = settledAt(vec3(0.0f));
-        jiggling.known = 2.0f;
+        jiggling.known = 3.0f;
         jiggling = jiggledStep(jiggling, vec3(absurd), standing(), spring, own.limit);
         for (int n = 0; n < 3; ++n) {
             jiggling = jiggledStep(jiggling, vec3(0.0f), standing(), spring, own.limit);

@@ -42,7 +42,7 @@ void PlayedJiggles::run(std::span<const uint32_t> state, std::span<const float> 
     for (uint32_t k = 0; k < due.count; ++k) {
         twin_.pose(state, masks, runtime::springTime(due.first + k), skinning::PoseTwin::Stands::unplaced);
         const Affine way = (state[1] & kStateTravels) != 0 ? twin_.place() : identity();
-        JiggleStep now{way_, due.settles, due.jump == k};
+        JiggleStep now{way_, due.settles, due.jump == k, due.skipped};
         if (due.moves) {
             now.move = combined(rowsOf(due.rows[k][0], due.rows[k][1], due.rows[k][2]), now.move);
         }

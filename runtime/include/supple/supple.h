@@ -1022,10 +1022,10 @@ typedef enum SuppleGroupFlags {
     /** With SUPPLE_POSES_PLAYBACK: vertices that the character's file paints jiggle about where joints have them
      * (SUPPLE_deformers: docs/soft.md), in steps of 1/60 s of the group's time, behind springs if the group has these.
      * What a step leaves depends on the times at which calls are made, not on the frames between. It has no effect if
-     * the file paints none. They begin at rest in the pose where springs do (SUPPLE_GROUP_SPRINGS), and suppleTeleport
-     * keeps how they move. All visible instances are posed, in a camera's sight or not, so that cameras change
-     * nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 10 times the matrices of all
-     * nodes, and 8 times its pose (SuppleGroupInfo.poses). It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+     * the file paints none. They begin at rest in the pose where springs do (SUPPLE_GROUP_SPRINGS), but swing on over
+     * time that frames leave out; suppleTeleport keeps how they move. All visible instances are posed, in sight or not,
+     * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9 times
+     * the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
     SUPPLE_GROUP_SOFT = 16384
 } SuppleGroupFlags;
 
