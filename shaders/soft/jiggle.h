@@ -69,6 +69,15 @@ SUPPLE_SHARED_FUNCTION Jiggling heldWithin(Jiggling own, float limit) {
     return next;
 }
 
+// A spring decays for ever, and numbers that a host has made absurd must not stay.
+SUPPLE_SHARED_FUNCTION Jiggling stilled(Jiggling own) {
+    SUPPLE_PRECISE Jiggling next = own;
+    SUPPLE_PRECISE float energy = dot3(own.offset, own.offset) + dot3(own.speed, own.speed);
+    bool moves = energy >= 1e-20f && energy < 1e24f;
+    if (!moves) next.offset = next.speed = vec3(0.0f);
+    return next;
+}
+
 // Steps in which nobody knows how the goal has moved, by the bits of their number.
 SUPPLE_SHARED_FUNCTION Jiggling sprungOften(Jiggling own, vec4 spring, uint steps, float limit) {
     SUPPLE_PRECISE Jiggling next = own;
@@ -77,7 +86,7 @@ SUPPLE_SHARED_FUNCTION Jiggling sprungOften(Jiggling own, vec4 spring, uint step
         if ((steps & bit) != 0u) next = sprung(next, power);
         power = springProduct(power, power);
     }
-    return heldWithin(next, limit);
+    return stilled(heldWithin(next, limit));
 }
 
 // `spring`: the exponential of a step; `limit`: of the offset.
@@ -99,11 +108,7 @@ SUPPLE_SHARED_FUNCTION Jiggling jiggledStep(Jiggling before, vec3 goal, JiggleSt
     SUPPLE_PRECISE Jiggling next = own;
     next.offset = directionThrough(move, own.offset);
     next.speed = directionThrough(move, own.speed) - kick;
-    next = heldWithin(sprung(next, spring), limit);
-    // A spring decays for ever, and numbers that a host has made absurd must not stay.
-    SUPPLE_PRECISE float energy = dot3(next.offset, next.offset) + dot3(next.speed, next.speed);
-    bool moves = energy >= 1e-20f && energy < 1e24f;
-    if (!moves) next.offset = next.speed = vec3(0.0f);
+    next = stilled(heldWithin(sprung(next, spring), limit));
     next.before = own.offset;
     next.goal = goal;
     next.goalSpeed = goalSpeed;

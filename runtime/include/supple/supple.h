@@ -1024,8 +1024,8 @@ typedef enum SuppleGroupFlags {
      * What a step leaves depends on the times at which calls are made, not on the frames between. It has no effect if
      * the file paints none. They begin at rest in the pose where springs do (SUPPLE_GROUP_SPRINGS), but swing on over
      * time that frames leave out; suppleTeleport keeps how they move. All visible instances are posed, in sight or not,
-     * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9 times
-     * the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+     * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9
+     * times the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
     SUPPLE_GROUP_SOFT = 16384
 } SuppleGroupFlags;
 
