@@ -114,11 +114,20 @@ struct Influence {
     float weight = 0.0f;
 };
 
+/// Which of Character::jiggles a vertex has, and how much of it.
+struct JiggleWeight {
+    uint32_t jiggle = kNone; ///< kNone: the vertex does not jiggle
+    float weight = 0.0f;     ///< above 0 to 1, if it does
+
+    bool operator==(const JiggleWeight&) const = default;
+};
+
 /// Skin weights, packed by start index: influences of cage vertex v are [starts[v], starts[v+1]), weights sum to 1,
 /// zero weights dropped, at least one influence a vertex.
 struct SkinWeights {
     std::vector<uint32_t> starts; ///< vertexCount + 1 entries
     std::vector<Influence> influences;
+    std::vector<JiggleWeight> jiggles; ///< one per cage vertex; or empty: none jiggles
 };
 
 enum class Interpolation { step, linear, cubicSpline };
@@ -228,6 +237,15 @@ struct PoseDriver {
 
     [[nodiscard]] size_t poseCount() const { return poses.size() / inputs.size(); }
     bool operator==(const PoseDriver&) const = default;
+};
+
+/// How painted vertices jiggle about where joints have them (SUPPLE_deformers, docs/soft.md).
+struct Jiggle {
+    float frequency = 4.0f; ///< of the undamped spring, in Hz
+    float damping = 0.2f;   ///< of the critical one
+    float limit = 0.05f;    ///< the farthest that a vertex of weight 1 gets, in model space
+
+    bool operator==(const Jiggle&) const = default;
 };
 
 /// A joint that swings. Without numbers of its own it has VRM's.
@@ -457,6 +475,7 @@ struct Character {
     Morphs morphs;
     std::vector<Expression> expressions;
     std::vector<PoseDriver> drivers;
+    std::vector<Jiggle> jiggles; ///< that weights.jiggles name
     SpringBones springBones;
     std::vector<Clip> clips;
     /// What moves the character in its clips as they were before they were packed (skinning::findRoot); kNone: ask.

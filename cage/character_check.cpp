@@ -1,5 +1,6 @@
 #include "cage/character_check.h"
 
+#include "cage/jiggle.h"
 #include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
@@ -66,6 +67,7 @@ public:
     void parts();
     void skeleton();
     void skin();
+    void jiggles();
     void morphs();
     void expressions();
     void drivers();
@@ -208,12 +210,27 @@ void Check::skin() {
     require(!joints.empty() && joints.size() == inverseBinds.size() && below(joints, character_.skeleton.nodes.size()),
             "joints are no nodes, or have no inverse bind matrices");
     require(isFinite(numbersOf(inverseBinds)), "an inverse bind matrix is not finite");
-    const auto& [starts, influences] = character_.weights;
+    const std::vector<uint32_t>& starts = character_.weights.starts;
+    const std::vector<Influence>& influences = character_.weights.influences;
     require(startsRise(starts, character_.cage.vertexCount(), 1, influences.size()), "a vertex has no influences");
     const size_t jointCount = joints.size();
     const bool sound = std::all_of(influences.begin(), influences.end(),
                                    [&](const Influence& i) { return i.joint < jointCount && std::isfinite(i.weight); });
     require(sound, "an influence names no joint, or has no finite weight");
+}
+
+void Check::jiggles() {
+    for (size_t j = 0; j < character_.jiggles.size(); ++j) {
+        require(isSound(character_.jiggles[j]), at("jiggle", j) + ": its numbers are out of range");
+    }
+    const std::vector<JiggleWeight>& weights = character_.weights.jiggles;
+    require(weights.empty() || weights.size() == character_.cage.vertexCount(), "not one weight of jiggles a vertex");
+    require(std::ranges::all_of(weights,
+                                [&](const JiggleWeight& own) {
+                                    return own.jiggle == kNone || (own.jiggle < character_.jiggles.size() &&
+                                                                   own.weight > 0.0f && own.weight <= 1.0f);
+                                }),
+            "a vertex names no jiggle, or has no weight above 0 to 1");
 }
 
 void Check::morphs() {
@@ -380,6 +397,7 @@ Status checkCharacter(const Character& character) {
         check.skeleton();
         check.parts();
         check.skin();
+        check.jiggles();
         check.morphs();
         check.expressions();
         check.drivers();

@@ -128,6 +128,18 @@ void appendWeights(const PartCage& from, SkinWeights& weights) {
     }
 }
 
+/// Behind appendWeights() of the part, whose vertices begin at `firstVertex`.
+void appendJiggles(const PartCage& from, uint32_t firstVertex, Character& character) {
+    std::vector<JiggleWeight>& all = character.weights.jiggles;
+    const size_t count = from.cage.vertexCount();
+    appendPadded(all, firstVertex, from.weights.jiggles, count, JiggleWeight{});
+    const auto first = static_cast<uint32_t>(character.jiggles.size());
+    for (size_t v = firstVertex; v < all.size(); ++v) {
+        all[v].jiggle += all[v].jiggle != kNone ? first : 0;
+    }
+    appendTo(character.jiggles, from.jiggles);
+}
+
 /// The clips' channels of the weights of each part's targets.
 using WeightChannels = std::vector<std::vector<const Channel*>>;
 
@@ -240,6 +252,29 @@ void takeTargets(const Character& character, size_t index, std::span<const uint3
             }
         }
         morphs.weights.push_back(character.morphs.weights[t]);
+    }
+}
+
+/// The jiggles that a part's vertices have, in the order of the character's.
+void takeJiggles(const Character& character, std::span<const uint32_t> vertices, Character& taken) {
+    if (character.weights.jiggles.empty()) {
+        return;
+    }
+    std::vector<uint32_t> places(character.jiggles.size(), kNone);
+    for (const uint32_t v : vertices) {
+        const JiggleWeight& own = taken.weights.jiggles.emplace_back(character.weights.jiggles[v]);
+        if (own.jiggle != kNone) {
+            places[own.jiggle] = 0;
+        }
+    }
+    for (size_t j = 0; j < places.size(); ++j) {
+        if (places[j] != kNone) {
+            places[j] = static_cast<uint32_t>(taken.jiggles.size());
+            taken.jiggles.push_back(character.jiggles[j]);
+        }
+    }
+    for (JiggleWeight& own : taken.weights.jiggles) {
+        own.jiggle = own.jiggle != kNone ? places[own.jiggle] : kNone;
     }
 }
 
@@ -371,6 +406,7 @@ Character takePart(const Character& character, size_t index) {
                                         influences.begin() + character.weights.starts[v + 1]);
         taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
     }
+    takeJiggles(character, piece.vertices, taken);
     std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
     for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
         places[piece.vertices[v]] = v;
@@ -412,10 +448,12 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
         }
         part.part.firstFace = character.cage.faceCount();
         part.part.rigid = isRigid(part.weights);
-        appendDisplacements(part, character.cage.vertexCount(), character.morphs);
+        const uint32_t firstVertex = character.cage.vertexCount();
+        appendDisplacements(part, firstVertex, character.morphs);
         appendShading(part.cage, shading, character.cage);
         appendCage(part.cage, character.sourceVertexCount, character.cage);
         appendWeights(part, character.weights);
+        appendJiggles(part, firstVertex, character);
         character.sourceVertexCount += part.sourceVertexCount;
         character.seamVertexCount += part.seamVertexCount;
         character.parts.push_back(std::move(part.part));

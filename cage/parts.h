@@ -18,9 +18,10 @@ namespace supple::cage {
 struct PartCage {
     Part part;
     Cage cage;
-    SkinWeights weights;             ///< of the joints of part.joints
+    SkinWeights weights;             ///< of the joints of part.joints; jiggles are those of the part
     Morphs morphs;                   ///< targets of the part alone
     std::vector<PoseDriver> drivers; ///< of these targets
+    std::vector<Jiggle> jiggles;
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
     std::vector<Damage> damages;

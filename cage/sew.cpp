@@ -247,6 +247,9 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
             weights.influences.push_back(character.weights.influences[i]);
         }
         weights.starts.push_back(static_cast<uint32_t>(weights.influences.size()));
+        if (!character.weights.jiggles.empty()) {
+            weights.jiggles.push_back(character.weights.jiggles[v]);
+        }
     }
     cage.positions.resize(kept);
     cage.sourceVertices.resize(kept);

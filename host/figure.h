@@ -130,7 +130,7 @@ struct GroupOptions {
     std::vector<SuppleScheme> partSchemes; ///< of the first parts, instead of `scheme`
     bool levels = false;                   ///< of detail, as the camera of setLevelCamera() chooses them
     bool plays = false;                    ///< on the device, with transitions, instead of pose()
-    bool springs = false;                  ///< if it plays: joints swing
+    bool springs = false;                  ///< if it plays: joints swing, vertices jiggle
 };
 
 /// A draw command of a surface.

@@ -115,7 +115,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
     if (options.plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_TRANSITIONS;
-        desc.flags |= options.springs ? SUPPLE_GROUP_SPRINGS : 0;
+        desc.flags |= options.springs ? SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT : 0;
         group->plays_ = true;
     }
     desc.asset = figure.asset();

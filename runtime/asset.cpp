@@ -1,5 +1,8 @@
 #include "runtime/asset.h"
 
+#include "shaders/shared/pose.h"
+#include "skinning/jiggle_table.h"
+
 #include <algorithm>
 #include <span>
 #include <string>
@@ -209,6 +212,29 @@ Status Asset::makeClips(const gpu::Device& device) {
     return success();
 }
 
+Status Asset::makeJiggles(const gpu::Device& device) {
+    if (!jiggles.empty() || character.weights.jiggles.empty()) {
+        return success();
+    }
+    skinning::JiggleTable table = skinning::buildJiggleTable(character);
+    if (table.mostWork > shared::kMostStepWork) {
+        return Error{ErrorCode::limit, "a vertex that jiggles has " + std::to_string(table.mostWork) +
+                                           " morph targets and pairs of joints, of at most " +
+                                           std::to_string(shared::kMostStepWork)};
+    }
+    if (table.vertexCount == 0) {
+        return success();
+    }
+    const uint32_t count = table.vertexCount;
+    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", "jiggle table", takenFrom(table.words));
+    if (!made) {
+        return made.error();
+    }
+    jiggles = std::move(*made);
+    jiggleCount = count;
+    return success();
+}
+
 void Asset::startStream() {
     if (stream != nullptr && !clips.empty()) {
         stream->start();
@@ -232,6 +258,7 @@ gpu::MemoryUse Asset::memoryUse() const {
     gpu::MemoryUse use = buffers.use();
     use += centered.use();
     use += clips.use();
+    use += jiggles.use();
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {
         use += piece->vertices.use();
     }

@@ -53,9 +53,11 @@ struct Asset {
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
-    std::shared_ptr<ClipStream> stream;                   ///< null: all segments of clips are on the device
-    uint64_t clipsVersion = 0;                            ///< stream->version() that they were made of
-    uint64_t clipPoolBytes = 0;                           ///< SuppleAssetDesc
+    gpu::StaticBuffers jiggles;         ///< 0: skinning::JiggleTable, made for the first group whose vertices jiggle
+    uint32_t jiggleCount = 0;           ///< vertices in it
+    std::shared_ptr<ClipStream> stream; ///< null: all segments of clips are on the device
+    uint64_t clipsVersion = 0;          ///< stream->version() that they were made of
+    uint64_t clipPoolBytes = 0;         ///< SuppleAssetDesc
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
     skinning::UpdateFacts updates;               ///< made for the first group with update rates
@@ -89,6 +91,8 @@ struct Asset {
     void streamClips(uint64_t poolBytes);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
+    /// Sees to it that `jiggles` is there, if some vertices jiggle. Refuses one that takes too much in a step.
+    [[nodiscard]] Status makeJiggles(const gpu::Device& device);
     /// Some morph weights follow from joints, and move something.
     [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
     /// A group that may read the clips has been created: from now on segments come with frames.
@@ -115,6 +119,7 @@ struct Asset {
         visit(buffers);
         visit(centered);
         visit(clips);
+        visit(jiggles);
         for (const std::shared_ptr<AssetPiece>& piece : pieces) {
             visit(piece->vertices);
         }

@@ -124,7 +124,8 @@ Status Group::createInstances(const GroupShared& shared) {
         {shared.device, shared.pose, asset_, desc_.poseSource, skinningOf(asset_->character, desc_.skinning),
          desc_.capacity, shared.firstGeneration, shared.framesInFlight,
          StateRoom{(desc_.flags & SUPPLE_GROUP_MODIFIERS) != 0, (desc_.flags & SUPPLE_GROUP_TRANSITIONS) != 0,
-                   (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0, (desc_.flags & SUPPLE_GROUP_SPRINGS) != 0},
+                   (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0, (desc_.flags & SUPPLE_GROUP_SPRINGS) != 0,
+                   (desc_.flags & SUPPLE_GROUP_SOFT) != 0},
          shared.handsOver});
     if (!instances) {
         return instances.error();
@@ -289,6 +290,7 @@ void Group::addMembers(const GroupShared& shared) {
     addMember(asset_->buffers);
     addMember(asset_->centered);
     addMember(asset_->clips);
+    addMember(asset_->jiggles);
     if (!follows()) {
         addMember(*instances_);
     }

@@ -1,5 +1,7 @@
 #include "runtime/instance_set.h"
 
+#include "shaders/shared/pose.h"
+
 #include <algorithm>
 
 namespace supple::runtime {
@@ -35,6 +37,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
         status = desc.asset->makeSkinning(*desc.device, desc.mode);
     }
     status = status && desc.room.springs ? set->takeSprings() : status;
+    status = status && desc.room.jiggles ? set->takeJiggles() : status;
     if (!status) {
         return status.error();
     }
@@ -54,14 +57,18 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
 Status InstanceSet::takeSprings() {
     const skinning::ClipTable& table = *desc_.asset->clipTable;
     desc_.room.springs = table.springs != 0;
-    // Eight steps must not bring an invocation near the 65,536 rounds of its loops where some drivers end it.
-    constexpr uint32_t kMostWork = 7000;
-    if (table.springWork > kMostWork) {
+    if (table.springWork > shared::kMostStepWork) {
         return Error{ErrorCode::limit, "its springs have " + std::to_string(table.springWork) +
                                            " joints, colliders and tests of one against the other, of at most " +
-                                           std::to_string(kMostWork)};
+                                           std::to_string(shared::kMostStepWork)};
     }
     return success();
+}
+
+Status InstanceSet::takeJiggles() {
+    const Status made = desc_.asset->makeJiggles(*desc_.device);
+    desc_.room.jiggles = desc_.asset->jiggleCount > 0;
+    return made;
 }
 
 uint32_t InstanceSet::cageStrideOf(uint32_t cageVertices) {

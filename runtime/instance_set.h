@@ -42,10 +42,12 @@ public:
     [[nodiscard]] const InstanceSlots& slots() const { return slots_; }
     [[nodiscard]] SupplePoseSource source() const { return desc_.source; }
     [[nodiscard]] skinning::SkinningMode skinning() const { return desc_.mode; }
-    /// With springs only if some joints of the asset swing.
+    /// With springs only if some joints of the asset swing, with jiggles only if some of its vertices do.
     [[nodiscard]] const StateRoom& room() const { return desc_.room; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
+    /// Of instances that play on the device.
+    [[nodiscard]] const Playback& playback() const { return *poses_->playback(); }
     [[nodiscard]] UserData& userData() { return userData_; }
     /// Without a buffer if the character has no crease sets.
     [[nodiscard]] const CreaseAlphas& creaseAlphas() const { return creaseAlphas_; }
@@ -78,6 +80,8 @@ public:
 private:
     /// The asset has its clip table: whether joints swing, and not too many.
     [[nodiscard]] Status takeSprings();
+    /// Whether vertices jiggle, and none takes too much; then the asset has its table.
+    [[nodiscard]] Status takeJiggles();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 
     Desc desc_;

@@ -94,6 +94,7 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.morphs = prepared.deform.firstInfluences != 0;
     planned.deforms = group.desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
     planned.pieces = pieces;
+    planned.jiggles = (group.desc.flags & SUPPLE_GROUP_SOFT) != 0 && !prepared.character.weights.jiggles.empty();
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
         const skinning::PoseNeeds needs{(group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0,

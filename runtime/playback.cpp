@@ -44,13 +44,14 @@ Status Playback::create(const Desc& desc) {
     capacity_ = desc.capacity;
     windowSize_ = desc.windowSize;
     posesInFrame_ = posesInFrame(desc.room);
+    unshownPoses_ = unshownPoses(desc.room);
     push_ = posePushOf(*desc.asset, desc.layout, desc.room);
     mode_ = desc.layout.mode;
 
     modifiers_ = InstanceModifiers(desc.room.modifiers ? desc.capacity : 0, push_.morphCount);
     states_ = PlayedStates(
         {push_, desc.room, transitionElements(table, desc.layout, desc.room), desc.capacity, desc.framesInFlight});
-    masks_ = PlayedMasks(*desc.asset);
+    masks_ = PlayedMasks(*desc.asset, desc.room.hasSteps());
     twin_ = skinning::PoseTwin(table, desc.layout, push_.transition);
     transforms_.resize(desc.capacity, glm::mat4(1.0f));
     positions_.resize(desc.capacity, glm::dvec3(0.0));
@@ -61,8 +62,10 @@ Status Playback::create(const Desc& desc) {
         laterTwin_ = twin_;
         rates_ = UpdateRates(desc.capacity);
     }
-    if (desc.room.springs) {
+    if (desc.room.hasSteps()) {
         springs_ = SpringClock(desc.capacity);
+    }
+    if (desc.room.springs) {
         bounds_.setSwinging(table.swinging);
     }
     if (desc.room.transitions) {
@@ -108,9 +111,9 @@ Status Playback::createSets(const Desc& desc) {
     const VkDeviceSize listed = listsPoses() ? list_.bytes() : desc.instanceBytes;
     const VkBufferView listView = view(list, VK_FORMAT_R32_UINT, 0, listed, "supple instances");
     const VkDeviceSize poseBytes = push_.poseStride * gpu::kVec4Bytes;
-    // Without update rates nobody touches what is bound as ends.
-    const VkBuffer ends = takesUpdateRates() ? ends_.buffer() : desc.poses;
-    const VkDeviceSize bytesOfEnds = takesUpdateRates() ? endBytes() : poseBytes;
+    // Without such poses nobody touches what is bound as ends.
+    const VkBuffer ends = unshownPoses_ > 0 ? ends_.buffer() : desc.poses;
+    const VkDeviceSize bytesOfEnds = unshownPoses_ > 0 ? endBytes() : poseBytes;
     for (uint32_t w = 0; w < windowCount() && status; ++w) {
         const VkDeviceSize first = VkDeviceSize{w} * windowSize_;
         const VkDeviceSize count = std::min<VkDeviceSize>(windowSize_, capacity_ - first);
@@ -306,10 +309,12 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
     states_.markChanged(slot);
 }
 
-void Playback::keepBefore(uint32_t slot) {
-    if (springs_.change(slot, time_)) {
+bool Playback::keepBefore(uint32_t slot) {
+    const bool keeps = springs_.change(slot, time_);
+    if (keeps) {
         states_.keepBefore(slot);
     }
+    return keeps;
 }
 
 bool Playback::travels(uint32_t slot) {
@@ -409,11 +414,19 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     if (hasDrivers() || weights == nullptr) {
         rates_.forget(slot);
     }
+    if (hasJiggles()) { // joints do not know of weights
+        keepBefore(slot);
+    }
     own.setMorphWeights(weights, push_.morphCount);
     states_.markChanged(slot);
 }
 
 void Playback::setMask(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
+    for (uint32_t slot = 0; hasSteps() && slot < capacity_; ++slot) {
+        if (keepBefore(slot)) {
+            states_.markChanged(slot);
+        }
+    }
     masks_.set(mask, joints, morphs);
     evaluated_ = kNoSlot;
     forgetEndsOf([mask](const auto& layer) { return layer.mask == mask; });
@@ -551,10 +564,14 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
     const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    list_.addSwinging(slotInWindow, due.count | jump | (due.settles ? kSpringSettles : 0), due.part, due.moves);
+    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
+    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
+    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, due.moves);
     for (uint32_t k = 0; k < due.count; ++k) {
         const double time = springTime(due.first + k);
-        list_.addStep(slotInWindow, due.before[k], time);
+        const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
+        const bool travels = (played[1] & kStateTravels) != 0;
+        list_.addStep(slotInWindow, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0), time);
         firstStep_ = std::min(firstStep_, time);
         if (due.moves) {
             list_.addMove(due.rows[k]);
@@ -606,7 +623,7 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
         const PoseList::Window& own = list_.window(window);
         const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
         push.firstInstance = run.first;
-        const bool shownAlone = part == Part::palette || part == Part::drivers;
+        const bool shownAlone = (part == Part::palette || part == Part::drivers) && !hasJiggles();
         push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
         push.shown = own.shown;
@@ -689,6 +706,13 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
         dispatches.computeBarrier();
         kernels_->recordMix(dispatches, set, mode_, none);
     }
+}
+
+Playback::StepPoses Playback::stepPoses() const {
+    return {ends_.buffer(),     scratch_.buffer(),   list_.buffer(),
+            endBytes(),         scratchBytes(),      list_.bytes(),
+            push_.endStride,    push_.scratchStride, kAffineElements * push_.nodeCount,
+            push_.springScratch};
 }
 
 gpu::MemoryUse Playback::memoryUse() const {

@@ -74,7 +74,11 @@ public:
     [[nodiscard]] uint32_t updateIntervalOf(uint32_t slot) const { return rates_.interval(slot); }
     [[nodiscard]] bool takesTransitions() const { return states_.haveTransitions(); }
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
-    [[nodiscard]] bool hasSprings() const { return springs_.isTaken(); }
+    [[nodiscard]] bool hasSprings() const { return push_.springs != 0; }
+    /// Something runs steps on the grid of times.
+    [[nodiscard]] bool hasSteps() const { return springs_.isTaken(); }
+    /// Some vertices jiggle: steps have poses.
+    [[nodiscard]] bool hasJiggles() const { return (push_.stepNodes & shared::kStepsHavePoses) != 0; }
     /// Some morph weights follow from joints, beside what clips and the host make of them.
     [[nodiscard]] bool hasDrivers() const { return push_.drivers != 0; }
     /// A frame poses what listPoses() has listed, not all that the group works on.
@@ -152,7 +156,7 @@ public:
             const uint32_t first = windows.firstSlot(w), last = std::min(first + windows.slots(w), end);
             for (uint32_t slot = first; slot < last; ++slot) {
                 if (worksOn(slot)) {
-                    hasSprings() ? listSteps(frame, slot, slot - first) : listPose(slot, slot - first);
+                    hasSteps() ? listSteps(frame, slot, slot - first) : listPose(slot, slot - first);
                 }
             }
             list_.endWindow(w);
@@ -178,6 +182,17 @@ public:
         return listsPoses() ? list_.poseCount() : windows.visible;
     }
 
+    /// Where a frame's steps are, for the stage that reads them; if hasJiggles(). Buffers have so many bytes an
+    /// instance; strides and places are elements.
+    struct StepPoses {
+        VkBuffer poses = VK_NULL_HANDLE, scratch = VK_NULL_HANDLE, list = VK_NULL_HANDLE;
+        VkDeviceSize poseBytes = 0, scratchBytes = 0, listBytes = 0; ///< of the list: all
+        uint32_t poseStride = 0, scratchStride = 0, place = 0, way = 0;
+    };
+    [[nodiscard]] StepPoses stepPoses() const;
+    /// What listPoses() has listed.
+    [[nodiscard]] const PoseList::Window& listedPoses(uint32_t window) const { return list_.window(window); }
+
     /// Context::recordWarmUp.
     void recordWarmUp(VkCommandBuffer commandBuffer) const;
 
@@ -197,17 +212,17 @@ private:
     void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
-    /// Both ends of an instance.
+    /// Both ends of an instance, or the poses of its steps.
     [[nodiscard]] VkDeviceSize endBytes() const {
-        return VkDeviceSize{shared::kPoseEnds} * push_.endStride * gpu::kVec4Bytes;
+        return VkDeviceSize{unshownPoses_} * push_.endStride * gpu::kVec4Bytes;
     }
     /// All poses of an instance in a frame.
     [[nodiscard]] VkDeviceSize scratchBytes() const {
         return VkDeviceSize{posesInFrame_} * push_.scratchStride * gpu::kVec4Bytes;
     }
     [[nodiscard]] VkDeviceSize springBytes() const { return VkDeviceSize{push_.springStride} * 16; }
-    /// What the slot plays changes: due steps are still posed by what it has played.
-    void keepBefore(uint32_t slot);
+    /// What the slot plays changes: due steps are still posed by what it has played. Whether there are any.
+    bool keepBefore(uint32_t slot);
     [[nodiscard]] bool travels(uint32_t slot);
     void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
     [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;
@@ -221,7 +236,7 @@ private:
     const gpu::Device* device_ = nullptr;
     const skinning::PoseKernels* kernels_ = nullptr;
     Asset* asset_ = nullptr;
-    uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1;
+    uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1, unshownPoses_ = 0;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
     /// What some instance has ever been set to do.
@@ -257,7 +272,7 @@ private:
     std::vector<uint32_t> turnedNodes_;   ///< memory of takeModifiers
 
     gpu::BufferSet buffers_, staging_;
-    gpu::PlannedBuffer scratch_, ends_; ///< node matrices; poses of update rates
+    gpu::PlannedBuffer scratch_, ends_; ///< node matrices; poses of update rates or of steps
     gpu::TexelViews views_;
     gpu::BoundSets sets_; ///< by window
 };

@@ -31,12 +31,12 @@ uint32_t transitionBegin(const skinning::PoseLayout& layout, const StateRoom& ro
     return skinning::PlaybackState::elements(layout.morphCount, room.modifiers ? kMaxModifiers : 0);
 }
 
-/// From what an instance plays to what it has played before the last call, which is there with springs.
+/// From what an instance plays to what it has played before the last call, which is there with steps.
 uint32_t playedStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
     return padded(transitionBegin(layout, room) + transitionElements(table, layout, room));
 }
 uint32_t stateStride(const skinning::ClipTable& table, const skinning::PoseLayout& layout, const StateRoom& room) {
-    return (room.springs ? 2 : 1) * playedStride(table, layout, room);
+    return (room.hasSteps() ? 2 : 1) * playedStride(table, layout, room);
 }
 
 /// Behind the nodes and the place.
@@ -44,29 +44,33 @@ uint32_t springScratch(const skinning::ClipTable& table, const StateRoom& room) 
     return kAffineElements * (static_cast<uint32_t>(table.nodes.size()) + 1) + (room.modifiers ? table.footCount : 0);
 }
 uint32_t scratchStride(const skinning::ClipTable& table, const StateRoom& room) {
-    return padded(springScratch(table, room) +
-                  (room.springs ? kAffineElements + kPosedColliderElements * table.springColliderCount : 0));
+    const uint32_t colliders = room.springs ? kPosedColliderElements * table.springColliderCount : 0;
+    return padded(springScratch(table, room) + (room.hasSteps() ? kAffineElements + colliders : 0));
 }
 uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
     return room.springs ? padded(kSpringJoints + kSpringJointElements * table.springJointCount) : 0;
 }
 
-/// From one end of an instance to the next. Both together are a multiple of kPadding.
+/// From one end of an instance, or the pose of one step, to the next. All together are a multiple of kPadding.
 uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
-    constexpr uint32_t kMultiple = kPadding / kPoseEnds;
-    return room.updateRates ? (layout.elements() + kMultiple - 1) / kMultiple * kMultiple : 0;
+    const uint32_t poses = unshownPoses(room), multiple = poses > 0 ? kPadding / poses : 1;
+    return poses > 0 ? (layout.elements() + multiple - 1) / multiple * multiple : 0;
 }
 
 } // namespace
 
 uint32_t posesInFrame(const StateRoom& room) {
-    return room.updateRates ? 2 : room.springs ? 1 + kMostSpringSteps : 1;
+    return room.updateRates ? 2 : room.hasSteps() ? 1 + kMostSpringSteps : 1;
+}
+
+uint32_t unshownPoses(const StateRoom& room) {
+    return room.updateRates ? kPoseEnds : room.jiggles ? kMostSpringSteps : 0;
 }
 
 VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
     return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
-                     kPoseEnds * endStride(layout, room), springStride(table, room)}) *
+                     unshownPoses(room) * endStride(layout, room), springStride(table, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -90,9 +94,10 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.endStride = endStride(layout, room);
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
-    push.stepNodes = room.modifiers ? 0 : kNodeOfSprings;
+    push.stepNodes = room.modifiers ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.jiggles ? kNodeOfJiggles : 0);
+    push.stepNodes |= room.jiggles ? kStepsHavePoses : 0;
     push.stateBefore = playedStride(table, layout, room);
-    push.springs = table.springs;
+    push.springs = room.springs ? table.springs : 0;
     push.springScratch = springScratch(table, room);
     push.springStride = springStride(table, room);
     push.drivers = layout.morphCount > 0 ? table.drivers : 0;

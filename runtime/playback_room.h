@@ -18,6 +18,10 @@ struct StateRoom {
     bool transitions = false;
     bool updateRates = false;
     bool springs = false; ///< some joints of the asset swing
+    bool jiggles = false; ///< some vertices of the asset jiggle
+
+    /// Instances run steps on a grid of times, each posed by itself.
+    [[nodiscard]] constexpr bool hasSteps() const { return springs || jiggles; }
 };
 
 /// Poses are made of what nodes do: the asset needs its clip table.
@@ -31,6 +35,9 @@ struct StateRoom {
 
 /// Poses of an instance that may be made in one frame.
 [[nodiscard]] uint32_t posesInFrame(const StateRoom& room);
+
+/// Poses of an instance that are kept beside what is shown: ends of update rates, or those of steps that jiggle.
+[[nodiscard]] uint32_t unshownPoses(const StateRoom& room);
 
 /// Of a transition in a state; 0: instances have none.
 [[nodiscard]] uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,

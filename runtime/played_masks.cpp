@@ -7,9 +7,10 @@
 
 namespace supple::runtime {
 
-PlayedMasks::PlayedMasks(const Asset& asset)
-    : asset_(&asset), values_(size_t{shared::kMaxMasks} * skinning::maskElements(*asset.clipTable) * 4, 1.0f),
-      joints_(size_t{shared::kMaxMasks} * asset.clipTable->jointCount, 1.0f) {}
+PlayedMasks::PlayedMasks(const Asset& asset, bool keepsBefore)
+    : asset_(&asset),
+      values_(size_t{shared::kMaxMasks} * skinning::maskElements(*asset.clipTable) * 4 * (keepsBefore ? 2 : 1), 1.0f),
+      joints_(size_t{shared::kMaxMasks} * asset.clipTable->jointCount, 1.0f), keepsBefore_(keepsBefore) {}
 
 void PlayedMasks::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight) {
     buffer_ = device.add({"supple masks", bytes(),
@@ -19,7 +20,17 @@ void PlayedMasks::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32
     staging_.plan(staging, "supple mask staging", bytes(), framesInFlight);
 }
 
+void PlayedMasks::keepBefore() {
+    const auto half = static_cast<ptrdiff_t>(values_.size() / 2);
+    std::copy(values_.begin(), values_.begin() + half, values_.begin() + half);
+    differ_ = false;
+}
+
 void PlayedMasks::set(uint32_t mask, std::span<const float> joints, std::span<const float> morphs) {
+    if (keepsBefore_ && !isSet_) {
+        keepBefore();
+        isSet_ = differ_ = true;
+    }
     skinning::writeMask(*asset_->clipTable, asset_->rig, joints, morphs,
                         std::span(values_).subspan((mask - 1) * floats(), floats()));
     const uint32_t jointCount = asset_->clipTable->jointCount;
@@ -38,6 +49,8 @@ void PlayedMasks::takeOver(const PlayedMasks& other, const AssetMatch& match) {
         values_ = other.values_;
         joints_ = other.joints_;
         kinds_ = other.kinds_;
+        isSet_ = other.isSet_;
+        differ_ = other.differ_;
         return;
     }
     const skinning::ClipTable& table = *asset_->clipTable;
@@ -63,7 +76,19 @@ void PlayedMasks::takeOver(const PlayedMasks& other, const AssetMatch& match) {
     }
 }
 
+void PlayedMasks::cancelFrame(uint64_t frame) {
+    isChanged_ = isChanged_ || frame_ == frame;
+    // What they were in the frame before that stays what they were in the last frame.
+    isSet_ = isSet_ || (keepsBefore_ && recorded_ == frame && differ_);
+}
+
 VkDeviceSize PlayedMasks::recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame) {
+    if (differ_ && !isSet_) {
+        keepBefore();
+        isChanged_ = true;
+    }
+    isSet_ = false;
+    recorded_ = frame;
     if (!isChanged_) {
         return 0;
     }

@@ -18,8 +18,9 @@ namespace supple::runtime {
 class PlayedMasks {
 public:
     PlayedMasks() = default;
-    /// The asset, with its clip table, must outlive this.
-    explicit PlayedMasks(const Asset& asset);
+    /// The asset, with its clip table, must outlive this. `keepsBefore`: behind the masks, the device reads what they
+    /// were in the last frame.
+    PlayedMasks(const Asset& asset, bool keepsBefore);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight);
 
     /// `joints`: one a joint; `morphs`: one a target of the clip table (skinning/playback.h, writeMask).
@@ -36,18 +37,26 @@ public:
     [[nodiscard]] VkDeviceSize bytes() const { return values_.size() * sizeof(float); }
     /// The bytes of it.
     VkDeviceSize recordUpload(const gpu::Device& device, VkCommandBuffer commandBuffer, uint64_t frame);
-    void cancelFrame(uint64_t frame) { isChanged_ = isChanged_ || frame_ == frame; }
+    void cancelFrame(uint64_t frame);
 
 private:
-    [[nodiscard]] size_t floats() const { return values_.size() / shared::kMaxMasks; } ///< of a mask
+    [[nodiscard]] size_t floats() const {
+        return values_.size() / (keepsBefore_ ? 2 : 1) / shared::kMaxMasks;
+    } ///< a mask
+    /// What they are is also what they were in the last frame.
+    void keepBefore();
 
     const Asset* asset_ = nullptr;
     std::vector<float> values_;
     std::vector<float> joints_;                         ///< one run a mask, one value a joint: for another version
     enum class Kind : uint8_t { none, joints, morphs }; ///< joints: with or without morph targets
     std::array<Kind, shared::kMaxMasks> kinds_{};
+    bool keepsBefore_ = false;
+    bool isSet_ = false;  ///< since the last frame
+    bool differ_ = false; ///< from what they were in the last frame
     bool isChanged_ = true;
-    uint64_t frame_ = 0; ///< the last that recorded an upload
+    uint64_t frame_ = 0;    ///< the last that recorded an upload
+    uint64_t recorded_ = 0; ///< the last
     gpu::PlannedBuffer buffer_;
     ChangeStaging staging_;
 };

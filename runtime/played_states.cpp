@@ -8,11 +8,11 @@ namespace supple::runtime {
 PlayedStates::PlayedStates(const Desc& desc)
     : desc_(desc), words_(size_t{desc.capacity} * desc.push.stateStride * 4), versions_(desc.capacity, 1),
       transitionDue_(desc.room.transitions ? desc.capacity : 0, false),
-      beforeDue_(desc.room.springs ? desc.capacity : 0, false), changed_(desc.capacity, false) {
+      beforeDue_(desc.room.hasSteps() ? desc.capacity : 0, false), changed_(desc.capacity, false) {
     changedSlots_.reserve(desc.capacity);
     uploadedSlots_.reserve(desc.capacity);
     // Runs of slots with others between; of states of which only parts are used, each part by itself.
-    const size_t parts = desc.room.springs ? 3 : haveParts() ? 2 : 0;
+    const size_t parts = desc.room.hasSteps() ? 3 : haveParts() ? 2 : 0;
     regions_.reserve(parts > 0 ? parts * desc.capacity : size_t{desc.capacity} / 2 + 1);
 }
 
@@ -37,6 +37,7 @@ void PlayedStates::keepBefore(uint32_t slot) {
     const std::span<uint32_t> own = words(slot);
     const size_t played = 4 * size_t{desc_.push.stateBefore};
     std::copy_n(own.begin(), played, own.begin() + static_cast<ptrdiff_t>(played));
+    skinning::PlaybackState(own.subspan(played)).nameMasksBefore();
     beforeDue_[slot] = true;
 }
 
@@ -44,7 +45,7 @@ void PlayedStates::dueAgain(uint32_t slot) {
     if (haveTransitions()) {
         transitionDue_[slot] = true;
     }
-    if (desc_.room.springs) {
+    if (desc_.room.hasSteps()) {
         beforeDue_[slot] = true;
     }
 }
@@ -73,7 +74,7 @@ void PlayedStates::stageSlot(VkDeviceSize& from, uint32_t slot) {
         stage(from, to + desc_.push.transition * gpu::kVec4Bytes, desc_.transitionElements * gpu::kVec4Bytes);
         transitionDue_[slot] = false;
     }
-    if (desc_.room.springs && beforeDue_[slot]) {
+    if (desc_.room.hasSteps() && beforeDue_[slot]) {
         const VkDeviceSize played = desc_.push.stateBefore * gpu::kVec4Bytes;
         stage(from, to + played, played);
         beforeDue_[slot] = false;

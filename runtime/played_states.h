@@ -48,7 +48,8 @@ public:
     /// Another transition has begun: its words are due on the device.
     void markTransition(uint32_t slot) { transitionDue_[slot] = true; }
 
-    /// With springs: what the slot plays now is also what it has played before the next change.
+    /// With steps: what the slot plays now is also what it has played before the next change, with the masks of the
+    /// last frame.
     void keepBefore(uint32_t slot);
     /// What it has played then.
     [[nodiscard]] std::span<const uint32_t> before(uint32_t slot) const {
@@ -66,7 +67,7 @@ public:
 
 private:
     [[nodiscard]] bool haveParts() const {
-        return desc_.room.modifiers || desc_.room.transitions || desc_.room.springs;
+        return desc_.room.modifiers || desc_.room.transitions || desc_.room.hasSteps();
     }
     [[nodiscard]] VkDeviceSize usedBytes(uint32_t slot);                 ///< but for the transition
     void stage(VkDeviceSize& from, VkDeviceSize to, VkDeviceSize bytes); ///< a piece of words_, for regions_

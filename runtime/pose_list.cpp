@@ -6,7 +6,7 @@ namespace supple::runtime {
 
 PoseList::PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room)
     : windows_(windowCount), bytes_(VkDeviceSize{capacity} * wordsOfInstance(room) * sizeof(uint32_t)) {
-    const size_t instances = isTaken() ? capacity : 0, swinging = room.springs ? instances : 0;
+    const size_t instances = isTaken() ? capacity : 0, swinging = room.hasSteps() ? instances : 0;
     const size_t mixed = instances - swinging, steps = swinging * shared::kMostSpringSteps;
     words_.reserve(instances * wordsOfInstance(room));
     times_.reserve(2 * (2 * mixed + swinging + steps));

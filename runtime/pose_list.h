@@ -1,4 +1,4 @@
-// The list of what is posed, in groups with update rates or springs (shaders/shared/pose.h).
+// The list of what is posed, in groups with update rates, springs or what jiggles (shaders/shared/pose.h).
 #pragma once
 
 #include "gpu/buffer_plan.h"
@@ -20,13 +20,13 @@ class PoseList {
 public:
     /// An instance has two ends with their times, or what is shown with its time; and its part of the way.
     static constexpr uint32_t kWordsOfInstance = 2 * 3 + 2;
-    /// With springs: what is shown, and each step with its time and its move.
+    /// With steps: what is shown, and each step with its time and its move.
     static constexpr uint32_t kWordsOfSwinging =
         3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
 
-    /// Of an instance of a group with update rates or springs; of others there is no list.
+    /// Of an instance of a group with update rates or steps; of others there is no list.
     [[nodiscard]] static constexpr uint32_t wordsOfInstance(const StateRoom& room) {
-        return room.springs ? kWordsOfSwinging : room.updateRates ? kWordsOfInstance : 0;
+        return room.hasSteps() ? kWordsOfSwinging : room.updateRates ? kWordsOfInstance : 0;
     }
 
     PoseList() = default;
@@ -57,9 +57,10 @@ public:
                              moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
                              static_cast<uint32_t>(times_.size() / 2) - 1});
     }
-    void addStep(uint32_t slot, bool before, double time) {
+    /// `flags`: kPosedBefore, kPosedTravels.
+    void addStep(uint32_t slot, uint32_t flags, double time) {
         const skinning::SplitTime split = skinning::splitTime(time);
-        steps_.push_back(slot | (before ? shared::kPosedBefore : 0));
+        steps_.push_back(slot | flags);
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
     }
@@ -78,7 +79,7 @@ public:
     };
     struct Window {
         Run poses, mixes;
-        uint32_t shown = 0; ///< of the poses, before steps of springs
+        uint32_t shown = 0; ///< of the poses, before steps
         Run swinging;       ///< kSpringWords for each
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }

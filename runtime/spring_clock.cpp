@@ -21,17 +21,19 @@ SpringPlace placeBetween(const SpringPlace& a, const SpringPlace& b, double part
     return between;
 }
 
-std::array<glm::vec4, 3> moveBetween(const SpringPlace& before, const SpringPlace& now) {
-    glm::dmat3 linear(1.0);
-    glm::dvec3 way(0.0);
-    if (std::abs(glm::determinant(now.linear)) > 1e-30) {
-        const glm::dmat3 within = glm::inverse(now.linear);
-        linear = within * before.linear;
-        way = within * (before.position - now.position);
+SpringPlace placeWithin(const SpringPlace& now, const SpringPlace& before) {
+    if (!(std::abs(glm::determinant(now.linear)) > 1e-30)) {
+        return {};
     }
+    const glm::dmat3 within = glm::inverse(now.linear);
+    return {within * before.linear, within * (before.position - now.position)};
+}
+
+std::array<glm::vec4, 3> rowsOf(const SpringPlace& place) {
     std::array<glm::vec4, 3> rows;
     for (int r = 0; r < 3; ++r) {
-        rows[static_cast<size_t>(r)] = glm::vec4(glm::dvec4(linear[0][r], linear[1][r], linear[2][r], way[r]));
+        rows[static_cast<size_t>(r)] =
+            glm::vec4(glm::dvec4(place.linear[0][r], place.linear[1][r], place.linear[2][r], place.position[r]));
     }
     return rows;
 }
@@ -53,6 +55,7 @@ void SpringClock::settle(uint32_t slot) {
 void SpringClock::jump(uint32_t slot, double time) {
     if (isTaken()) {
         slots_[slot].jumped = std::min(slots_[slot].jumped, time);
+        slots_[slot].isElsewhere = true;
     }
 }
 
@@ -83,7 +86,7 @@ bool SpringClock::change(uint32_t slot, double time) {
 
 SpringPlace SpringClock::placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
                                  bool travels) {
-    if (own.jumped != kNoTime || travels) {
+    if (travels) {
         return stepTime < std::min(own.jumped, own.placed) ? own.inFrame : place;
     }
     const double span = time - own.frameTime;
@@ -94,10 +97,30 @@ SpringClock::Due SpringClock::begun(const Slot& own, double time) {
     const int64_t step = springStepAt(time);
     Due due;
     due.settles = own.last == kNever || step < own.last || step - own.last > int64_t{shared::kMostSpringSteps};
+    if (due.settles && own.last != kNever && step > own.last) {
+        due.skipped = static_cast<uint32_t>(std::min<int64_t>(step - own.last, shared::kMostSkippedSteps));
+    }
     due.first = due.settles ? step : own.last + 1;
     due.count = static_cast<uint32_t>(step - due.first + 1);
     due.part = std::clamp(static_cast<float>((time - springTime(step)) * shared::kSpringSteps), 0.0f, 1.0f);
     return due;
+}
+
+void SpringClock::move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels) {
+    for (uint32_t k = 0; k < due.count; ++k) {
+        if (due.moves && !own.isElsewhere) {
+            const SpringPlace now = placeAt(own, springTime(due.first + k), time, place, travels);
+            own.move = placeWithin(now, own.atLast);
+            own.atLast = now;
+        }
+        due.rows[k] = rowsOf(own.move);
+    }
+    if (own.isElsewhere) { // and where it would have been at the last step, had it come there
+        const double part = std::clamp((time - springTime(due.first + due.count - 1)) * shared::kSpringSteps, 0.0, 1.0);
+        const SpringPlace before = placeBetween({}, own.move, part);
+        own.atLast = {place.linear * before.linear, place.linear * before.position + place.position};
+        own.isElsewhere = false;
+    }
 }
 
 SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels) {
@@ -111,21 +134,26 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
     if (due.settles) {
         own.atLast = own.inFrame = place;
         own.changed = own.jumped = kNoTime;
+        own.isElsewhere = false;
+        own.move = {};
     }
-    due.moves = own.atLast != place || own.inFrame != place;
     for (uint32_t k = 0; k < due.count; ++k) {
         const double stepTime = springTime(due.first + k);
         due.before[k] = stepTime < own.changed && hasBefore(slot);
-        if (due.moves) {
-            const SpringPlace now = placeAt(own, stepTime, time, place, travels);
-            due.rows[k] = moveBetween(own.atLast, now);
-            own.atLast = now;
-        }
         if (stepTime >= own.jumped) {
-            due.jump = k;
-            own.inFrame = own.atLast = place;
-            own.jumped = kNoTime;
+            due.jump = due.jump == kNone ? k : due.jump;
         }
+    }
+    // What root motion travels goes on by itself: of a jump nothing is to be seen.
+    own.isElsewhere = own.isElsewhere && !travels;
+    due.moves = own.isElsewhere ? own.move != SpringPlace{} : own.atLast != place || own.inFrame != place;
+    if (due.moves || own.isElsewhere) {
+        move(own, due, time, place, travels);
+    } else if (due.count > 0) {
+        own.move = {};
+    }
+    if (due.jump != kNone) {
+        own.jumped = kNoTime;
     }
     own.last = springStepAt(time);
     own.inFrame = place;
@@ -143,6 +171,7 @@ void SpringClock::cancelFrame(uint64_t frame) {
             // What calls since then have said stays said.
             slots_[undo.slot].placed = now.placed;
             slots_[undo.slot].jumped = std::min(undo.before.jumped, now.jumped);
+            slots_[undo.slot].isElsewhere = undo.before.isElsewhere || now.isElsewhere;
         });
         undo_.clear();
     }

@@ -21,8 +21,10 @@ struct SpringPlace {
 };
 /// Straight between two, 0 to 1; turned the shorter way.
 [[nodiscard]] SpringPlace placeBetween(const SpringPlace& a, const SpringPlace& b, double part);
-/// How the model's frame at `before` lies in that at `now`: three rows. Nothing moves if `now` flattens.
-[[nodiscard]] std::array<glm::vec4, 3> moveBetween(const SpringPlace& before, const SpringPlace& now);
+/// How the model's frame at `before` lies in that at `now`. Nothing moves if `now` flattens.
+[[nodiscard]] SpringPlace placeWithin(const SpringPlace& now, const SpringPlace& before);
+/// Three rows of it.
+[[nodiscard]] std::array<glm::vec4, 3> rowsOf(const SpringPlace& place);
 
 /// The last step at or before a time.
 [[nodiscard]] int64_t springStepAt(double time);
@@ -42,7 +44,8 @@ public:
     /// The instance begins anew with its next step: tails at rest in the pose.
     void settle(uint32_t slot);
     void settleAll();
-    /// At a time of the group it is elsewhere, and has not moved there.
+    /// At a time of the group it is elsewhere, and has not moved there. Unless root motion travels, it goes on there as
+    /// it has moved in the last step.
     void jump(uint32_t slot, double time);
     /// Its place is set at a time of the group: if root motion travels, it stands there from then on; else it goes
     /// there, straight from where it was in the last frame.
@@ -59,7 +62,8 @@ public:
         int64_t first = 0;
         uint32_t count = 0;
         bool settles = false;
-        float part = 0.0f;     ///< of the way from the step before the last to the last, that is shown
+        uint32_t skipped = 0; ///< if it settles: steps that are left out since the last that it ran; 0: nothing is left
+        float part = 0.0f;    ///< of the way from the step before the last to the last, that is shown
         uint32_t jump = kNone; ///< the one to which it has not moved
         bool moves = false;
         std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
@@ -85,10 +89,14 @@ private:
         double placed = 0.0;
         double changed = kNoTime; ///< since when what is played differs from what the last frame had
         double jumped = kNoTime;
+        bool isElsewhere = false; ///< it has not moved from `inFrame` to where it stands now
+        SpringPlace move;         ///< the last step's, as placeWithin()
     };
     [[nodiscard]] static Due begun(const Slot& own, double time); ///< without what it has been told
     [[nodiscard]] static SpringPlace placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
                                              bool travels);
+    /// Runs the steps that are due through where it has been.
+    static void move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels);
 
     std::vector<Slot> slots_;
     struct Undo {

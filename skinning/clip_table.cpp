@@ -4,6 +4,7 @@
 #include "skinning/bits.h"
 #include "skinning/contacts.h"
 #include "skinning/driver_table.h"
+#include "skinning/jiggle_table.h"
 #include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
@@ -376,6 +377,7 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putContacts();
     putSprings(character, table);
     putDrivers(character, table);
+    markJiggleNodes(character, table);
     builder.putSegments();
     return table;
 }

@@ -167,6 +167,13 @@ glm::mat4 PlaybackState::transform() const {
     return glm::transpose(glm::mat4(floats(1), floats(2), floats(3), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
 }
 
+void PlaybackState::nameMasksBefore() {
+    for (uint32_t i = 0; i < words_[0]; ++i) {
+        uint32_t& mask = words_[4 * size_t{kStateElements + i * kLayerElements} + 2];
+        mask += mask != 0 ? kMaxMasks : 0;
+    }
+}
+
 PlaybackDesc PlaybackState::read(const ClipTable& table, Layers& layers) const {
     for (uint32_t i = 0; i < words_[0]; ++i) {
         const uint32_t first = kStateElements + i * kLayerElements;

@@ -52,6 +52,9 @@ public:
     [[nodiscard]] uint32_t modifierCount() const;
     [[nodiscard]] std::span<uint32_t> modifier(uint32_t morphCount, uint32_t index) const;
 
+    /// Layers name the masks of the last frame: those behind all.
+    void nameMasksBefore();
+
     /// Whether it is in a transition, whose words (skinning/transition.h) the state has. set() and setBindPose() end
     /// it.
     void setInTransition(bool isInIt);

@@ -16,20 +16,6 @@ namespace {
 constexpr double kCloseDegrees = 10.0;
 constexpr double kHighCondition = 100.0;
 
-/// A number that may be left out.
-float numberOr(const Json& object, const char* key, float otherwise, float least, float most,
-               const std::string& element) {
-    const Json* given = member(object, key);
-    if (given == nullptr) {
-        return otherwise;
-    }
-    if (!given->isNumber() || !(given->real() >= least) || !(given->real() <= most)) {
-        refuse(element + " " + key, "not a number from " + shortNumber(static_cast<double>(least)) + " to " +
-                                        shortNumber(static_cast<double>(most)));
-    }
-    return given->real();
-}
-
 /// What a driver is called in messages.
 std::string placeOf(const std::string& list, size_t number, const std::string& name) {
     return item(list, number) + (name.empty() ? "" : " " + quoted(name));
@@ -46,7 +32,7 @@ public:
         readInputs();
         readTargets();
         readPoses();
-        driver_.width = numberOr(from_, "width", driver_.width, kMinDriverWidth, kMaxDriverWidth, place_);
+        driver_.width = numberMember(from_, "width", driver_.width, kMinDriverWidth, kMaxDriverWidth, place_);
         readClamp();
         return std::move(driver_);
     }
@@ -92,7 +78,7 @@ private:
         if (input.part != TurnPart::rotation) {
             input.axis = readAxis(from, element);
         }
-        input.weight = numberOr(from, "weight", input.weight, kMinInputWeight, kMaxInputWeight, element);
+        input.weight = numberMember(from, "weight", input.weight, kMinInputWeight, kMaxInputWeight, element);
         return input;
     }
 

@@ -183,6 +183,19 @@ std::string stringMember(const Json& object, const char* key, const std::string&
     return value == nullptr ? std::string() : value->string();
 }
 
+float numberMember(const Json& object, const char* key, float otherwise, float least, float most,
+                   const std::string& element) {
+    const Json* given = member(object, key);
+    if (given == nullptr) {
+        return otherwise;
+    }
+    if (!given->isNumber() || !(given->real() >= least) || !(given->real() <= most)) {
+        refuse(element + " " + key, "not a number from " + shortNumber(static_cast<double>(least)) + " to " +
+                                        shortNumber(static_cast<double>(most)));
+    }
+    return given->real();
+}
+
 bool hasExtension(const Json& object, const char* name) {
     const Json* extensions = member(object, "extensions");
     return extensions != nullptr && extensions->isObject() && extensions->contains(name);

@@ -37,6 +37,9 @@ uint64_t unsignedMember(const Json& object, const char* key, const std::string& 
                         std::optional<uint64_t> fallback);
 /// Empty where absent.
 [[nodiscard]] std::string stringMember(const Json& object, const char* key, const std::string& element);
+/// A number from `least` to `most`, or `otherwise` where absent.
+[[nodiscard]] float numberMember(const Json& object, const char* key, float otherwise, float least, float most,
+                                 const std::string& element);
 [[nodiscard]] bool hasExtension(const Json& object, const char* name);
 
 /// An index into the file's `count` elements called `what`.

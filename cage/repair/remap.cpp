@@ -109,6 +109,9 @@ private:
             mapped.influences.insert(mapped.influences.end(), begin + weights_.starts[source],
                                      begin + weights_.starts[source + 1]);
             mapped.starts.push_back(static_cast<uint32_t>(mapped.influences.size()));
+            if (!weights_.jiggles.empty()) {
+                mapped.jiggles.push_back(weights_.jiggles[source]);
+            }
         }
         weights_ = std::move(mapped);
     }

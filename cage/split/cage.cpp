@@ -308,7 +308,11 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
             target.vertices.push_back(i);
             target.deltas.push_back(displacement.delta);
         }
+        if (!mesh.jiggleWeights.empty()) {
+            out.weights.jiggles.push_back(mesh.jiggleWeights[out.cage.sourceVertices[i]]);
+        }
     }
+    out.jiggles = mesh.jiggles;
 }
 
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.

@@ -79,7 +79,9 @@ struct Mesh {
     float gridStep = 0.0f; ///< of the coarsest grid that positions were rounded to; 0: none
     VertexWeights weights;
     VertexMorphs morphs;
-    std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty
+    std::vector<Jiggle> jiggles;
+    std::vector<JiggleWeight> jiggleWeights; ///< per vertex; or empty: none jiggles
+    std::vector<uint32_t> cageNumbers;       ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).
     std::optional<std::vector<std::pair<uint32_t, uint32_t>>> merges;

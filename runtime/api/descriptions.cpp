@@ -27,10 +27,11 @@ static_assert(std::has_unique_object_representations_v<SuppleAssetDesc>); // it 
 constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::groupFlag) | SUPPLE_GROUP_PATCHES |
                                  SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
                                  SUPPLE_GROUP_WINDOWS | SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_MODIFIERS |
-                                 SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES | SUPPLE_GROUP_SPRINGS;
+                                 SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES | SUPPLE_GROUP_SPRINGS |
+                                 SUPPLE_GROUP_SOFT;
 constexpr uint32_t kFlagsInViews = SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_POSE_UNSEEN |
                                    SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES |
-                                   SUPPLE_GROUP_SPRINGS;
+                                   SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
 
 Result<std::vector<std::byte>> readThrough(const SuppleFiles& files, const std::string& path) {
     SuppleFileBytes found{};
@@ -167,7 +168,7 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
     if (desc.view.id != 0 && has(~kFlagsInViews)) {
         return Error{ErrorCode::argument,
                      "a group of a view takes the flags ONE_LEVEL, BOUNDS, POSE_UNSEEN, MODIFIERS, TRANSITIONS, "
-                     "UPDATE_RATES and SPRINGS alone: the view has the others"};
+                     "UPDATE_RATES, SPRINGS and SOFT alone: the view has the others"};
     }
     if (desc.view.id == 0 && has(SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_POSE_UNSEEN)) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_ONE_LEVEL or SUPPLE_GROUP_POSE_UNSEEN without a view"};
@@ -196,6 +197,14 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
     if (has(SUPPLE_GROUP_SPRINGS) && has(SUPPLE_GROUP_UPDATE_RATES)) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_SPRINGS does not go with SUPPLE_GROUP_UPDATE_RATES: springs "
                                           "swing by poses of every step"};
+    }
+    if (has(SUPPLE_GROUP_SOFT) && (desc.instancesOf.id != 0 || desc.poseSource != SUPPLE_POSES_PLAYBACK)) {
+        return Error{ErrorCode::argument,
+                     "SUPPLE_GROUP_SOFT goes with instances of its own, and with SUPPLE_POSES_PLAYBACK"};
+    }
+    if (has(SUPPLE_GROUP_SOFT) && has(SUPPLE_GROUP_UPDATE_RATES)) {
+        return Error{ErrorCode::argument, "SUPPLE_GROUP_SOFT does not go with SUPPLE_GROUP_UPDATE_RATES: vertices "
+                                          "jiggle by poses of every step"};
     }
     if (has(SUPPLE_GROUP_TANGENTS) && !has(SUPPLE_GROUP_ATTRIBUTES)) {
         return Error{ErrorCode::argument, "TANGENTS go with ATTRIBUTES"};

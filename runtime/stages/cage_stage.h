@@ -95,6 +95,7 @@ struct PlannedStages {
     bool morphs = false;  ///< the character has morph targets
     bool deforms = false; ///< as CageStageDesc::deforms
     bool pieces = false;  ///< a surface is made of some of the parts
+    bool jiggles = false; ///< vertices do
 };
 
 struct CageStageRow {

@@ -2,12 +2,13 @@
 
 #include "runtime/stages/deform.h"
 #include "runtime/stages/gather.h"
+#include "runtime/stages/jiggle.h"
 
 namespace supple::runtime {
 
 namespace {
 
-constexpr CageStageRow kRows[] = {kDeformRow, kGatherRow};
+constexpr CageStageRow kRows[] = {kDeformRow, kJiggleRow, kGatherRow};
 
 } // namespace
 

@@ -33,13 +33,12 @@ void main() {
     uvec4 quad = table(push.drivers + 1u + item);
     precise vec4 driven = drivenWeights(quad);
     if (!within || bindPose) return;
-    uint end = posedEnd(), at = push.morphWeights + quad.x;
-    bool isShown = end == 0u;
-    uint i = at + (isShown ? posedSlot() * push.poseStride : firstOfEnd(posedSlot(), end));
+    bool shown = isShown();
+    uint i = push.morphWeights + quad.x + (shown ? posedSlot() * push.poseStride : firstUnshown());
     vec4 before;
-    if (isShown) before = posed.at[i];
+    if (shown) before = posed.at[i];
     else before = posedEnds.at[i];
     precise vec4 weights = before + driven;
-    if (isShown) posed.at[i] = weights;
+    if (shown) posed.at[i] = weights;
     else posedEnds.at[i] = weights;
 }

@@ -24,10 +24,11 @@ const bool kRoots = false;
 #include "shaders/pose/transition.h"
 #include "shaders/pose/local.glsl"
 
-// What steps of springs do not need: morph weights and, in groups without modifiers, most nodes.
+// What steps do not need: in groups without modifiers, most nodes and, where nothing jiggles, morph weights.
 bool isLeftOut(uint item) {
-    bool needed = item == push.nodeCount;
-    if (item < push.nodeCount) needed = (table(kNodeElements * item).y & push.stepNodes) == push.stepNodes;
+    bool needed = item == push.nodeCount || stepsHavePoses();
+    uint flags = push.stepNodes & ~kStepsHavePoses;
+    if (item < push.nodeCount) needed = flags == 0u || (table(kNodeElements * item).y & flags) != 0u;
     return !needed;
 }
 
@@ -40,7 +41,7 @@ void main() {
     uint item = kWide ? id % items : id / push.instanceCount;
     beginEntry(entry);
     uint first = posedState(), locals = entry * push.scratchStride;
-    if (isStep(entry) && isLeftOut(item)) return;
+    if (isStep() && isLeftOut(item)) return;
     if (item < push.nodeCount) {
         Motion none = standing();
         storeLocal(locals + kAffineElements * item, shownTransform(first, item, posedTransform(first, item, none)));

@@ -57,18 +57,26 @@ void keepGlobal(uint matrices, uint node, Affine global) {
     }
 }
 
+// Springs have made the matrices of a step's nodes that they need.
+bool isGlobalAlready(uint node) {
+    return push.springs != 0u && isStep() && (table(kNodeElements * node).y & kNodeOfSprings) != 0u;
+}
 Affine globalOf(uint matrices, uint node) {
-    uint parent = parentOf(node);
-    precise Affine global = localMatrix(node, localAt(matrices + kAffineElements * node));
+    uint parent = parentOf(node), rows = matrices + kAffineElements * node;
+    precise Affine global = localMatrix(node, localAt(rows));
     if (parent != kNoNode) global = combined(globalAt(matrices, parent), global);
+    if (isGlobalAlready(node)) global = placeAt(rows);
     return global;
 }
 
+// Of a step, only what painted vertices hang on.
+bool isNeeded(uint node) { return !isStep() || (table(kNodeElements * node).y & kNodeOfJiggles) != 0u; }
+
 void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {
     precise Affine own = identity();
+    uint first = push.joints + kJointElements * joint, node = table(first + 3u).x;
+    if (!isNeeded(node)) return;
     if (!bindPose) {
-        uint first = push.joints + kJointElements * joint;
-        uint node = table(first + 3u).x;
         Affine inverseBind = Affine(tableFloats(first), tableFloats(first + 1u), tableFloats(first + 2u));
         own = combined(globalAt(matrices, node), inverseBind);
     }
@@ -90,12 +98,14 @@ void main() {
     uint matrices = entry * push.scratchStride;
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     bool bindPose = (state(posedSlot() * push.stateStride).y & kStateBindPose) != 0u;
-    Affine place = placeAt(matrices + kAffineElements * push.nodeCount);
+    precise Affine place = identity();
+    if (!isStep()) place = placeAt(matrices + kAffineElements * push.nodeCount);
     // Matrices change in their places: lanes beyond the instances must not store.
     if (kWide) {
         for (uint level = 0u; level < push.levelCount; ++level) {
             uvec4 nodes = table(push.levels + level);
             for (uint node = nodes.x + lane; node < nodes.y; node += lanes) {
+                if (!isNeeded(node)) continue;
                 Affine global = globalOf(matrices, node);
                 if (within) keepGlobal(matrices, node, global);
             }
@@ -105,6 +115,7 @@ void main() {
         }
     } else {
         for (uint node = 0u; node < push.nodeCount; ++node) {
+            if (!isNeeded(node)) continue;
             Affine global = globalOf(matrices, node);
             if (within) keepGlobal(matrices, node, global);
         }

@@ -1,4 +1,4 @@
-// Where poses go: what is shown to the deform pass, an end to mix.comp.
+// Where poses go: what is shown to the deform pass, an end to mix.comp, a step to what jiggles.
 
 BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
 BUFFER(writeonly, PosedEnds, kEndsBinding, std430, vec4, posedEnds)
@@ -6,11 +6,10 @@ BUFFER(writeonly, PosedEnds, kEndsBinding, std430, vec4, posedEnds)
 // `i`: within the pose.
 void storePosed(uint i, vec4 value) {
     precise vec4 element = value;
-    uint end = posedEnd();
-    if (end == 0u) {
+    if (isShown()) {
         posed.at[posedSlot() * push.poseStride + i] = element;
     } else {
-        posedEnds.at[firstOfEnd(posedSlot(), end) + i] = element;
+        posedEnds.at[firstUnshown() + i] = element;
     }
 }
 void storePosed(uint i, Affine m) {

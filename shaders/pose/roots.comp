@@ -24,8 +24,8 @@ void main() {
         Transform root = posedTransform(first, header.z, sinceBegin);
         storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
-            // A loop, so that the code is there once: where it stands, then for springs the way alone.
-            for (uint way = 0u; way < (isStep(entry) ? 2u : 1u); ++way) {
+            // A loop, so that the code is there once: where it stands, then for steps the way alone.
+            for (uint way = 0u; way < (isStep() ? 2u : 1u); ++way) {
                 precise Affine place = identity();
                 if (isPlaced() && way == 0u) place = transformOf(first);
                 uint rows = way == 0u ? kAffineElements * push.nodeCount : push.springScratch;

@@ -56,15 +56,7 @@ void keepSpring(uint i, vec4 v) {
     if (listed) springs.at[tails + i] = own;
 }
 #include "shaders/pose/springs.h"
-
-Affine movedRows(uint word) {
-    vec4 rows[3];
-    for (uint i = 0u; i < 3u; ++i) {
-        uint w = word + 4u * i;
-        rows[i] = uintBitsToFloat(uvec4(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u), instanceWord(w + 3u)));
-    }
-    return rowsOf(rows[0], rows[1], rows[2]);
-}
+#include "shaders/pose/moves.glsl"
 
 // Behind what other lanes of the workgroup have stored.
 void meet() {
@@ -108,10 +100,7 @@ void main() {
         locals = (first + k) * push.scratchStride;
         precise Affine way = identity();
         if ((state(posedState()).y & kStateTravels) != 0u) way = scratchRows(locals + push.springScratch);
-        now.move = before;
-        if (moves != 0u) now.move = combined(movedRows(moves + kMoveWords * k), now.move);
-        now.move = combined(undone(way), now.move);
-        if (jump == k + 1u) now.move = identity();
+        now.move = stepMove(before, way, moves, k, jump == k + 1u);
         before = way;
         now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);

@@ -17,8 +17,10 @@ vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 // What is posed: an entry of the group's list of instances, at the group's time; in groups with update rates one of a list of
 // their own, which says for which of the instance's ends, and at which time.
 uint posedWord = 0u;
+uint posedEntry = 0u;
 vec2 posedSeconds = vec2(0.0);
 void beginEntry(uint n) {
+    posedEntry = n;
     posedWord = instanceEntry(n);
     posedSeconds = vec2(push.timeHigh, push.timeLow);
     if (push.times != 0u) {
@@ -29,13 +31,19 @@ void beginEntry(uint n) {
 uint posedSlot() { return slotOf(posedWord); }
 uint posedEnd() { return push.times != 0u ? SUPPLE_POSED_END(posedWord) : 0u; } // 0: what is shown
 uint firstOfEnd(uint slot, uint end) { return (slot * kPoseEnds + end - 1u) * push.endStride; }
+// Nobody sees it: a step of what swings.
+bool isStep() { return posedEntry >= push.shown; }
+bool isShown() { return posedEnd() == 0u && !isStep(); }
+// Where the pose of one that is not shown begins.
+uint firstUnshown() {
+    return isStep() ? (posedEntry - push.shown) * push.endStride : firstOfEnd(posedSlot(), posedEnd());
+}
+bool stepsHavePoses() { return (push.stepNodes & kStepsHavePoses) != 0u; }
 // First element of what the instance plays.
 uint posedState() {
     bool before = push.times != 0u && (posedWord & kPosedBefore) != 0u;
     return posedSlot() * push.stateStride + (before ? push.stateBefore : 0u);
 }
-// Nobody sees it: a step of springs.
-bool isStep(uint entry) { return entry >= push.shown; }
 // Ends are in model space: mix.comp places them, as the host may move the instance while its ends stay.
 bool isPlaced() { return posedEnd() == 0u; }
 vec2 posedTime() { return posedSeconds; }

@@ -190,7 +190,7 @@ private:
         desc.flags = choose_.below(64);
         desc.poseSource = static_cast<SupplePoseSource>(choose_.below(4));
         if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
-            desc.flags |= choose_.below(16) * SUPPLE_GROUP_MODIFIERS; // transitions, update rates, springs
+            desc.flags |= choose_.below(32) * SUPPLE_GROUP_MODIFIERS; // transitions, update rates, springs, jiggle
         }
         desc.skinning = static_cast<SuppleSkinning>(choose_.below(4));
         uint32_t family = families_;

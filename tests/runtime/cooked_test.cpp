@@ -128,6 +128,36 @@ TEST(Cooked, FilesKeepCenters) {
     EXPECT_NE(refusalOf(writeCooked(few, "")).find("centers of rotation that are none"), std::string::npos);
 }
 
+TEST(Cooked, FilesKeepJiggles) {
+    const Result<cage::Character> character =
+        cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb", {.strict = true});
+    ASSERT_TRUE(character.ok());
+    const std::shared_ptr<Prepared> prepared = Prepared::of(*character);
+    const Result<std::shared_ptr<Prepared>> read = readCooked(writeCooked(*prepared, ""), character->name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    ASSERT_EQ(character->jiggles.size(), 1u);
+    EXPECT_EQ((*read)->character.jiggles, character->jiggles);
+    EXPECT_EQ((*read)->character.weights.jiggles, character->weights.jiggles);
+
+    const auto spoiled = [&](const auto& spoil) {
+        Prepared wrong = *prepared;
+        spoil(wrong.character);
+        return refusalOf(writeCooked(wrong, ""));
+    };
+    using cage::Character;
+    const std::string place = "hero.supple: ";
+    EXPECT_EQ(spoiled([](Character& c) { c.jiggles[0].frequency = -1.0f; }),
+              place + "jiggle 0: its numbers are out of range");
+    EXPECT_EQ(spoiled([](Character& c) { c.jiggles[0].limit = std::numeric_limits<float>::quiet_NaN(); }),
+              place + "jiggle 0: its numbers are out of range");
+    EXPECT_EQ(spoiled([](Character& c) { c.weights.jiggles.pop_back(); }),
+              place + "not one weight of jiggles a vertex");
+    for (const cage::JiggleWeight wrong : {cage::JiggleWeight{1, 0.5f}, {0, 0.0f}, {0, 1.5f}, {0, -INFINITY}}) {
+        EXPECT_EQ(spoiled([&](Character& c) { c.weights.jiggles[3] = wrong; }),
+                  place + "a vertex names no jiggle, or has no weight above 0 to 1");
+    }
+}
+
 TEST(Cooked, FilesKeepPoseDrivers) {
     Result<cage::Character> character = cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb");
     ASSERT_TRUE(character.ok());
@@ -208,9 +238,9 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     ASSERT_TRUE(isCooked(file));
     EXPECT_EQ(refusalOf(file), "");
     std::vector<std::byte> other = file;
-    other[kVersionAt] = std::byte{11};
+    other[kVersionAt] = std::byte{12};
     EXPECT_EQ(refusalOf(other),
-              "hero.supple: a cooked file of version 11, and this is version 10: make it anew: supple cook "
+              "hero.supple: a cooked file of version 12, and this is version 11: make it anew: supple cook "
               "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);

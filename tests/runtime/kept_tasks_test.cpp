@@ -23,16 +23,22 @@ constexpr uint32_t kRoom = 3; ///< instances of a group
 constexpr uint32_t kViewVertices = 20000;
 constexpr uint32_t kPlayFlags = SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_MODIFIERS;
 
+std::vector<std::byte> testData(const std::string& name) {
+    const std::string path = std::string(SUPPLE_TEST_DATA) + name;
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file.good()) << path;
+    const std::string glb((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const auto all = std::as_bytes(std::span(glb));
+    return {all.begin(), all.end()};
+}
 /// Drivers set its morph weights.
 const std::vector<std::byte>& armFile() {
-    static const std::vector<std::byte> bytes = [] {
-        const std::string path = std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb";
-        std::ifstream file(path, std::ios::binary);
-        EXPECT_TRUE(file.good()) << path;
-        const std::string glb((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        const auto all = std::as_bytes(std::span(glb));
-        return std::vector<std::byte>(all.begin(), all.end());
-    }();
+    static const std::vector<std::byte> bytes = testData("/drivers/arm.glb");
+    return bytes;
+}
+/// A belly jiggles.
+const std::vector<std::byte>& bellyFile() {
+    static const std::vector<std::byte> bytes = testData("/jiggle/belly.glb");
     return bytes;
 }
 /// Hair and a scarf swing.
@@ -61,6 +67,7 @@ const SceneKind kKinds[] = {
      SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL, 1 << 20},
     {"with drivers", SUPPLE_SCHEME_PM, 0, kPlayFlags, SUPPLE_VIEW_CULL, 0, armFile},
     {"with springs", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SPRINGS, {}, 0, wrenFile},
+    {"with jiggle", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SOFT, {}, 0, bellyFile},
 };
 
 /// Two groups whose poses are set and one that plays, of different characters, and one that draws the second's
@@ -428,6 +435,9 @@ TEST_F(KeptTasks, AreNeverStaleWithDrivers) {
 }
 TEST_F(KeptTasks, AreNeverStaleWithSprings) {
     expectNeverStale(kKinds[5], 2, 3);
+}
+TEST_F(KeptTasks, AreNeverStaleWithJiggle) {
+    expectNeverStale(kKinds[6], 2, 3);
 }
 /// Where nothing changes, not a byte of tasks is copied: also where coefficients take turns.
 TEST_F(KeptTasks, AreNotCopiedIfNothingChanges) {

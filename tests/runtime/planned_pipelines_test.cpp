@@ -22,6 +22,7 @@ struct PlannedCase {
     const std::string* file = &kWren;
 };
 const std::string kDrivenArm = std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb";
+const std::string kBelly = std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb";
 constexpr uint32_t kStreams = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
 /// The last part of ten has another scheme than the others.
 constexpr SuppleScheme kPartSchemes[10] = {
@@ -40,6 +41,11 @@ const PlannedCase kPlannedCases[] = {
     {"playing", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
     {"rated", {.flags = SUPPLE_GROUP_UPDATE_RATES, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}},
     {"drivers", {.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}, false, 0, &kDrivenArm},
+    {"soft",
+     {.flags = SUPPLE_GROUP_SOFT, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK},
+     false,
+     0,
+     &kBelly},
     {"cages", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_CAGE_BUFFER}},
     {"cage", {.scheme = SUPPLE_SCHEME_CAGE}},
     {"levels",

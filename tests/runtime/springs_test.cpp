@@ -166,7 +166,8 @@ TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
     const runtime::SpringPlace half = runtime::placeBetween(a, b, 0.5);
     EXPECT_NEAR(half.linear[0][0], std::sqrt(2.0), 1e-6);
     EXPECT_EQ(runtime::placeBetween(a, b, 1.0), b);
-    EXPECT_EQ(runtime::moveBetween(a, {glm::dmat3(0.0), glm::dvec3(1.0)})[0], glm::vec4(1, 0, 0, 0)) << "flat";
+    EXPECT_EQ(runtime::rowsOf(runtime::placeWithin({glm::dmat3(0.0), glm::dvec3(1.0)}, a))[0], glm::vec4(1, 0, 0, 0))
+        << "flat";
 }
 
 TEST(SpringClock, CallsTakeEffectAtTheirTime) {
@@ -270,6 +271,9 @@ void callAt(SwingingGroup& stage, uint32_t sixth, double time) {
         turn.rotation[3] = 0.8660254f;
         stage.modify(1, turn);
     }
+    if (sixth == 6) {
+        stage.setMask(1, 0.25f);
+    }
     if (sixth == 5) {
         stage.move(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
         EXPECT_EQ(suppleTeleport(stage.handle(), stage.instances[2]), SUPPLE_OK);
@@ -306,6 +310,10 @@ TEST_F(Springs, DoNotDependOnTheFrameRate) {
             stage.play(i, 1 + i % 2, 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0,
                        i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
         }
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(4, 0.2)};
+        stage.setMask(1, 1.0f);
+        layers[1].mask = 1;
+        stage.play(2, layers);
         std::vector<std::vector<Pose>> shown;
         for (const double time : times) {
             const auto sixth = static_cast<uint32_t>(std::lround(time * 6.0));

@@ -103,6 +103,22 @@ public:
         EXPECT_EQ(suppleSetModifiers(handle(), instances[i], &desc), SUPPLE_OK);
     }
     void modify(uint32_t i, const SuppleModifier& modifier) const { modify(i, {&modifier, 1}); }
+    /// The same value for all joints.
+    void setMask(uint32_t number, float value) const {
+        const std::vector<float> joints(character().skin.joints.size(), value);
+        SuppleMaskDesc mask{};
+        mask.structSize = sizeof mask;
+        mask.mask = number;
+        mask.jointMask = joints.data();
+        mask.jointMaskCount = static_cast<uint32_t>(joints.size());
+        EXPECT_EQ(suppleSetMask(handle(), crowd.group(), &mask), SUPPLE_OK);
+    }
+    /// Of all morph targets.
+    void setMorphWeights(uint32_t i, float weight) const {
+        const std::vector<float> weights(character().morphs.targets.size(), weight);
+        EXPECT_EQ(suppleSetMorphWeights(handle(), instances[i], weights.data(), static_cast<uint32_t>(weights.size())),
+                  SUPPLE_OK);
+    }
     void place(uint32_t i, const glm::mat4& transform) const {
         EXPECT_EQ(suppleSetTransform(handle(), instances[i], glm::value_ptr(transform)), SUPPLE_OK);
     }

@@ -306,6 +306,21 @@ TEST(GltfWriter, PoseDriversComeBack) {
     EXPECT_TRUE(Glb(bytes).root["extensionsUsed"].dump().find("SUPPLE_deformers") != std::string::npos);
 }
 
+TEST(GltfWriter, JigglesComeBack) {
+    const Result<Character> belly = readGltfFile(std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb", {.strict = true});
+    ASSERT_TRUE(belly.ok()) << belly.error().message;
+    Character character = *belly;
+    ASSERT_EQ(character.jiggles, (std::vector<Jiggle>{{2.5f, 0.12f, 0.12f}}));
+    character.jiggles.push_back({7.0f, 0.5f, 0.25f});
+    character.weights.jiggles[5] = {1, 0.75f};
+    const std::vector<std::byte> bytes = writeWell(character);
+    const Result<Character> again = readGltf(bytes, "belly.glb", "", {.strict = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(again->jiggles, character.jiggles);
+    EXPECT_EQ(again->weights.jiggles, character.weights.jiggles);
+    EXPECT_EQ(again->warnings, std::vector<std::string>());
+}
+
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",

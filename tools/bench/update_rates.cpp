@@ -17,16 +17,20 @@ namespace {
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
 constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
-/// What the character has besides: morph targets, and drivers of them.
-enum class Has : size_t { springs, targets, drivers };
-constexpr size_t kCharacters = 3;
+/// What the character has besides: springs, morph targets, drivers of them, vertices that jiggle.
+enum class Has : size_t { springs, targets, drivers, jiggles };
+constexpr size_t kCharacters = 4;
+constexpr bool hasTargets(Has has) {
+    return has == Has::targets || has == Has::drivers;
+}
 
-/// 0: the group has no update rates. `swings`: joints do.
+/// 0: the group has no update rates. `swings`: joints or vertices do.
 constexpr struct RatedKind {
     uint32_t interval;
     bool swings = false;
     Has has = Has::springs;
-} kRatedKinds[] = {{0}, {1}, {2}, {4}, {8}, {0, true}, {0, false, Has::targets}, {0, false, Has::drivers}};
+} kRatedKinds[] = {
+    {0}, {1}, {2}, {4}, {8}, {0, true}, {0, false, Has::targets}, {0, false, Has::drivers}, {0, true, Has::jiggles}};
 
 /// Four chains of three joints that swing, and a collider.
 constexpr uint32_t kChains = 4, kChainJoints = 3;
@@ -88,6 +92,16 @@ void addDrivers(cage::Character& character) {
     }
 }
 
+/// So many vertices, side by side as the cage has them.
+constexpr uint32_t kJiggling = 300;
+void addJiggles(cage::Character& character) {
+    character.jiggles.push_back({});
+    character.weights.jiggles.resize(character.cage.vertexCount());
+    for (uint32_t v = 0; v < std::min(kJiggling, character.cage.vertexCount()); ++v) {
+        character.weights.jiggles[v] = {0, 1.0f};
+    }
+}
+
 struct RatedGroup {
     RatedKind kind;
     SuppleGroup group{};
@@ -114,7 +128,11 @@ public:
             desc.scheme = SUPPLE_SCHEME_CAGE;
             desc.capacity = characters_;
             desc.poseSource = SUPPLE_POSES_PLAYBACK;
-            desc.flags = kind.interval != 0 ? SUPPLE_GROUP_UPDATE_RATES : kind.swings ? SUPPLE_GROUP_SPRINGS : 0;
+            if (kind.interval != 0) {
+                desc.flags = SUPPLE_GROUP_UPDATE_RATES;
+            } else if (kind.swings) {
+                desc.flags = kind.has == Has::jiggles ? SUPPLE_GROUP_SOFT : SUPPLE_GROUP_SPRINGS;
+            }
             const Result<SuppleGroup> made = workbench_.createGroup(desc, kind.interval);
             if (!made) {
                 return made.error();
@@ -141,17 +159,19 @@ public:
         for (const RatedGroup& own : groups_) {
             const auto frames = static_cast<double>(own.pose.size());
             const double joints = kCrowdJoints;
-            rows.push_back({{"characters", characters_},
-                            {"interval", own.kind.interval},
-                            {"springJoints", own.kind.swings ? kChains * kChainJoints : 0},
-                            {"morphTargets", own.kind.has != Has::springs ? kDrivers * kDriverTargets : 0},
-                            {"drivers", own.kind.has == Has::drivers ? kDrivers : 0},
-                            {"posed", static_cast<double>(own.posed) / joints / frames},
-                            {"poseMs", tools::summarize(own.pose).median},
-                            {"deformMs", tools::summarize(own.deform).median},
-                            {"recordUs", tools::summarize(own.record).median},
-                            {"poseRatio", ratio(own, &RatedGroup::pose)},
-                            {"deformRatio", ratio(own, &RatedGroup::deform)}});
+            rows.push_back(
+                {{"characters", characters_},
+                 {"interval", own.kind.interval},
+                 {"springJoints", own.kind.swings && own.kind.has == Has::springs ? kChains * kChainJoints : 0},
+                 {"jiggling", own.kind.has == Has::jiggles ? kJiggling : 0},
+                 {"morphTargets", hasTargets(own.kind.has) ? kDrivers * kDriverTargets : 0},
+                 {"drivers", own.kind.has == Has::drivers ? kDrivers : 0},
+                 {"posed", static_cast<double>(own.posed) / joints / frames},
+                 {"poseMs", tools::summarize(own.pose).median},
+                 {"deformMs", tools::summarize(own.deform).median},
+                 {"recordUs", tools::summarize(own.record).median},
+                 {"poseRatio", ratio(own, &RatedGroup::pose)},
+                 {"deformRatio", ratio(own, &RatedGroup::deform)}});
         }
         return rows;
     }
@@ -213,8 +233,10 @@ Result<Json> measureUpdateRates(host::Device& device, Workbench& workbench, cons
         }
         if (has == static_cast<size_t>(Has::springs)) {
             addSprings(character->character);
-        } else {
+        } else if (hasTargets(static_cast<Has>(has))) {
             addTargets(character->character);
+        } else {
+            addJiggles(character->character);
         }
         if (has == static_cast<size_t>(Has::drivers)) {
             addDrivers(character->character);

@@ -17,10 +17,10 @@ struct UpdateRatesDesc {
     std::function<void(const std::string& what)> progress;
 };
 
-/// A row per count of characters and interval, one where joints swing, a step a frame, one with morph targets, and one
-/// with drivers of these. Groups of all rows record in turns. A row has medians over the frames: of the milliseconds of
-/// pose and deform by timestamps, of the microseconds of recording, and of the frames' own ratios to the group without
-/// update rates; and how many characters a frame poses, in the mean.
+/// A row per count of characters and interval, one where joints swing, a step a frame, one with morph targets, one
+/// with drivers of these, and one where vertices jiggle. Groups of all rows record in turns. A row has medians over the
+/// frames: of the milliseconds of pose and deform by timestamps, of the microseconds of recording, and of the frames'
+/// own ratios to the group without update rates; and how many characters a frame poses, in the mean.
 [[nodiscard]] Result<nlohmann::ordered_json> measureUpdateRates(host::Device& device, Workbench& workbench,
                                                                 const UpdateRatesDesc& desc);
 

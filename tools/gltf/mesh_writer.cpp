@@ -5,6 +5,7 @@
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
 #include "cage/refusal.h"
+#include "tools/gltf/jiggle_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -224,6 +225,7 @@ private:
                 packer_.addFloats("SCALAR", floatsOf(gathered(values_.tiles, part)), Target::vertices);
         }
         writeSkin(part, attributes);
+        writeJiggles(part, attributes);
 
         const auto vertexCount = static_cast<uint32_t>(part.corners.size());
         json primitive = {{"attributes", std::move(attributes)}, {"mode", 4}};
@@ -285,6 +287,17 @@ private:
             attributes["JOINTS_" + std::to_string(set)] =
                 packer_.addIntegers("VEC4", joints, component, Target::vertices);
             attributes["WEIGHTS_" + std::to_string(set)] = packer_.addFloats("VEC4", weights, Target::vertices);
+        }
+    }
+
+    void writeJiggles(const WrittenPrimitive& part, json& attributes) {
+        for (size_t j = 0; j < character_.jiggles.size(); ++j) {
+            std::vector<float> weights;
+            for (const uint32_t v : part.cageVertices) {
+                const JiggleWeight& own = character_.weights.jiggles[v];
+                weights.push_back(own.jiggle == j ? own.weight : 0.0f);
+            }
+            attributes[jiggleAttribute(j)] = packer_.addFloats("SCALAR", weights, Target::vertices);
         }
     }
 

@@ -5,6 +5,7 @@
 #include "cage/parts.h"
 #include "cage/refusal.h"
 #include "tools/gltf/driver_writer.h"
+#include "tools/gltf/jiggle_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
@@ -320,6 +321,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (!part.drivers.empty()) {
             mesh["extensions"]["SUPPLE_deformers"]["drivers"] = writeDrivers(part.drivers, packer);
         }
+        if (!part.jiggles.empty()) {
+            mesh["extensions"]["SUPPLE_deformers"]["jiggle"] = writeJiggles(part.jiggles);
+        }
         meshes.push_back(std::move(mesh));
     }
     reportFeatures(character.cage, file.warnings);
@@ -344,7 +348,7 @@ GlbFile toGlb(const Character& character) {
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     if (std::any_of(character.parts.begin(), character.parts.end(),
                     [](const Part& part) { return part.skinning.has_value(); }) ||
-        !character.drivers.empty()) {
+        !character.drivers.empty() || !character.jiggles.empty()) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);

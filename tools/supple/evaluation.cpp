@@ -164,7 +164,7 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
         desc.poseSource = SUPPLE_POSES_PLAYBACK;
         desc.flags |= SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS;
         desc.flags |= pose.updateInterval > 0 ? SUPPLE_GROUP_UPDATE_RATES : 0;
-        desc.flags |= pose.simulate > 0.0 ? SUPPLE_GROUP_SPRINGS : 0;
+        desc.flags |= pose.simulate > 0.0 ? SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT : 0;
     }
     SchemeOptions options;
     Status status = describeSurface(surface, character, options, desc);

@@ -13,6 +13,7 @@
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
 #include "tools/supple/inspect_drivers.h"
+#include "tools/supple/inspect_jiggles.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
 #include "tools/supple/memory_report.h"
@@ -331,6 +332,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
         json["expressions"].push_back({{"name", expression.name}, {"morphTargets", expression.targets.size()}});
     }
     json["drivers"] = driversToJson(character);
+    json["jiggles"] = jigglesToJson(character);
     json["springs"] = Json::array();
     for (const cage::Spring& spring : character.springBones.springs) {
         json["springs"].push_back({{"name", spring.name}, {"joints", spring.joints.size()}});
@@ -531,6 +533,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("pose drivers", std::to_string(character.drivers.size()));
     }
     for (const std::string& line : driverLines(character)) {
+        printLine("", line);
+    }
+    if (!character.jiggles.empty()) {
+        printLine("jiggles", std::to_string(character.jiggles.size()));
+    }
+    for (const std::string& line : jiggleLines(character)) {
         printLine("", line);
     }
     printVrm(character);

@@ -1018,7 +1018,15 @@ typedef enum SuppleGroupFlags {
      * With SUPPLE_POSES_SET the CPU runs the steps of all visible instances, in sight or not, in suppleRecord. Their
      * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,
      * so what it leaves depends on frames too. No box is known of such instances before they are posed. */
-    SUPPLE_GROUP_SPRINGS = 8192
+    SUPPLE_GROUP_SPRINGS = 8192,
+    /** With SUPPLE_POSES_PLAYBACK: vertices that the character's file paints jiggle about where joints have them
+     * (SUPPLE_deformers: docs/soft.md), in steps of 1/60 s of the group's time, behind springs if the group has these.
+     * What a step leaves depends on the times at which calls are made, not on the frames between. It has no effect if
+     * the file paints none. They begin at rest in the pose where springs do (SUPPLE_GROUP_SPRINGS), but swing on over
+     * time that frames leave out; suppleTeleport keeps how they move. All visible instances are posed, in sight or not,
+     * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9
+     * times the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+    SUPPLE_GROUP_SOFT = 16384
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1123,8 +1131,8 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
                                              uint32_t visible);
 /** The next suppleRecord treats the instance as new: previous positions equal positions, so it has no motion.
  * Instances that were not visible in the group's last suppleRecord are new without this call. With
- * SUPPLE_GROUP_SPRINGS, joints that swing hang on as they hung, as if it had not moved: call this at the group's time
- * of the jump. */
+ * SUPPLE_GROUP_SPRINGS or SUPPLE_GROUP_SOFT, what swings or jiggles goes on as it did, as if the instance had not
+ * moved: call this at the group's time of the jump. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// The quad with something replaced in its JSON, read leniently.
 Character lenientQuad(const std::string& from, const std::string& to) {
@@ -52,7 +52,7 @@ TEST(GltfLenient, KeysAtOneTimeMakeAJump) {
 }
 
 TEST(GltfLenient, KeysThatAreNoNumbersAreLeftOut) {
-    const Character value = lenientQuadWithFloat(kTranslations, 4, kNan);
+    const Character value = lenientQuadWithFloat(kTranslations, 4, kNotANumber);
     EXPECT_EQ(value.clips[0].channels[1].times, (std::vector<float>{0.0f, 2.0f}));
     EXPECT_EQ(value.clips[0].channels[1].values, (std::vector<float>{0, 0, 0, 0, 0, 0}));
     EXPECT_EQ(value.clips[0].channels[0].times.size(), 3u);
@@ -60,7 +60,7 @@ TEST(GltfLenient, KeysThatAreNoNumbersAreLeftOut) {
     const Character zero = lenientQuadWithFloat(kRotations, 3, 0.0f);
     EXPECT_EQ(zero.clips[0].channels[0].times, (std::vector<float>{1.0f, 2.0f}));
     EXPECT_EQ(zero.warnings, (Strings{"animation 0 channel 0 output[0]: zero quaternion; the key is left out"}));
-    const Character time = lenientQuadWithFloat(kTimes, 1, kNan);
+    const Character time = lenientQuadWithFloat(kTimes, 1, kNotANumber);
     EXPECT_EQ(time.clips[0].channels[0].times, (std::vector<float>{0.0f, 2.0f}));
     EXPECT_EQ(time.clips[0].channels[0].values, (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1}));
 }
@@ -117,7 +117,7 @@ TEST(GltfLenient, PrimitivesAreLeftOutAlone) {
         EXPECT_EQ(c.warnings.empty() ? "" : c.warnings.back(), warning);
     };
     GltfBuilder nan = twoPrimitives("}", "}");
-    nan.setFloat(static_cast<QuadAccessor>(1), 4, kNan);
+    nan.setFloat(static_cast<QuadAccessor>(1), 4, kNotANumber);
     expectOne(nan, "mesh 0 primitive 1 POSITION[1]: not finite; left out");
     expectOne(twoPrimitives("}", R"(},"indices":9)"),
               "mesh 0 primitive 1 indices: accessor 9 is out of range: the file has 2; left out");
@@ -127,7 +127,7 @@ TEST(GltfLenient, PrimitivesAreLeftOutAlone) {
     expectOne(far, "mesh 0 primitive 1 indices[2]: 3 is out of range: the primitive has 3 vertices; left out");
     // The last one of a file is not left out: then the file is refused, and says all.
     GltfBuilder both = twoPrimitives(R"(},"mode":9)", "}");
-    both.setFloat(static_cast<QuadAccessor>(1), 4, kNan);
+    both.setFloat(static_cast<QuadAccessor>(1), 4, kNotANumber);
     EXPECT_EQ(saidOf(both.glb()), "refused: t.glb: mesh 0 primitive 0 mode: not in 0..6\n"
                                   "t.glb: mesh 0 primitive 1 POSITION[1]: not finite");
 }

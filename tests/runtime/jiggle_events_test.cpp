@@ -1,0 +1,361 @@
+// What hosts do to vertices that jiggle: they hide, move and teleport instances, leave frames out, and set another
+// time.
+#include "tests/support/jiggling_groups.h"
+#include "tests/support/recordings.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace supple::test {
+namespace {
+
+class JiggleEvents : public CrowdContexts {};
+
+TEST_F(JiggleEvents, GoOnWhenTheCapacityChanges) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        JigglingPair both(context(mapping), 3);
+        for (uint32_t step = 0; step < 30; ++step) {
+            if (step == 11 || step == 19) {
+                EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 11 ? 9 : 5),
+                          SUPPLE_OK);
+            }
+            both.run(step);
+            for (uint32_t i = 0; i < 3; ++i) {
+                EXPECT_TRUE(both.same(i)) << step;
+            }
+        }
+    }
+}
+
+TEST_F(JiggleEvents, AFrameThatIsCancelledHasNotBeen) {
+    const ValidationGuard guard;
+    JigglingPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 24; ++step) {
+        if (step % 5 == 3 || step == 0) {
+            EXPECT_EQ(suppleSetTime(both.other.handle(), both.other.crowd.group(), step / 60.0), SUPPLE_OK);
+            both.other.crowd.context().cancel(both.other.crowd.group());
+        }
+        both.run(step);
+        EXPECT_TRUE(both.same(0) && both.same(1)) << step;
+    }
+}
+
+TEST_F(JiggleEvents, HiddenInstancesCatchUpOrSettle) {
+    const ValidationGuard guard;
+    JigglingPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 90; ++step) {
+        const bool hidden = (step > 10 && step < 18) || (step > 30 && step < 39);
+        both.other.crowd.setVisible(both.other.instances[1], !hidden);
+        both.run(step);
+        EXPECT_TRUE(both.same(0)) << step;
+        if (!hidden && step < 39) {
+            EXPECT_TRUE(both.same(1)) << step << ": 8 steps were due at most";
+        }
+        if (step == 39) {
+            EXPECT_FALSE(both.same(1)) << "9 were due";
+        }
+    }
+    EXPECT_LT(cagesApart(both.other.shown(1), both.plain.shown(1)), 0.02) << "it comes together again";
+}
+
+TEST_F(JiggleEvents, SettleWhenTheirAssetIsLoadedAnew) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    JigglingGroup soft(own, playedGroup(asset, 1, kSoft));
+    JigglingGroup stiff(own, playedGroup(own.createAsset(jigglingWren()), 1, 0));
+    soft.play(0, 2, 0.1);
+    stiff.play(0, 2, 0.1);
+    cage::Character none = jigglingWren();
+    none.jiggles.clear();
+    none.weights.jiggles.clear();
+    for (uint32_t step = 0; step < 30; ++step) {
+        if (step == 10 || step == 20) {
+            EXPECT_EQ(own.reloadAsset(asset, step == 10 ? none : jigglingWren()), SUPPLE_OK);
+        }
+        soft.jiggle(step / 60.0);
+        stiff.jiggle(step / 60.0);
+        const double apart = cagesApart(soft.shown(0), stiff.shown(0));
+        if (step >= 10 && step <= 20) {
+            EXPECT_EQ(apart, 0.0) << step << ": nothing is painted, then all is at rest";
+        }
+        if (step == 9 || step == 29) {
+            EXPECT_GT(apart, 1e-3) << step;
+        }
+    }
+}
+
+TEST_F(JiggleEvents, TeleportsKeepHowTheyMove) {
+    const ValidationGuard guard;
+    JigglingPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(64.0f, 0.0f, 0.0f));
+    double told = 0.0, untold = 0.0;
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 20) {
+            both.other.place(0, far);
+            both.other.crowd.teleport(both.other.instances[0]);
+            both.other.place(1, far);
+        }
+        both.run(step);
+        const auto off = [&](uint32_t i) {
+            Floats here = both.other.shown(i);
+            for (size_t k = 0; k < here.size(); k += 4) {
+                here[k] -= step >= 20 ? 64.0f : 0.0f;
+            }
+            return cagesApart(here, both.plain.shown(i));
+        };
+        told = std::max(told, off(0));
+        untold = std::max(untold, off(1));
+    }
+    EXPECT_LT(told, 0.01) << "the goals' own change of speed in a step is not seen";
+    EXPECT_GT(untold, 0.03);
+}
+
+/// How far vertices are off where they would be without jiggle, of instance `i` which stands at `place`.
+double offAt(const JigglingGroup& soft, uint32_t i, const JigglingGroup& stiff, const glm::vec3& place) {
+    Floats here = soft.shown(i);
+    for (size_t k = 0; k < here.size(); ++k) {
+        here[k] -= k % 4 < 3 ? place[static_cast<int>(k % 4)] : 0.0f;
+    }
+    return cagesApart(here, stiff.shown(i));
+}
+
+/// Frames of a rate, which begin some time behind a step.
+struct Frames {
+    double rate, begin;
+    [[nodiscard]] double time(uint32_t frame) const { return begin + frame / rate; }
+};
+constexpr Frames kFrames[] = {{60, 0.0}, {60, 0.008}, {60, 0.016}, {30, 0.0}, {30, 0.016}, {24, 0.0}, {144, 0.006}};
+constexpr float kRun = 5.0f; // units a second: the host moves the instance
+
+TEST_F(JiggleEvents, WhoRunsGoesOnAfterATeleport) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    for (const Frames& frames : kFrames) {
+        JigglingGroup soft(own, playedGroup(asset, 1, kSoft)), stands(own, playedGroup(asset, 1, kSoft));
+        ASSERT_TRUE(soft.crowd.valid() && stands.crowd.valid());
+        soft.play(0, 0, 0.0);
+        stands.play(0, 0, 0.0);
+        const auto jump = static_cast<uint32_t>(frames.rate * 0.6);
+        double most = 0.0;
+        for (uint32_t f = 0; f < 2 * jump; ++f) {
+            const double time = frames.time(f);
+            const glm::vec3 place(kRun * static_cast<float>(time), 0.0f, f >= jump ? 32.0f : 0.0f);
+            EXPECT_EQ(suppleSetTime(own.handle(), soft.crowd.group(), time), SUPPLE_OK);
+            soft.place(0, glm::translate(glm::mat4(1.0f), place));
+            if (f == jump) {
+                soft.crowd.teleport(soft.instances[0]);
+            }
+            soft.jiggle(time);
+            stands.jiggle(time);
+            most = f >= jump ? std::max(most, offAt(soft, 0, stands, place)) : most;
+        }
+        EXPECT_LT(most, 0.005) << frames.rate << " frames a second from " << frames.begin;
+    }
+}
+
+TEST_F(JiggleEvents, WhoRunsFromTheFirstFrameIsNotStruck) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    for (const Frames& frames : kFrames) {
+        JigglingGroup soft(own, playedGroup(asset, 1, kSoft)), stands(own, playedGroup(asset, 1, kSoft));
+        ASSERT_TRUE(soft.crowd.valid() && stands.crowd.valid());
+        soft.play(0, 0, 0.0);
+        stands.play(0, 0, 0.0);
+        double most = 0.0;
+        for (uint32_t f = 0; f < static_cast<uint32_t>(frames.rate); ++f) {
+            const double gap = f > frames.rate / 2 ? 0.3 : 0.0; // and again when frames have been left out
+            const double time = frames.time(f) + gap;
+            const glm::vec3 place(kRun * static_cast<float>(time), 0.0f, 0.0f);
+            EXPECT_EQ(suppleSetTime(own.handle(), soft.crowd.group(), time), SUPPLE_OK);
+            soft.place(0, glm::translate(glm::mat4(1.0f), place));
+            soft.jiggle(time);
+            stands.jiggle(time);
+            most = std::max(most, offAt(soft, 0, stands, place));
+        }
+        EXPECT_LT(most, 0.005) << frames.rate << " frames a second from " << frames.begin;
+    }
+}
+
+TEST_F(JiggleEvents, LongGapsGoOnWithoutASnap) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    JigglingGroup soft(own, playedGroup(asset, 2, kSoft)), stiff(own, playedGroup(asset, 2, 0));
+    for (uint32_t i = 0; i < 2; ++i) {
+        soft.play(i, 2, 0.1 * i);
+        stiff.play(i, 2, 0.1 * i);
+    }
+    double before = 0.0;
+    const auto at = [&](double time) {
+        soft.jiggle(time);
+        stiff.jiggle(time);
+        return cagesApart(soft.shown(0), stiff.shown(0));
+    };
+    for (uint32_t step = 0; step < 30; ++step) {
+        before = std::max(before, at(step / 60.0));
+    }
+    const double behind = at(45 / 60.0);
+    EXPECT_GT(behind, 0.1 * before) << "a quarter of a second later, a soft spring is not at rest";
+    EXPECT_LT(behind, before) << "nothing has struck it";
+    EXPECT_LT(at(45 / 60.0 + 60.0), 1e-4) << "a minute later it is";
+    EXPECT_EQ(at(0.5), 0.0) << "time that goes back begins at rest";
+}
+
+TEST_F(JiggleEvents, TimeThatGoesBackPlaysTheSameAgain) {
+    const ValidationGuard guard;
+    JigglingPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 7; step < 20; ++step) {
+        both.other.jiggle(step / 60.0);
+    }
+    for (uint32_t step = 0; step < 30; ++step) {
+        both.run(step);
+        EXPECT_TRUE(both.same(0) && both.same(1)) << step;
+    }
+}
+
+TEST_F(JiggleEvents, ASlotThatIsUsedAgainBeginsAtRest) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    JigglingGroup soft(own, playedGroup(asset, 1, kSoft)), stiff(own, playedGroup(asset, 1, 0));
+    soft.play(0, 2, 0.0);
+    stiff.play(0, 2, 0.0);
+    for (uint32_t step = 0; step < 40; ++step) {
+        if (step == 20) {
+            const uint32_t slot = soft.instances[0].slot;
+            EXPECT_EQ(suppleDestroyInstance(own.handle(), soft.instances[0]), SUPPLE_OK);
+            soft.instances[0] = soft.crowd.spawn();
+            EXPECT_EQ(soft.instances[0].slot, slot);
+            soft.play(0, 2, 0.0);
+        }
+        soft.jiggle(step / 60.0);
+        stiff.jiggle(step / 60.0);
+        const double apart = cagesApart(soft.shown(0), stiff.shown(0));
+        EXPECT_EQ(apart == 0.0, step < 4 || (step >= 20 && step < 24)) << step;
+    }
+}
+
+TEST_F(JiggleEvents, WhoIsOutOfSightHasTheSameBits) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    SuppleViewDesc asked{};
+    asked.structSize = sizeof asked;
+    asked.maxVertices = 1u << 18;
+    asked.flags = SUPPLE_VIEW_CULL;
+    SuppleView view{};
+    ASSERT_EQ(suppleCreateView(own.handle(), &asked, &view), SUPPLE_OK);
+    {
+        SuppleGroupDesc desc = playedGroup(own.asset(kBellyFile), 2, kSoft);
+        desc.scheme = SUPPLE_SCHEME_PM;
+        JigglingGroup plain(own, desc);
+        desc.view = view;
+        JigglingGroup seen(own, desc);
+        ASSERT_TRUE(plain.crowd.valid() && seen.crowd.valid());
+        for (const JigglingGroup* const group : {&plain, &seen}) {
+            group->play(0, 0, 0.0);
+            group->play(1, 0, 0.2);
+        }
+        for (uint32_t step = 0; step < 40; ++step) {
+            SuppleCameraDesc camera{};
+            camera.structSize = sizeof camera;
+            camera.pixelsPerUnit = 400.0f;
+            camera.position[0] = step < 25 ? 500.0f : 0.0f;
+            camera.position[2] = 5.0f;
+            ASSERT_EQ(suppleSetCamera(own.handle(), view, &camera), SUPPLE_OK);
+            plain.jiggle(step / 60.0);
+            seen.jiggle(step / 60.0);
+            for (uint32_t i = 0; step >= 25 && i < 2; ++i) {
+                EXPECT_EQ(seen.shown(i), plain.shown(i)) << step << ", " << i;
+            }
+        }
+    }
+    EXPECT_EQ(suppleDestroyView(own.handle(), view), SUPPLE_OK);
+}
+
+TEST_F(JiggleEvents, BoxesHoldWhatIsShown) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    JigglingGroup soft(own, playedGroup(own.asset(kBellyFile), 1, kSoft | SUPPLE_GROUP_BOUNDS));
+    ASSERT_TRUE(soft.crowd.valid());
+    soft.play(0, 0, 0.0);
+    for (uint32_t step = 0; step < 40; ++step) {
+        soft.jiggle(step / 60.0);
+        own.beginFrame();
+        SuppleBounds box{};
+        uint64_t frame = 0;
+        ASSERT_EQ(suppleReadInstanceBounds(own.handle(), soft.instances[0], &box, &frame), SUPPLE_OK);
+        const Floats shown = soft.shown(0);
+        for (size_t k = 0; k < shown.size(); ++k) {
+            if (k % 4 < 3) {
+                ASSERT_GE(shown[k], box.min[k % 4]) << step;
+                ASSERT_LE(shown[k], box.max[k % 4]) << step;
+            }
+        }
+    }
+}
+
+TEST_F(JiggleEvents, AreRecorded) {
+    for (const uint32_t begins : {0u, 9u}) {
+        CrowdContext own(*testDevice(), SUPPLE_MAPPING_NARROW, 2, SUPPLE_CONTEXT_RECORDABLE);
+        JigglingGroup stage(own, playedGroup(own.asset(kBellyFile), 3, kSoft));
+        ASSERT_TRUE(stage.crowd.valid());
+        for (uint32_t i = 0; i < 3; ++i) {
+            stage.play(i, 0, 0.1 * i);
+        }
+        const auto hop = [&](uint32_t first, uint32_t last) {
+            for (uint32_t f = first; f < last; ++f) {
+                EXPECT_EQ(suppleSetTime(own.handle(), stage.crowd.group(), 0.03 * f), SUPPLE_OK);
+                const uint32_t i = f % 3;
+                if (f % 3 == 2) {
+                    stage.place(i, glm::rotate(glm::mat4(1.0f), 0.3f * static_cast<float>(f), glm::vec3(0, 1, 0)));
+                }
+                if (f % 7 == 3) {
+                    stage.crowd.teleport(stage.instances[i]);
+                }
+                stage.crowd.setVisible(stage.instances[2], f % 6 > 2);
+                own.run(stage.crowd.group());
+            }
+        };
+        hop(0, begins);
+        Recorded recorded;
+        own.beginFrame();
+        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
+        hop(begins, begins + 16);
+        own.beginFrame();
+        own.beginFrame();
+        EXPECT_EQ(suppleStopRecording(own.handle()), SUPPLE_OK);
+        const Hashes hashes = read(recorded.bytes).hashes;
+        EXPECT_GT(hashes.size(), 20u);
+        for (const SuppleMapping mapping : kMappings) {
+            tools::Replayer::Options options;
+            options.mapping = mapping;
+            EXPECT_EQ(expectSame(hashes, replay(*testDevice(), recorded.bytes, options)), hashes.size()) << begins;
+        }
+    }
+}
+
+TEST_F(JiggleEvents, AbsurdPlacesLeaveThemAgain) {
+    const ValidationGuard guard;
+    JigglingPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    for (uint32_t step = 0; step < 120; ++step) {
+        if (step == 5 || step == 7) {
+            glm::mat4 place(1.0f);
+            place[3].x = step == 5 ? 1e30f : 0.0f;
+            place[0].x = step == 5 ? 1e-25f : 1.0f;
+            both.other.place(0, place);
+        }
+        both.run(step);
+        EXPECT_TRUE(both.same(1)) << step;
+        if (step > 8) {
+            EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.13) << step;
+        }
+    }
+    EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.03);
+}
+
+} // namespace
+} // namespace supple::test

@@ -1,0 +1,302 @@
+// Vertices that jiggle, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
+// them.
+#include "runtime/spring_clock.h"
+#include "tests/support/jiggling_groups.h"
+#include "tests/support/limited_device.h"
+#include "tests/support/played_jiggles.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace supple::test {
+namespace {
+
+class Jiggles : public CrowdContexts {};
+
+/// The same on the CPU.
+class JigglesOfTheCpu {
+public:
+    explicit JigglesOfTheCpu(const JigglingGroup& of)
+        : group_(of.group()), table_(deformTableOf(group_)), clock_(group_.instances().capacity()),
+          places_(group_.instances().capacity(), glm::mat4(1.0f)), travels_(group_.instances().capacity(), false) {
+        const skinning::PoseLayout& layout = group_.instances().poseLayout();
+        for (uint32_t i = 0; i < group_.instances().capacity(); ++i) {
+            twins_.emplace_back(group_.asset().character, *group_.asset().clipTable, table_, layout,
+                                skinning::PlaybackState::elements(layout.morphCount, 0));
+        }
+    }
+    void move(uint32_t i, const glm::mat4& place, double time) {
+        places_[i] = place;
+        clock_.place(i, time);
+    }
+    void travel(uint32_t i) { travels_[i] = true; }
+
+    /// How many words of an instance's cage are others than the CPU's at a time.
+    uint64_t off(uint32_t i, uint64_t frame, double time, const Floats& shown) {
+        const runtime::SpringPlace place{glm::dmat3(glm::mat3(places_[i])), glm::dvec3(places_[i][3])};
+        const runtime::SpringClock::Due due = clock_.take(i, frame, time, place, travels_[i]);
+        const runtime::Playback& playback = *group_.poses().playback();
+        const std::span<const uint32_t> state = playback.stateOf(i);
+        std::vector<glm::vec4> cage(group_.asset().character.cage.vertexCount());
+        twins_[i].run(state, playback.masks(), due);
+        twins_[i].show(state, playback.masks(), time, due.part, cage);
+        uint64_t count = 0;
+        for (size_t k = 0; k < shown.size(); ++k) {
+            EXPECT_TRUE(std::isfinite(shown[k]));
+            count += std::memcmp(&cage[k / 4][static_cast<int>(k % 4)], &shown[k], sizeof(float)) != 0 ? 1 : 0;
+        }
+        return count;
+    }
+
+private:
+    runtime::Group& group_;
+    skinning::DeformTable table_;
+    runtime::SpringClock clock_;
+    std::vector<glm::mat4> places_;
+    std::vector<bool> travels_;
+    std::vector<PlayedJiggles> twins_;
+};
+
+TEST_F(Jiggles, HaveTheWordsOfTheCpu) {
+    const ValidationGuard guard;
+    constexpr uint32_t kCount = 5;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        const SuppleAsset asset = own.createAsset(jigglingWren());
+        for (const SuppleSkinning skinning :
+             {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+            JigglingGroup soft(own, playedGroup(asset, kCount, kSoft, skinning));
+            JigglingGroup stiff(own, playedGroup(asset, kCount, 0, skinning));
+            ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());
+            JigglesOfTheCpu cpu(soft);
+            for (uint32_t i = 0; i < kCount; ++i) {
+                const bool travels = i == 1 || i == 4;
+                for (const JigglingGroup* const group : {&soft, &stiff}) {
+                    group->play(i, 1 + i % 2, 0.1 * i, travels ? SUPPLE_ROOT_MOTION_GROUND | SUPPLE_ROOT_MOTION_YAW : 0,
+                                travels ? SUPPLE_PLAYBACK_TRAVEL : 0);
+                }
+                if (travels) {
+                    cpu.travel(i);
+                }
+            }
+            double moved = 0.0;
+            for (uint32_t f = 0; f < 24; ++f) {
+                const double time = 0.35 + 0.021 * f;
+                const glm::mat4 place = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(0.1f * f, 0, 0)),
+                                                    0.1f * f, glm::vec3(0.2f, 1.0f, 0.0f));
+                for (const uint32_t i : {3u, 4u}) {
+                    soft.place(i, place);
+                    stiff.place(i, place);
+                    cpu.move(i, place, f == 0 ? 0.0 : 0.35 + 0.021 * (f - 1)); // before the time is set
+                }
+                soft.jiggle(time);
+                stiff.jiggle(time);
+                for (uint32_t i = 0; i < kCount; ++i) {
+                    EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
+                    const double apart = cagesApart(soft.shown(i), stiff.shown(i));
+                    EXPECT_LT(apart, 0.07) << "the limit, and a turn";
+                    EXPECT_TRUE(f > 0 || apart == 0.0) << "at rest in the pose";
+                    EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
+                    moved = std::max(moved, apart);
+                }
+            }
+            EXPECT_GT(moved, 0.02);
+        }
+    }
+}
+
+TEST_F(Jiggles, TheirGoalsHaveWhatDriversSet) {
+    const ValidationGuard guard;
+    Result<cage::Character> arm = cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb");
+    ASSERT_TRUE(arm.ok());
+    arm->jiggles = {{3.0f, 0.1f, 0.05f}};
+    arm->weights.jiggles.assign(arm->cage.vertexCount(), {0, 1.0f});
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        cage::Character undriven = *arm;
+        undriven.drivers.clear();
+        JigglingGroup soft(own, playedGroup(own.createAsset(*arm), 2, kSoft));
+        JigglingGroup plain(own, playedGroup(own.createAsset(undriven), 2, kSoft));
+        ASSERT_TRUE(soft.crowd.valid() && plain.crowd.valid());
+        JigglesOfTheCpu cpu(soft);
+        double apart = 0.0;
+        for (uint32_t i = 0; i < 2; ++i) {
+            soft.play(i, 0, 0.2 * i);
+            plain.play(i, 0, 0.2 * i);
+        }
+        for (uint32_t f = 0; f < 24; ++f) {
+            const double time = 0.35 + 0.021 * f;
+            soft.jiggle(time);
+            plain.jiggle(time);
+            for (uint32_t i = 0; i < 2; ++i) {
+                EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
+                apart = std::max(apart, cagesApart(soft.shown(i), plain.shown(i)));
+            }
+        }
+        EXPECT_GT(apart, 1e-3) << "drivers move something";
+    }
+}
+
+/// Frames of a rate that come to every sixth of a second.
+std::vector<double> jiggledFrames(uint32_t rate, uint32_t sixths) {
+    std::vector<double> times;
+    for (uint32_t k = 0; k <= rate * sixths / 6; ++k) {
+        times.push_back(k * 6 % rate == 0 ? k * 6 / rate / 6.0 : static_cast<double>(k) / rate);
+    }
+    return times;
+}
+
+/// What a host does at some sixths of a second, whatever the frame rate.
+void jiggleCallAt(JigglingGroup& stage, uint32_t sixth, double time) {
+    if (sixth == 2) { // she goes over to running
+        SupplePlaybackLayer layer = PlayedGroup::loops(2, 0.1);
+        layer.startTime = time;
+        SupplePlaybackDesc desc{};
+        desc.transition = 0.3;
+        stage.play(0, {&layer, 1}, desc);
+    }
+    if (sixth == 3) {
+        SuppleModifier turn{};
+        turn.kind = SUPPLE_MODIFIER_ADD;
+        turn.joint = stage.joint("head");
+        turn.weight = 1.0f;
+        turn.rotation[1] = 0.5f;
+        turn.rotation[3] = 0.8660254f;
+        stage.modify(1, turn);
+        stage.setMorphWeights(3, 1.0f); // of targets that move what is painted
+    }
+    if (sixth == 5) {
+        stage.setMask(1, 0.25f);
+    }
+    if (sixth == 4) {
+        stage.place(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
+        EXPECT_EQ(suppleTeleport(stage.handle(), stage.instances[2]), SUPPLE_OK);
+    }
+}
+
+/// What instances showed at each sixth of a second, in frames at these times.
+std::vector<std::vector<Floats>> shownAtSixths(CrowdContext& own, SuppleAsset asset, uint32_t flags,
+                                               std::span<const double> times) {
+    constexpr uint32_t kCount = 4;
+    JigglingGroup stage(own, playedGroup(asset, kCount, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
+    for (uint32_t i = 0; stage.crowd.valid() && i < kCount; ++i) {
+        stage.play(i, 1 + i % 2, 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0, i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
+    }
+    if (stage.crowd.valid()) { // two clips, one of them through a mask
+        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(4, 0.2)};
+        stage.setMask(1, 1.0f);
+        layers[1].mask = 1;
+        stage.play(2, layers);
+    }
+    std::vector<std::vector<Floats>> shown;
+    for (const double time : times) {
+        const auto sixth = static_cast<uint32_t>(std::lround(time * 6.0));
+        const bool meets = time == sixth / 6.0;
+        if (meets) {
+            EXPECT_EQ(suppleSetTime(stage.handle(), stage.crowd.group(), time), SUPPLE_OK);
+            jiggleCallAt(stage, sixth, time);
+        }
+        stage.jiggle(time);
+        for (uint32_t i = 0; meets && i < kCount; ++i) {
+            shown.resize(sixth + 1);
+            shown[sixth].push_back(stage.shown(i));
+        }
+    }
+    return shown;
+}
+
+TEST_F(Jiggles, DoNotDependOnTheFrameRate) {
+    const ValidationGuard guard;
+    constexpr uint32_t kSixths = 6;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    std::vector<double> irregular;
+    Noise noise(11);
+    for (uint32_t k = 0; k < 30; ++k) {
+        irregular.push_back((0.5 + 0.5 * static_cast<double>(noise())) * kSixths / 6.0);
+    }
+    for (uint32_t k = 0; k <= 2 * kSixths; ++k) { // never more than 8 steps apart
+        irregular.push_back(k % 2 == 0 ? k / 2 / 6.0 : k / 12.0);
+    }
+    std::sort(irregular.begin(), irregular.end());
+    irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
+    // Beside springs, what hangs on joints that swing jiggles by how they swing.
+    for (const bool swings : {false, true}) {
+        const SuppleAsset asset = own.createAsset(jigglingWren(swings ? kWrenSprings : "\"X\":{}"));
+        const uint32_t flags = kSoft | (swings ? SUPPLE_GROUP_SPRINGS : 0);
+        const std::vector<std::vector<Floats>> first = shownAtSixths(own, asset, flags, jiggledFrames(60, kSixths));
+        ASSERT_EQ(first.size(), kSixths + 1);
+        for (const uint32_t rate : {24u, 30u, 90u, 144u}) {
+            EXPECT_EQ(shownAtSixths(own, asset, flags, jiggledFrames(rate, kSixths)), first) << rate;
+        }
+        EXPECT_EQ(shownAtSixths(own, asset, flags, irregular), first);
+    }
+}
+
+TEST_F(Jiggles, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
+    const ValidationGuard guard;
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    CrowdContext* const contexts[] = {&context(SUPPLE_MAPPING_NARROW), &context(SUPPLE_MAPPING_WIDE), &shared};
+    const std::vector<double> times = jiggledFrames(24, 5);
+    std::vector<std::vector<Floats>> first;
+    for (CrowdContext* const own : contexts) {
+        const SuppleAsset asset = own->createAsset(jigglingWren(kWrenSprings));
+        const auto shown = shownAtSixths(*own, asset, kSoft | SUPPLE_GROUP_SPRINGS, times);
+        first = first.empty() ? shown : first;
+        EXPECT_EQ(shown, first);
+    }
+}
+
+TEST_F(Jiggles, AreRefusedWhereTheyCannotBe) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.createAsset(jigglingWren());
+    const auto created = [&](SuppleGroupDesc desc) {
+        desc.structSize = sizeof desc;
+        SuppleGroup group{};
+        const SuppleResult result = suppleCreateGroup(own.handle(), &desc, &group);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyGroup(own.handle(), group), SUPPLE_OK);
+        }
+        return result;
+    };
+    SuppleGroupDesc desc = playedGroup(asset, 1, kSoft);
+    EXPECT_EQ(created(desc), SUPPLE_OK);
+    desc.flags |= SUPPLE_GROUP_UPDATE_RATES;
+    EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
+    for (const SupplePoseSource source : {SUPPLE_POSES_SET, SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
+        desc.flags = kSoft;
+        desc.poseSource = source;
+        EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT) << source;
+    }
+    (void)own.takeError();
+    EXPECT_EQ(created(playedGroup(own.asset(kWren), 1, kSoft)), SUPPLE_OK) << "nothing jiggles";
+}
+
+TEST_F(Jiggles, TakeWindowsOfInstances) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 20; });
+        ASSERT_NE(limited.context(), nullptr);
+        constexpr uint32_t kCount = 40;
+        CrowdContext &small = *limited.context(), &large = context(mapping);
+        JigglingGroup cut(small, playedGroup(small.createAsset(jigglingWren()), kCount, kSoft | SUPPLE_GROUP_WINDOWS));
+        JigglingGroup whole(large, playedGroup(large.createAsset(jigglingWren()), kCount, kSoft));
+        ASSERT_TRUE(cut.crowd.valid() && whole.crowd.valid());
+        EXPECT_GT(cut.group().windows().count(), 1u);
+        for (uint32_t i = 0; i < kCount; ++i) {
+            cut.play(i, 1 + i % 3, 0.1 * i);
+            whole.play(i, 1 + i % 3, 0.1 * i);
+        }
+        for (uint32_t f = 0; f < 6; ++f) {
+            cut.jiggle(f / 40.0);
+            whole.jiggle(f / 40.0);
+            for (uint32_t i = 0; i < kCount; ++i) {
+                EXPECT_EQ(cut.shown(i), whole.shown(i)) << f << ", " << i;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace supple::test

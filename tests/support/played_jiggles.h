@@ -1,0 +1,42 @@
+// An instance that plays and jiggles, on the CPU: the cage that the device leaves, to the bit.
+#pragma once
+
+#include "cage/character.h"
+#include "runtime/spring_clock.h"
+#include "shaders/soft/jiggle.h"
+#include "skinning/deform_twin.h"
+#include "skinning/pose_twin.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace supple::test {
+
+class PlayedJiggles {
+public:
+    /// All must outlive this.
+    PlayedJiggles(const cage::Character& character, const skinning::ClipTable& clips,
+                  const skinning::DeformTable& table, const skinning::PoseLayout& layout, uint32_t transition);
+
+    /// Runs the steps that are due of what `state` plays.
+    void run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::SpringClock::Due& due);
+    /// Fills the cage that is shown at a time.
+    void show(std::span<const uint32_t> state, std::span<const float> masks, double time, float part,
+              std::span<glm::vec4> cage);
+
+private:
+    /// The cage of the last pose in model space.
+    void deformUnplaced(std::span<glm::vec4> cage);
+
+    const cage::Character* character_;
+    const skinning::DeformTable* table_;
+    skinning::PoseLayout layout_;
+    skinning::PoseTwin twin_;
+    std::vector<uint32_t> vertices_; ///< that jiggle
+    std::vector<shared::Jiggling> jiggling_;
+    shared::Affine way_; ///< at the last step
+};
+
+} // namespace supple::test
