@@ -101,11 +101,10 @@ glm::dvec3 unitNormal(const glm::dvec3& du, const glm::dvec3& dv) {
 
 } // namespace
 
-Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated, uint32_t fragmentNumber,
-                    uint32_t sector) {
-    const Fragment& fragment = mesh.fragments[fragmentNumber];
-    FragmentNet<double> net(mesh, isolated);
-    net.load(fragment);
+Point limitAtCentre(const subdivision::LimitPose& pose, const LimitShape::Sector& at) {
+    const subdivision::Mesh& mesh = pose.shape().mesh();
+    const Fragment& fragment = mesh.fragments[at.fragment];
+    const FragmentNet<double> net = pose.netOf(fragment);
     const Fan fan = net.fanOf(fragment);
     const auto spokes = mesh.spokeSharpness.begin() + fragment.firstSpoke;
     const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
@@ -120,7 +119,7 @@ Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> i
     Point point;
     point.position = centre + weighted(limit.position);
     for (const LimitRun& run : limit.runs) {
-        if ((sector + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
+        if ((at.number + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
             continue;
         }
         glm::dvec3 normal(0.0);
@@ -139,16 +138,30 @@ void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& poin
     point.dvv = v.x * v.x * aa + 2.0 * v.x * v.y * ab + v.y * v.y * bb;
 }
 
-Point LimitSurface::at(uint32_t quad, double u, double v) const {
+namespace {
+
+/// The corner that a place is nearest to.
+uint32_t cornerAt(double u, double v) {
     const bool right = u > 1.0 - u, up = v > 1.0 - v;
-    const uint32_t corner = up ? (right ? 2 : 3) : (right ? 1 : 0);
+    return up ? (right ? 2 : 3) : (right ? 1 : 0);
+}
+
+} // namespace
+
+LimitShape::Sector LimitSurface::sectorAt(const LimitShape& shape, uint32_t quad, double u, double v) {
+    return shape.sectors()[4 * size_t{quad} + cornerAt(u, v)];
+}
+
+Point LimitSurface::at(uint32_t quad, double u, double v) const {
+    const uint32_t corner = cornerAt(u, v);
+    const bool right = corner == 1 || corner == 2, up = corner >= 2;
     const double across = right ? 1.0 - u : u, along = up ? 1.0 - v : v;
     const bool turned = corner % 2 == 1; // a runs along v
     const LimitShape& shape = pose_->shape();
     const LimitShape::Sector& sector = shape.sectors()[4 * size_t{quad} + corner];
     const double a = turned ? along : across, b = turned ? across : along;
     Point point = std::max(a, b) < std::exp2(-kMostLevels) && !shape.isUniform(sector.fragment)
-                      ? limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number)
+                      ? limitAtCentre(*pose_, sector)
                       : inQuarter(sector, a, b);
     const glm::dvec3 da = point.du, db = point.dv;
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};

@@ -25,9 +25,8 @@ struct Point {
 /// Second derivatives in other parameters: each of `u` and `v` has the slopes of the point's own two in it.
 void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& point);
 
-/// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
-[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
-                                  uint32_t fragment, uint32_t sector);
+/// The limit at the centre of a vertex fragment, with the normal of a sector.
+[[nodiscard]] Point limitAtCentre(const subdivision::LimitPose& pose, const subdivision::LimitShape::Sector& sector);
 
 /// The limit surface over the quads of a cage, or of the cage after one step if not all of its faces are quads: then
 /// face f gives one quad per corner, in the order of the corners (surface::refine()).
@@ -38,6 +37,10 @@ public:
     /// The mesh must outlive it. The positions are those of the cage that it was built from.
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
+
+    /// The sector that a place of a quad lies in.
+    [[nodiscard]] static subdivision::LimitShape::Sector sectorAt(const subdivision::LimitShape& shape, uint32_t quad,
+                                                                  double u, double v);
 
     [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 

@@ -59,12 +59,21 @@ private:
 class LimitPose {
 public:
     explicit LimitPose(const LimitShape& shape);
+    /// Of one fragment alone, no other of which may be asked: its points on the isolated level, in the order of its
+    /// net.
+    LimitPose(const LimitShape& shape, std::span<const glm::dvec3> points)
+        : shape_(shape), alone_(points.begin(), points.end()) {}
     /// `positions`: of the cage that the mesh was built from.
     [[nodiscard]] Status build(std::span<const glm::dvec3> positions, const RunJobs& runJobs);
     [[nodiscard]] Status build(std::span<const glm::vec3> positions, const RunJobs& runJobs);
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
+    /// A fragment on the isolated level.
+    [[nodiscard]] FragmentNet<double> netOf(const Fragment& fragment) const;
+    [[nodiscard]] bool keeps(uint32_t fragment, uint32_t level) const {
+        return alone_.empty() && level <= shape_.keptOf(fragment).last;
+    }
     /// A kept level: its origin, then its points.
     [[nodiscard]] std::span<const glm::dvec3> kept(uint32_t fragment, uint32_t level) const;
 
@@ -75,6 +84,7 @@ private:
     std::vector<glm::dvec3> given_;              ///< positions that came as floats
     std::vector<std::vector<glm::dvec3>> steps_; ///< the vertices after each step
     std::vector<glm::dvec3> nets_;
+    std::vector<glm::dvec3> alone_; ///< of one fragment, in the place of all others
 };
 
 /// A fragment's net on a level: points up to radius 3 and the sharpness that is left.

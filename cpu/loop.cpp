@@ -241,12 +241,26 @@ void addSpokes(const Lattice& lattice, double x, double y, Point& point) {
 
 } // namespace
 
-Point LimitSurface::at(uint32_t triangle, double v, double w) const {
-    const std::array<double, 3> weights = {1.0 - v - w, v, w};
+namespace {
+
+/// The corner that has more than half of the weight, or 3: the middle.
+uint32_t cornerAt(const std::array<double, 3>& weights) {
     uint32_t corner = 0;
     while (corner < 3 && weights[corner] <= 0.5) {
         ++corner;
     }
+    return corner;
+}
+
+} // namespace
+
+LimitShape::Sector LimitSurface::sectorAt(const LimitShape& shape, uint32_t triangle, double v, double w) {
+    return shape.sectors()[4 * size_t{triangle} + cornerAt({1.0 - v - w, v, w})];
+}
+
+Point LimitSurface::at(uint32_t triangle, double v, double w) const {
+    const std::array<double, 3> weights = {1.0 - v - w, v, w};
+    const uint32_t corner = cornerAt(weights);
     const Sector& sector = pose_->shape().sectors()[4 * size_t{triangle} + corner];
     Point point = corner == 3 ? inMiddle(sector, 1.0 - 2.0 * weights[0], 1.0 - 2.0 * weights[1])
                               : atDistance(sector, weights[(corner + 1) % 3], weights[(corner + 2) % 3]);
@@ -270,7 +284,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
     const Fragment& fragment = shape.mesh().fragments[sector.fragment];
     const bool uniform = shape.isUniform(sector.fragment);
     if (!uniform && a + b < std::exp2(-kMostLevels)) {
-        return catmull_clark::limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number);
+        return catmull_clark::limitAtCentre(*pose_, sector);
     }
     int exponent = 0;
     std::frexp(a + b, &exponent);

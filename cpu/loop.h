@@ -22,6 +22,10 @@ public:
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 
+    /// The sector or facet that a place of a triangle lies in.
+    [[nodiscard]] static subdivision::LimitShape::Sector sectorAt(const subdivision::LimitShape& shape,
+                                                                  uint32_t triangle, double v, double w);
+
     [[nodiscard]] uint32_t triangleCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 
     /// Where corners 1 and 2 of a triangle have the weights v and w, and corner 0 the rest. Derivatives are those in v

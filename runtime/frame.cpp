@@ -173,6 +173,10 @@ PassCost recordPose(const Frame& frame, Group& group) {
     return poses<part>(group) ? group.poses().recordPart(frame.dispatches, part, group.windows()) : PassCost{};
 }
 
+PassCost recordPoints(const Frame& frame, Group& group) {
+    return group.recordPoints(frame.dispatches);
+}
+
 PassCost recordBounds(const Frame& frame, Group& group) {
     return group.hasBounds() ? group.recordBounds(frame.dispatches) : PassCost{};
 }
@@ -282,6 +286,9 @@ bool always(Group&) {
 bool isInView(Group& group) {
     return group.view() != nullptr;
 }
+bool hasPoints(Group& group) {
+    return !group.points().empty();
+}
 bool hasBounds(Group& group) {
     return group.hasBounds();
 }
@@ -333,6 +340,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::mix>, recordPose<Playback::Part::mix>},
     {SUPPLE_PASS_DEFORM, always, {}},
+    {SUPPLE_PASS_POINTS, hasPoints, recordPoints, Behind::nothing},
     {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
     {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false},
     {SUPPLE_PASS_BOUNDS,
@@ -598,7 +606,7 @@ Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Gr
     const std::scoped_lock lock(uploading_);
     VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
     bytes += recordStream(commandBuffer, group, bytes);
-    return {bytes, !group.staticsPending()};
+    return {bytes, !group.lacksStatics()};
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {

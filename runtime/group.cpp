@@ -284,6 +284,7 @@ void Group::addMembers(const GroupShared& shared) {
         addMember(*instances_);
     }
     addMember(stages_);
+    addMember(points_);
     if (view_ != nullptr) {
         addMember(*culling_);
         addMember(*view_);
@@ -363,6 +364,10 @@ Status Group::createVisibility() {
                : success();
 }
 
+PointSource Group::pointSource() const {
+    return {device_, &listing_, instances_->cages().buffer(), instances_->cageStride()};
+}
+
 SuppleBufferRange Group::bounds() const {
     return culling_ != nullptr ? culling_->bounds() : listedBounds_->bounds();
 }
@@ -388,6 +393,7 @@ gpu::TaskNeeds Group::taskNeeds() const {
     const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
     gpu::TaskNeeds needs{windows * (Playback::kParts + stages), windows * (1 + stages)};
     needs += {windows + Culling::kGroupPasses + gpu::TaskDispatches::kPhases, windows + 1}; // bounds and lists
+    needs += points_.taskNeeds();
     for (const auto& surface : surfaces_) {
         needs += surface->taskNeeds();
     }
@@ -398,6 +404,7 @@ gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
     use += stages_.memoryUse();
+    use += points_.memoryUse();
     if (boundsReadback_ != nullptr) {
         use += boundsReadback_->memoryUse();
     }
@@ -453,7 +460,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     bool changed = listing_.changed(slots());
     PassCost cost =
         follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
-    const glm::vec3 step(frame.origin - origin_);
+    pastStep_ = glm::vec3(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them
         boxes_.find(slots(), poses());
@@ -467,7 +474,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     cost += recordPoseList(commandBuffer, frame.number);
     for (const auto& surface : surfaces_) {
-        surface->setPastStep(step);
+        surface->setPastStep(pastStep_);
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
@@ -531,6 +538,7 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
     if (listedBounds_ != nullptr) {
         transfers.add(listedBounds_->bounds().buffer);
     }
+    points_.addTransfers(transfers);
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, askedFrame());
     }

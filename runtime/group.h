@@ -13,6 +13,7 @@
 #include "runtime/culling/out_of_sight.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
+#include "runtime/points/point_sets.h"
 #include "runtime/recording/stage_hashes.h"
 #include "runtime/stages/cage_stages.h"
 #include "runtime/surfaces.h"
@@ -82,6 +83,10 @@ public:
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
     /// What makes the cages of its surfaces.
     [[nodiscard]] CageStages& stages() { return stages_; }
+    [[nodiscard]] PointSets& points() { return points_; }
+    [[nodiscard]] const PointSets& points() const { return points_; }
+    /// What its point sets are made from.
+    [[nodiscard]] PointSource pointSource() const;
     [[nodiscard]] Surfaces& surfaces() { return surfaces_; }
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     // Null if the group belongs to no view.
@@ -100,6 +105,9 @@ public:
     [[nodiscard]] float boundsMargin() const;
 
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
+    [[nodiscard]] bool staticsPending() const override { return lacksStatics() || points_.uploadsPending(); }
+    /// Whether frames leave the group out for want of static data.
+    [[nodiscard]] bool lacksStatics() const { return FrameMembers::staticsPending(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
@@ -114,6 +122,8 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame);
     /// Notes that the frame has something of the group. recordStatics() and recordUpload() do so themselves.
     void noteRecorded(uint64_t frame) { lastRecordedFrame_ = frame; }
+    /// Behind the deformed cages.
+    PassCost recordPoints(gpu::Dispatches& dispatches) { return points_.record(dispatches, passesFrame_, pastStep_); }
     /// If hasBounds().
     PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
@@ -186,9 +196,10 @@ private:
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
     GroupRecipe recipe_;
-    SuppleGroupDesc desc_{}; ///< without pointers
-    uint32_t rate_ = 0;      ///< that was set last; 0: none
-    glm::dvec3 origin_{0.0}; ///< of the last recording
+    SuppleGroupDesc desc_{};   ///< without pointers
+    uint32_t rate_ = 0;        ///< that was set last; 0: none
+    glm::dvec3 origin_{0.0};   ///< of the last recording
+    glm::vec3 pastStep_{0.0f}; ///< how far it has moved since the one before
     const gpu::Device* device_ = nullptr;
     bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances
@@ -204,6 +215,7 @@ private:
     std::vector<Hashed> hashed_;
     std::unique_ptr<HashedParts> hashes_; ///< of hashed_
     CageStages stages_;
+    PointSets points_;
     Surfaces surfaces_;
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
     RecordedOnce noDraws_;

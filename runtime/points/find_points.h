@@ -1,0 +1,20 @@
+// Points of a group's surfaces by where they are: nearest to places, at texture coordinates, spread by area. On the
+// CPU.
+#pragma once
+
+#include "base/result.h"
+#include "supple/supple.h"
+
+#include <memory>
+#include <span>
+
+namespace supple::runtime {
+
+class CpuGroup;
+
+/// Fills out with query.count points. `query`: checked but for what only the character says. Refuses a cage that has
+/// not the character's vertices, and texture coordinates that it lacks.
+[[nodiscard]] Status findPoints(const std::shared_ptr<const CpuGroup>& group, const SupplePointQuery& query,
+                                std::span<SuppleSurfacePoint> out);
+
+} // namespace supple::runtime
