@@ -34,7 +34,8 @@ std::optional<Error> faultOf(const SupplePointQuery& query) {
         (query.seed != 0 && query.kind != SUPPLE_FIND_SCATTER)) {
         return Error{ErrorCode::range, "kind must be one of SupplePointQueryKind, uvSet and seed what it takes"};
     }
-    if ((query.values == nullptr) != (query.kind == SUPPLE_FIND_SCATTER || query.count == 0)) {
+    const bool takesValues = query.kind != SUPPLE_FIND_SCATTER;
+    if (takesValues ? query.values == nullptr && query.count > 0 : query.values != nullptr) {
         return Error{ErrorCode::nullPointer, "values must be there for NEAREST and UV, and null for SCATTER"};
     }
     if ((query.cage == nullptr) != (query.cageVertexCount == 0)) {

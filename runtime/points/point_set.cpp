@@ -1,7 +1,5 @@
 #include "runtime/points/point_set.h"
 
-#include "gpu/tasks.h"
-
 #include <algorithm>
 #include <limits>
 #include <string>

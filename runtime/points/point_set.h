@@ -4,6 +4,7 @@
 #include "gpu/bound_sets.h"
 #include "gpu/buffer_plan.h"
 #include "gpu/static_buffers.h"
+#include "gpu/tasks.h"
 #include "runtime/instance_listing.h"
 #include "runtime/pass_cost.h"
 #include "runtime/points/point_kernels.h"

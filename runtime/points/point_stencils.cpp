@@ -29,8 +29,9 @@ struct BindFrame {
 };
 BindFrame bindFrame(const cpu::PointWeights& weights, const cage::Cage& cage) {
     BindFrame frame;
+    const glm::dvec3 first(cage.positions[weights.entries()[0].vertex]);
     for (const cpu::VertexWeight& entry : weights.entries()) {
-        const glm::dvec3 p(cage.positions[entry.vertex]);
+        const glm::dvec3 p = glm::dvec3(cage.positions[entry.vertex]) - first;
         frame.du += entry.du * p;
         frame.dv += entry.dv * p;
     }

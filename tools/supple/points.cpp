@@ -19,7 +19,7 @@
 namespace supple::tools {
 namespace {
 
-using Json = nlohmann::json;
+using PointsJson = nlohmann::json;
 
 struct PointsOptions {
     std::string file, points, output;
@@ -37,14 +37,14 @@ struct GivenPoints {
 };
 
 /// A whole number of an object, or nothing: it is something else.
-std::optional<uint32_t> wholeNumber(const Json& value) {
+std::optional<uint32_t> wholeNumber(const PointsJson& value) {
     return value.is_number_integer() && value >= 0 && value <= int64_t{UINT32_MAX}
                ? std::optional(value.get<uint32_t>())
                : std::nullopt;
 }
 
 /// The fault of one entry, or an empty text.
-std::string takePoint(const Json& entry, const cage::Character& character, GivenPoints& out) {
+std::string takePoint(const PointsJson& entry, const cage::Character& character, GivenPoints& out) {
     const auto has = [&](const char* key) { return entry.is_object() && entry.contains(key); };
     const std::optional<uint32_t> face = has("face") ? wholeNumber(entry["face"]) : std::nullopt;
     if (!face || !has("u") || !has("v") || !entry["u"].is_number() || !entry["v"].is_number()) {
@@ -72,7 +72,7 @@ std::string takePoint(const Json& entry, const cage::Character& character, Given
     }
     std::array<float, 3> tangent{};
     if (has("tangent")) {
-        const Json& given = entry["tangent"];
+        const PointsJson& given = entry["tangent"];
         if (!given.is_array() || given.size() != 3 || !given[0].is_number() || !given[1].is_number() ||
             !given[2].is_number()) {
             return "tangent is not three numbers";
@@ -89,7 +89,7 @@ Result<GivenPoints> readPoints(const std::string& path, const cage::Character& c
     if (!file) {
         return Error{ErrorCode::io, path + ": cannot be read"};
     }
-    const Json json = Json::parse(file, nullptr, false);
+    const PointsJson json = PointsJson::parse(file, nullptr, false);
     if (!json.is_array() || json.empty()) {
         return Error{ErrorCode::asset, path + ": is no JSON list of points"};
     }
