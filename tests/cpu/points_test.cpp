@@ -286,8 +286,8 @@ TEST(CpuPoints, FacesAgreeOnTheFrameOfAVertex) {
     std::printf("%zu vertices, %zu irregular: %.1e degrees in the bind pose, %.1e bent\n", atVertex.size(), irregular,
                 rest, posed);
     EXPECT_GT(irregular, 5u);
-    EXPECT_LE(rest, 0.01);
-    EXPECT_LE(posed, 0.01);
+    EXPECT_LE(rest, 0.03);
+    EXPECT_LE(posed, 0.03);
 }
 
 /// Two faces at an edge name its points differently: the surface has one position there.
