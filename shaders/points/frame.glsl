@@ -4,8 +4,8 @@
 // A power of two that makes the largest part of a vector about 1: products with it lose nothing. Of zero and of what is
 // too small to matter it is 2^100.
 float evenScaleOf(vec3 v) {
-    uint exponent = floatBitsToUint(largestOf(abs(v))) >> 23u;
-    return uintBitsToFloat((254u - clamp(exponent, 27u, 227u)) << 23u);
+    int exponent = int(floatBitsToUint(largestOf(abs(v))) >> 23u);
+    return uintBitsToFloat(uint(254 - clamp(exponent, 27, 227)) << 23u);
 }
 vec3 unitOf(vec3 v) {
     precise vec3 scaled = v * evenScaleOf(v);
