@@ -12,8 +12,8 @@
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
  * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
- * the device plays) and supple_recording.h (what a host does, to be replayed) are for hosts that need them. This header
- * includes all five at its end.
+ * the device plays), supple_points.h (points that ride on surfaces) and supple_recording.h (what a host does, to be
+ * replayed) are for hosts that need them. This header includes all six at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
