@@ -25,6 +25,11 @@ bool isPolynomial(const surface::blend::ChartClass& chart) {
     return (chart.kind == ChartKind::interior || chart.kind == ChartKind::boundary) && chart.turns() == 4;
 }
 
+bool isStill(const surface::blend::ChartClass& chart) {
+    using surface::blend::ChartKind;
+    return chart.kind == ChartKind::point || chart.kind == ChartKind::curve;
+}
+
 class BlendSurface final : public Surface {
 public:
     BlendSurface(const cage::Cage& cage, surface::blend::Mesh mesh, Patches patches)
@@ -72,6 +77,35 @@ public:
     [[nodiscard]] uint32_t cornerChart(const Place& place) const {
         return chartOf(place.piece, nearestQuadCorner(place));
     }
+    [[nodiscard]] bool hasFlatPlaces(uint32_t patch) const override {
+        const uint32_t piece = placeOfSample(patch, 1, 0, 0.0).piece;
+        for (uint32_t k = 0; k < 4; ++k) {
+            if (isStill(classAt(piece, k)) || flatAcross(mesh_, 4 * piece + k)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    /// By connectivity, as the device says it.
+    [[nodiscard]] bool isFlat(const Place& place) const override {
+        const std::array<bool, 4> onEdge{place.y == 0.0, place.x == 1.0, place.y == 1.0, place.x == 0.0};
+        for (uint32_t k = 0; k < 4; ++k) {
+            if (onEdge[k] &&
+                (flatAcross(mesh_, 4 * place.piece + k) || (onEdge[(k + 3) % 4] && isStill(classAt(place.piece, k))))) {
+                return true;
+            }
+        }
+        return false;
+    }
+    /// Half a step inside: nearer to the border the surface may fold.
+    [[nodiscard]] Place placeInside(uint32_t patch, uint32_t rate, uint32_t sample) const override {
+        Place place = placeOfSample(patch, rate, sample, 0.0);
+        const double half = 0.5 / rate;
+        place.x = std::clamp(place.x, half, 1.0 - half);
+        place.y = std::clamp(place.y, half, 1.0 - half);
+        return place;
+    }
+
     [[nodiscard]] const surface::blend::Mesh& mesh() const { return mesh_; }
     [[nodiscard]] uint32_t chartOf(uint32_t face, uint32_t corner) const {
         return mesh_.corners[4 * size_t{face} + corner].chart;
@@ -79,6 +113,10 @@ public:
     [[nodiscard]] std::span<const surface::blend::FitMatrix> matrices() const { return matrices_; }
 
 private:
+    [[nodiscard]] const surface::blend::ChartClass& classAt(uint32_t face, uint32_t corner) const {
+        return mesh_.classOf(chartOf(face, corner));
+    }
+
     surface::blend::Mesh mesh_;
     std::vector<surface::blend::FitMatrix> matrices_; ///< by class of charts
     QuadFaces faces_;
@@ -125,12 +163,9 @@ public:
         }
     }
     [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
-        using surface::blend::ChartKind;
         const uint32_t chart = surface_.cornerChart(place);
-        const ChartKind kind = surface_.mesh().classOf(chart).kind;
-        const bool hasPlane = kind != ChartKind::point && kind != ChartKind::curve; // of its own
-        return BlendSurface::isAtCorner(place) && hasPlane ? unitNormal(charts_[chart][3], charts_[chart][1])
-                                                           : glm::dvec3(0.0);
+        const bool hasPlane = BlendSurface::isAtCorner(place) && !surface_.isFlat(place); // of its own
+        return hasPlane ? unitNormal(charts_[chart][3], charts_[chart][1]) : glm::dvec3(0.0);
     }
 
 private:

@@ -64,6 +64,10 @@ void Surface::grid(const Pose& pose, uint32_t begin, uint32_t end, uint32_t rate
     }
 }
 
+Place Surface::placeInside(uint32_t patch, uint32_t rate, uint32_t sample) const {
+    return placeOfSample(patch, rate, sample, kInside);
+}
+
 void Surface::slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const GridOutput& out) const {
     std::array<Place, kBatch> places;
     std::array<SurfaceJet, kBatch> jets;
@@ -93,7 +97,7 @@ void Surface::mendNormals(const Pose& pose, uint32_t patch, uint32_t rate, std::
             normals[sample] = glm::vec3(pose.limitNormal(placeOfSample(patch, rate, sample, 0.0)));
         }
         if (normals[sample] == glm::vec3(0.0f)) {
-            const Place near = placeOfSample(patch, rate, sample, kInside);
+            const Place near = placeInside(patch, rate, sample);
             SurfaceJet jet;
             pose.evaluate({&near, 1}, {&jet, 1});
             normals[sample] = normalOf(jet);

@@ -83,6 +83,8 @@ protected:
     [[nodiscard]] virtual bool hasFlatPlaces(uint32_t /*patch*/) const { return false; }
     /// Whether a sample of such a patch is one.
     [[nodiscard]] virtual bool isFlat(const Place& /*place*/) const { return false; }
+    /// Whose normal a sample takes that has none.
+    [[nodiscard]] virtual Place placeInside(uint32_t patch, uint32_t rate, uint32_t sample) const;
 
 private:
     void slowGrid(const Pose& pose, uint32_t patch, uint32_t rate, const GridOutput& out) const;

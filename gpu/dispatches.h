@@ -41,9 +41,14 @@ public:
     void dispatch(const Kernel& kernel, const BoundSet& bound, const Push& push, uint64_t groups) {
         dispatch(kernel, bound, std::as_bytes(std::span(&push, 1)), groups);
     }
+    /// Whether dispatches of no workgroups are to come too, though nothing is to be done: the tasks of later frames
+    /// find places so (gpu/kept_tasks.h).
+    [[nodiscard]] virtual bool takesEmpty() const { return false; }
     /// As many workgroups as the three words there say.
     virtual void dispatchIndirect(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push,
                                   VkBuffer arguments, VkDeviceSize offset) = 0;
+    /// Whose dispatches come next, by a number of the caller's (gpu/kept_tasks.h).
+    virtual void setOwner(uint32_t /*owner*/) {}
     /// Records what was dispatched since the last time.
     virtual void flush() = 0;
     /// To be called when the device has written sizes, behind a barrier. Until the next call, dispatchIndirect() is
@@ -51,7 +56,7 @@ public:
     virtual void count() {}
 
     /// gpu::computeBarrier and gpu::disjointBarrier, behind all that was dispatched.
-    void computeBarrier() {
+    virtual void computeBarrier() {
         flush();
         gpu::computeBarrier(*device_, commandBuffer_);
     }

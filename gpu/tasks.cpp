@@ -46,7 +46,8 @@ Result<std::unique_ptr<TaskRoom>> TaskRoom::create(const Device& device, const T
     at.pushes = aligned(entries(needs.tasks) * kTaskBytes);
     at.buffers = aligned(at.pushes + needs.tasks * kPushBytes);
     at.lists = aligned(at.buffers + needs.buffers * kBuffersBytes);
-    at.arguments = aligned(at.lists + needs.tasks * kListBytes);
+    at.nothing = aligned(at.lists + needs.tasks * kListBytes);
+    at.arguments = at.nothing + kPartAlignment;
     const VkDeviceSize bytes = at.arguments + needs.tasks * kArgumentBytes;
     const BufferRequest staging{"supple tasks staging", at.arguments, VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     const BufferRequest local{"supple tasks", bytes,
@@ -62,13 +63,19 @@ Result<std::unique_ptr<TaskRoom>> TaskRoom::create(const Device& device, const T
     room->staging_ = std::move(*written);
     room->local_ = std::move(*read);
     room->address_ = addressOf(device, room->local_.buffer(0));
-    room->waiting_.resize(needs.tasks);
+    room->recorded_.resize(needs.tasks);
+    room->kept_.reserve(needs.tasks);
+    std::memset(room->mapped(at.nothing), 0, kArgumentBytes);
     room->recordings_ = uint64_t{number} << 32u;
     return room;
 }
 
+std::byte* TaskRoom::pushOf(const RecordedTask& task) const {
+    return mapped(offsets_.pushes + static_cast<VkDeviceSize>(&task - recorded_.data()) * kPushBytes);
+}
+
 Status TaskRooms::create(const Device& device, Pipelines& pipelines, const Spirv& counts, uint32_t framesInFlight) {
-    frames_.resize(framesInFlight);
+    frames_.resize((framesInFlight + 1) / 2 * 2);
     if (!device.mapping.sharesDispatches) {
         return success();
     }
@@ -91,6 +98,12 @@ void TaskRooms::beginFrame(uint64_t frame) {
     own.outgrown.clear();
     if (own.room != nullptr) {
         own.room->clear();
+    }
+}
+
+void TaskRooms::cancelFrame(uint64_t frame) {
+    if (TaskRoom* const room = roomOf(frame)) {
+        room->forget();
     }
 }
 
@@ -119,32 +132,142 @@ Status TaskRooms::reserve(const Device& device, uint64_t frame, const TaskNeeds&
 
 TaskDispatches::TaskDispatches(const Device& device, VkCommandBuffer commandBuffer, TaskRoom& room,
                                const Kernel& counts, const TaskNeeds& needs)
-    : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), recording_(++room.recordings_) {
-    nextWaiting_ = nextList_ = room.tasksTaken_.fetch_add(needs.tasks);
-    nextListed_ = 2 * nextWaiting_;
-    nextBuffers_ = room.buffersTaken_.fetch_add(needs.buffers);
+    : Dispatches(device, commandBuffer), room_(&room), counts_(&counts), needs_(needs), recording_(++room.recordings_) {
+    const TaskNeeds taken = room.take(needs);
+    isFirst_ = taken == TaskNeeds{};
+    nextTask_ = nextList_ = taken.tasks;
+    nextListed_ = 2 * nextTask_;
+    nextBuffers_ = taken.buffers;
     firstPhase_ = nextList_ + needs.tasks - kPhases;
+}
+
+void TaskDispatches::begin(bool keeps) {
+    if (isFirst_) {
+        room_->kept_.begin(needs_); // whatever is there is overwritten
+    }
+    keeps_ = keeps && isFirst_;
     std::fill_n(lists() + firstPhase_, kPhases, TaskRun{});
     const auto part = [](VkDeviceSize first, VkDeviceSize each, VkDeviceSize from, VkDeviceSize count) {
         return VkBufferCopy{first + from * each, first + from * each, count * each};
     };
-    const TaskRoom::Offsets& at = room.offsets_;
-    const VkBufferCopy parts[] = {part(0, kTaskBytes, nextListed_, entries(needs.tasks)),
-                                  part(at.pushes, kPushBytes, nextWaiting_, needs.tasks),
-                                  part(at.buffers, kBuffersBytes, nextBuffers_, needs.buffers),
-                                  part(at.lists, kListBytes, nextList_, needs.tasks)};
-    device.vk.CmdCopyBuffer(commandBuffer, room.staging_.buffer(0), room.local_.buffer(0),
-                            static_cast<uint32_t>(std::size(parts)), parts);
+    const TaskRoom::Offsets& at = room_->offsets_;
+    const VkBufferCopy parts[] = {part(0, kTaskBytes, nextListed_, entries(needs_.tasks)),
+                                  part(at.pushes, kPushBytes, nextTask_, needs_.tasks),
+                                  part(at.buffers, kBuffersBytes, nextBuffers_, needs_.buffers),
+                                  part(at.lists, kListBytes, nextList_, needs_.tasks),
+                                  {at.nothing, at.nothing, kArgumentBytes}}; // once a frame
+    const auto count = static_cast<uint32_t>(std::size(parts)) - (isFirst_ ? 0 : 1);
+    device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count, parts);
+}
+
+void TaskDispatches::addOwner(const TaskOwner& owner) {
+    if (keeps_) {
+        room_->kept_.addOwner(owner);
+    }
+}
+
+void TaskDispatches::enter(uint32_t place) {
+    if (keeps_) {
+        room_->kept_.enter(place, nextTask_);
+    }
+}
+
+void TaskDispatches::leave() {
+    if (keeps()) {
+        room_->kept_.leave(nextTask_);
+    }
+}
+
+void TaskDispatches::end() {
+    if (keeps_) {
+        room_->kept_.complete();
+    }
+}
+
+KeptTasks* TaskDispatches::kept() const {
+    return isFirst_ && room_->kept_.stands(needs_) ? &room_->kept_ : nullptr;
+}
+
+void TaskDispatches::rewrite(const KeptTasks::Owner& owner, uint32_t first, uint32_t last, size_t offset,
+                             std::span<const std::byte> bytes) {
+    for (const RecordedTask* task = owner.first; task != nullptr && task->place <= last; task = task->nextOfOwner) {
+        if (task->place >= first) {
+            std::memcpy(room_->pushOf(*task) + offset, bytes.data(), bytes.size());
+            room_->kept_.places()[task->place].changed = true;
+        }
+    }
+}
+
+bool TaskDispatches::resume() {
+    for (KeptTasks::Dispatch& dispatch : room_->kept_.dispatches()) {
+        if (dispatch.changed) {
+            dispatch.groups = list(dispatch);
+            if (dispatch.groups > kMaxGroups) {
+                return false;
+            }
+        }
+    }
+    resumed_ = true;
+    copyChanged();
+    return true;
+}
+
+void TaskDispatches::copyChanged() {
+    constexpr size_t kRegions = 96;
+    std::array<VkBufferCopy, kRegions> regions;
+    uint32_t count = 0;
+    const TaskRoom::Offsets& at = room_->offsets_;
+    const auto recordCopy = [&] {
+        device().vk.CmdCopyBuffer(commandBuffer(), room_->staging_.buffer(0), room_->local_.buffer(0), count,
+                                  regions.data());
+        count = 0;
+    };
+    const auto copy = [&](VkDeviceSize first, VkDeviceSize bytes) {
+        if (count == kRegions) {
+            recordCopy();
+        }
+        regions[count++] = {first, first, bytes};
+    };
+    for (KeptTasks::Place& place : room_->kept_.places()) {
+        if (std::exchange(place.changed, false)) {
+            copy(at.pushes + place.firstTask * kPushBytes, (place.endTask - place.firstTask) * kPushBytes);
+        }
+    }
+    for (KeptTasks::Dispatch& dispatch : room_->kept_.dispatches()) {
+        if (std::exchange(dispatch.changed, false)) {
+            copy(dispatch.firstEntry * kTaskBytes, (dispatch.count + 1) * kTaskBytes);
+        }
+    }
+    if (count > 0) {
+        recordCopy();
+    }
+}
+
+void TaskDispatches::recordKept(uint32_t place) {
+    for (const uint32_t command : room_->kept_.commandsOf(place)) {
+        if (command == KeptTasks::kBarrier) {
+            gpu::computeBarrier(device(), commandBuffer());
+        } else {
+            record(room_->kept_.dispatches()[command]);
+        }
+    }
+}
+
+void TaskDispatches::computeBarrier() {
+    Dispatches::computeBarrier();
+    if (keeps()) {
+        room_->kept_.addBarrier();
+    }
 }
 
 TaskRun* TaskDispatches::lists() const {
-    return reinterpret_cast<TaskRun*>(room_->staging_.mapped(0) + room_->offsets_.lists);
+    return reinterpret_cast<TaskRun*>(room_->mapped(room_->offsets_.lists));
 }
 
 VkDeviceAddress TaskDispatches::addressOfBuffers(TaskBuffers& buffers) {
     if (buffers.writtenIn != recording_) {
         const VkDeviceSize offset = room_->offsets_.buffers + nextBuffers_++ * kBuffersBytes;
-        std::memcpy(room_->staging_.mapped(0) + offset, buffers.at.data(), kBuffersBytes);
+        std::memcpy(room_->mapped(offset), buffers.at.data(), kBuffersBytes);
         buffers.where = room_->address_ + offset;
         buffers.writtenIn = recording_;
     }
@@ -169,10 +292,17 @@ TaskDispatches::Chain& TaskDispatches::chainOf(const Kernel& kernel, bool isCoun
 void TaskDispatches::add(const Kernel& kernel, const BoundSet& bound, std::span<const std::byte> push, uint64_t groups,
                          VkDeviceAddress arguments) {
     Chain& chain = chainOf(kernel, arguments != 0);
-    const VkDeviceSize offset = room_->offsets_.pushes + nextWaiting_ * kPushBytes;
-    std::memcpy(room_->staging_.mapped(0) + offset, push.data(), push.size());
-    Waiting& task = room_->waiting_[nextWaiting_++];
-    task = {{addressOfBuffers(*bound.buffers), room_->address_ + offset, arguments, 0, 0}, groups, nullptr};
+    const VkDeviceSize offset = room_->offsets_.pushes + nextTask_ * kPushBytes;
+    std::memcpy(room_->mapped(offset), push.data(), push.size());
+    RecordedTask& task = room_->recorded_[nextTask_++];
+    task = {};
+    task.task = {addressOfBuffers(*bound.buffers), room_->address_ + offset, arguments, 0, 0};
+    task.groups = groups;
+    if (keeps()) {
+        task.pipeline = kernel.pipeline;
+        task.buffers = bound.buffers;
+        room_->kept_.addTask(owner_, task);
+    }
     (chain.last != nullptr ? chain.last->next : chain.first) = &task;
     chain.last = &task;
 }
@@ -186,7 +316,7 @@ void TaskDispatches::dispatch(const Kernel& kernel, const BoundSet& bound, std::
                               uint64_t groups) {
     if (room_ == nullptr) {
         recordNothing(kernel);
-    } else if (groups > 0) {
+    } else {
         add(kernel, bound, push, groups, 0);
     }
 }
@@ -200,63 +330,73 @@ void TaskDispatches::dispatchIndirect(const Kernel& kernel, const BoundSet& boun
     }
 }
 
-void TaskDispatches::list(Task task, uint32_t firstGroup) {
+void TaskDispatches::list(uint32_t entry, Task task, uint32_t firstGroup) const {
     task.firstGroup = firstGroup;
-    std::memcpy(room_->staging_.mapped(0) + nextListed_++ * kTaskBytes, &task, kTaskBytes);
+    std::memcpy(room_->mapped(entry * kTaskBytes), &task, kTaskBytes);
 }
 
-void TaskDispatches::bindListed(const Kernel& kernel, uint32_t count, uint32_t groups) {
-    const TasksPush push{room_->address_ + (nextListed_ - count) * kTaskBytes, count};
-    list({}, groups);
-    bindByAddress(device(), commandBuffer(), kernel, push);
+uint64_t TaskDispatches::list(const KeptTasks::Dispatch& dispatch) const {
+    uint64_t groups = 0;
+    const RecordedTask* task = dispatch.first;
+    for (uint32_t i = 0; i < dispatch.count; ++i, task = task->next) {
+        list(dispatch.firstEntry + i, task->task, static_cast<uint32_t>(groups));
+        groups += task->groups;
+    }
+    list(dispatch.firstEntry + dispatch.count, {}, static_cast<uint32_t>(groups));
+    return groups;
+}
+
+void TaskDispatches::recordListed(KeptTasks::Dispatch dispatch) {
+    dispatch.firstEntry = nextListed_;
+    nextListed_ += dispatch.count + 1;
+    dispatch.groups = list(dispatch);
+    if (dispatch.isCounted) {
+        dispatch.arguments = room_->offsets_.arguments + nextList_ * kArgumentBytes;
+        lists()[nextList_++] = {dispatch.firstEntry, dispatch.count};
+        ++lists()[firstPhase_ + phase_].count;
+    }
+    record(dispatch);
+    if (keeps()) {
+        room_->kept_.addDispatch(dispatch);
+    }
+}
+
+void TaskDispatches::record(const KeptTasks::Dispatch& dispatch) {
+    if (!dispatch.isCounted && dispatch.groups == 0) {
+        return;
+    }
+    bindByAddress(device(), commandBuffer(), dispatch.kernel,
+                  TasksPush{room_->address_ + dispatch.firstEntry * kTaskBytes, dispatch.count});
+    if (dispatch.isCounted) {
+        device().vk.CmdDispatchIndirect(commandBuffer(), room_->local_.buffer(0), dispatch.arguments);
+    } else {
+        dispatchLinear(device(), commandBuffer(), dispatch.groups);
+    }
 }
 
 void TaskDispatches::recordChain(const Chain& chain) {
-    uint32_t count = 0;
+    KeptTasks::Dispatch dispatch{*chain.kernel, chain.isCounted};
     uint64_t groups = 0;
-    const auto dispatchListed = [&] {
-        bindListed(*chain.kernel, count, static_cast<uint32_t>(groups));
-        dispatchLinear(device(), commandBuffer(), groups);
-        count = 0;
+    const auto recordUpTo = [&](RecordedTask* end) {
+        recordListed(dispatch);
+        dispatch.first = end;
+        dispatch.count = 0;
         groups = 0;
     };
-    for (const Waiting* task = chain.first; task != nullptr; task = task->next) {
-        if (count == kMaxTasks || (count > 0 && groups + task->groups > kMaxGroups)) {
-            dispatchListed();
+    dispatch.first = chain.first;
+    for (RecordedTask* task = chain.first; task != nullptr; task = task->next) {
+        if (dispatch.count == kMaxTasks || (dispatch.count > 0 && groups + task->groups > kMaxGroups)) {
+            recordUpTo(task);
         }
-        list(task->task, static_cast<uint32_t>(groups));
         groups += task->groups;
-        ++count;
+        ++dispatch.count;
     }
-    dispatchListed();
-}
-
-void TaskDispatches::recordCountedChain(const Chain& chain) {
-    const auto dispatchListed = [&](uint32_t count) {
-        lists()[nextList_] = {nextListed_ - count, count};
-        ++lists()[firstPhase_ + phase_].count;
-        bindListed(*chain.kernel, count, 0);
-        device().vk.CmdDispatchIndirect(commandBuffer(), room_->local_.buffer(0),
-                                        room_->offsets_.arguments + nextList_++ * kArgumentBytes);
-    };
-    uint32_t count = 0;
-    for (const Waiting* task = chain.first; task != nullptr; task = task->next) {
-        if (count == kMaxTasks) {
-            dispatchListed(std::exchange(count, 0));
-        }
-        list(task->task, 0);
-        ++count;
-    }
-    dispatchListed(count);
+    recordUpTo(nullptr);
 }
 
 void TaskDispatches::flush() {
     for (size_t i = 0; i < chainCount_; ++i) {
-        if (chains_[i].isCounted) {
-            recordCountedChain(chains_[i]);
-        } else {
-            recordChain(chains_[i]);
-        }
+        recordChain(chains_[i]);
     }
     chainCount_ = 0;
 }
@@ -267,7 +407,9 @@ void TaskDispatches::count() {
         return;
     }
     ++phase_;
-    lists()[firstPhase_ + phase_].first = nextList_;
+    if (!resumed_) {
+        lists()[firstPhase_ + phase_].first = nextList_;
+    }
     shared::CountTasksPush push{};
     push.tasks = room_->address_;
     push.lists = room_->address_ + room_->offsets_.lists;

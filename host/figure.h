@@ -150,7 +150,8 @@ struct FigureSurface {
     /// Segments along an edge of the cage: the rate asked for, which subdivision rounds up to a power of two and has
     /// more than one patch to (SuppleGridOutput::rate counts along a patch).
     uint32_t edgeRate = 0;
-    Buffer patches; ///< shared::kPatchWords per patch
+    Buffer patches;            ///< shared::kPatchWords per patch
+    uint32_t patchClasses = 0; ///< a bit for each SupplePatchClass that it has
     /// Coarser grids over the same samples, by SuppleDomain: shadows need no more.
     struct CoarseGrid {
         uint32_t firstIndex = 0, indexCount = 0;
@@ -216,6 +217,8 @@ public:
     /// FigureSurface::values of all vertices in the order of readSurface(), for groups of one instance. No frame may be
     /// pending; bindings are to be made anew.
     [[nodiscard]] Status setValues(std::span<const float> values);
+    /// The largest of those that were set; 0 without any.
+    [[nodiscard]] float largestValue() const { return largestValue_; }
 
 private:
     explicit FigureGroup(Figure& figure) : figure_(figure) {}
@@ -233,6 +236,7 @@ private:
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
     std::vector<FigureSurface> surfaces_;
+    float largestValue_ = 0.0f;
 };
 
 } // namespace supple::host

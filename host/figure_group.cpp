@@ -228,6 +228,7 @@ Status FigureGroup::uploadTables(FigureSurface& surface, uint32_t index) const {
     for (const SupplePatchInfo& patch : *patches) {
         words.insert(words.end(), {static_cast<uint32_t>(patch.patchClass), figure_.cageFaceStart(patch.face),
                                    cage.sides(patch.face)});
+        surface.patchClasses |= 1u << patch.patchClass;
     }
     words.resize(std::max<size_t>(words.size(), 1));
     Result<Buffer> buffer =
@@ -320,6 +321,7 @@ Result<std::vector<glm::vec3>> FigureGroup::readSurface() const {
 }
 
 Status FigureGroup::setValues(std::span<const float> values) {
+    largestValue_ = values.empty() ? 0.0f : *std::max_element(values.begin(), values.end());
     size_t first = 0;
     for (FigureSurface& surface : surfaces_) {
         const uint32_t used = surface.output.grid.vertexCount;

@@ -249,6 +249,7 @@ Status Context::cancelFrame() {
     forMembers([this](gpu::FrameMember& member) { member.cancelFrame(frame_); });
     forStreams([this](Asset& asset) { asset.stream->cancelFrame(frame_); });
     uploads_.cancelFrame();
+    taskRooms_.cancelFrame(frame_);
     timings.cancelFrame();
     if (hashes_ != nullptr) {
         hashes_->cancelFrame(frame_);
@@ -373,6 +374,7 @@ GroupShared Context::sharedFor(std::shared_ptr<View> view) {
     shared.view = std::move(view);
     shared.framesInFlight = framesInFlight_;
     shared.firstGeneration = nextGeneration_ | 1u;
+    shared.number = ++groupsMade_;
     shared.handsOver = asyncCompute_;
     shared.hashes = hashes_;
     return shared;

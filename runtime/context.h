@@ -71,6 +71,7 @@ public:
     [[nodiscard]] SuppleUploadState uploadState(Asset& asset) const;
     /// What assets, groups and views have.
     [[nodiscard]] SuppleUploadState uploadState() const;
+    [[nodiscard]] std::span<const CageStageRow> stageRows() const { return stages_.rows(); }
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
     [[nodiscard]] static SuppleSyncScope firstScope();
@@ -175,10 +176,10 @@ private:
     template <class F>
     void forMembers(F&& visit); ///< all that takes part in frames (gpu::FrameMember), those in flight too
     /// Resolves the handles and links the groups (Group::Link), or says what is wrong with one; null: there are none.
-    [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc) const;
+    [[nodiscard]] Result<Group*> linkGroups(const SuppleRecordDesc& desc, uint64_t call) const;
     [[nodiscard]] gpu::StaticCount newCount() const; ///< under uploading_
-    /// Why a group that follows another cannot be recorded; null if it can.
-    [[nodiscard]] const char* faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const;
+    /// Why a group that follows another cannot be recorded with those that the call has linked; null if it can.
+    [[nodiscard]] const char* faultOfLeader(const Group& group, uint64_t call) const;
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
     void tellBuiltLate(Asset& asset) const;
@@ -241,6 +242,8 @@ private:
     std::optional<uint64_t> refusedFrame_; ///< by suppleBeginFrame, since the last one that it took
     glm::dvec3 origin_{0.0}, nextOrigin_{0.0};
     uint32_t nextGeneration_ = 1;
+    uint64_t groupsMade_ = 0;
+    std::atomic<uint64_t> recordings_ = 0; ///< calls of record()
     std::atomic<bool> lost_ = false;
     uint32_t flags_ = 0;                      ///< SuppleContextFlags
     std::unique_ptr<CallKeeper> keeper_;      ///< null: recordings begin before anything is created

@@ -1,4 +1,5 @@
 // One frame: the table of passes (kPasses), and what walks it.
+#include "gpu/task_rewriter.h"
 #include "runtime/context.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ struct Frame {
     const gpu::Device& device;
     VkCommandBuffer commands;
     gpu::Dispatches& dispatches; ///< into it, of surfaces
+    gpu::TaskDispatches* tasks;  ///< these, if groups share them; else null
     uint64_t number = 0;
     uint32_t framesInFlight = 2;
     double time = 0.0;       ///< the host's, in seconds
@@ -59,20 +61,21 @@ struct Frame {
         return false;
     }
     void computeBarrier() const { dispatches.computeBarrier(); }
+    void numberGroups() const {
+        uint32_t next = 0;
+        forEach([&](Group& group) { group.link.number = next++; });
+    }
     /// Tells each view what its groups need (View::roomInFrame).
     void findRoom() const {
-        forEach([&](Group& leader) {
-            if (!leader.link.leadsView) {
-                return;
+        forEach([](Group& group) {
+            if (group.view() != nullptr) {
+                group.link.inView = group.view()->addNeeds(group.leastVerticesOfAll(), group.poolUnitsOfAll());
             }
-            View& view = *leader.view();
-            uint64_t vertices = 0, units = 0;
-            forEach([&](Group& group) {
-                vertices += group.view() == &view ? group.leastVerticesOfAll() : 0;
-                units += group.view() == &view ? group.poolUnitsOfAll() : 0;
-            });
-            const bool fit = vertices <= view.room() && units <= view.poolUnits();
-            view.setRoomInFrame(fit ? shared::kRoomForAll : view.room());
+        });
+        forEach([](Group& leader) {
+            if (leader.link.leadsView) {
+                leader.view()->findRoom();
+            }
         });
     }
 };
@@ -106,21 +109,11 @@ Group* join(const Separated& lists) {
     *end = lists.second;
     return first;
 }
-/// The first of `groups` that belongs to the view; null: none does.
-const Group* firstOf(const Group* groups, const View* view) {
-    while (groups != nullptr && groups->view() != view) {
-        groups = groups->link.next;
-    }
-    return groups;
-}
 /// Finds the first group of each view. Those of the second list come behind all of the first.
-void markLeaders(const Separated& lists) {
+void markLeaders(const Separated& lists, uint64_t call) {
     for (Group* const list : {lists.first, lists.second}) {
         for (Group* group = list; group != nullptr; group = group->link.next) {
-            const View* const view = group->view();
-            const Group* const leads = view == nullptr ? nullptr : firstOf(lists.first, view);
-            group->link.leadsView =
-                view != nullptr && (leads != nullptr ? leads : firstOf(lists.second, view)) == group;
+            group->link.leadsView = group->view() != nullptr && group->view()->enter(call);
         }
     }
 }
@@ -209,14 +202,15 @@ PassCost recordSizes(const Frame& frame, Group& group) {
 }
 
 PassCost recordList(const Frame& frame, Group& group) {
-    if (group.culling() == nullptr) {
+    if (!group.listsSeen()) {
         return {};
     }
     if (group.culling()->instanceUnits() > 0) {
         frame.dispatches.disjointBarrier();
     }
     const bool budgeted = group.surfaces().any([](const Tessellation& surface) { return surface.isBudgeted(); });
-    return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll);
+    return group.culling()->recordList(frame.dispatches, budgeted ? group.view()->roomInFrame() : shared::kRoomForAll,
+                                       group.link.inView);
 }
 
 template <Stage stage>
@@ -252,7 +246,7 @@ PassCost recordSolve(const Frame& frame, Group& group) {
 }
 
 PassCost recordRates(const Frame& frame, Group& group) {
-    if (!choosesRates(group)) {
+    if (!choosesRates(group) || !group.listsSeen()) {
         return {};
     }
     frame.dispatches.disjointBarrier();
@@ -261,20 +255,18 @@ PassCost recordRates(const Frame& frame, Group& group) {
 
 /// What the host reads frames later: what each view has solved, then how many instances of each group are seen.
 PassCost recordReadback(const Frame& frame, Group& group) {
-    if (group.link.leadsView) {
-        group.view()->recordReadback(frame.commands);
-        frame.forEach([&](Group& other) {
-            if (other.view() == group.view()) {
-                uint32_t patches = 0;
-                for (const auto& surface : other.surfaces()) {
-                    patches += surface->patchesAtLevels();
-                }
-                group.view()->recordReadback(frame.commands, other.culling()->list().buffer,
-                                             other.culling()->countOffset(),
-                                             {patches, other.leastVertices(), other.unposed()});
-            }
-        });
+    if (!group.link.leadsView) {
+        return {};
     }
+    View& view = *group.view();
+    view.recordReadback(frame.commands);
+    frame.forEach([&](Group& other) {
+        if (other.view() == &view) {
+            view.recordReadback(frame.commands, other.culling()->list().buffer, other.culling()->countOffset(),
+                                {other.patchesAtLevels(), other.leastVertices(), other.unposed()});
+        }
+    });
+    view.recordCounts(frame.commands);
     return {};
 }
 
@@ -324,7 +316,8 @@ struct Row {
     bool (*wants)(Group&);
     Work work;
     Behind behind = Behind::compute;
-    bool timed = true; ///< false: part of the pass before, without label and timing
+    bool timed = true;       ///< false: part of the pass before, without label and timing
+    bool byCommands = false; ///< it records commands of its own, and nothing that groups share
 };
 
 /// The first of a frame: it finds out which groups the others are for.
@@ -342,10 +335,10 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_DEFORM, always, {}},
     {SUPPLE_PASS_POINTS, hasPoints, recordPoints, Behind::nothing},
     {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
-    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false},
+    {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false, true},
     {SUPPLE_PASS_BOUNDS,
      [](Group& g) { return g.view() != nullptr && g.view()->depthPyramid().has_value() && g.windows().visible > 0; },
-     recordOcclusion},
+     recordOcclusion, Behind::compute, true, true},
     {SUPPLE_PASS_BOUNDS, isInView, recordSizes, Behind::sizes, false},
     {SUPPLE_PASS_LIST, isInView, recordList, Behind::arguments},
     {SUPPLE_PASS_VERTEX, constructs<Stage::vertex>, recordStage<Stage::vertex>},
@@ -354,11 +347,11 @@ constexpr Row kPasses[] = {
      Behind::nothing},
     {SUPPLE_PASS_LEVEL, isInView, recordInRounds<&Tessellation::recordEdgeLevels>},
     {SUPPLE_PASS_LEVEL, isInView, recordPatchLevels},
-    {SUPPLE_PASS_SOLVE, isInView, recordSolve},
+    {SUPPLE_PASS_SOLVE, isInView, recordSolve, Behind::compute, true, true},
     {SUPPLE_PASS_PLACE, anySurface<&Tessellation::findsDepths>, recordSurface<&Tessellation::recordDepths>},
     {SUPPLE_PASS_PLACE, isInView, recordSurfaces<&Tessellation::recordPlaces>, Behind::places},
     {SUPPLE_PASS_PLACE, choosesRates, recordRates, Behind::places},
-    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false},
+    {SUPPLE_PASS_PLACE, isInView, recordReadback, Behind::readback, false, true},
     {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordInRounds<&Tessellation::recordDeepen>},
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
@@ -432,6 +425,7 @@ struct Timed {
 
     template <class Record>
     void operator()(const Group& group, uint32_t surface, Record&& record) const {
+        dispatches.setOwner(group.link.number);
         timing.beginPass();
         const PassCost cost = record();
         if (timing.isOpen()) {
@@ -456,6 +450,7 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
     if (!timed.timing.isOpen()) {
         surface::inRounds(frame.dispatches, [&](surface::Round& round) {
             forEachSurface([&](Group& group, uint32_t surface) {
+                frame.dispatches.setOwner(group.link.number);
                 (void)row.work.ofSurface(frame, group.surfaces()[surface], round);
             });
         });
@@ -474,10 +469,8 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
     });
 }
 
-void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
-    if (row.timed) {
-        frame.device.beginLabel(frame.commands, passName(row.pass));
-    }
+/// What a row records between its label and its barrier.
+void recordRow(const Frame& frame, const Row& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     if (row.work.ofSurface != nullptr) {
         recordEachSurface(frame, row, timed);
@@ -486,14 +479,21 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
             [&](Group& group) { timed(group, SUPPLE_NO_SURFACE, [&] { return row.work.ofGroup(frame, group); }); });
     }
     frame.dispatches.flush();
+}
+
+void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
+    if (row.timed) {
+        frame.device.beginLabel(frame.commands, passName(row.pass));
+    }
+    recordRow(frame, row, timing);
     if (row.timed) {
         frame.device.endLabel(frame.commands);
     }
     recordBarrier(frame, row.behind);
 }
 
-void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
-    frame.device.beginLabel(frame.commands, passName(row.pass));
+/// The same of a row of the table of cage stages.
+void recordStageRow(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     frame.forEach([&](Group& group) {
         const auto record = [&](uint32_t surface) {
@@ -508,6 +508,11 @@ void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, 
         }
     });
     frame.dispatches.flush();
+}
+
+void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
+    frame.device.beginLabel(frame.commands, passName(row.pass));
+    recordStageRow(frame, stage, row, timing);
     frame.device.endLabel(frame.commands);
     frame.computeBarrier();
 }
@@ -530,12 +535,194 @@ void recordHashes(const Frame& frame, StageHashes& hashes, bool withSurfaces) {
     recording.end();
 }
 
-/// The stages that some group has, each a pass of its own.
-void recordCageStages(const Frame& frame, std::span<const CageStageRow> rows, Timings::Recording& timing) {
-    for (size_t stage = 0; stage < rows.size(); ++stage) {
-        if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
-            recordCageStage(frame, stage, rows[stage], timing);
+/// Calls ofRow(place, row) for each row of kPasses, and ofStage(place, stage, row) for each of the cage stages among
+/// them. A place is the number in this order (gpu/kept_tasks.h).
+template <class OfRow, class OfStage>
+void forEachRow(std::span<const CageStageRow> stages, OfRow&& ofRow, OfStage&& ofStage) {
+    uint32_t place = 0;
+    for (const Row& row : kPasses) {
+        if (!row.work.isCageStages()) {
+            ofRow(place++, row);
+            continue;
         }
+        for (size_t stage = 0; stage < stages.size(); ++stage) {
+            ofStage(place++, stage, stages[stage]);
+        }
+    }
+}
+bool isWanted(const Frame& frame, const Row& row) {
+    return row.wants == always || frame.any(row.wants);
+}
+
+void recordPasses(const Frame& frame, std::span<const CageStageRow> stages, Timings::Recording& timing) {
+    const auto within = [&](uint32_t place, auto&& record) {
+        if (frame.tasks != nullptr) {
+            frame.tasks->enter(place);
+        }
+        record();
+        if (frame.tasks != nullptr) {
+            frame.tasks->leave();
+        }
+    };
+    forEachRow(
+        stages,
+        [&](uint32_t place, const Row& row) {
+            if (isWanted(frame, row)) {
+                within(place, [&] { recordPass(frame, row, timing); });
+            }
+        },
+        [&](uint32_t place, size_t stage, const CageStageRow& row) {
+            if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
+                within(place, [&] { recordCageStage(frame, stage, row, timing); });
+            }
+        });
+}
+
+// Frames whose tasks are kept from an earlier one (gpu/kept_tasks.h).
+
+constexpr bool isPose(const Row& row) {
+    return row.pass == SUPPLE_PASS_POSE;
+}
+/// The places of poses: they follow each other, before the cage stages.
+constexpr uint32_t kFirstPosePlace = static_cast<uint32_t>(std::ranges::find_if(kPasses, isPose) - kPasses);
+constexpr uint32_t kLastPosePlace = kFirstPosePlace + static_cast<uint32_t>(std::ranges::count_if(kPasses, isPose)) - 1;
+static_assert(std::all_of(kPasses + kFirstPosePlace, kPasses + kLastPosePlace + 1, isPose));
+
+/// The group's tasks of the places from `first` to `last`, over those that are kept. False: there are others.
+bool rewriteTasks(const Frame& frame, Group& group, gpu::TaskRewriter rewriter, uint32_t first, uint32_t last) {
+    Group* const next = std::exchange(group.link.next, nullptr);
+    const Frame own{.device = frame.device,
+                    .commands = frame.commands,
+                    .dispatches = rewriter,
+                    .tasks = nullptr,
+                    .number = frame.number,
+                    .framesInFlight = frame.framesInFlight,
+                    .time = frame.time,
+                    .groups = &group,
+                    .context = frame.context};
+    Timings::Recording untimed;
+    forEachRow(
+        frame.context.stageRows(),
+        [&](uint32_t place, const Row& row) {
+            if (place >= first && place <= last && !row.byCommands && isWanted(own, row)) {
+                rewriter.enter(place);
+                recordRow(own, row, untimed);
+            }
+        },
+        [&](uint32_t place, size_t stage, const CageStageRow& row) {
+            if (place >= first && place <= last && group.stages().has(stage)) {
+                rewriter.enter(place);
+                recordStageRow(own, stage, row, untimed);
+            }
+        });
+    group.link.next = next;
+    return rewriter.end(last);
+}
+
+/// Brings what is kept of a group up to date. False: it cannot be.
+bool refreshTasks(const Frame& frame, Group& group, gpu::KeptTasks::Owner& kept) {
+    const gpu::TaskOwner now = group.taskOwner();
+    const gpu::TaskOwner before = std::exchange(kept.who, now);
+    if (now.recordsOnce) {
+        return false; // if it were recorded twice, the second time would find that it is done
+    }
+    if (!now.isLike(before)) {
+        constexpr uint32_t kLast = gpu::KeptTasks::kPlaces - 1;
+        return rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
+    }
+    const Playback* const playback = now.poses != 0 ? group.poses().playback() : nullptr;
+    if (playback == nullptr) {
+        return true;
+    }
+    if (now.poses != before.poses || playback->listsPoses()) {
+        return rewriteTasks(frame, group, {*frame.tasks, kept, kFirstPosePlace}, kFirstPosePlace, kLastPosePlace);
+    }
+    const skinning::SplitTime time = playback->splitTime();
+    static_assert(offsetof(shared::PosePush, timeHigh) == 0 && offsetof(shared::PosePush, timeLow) == sizeof(float) &&
+                  sizeof(time) == 2 * sizeof(float));
+    frame.tasks->rewrite(kept, kFirstPosePlace, kLastPosePlace, 0, std::as_bytes(std::span(&time, 1)));
+    return true;
+}
+
+/// True: the frame goes on from the tasks of an earlier one, which are up to date.
+bool resumeTasks(const Frame& frame) {
+    gpu::KeptTasks* const kept = frame.tasks->kept();
+    if (kept == nullptr) {
+        return false;
+    }
+    const std::span<gpu::KeptTasks::Owner> owners = kept->owners();
+    size_t count = 0;
+    bool same = true;
+    frame.forEach([&](const Group& group) {
+        same = same && count < owners.size() && owners[count].who.id == group.number();
+        ++count;
+    });
+    same = same && count == owners.size();
+    frame.forEach([&](Group& group) { same = same && refreshTasks(frame, group, owners[group.link.number]); });
+    return same && frame.tasks->resume();
+}
+
+/// Records the tasks of all groups anew. `keeps`: for later frames.
+void beginTasks(const Frame& frame, bool keeps) {
+    frame.tasks->begin(keeps && !frame.any([](const Group& group) { return !group.keepsTasks(); }));
+    frame.forEach([&](const Group& group) { frame.tasks->addOwner(group.taskOwner()); });
+}
+
+/// Whether the barrier is among what is kept.
+constexpr bool isKept(Behind behind) {
+    return behind != Behind::uploads && behind != Behind::bounds && behind != Behind::arguments &&
+           behind != Behind::places && behind != Behind::readback;
+}
+
+void recordKeptPasses(const Frame& frame, gpu::KeptTasks& kept) {
+    Timings::Recording untimed;
+    const auto recordLabelled = [&](bool labelled, SupplePass pass, uint32_t place) {
+        if (labelled) {
+            frame.device.beginLabel(frame.commands, passName(pass));
+        }
+        frame.tasks->recordKept(place);
+        if (labelled) {
+            frame.device.endLabel(frame.commands);
+        }
+    };
+    forEachRow(
+        frame.context.stageRows(),
+        [&](uint32_t place, const Row& row) {
+            if (row.byCommands) {
+                if (isWanted(frame, row)) {
+                    recordPass(frame, row, untimed);
+                }
+                return;
+            }
+            if (!kept.uses(place)) {
+                return;
+            }
+            recordLabelled(row.timed, row.pass, place);
+            if (!isKept(row.behind)) {
+                recordBarrier(frame, row.behind);
+            }
+        },
+        [&](uint32_t place, size_t, const CageStageRow& row) {
+            if (kept.uses(place)) {
+                recordLabelled(true, row.pass, place);
+            }
+        });
+}
+
+/// All passes but uploads, with the barrier before them.
+void recordBehindUploads(const Frame& frame, Timings::Recording& timing) {
+    const bool resumes = frame.tasks != nullptr && !timing.isOpen() && resumeTasks(frame);
+    if (frame.tasks != nullptr && !resumes) {
+        beginTasks(frame, !timing.isOpen());
+    }
+    recordBarrier(frame, Behind::uploads);
+    if (resumes) {
+        recordKeptPasses(frame, *frame.tasks->kept());
+        return;
+    }
+    recordPasses(frame, frame.context.stageRows(), timing);
+    if (frame.tasks != nullptr) {
+        frame.tasks->end();
     }
 }
 
@@ -549,37 +736,34 @@ SuppleSyncScope Context::lastScope() {
     return {kLast.stages, legacyAccess(kLast.access)};
 }
 
-const char* Context::faultOfLeader(const Group& group, const SuppleRecordDesc& desc) const {
+const char* Context::faultOfLeader(const Group& group, uint64_t call) const {
     if (!group.follows()) {
         return nullptr;
     }
-    const Group* const leader = groups.find(group.leader()).get();
+    const Group* const leader = groups.at(group.leader());
     if (leader == nullptr) {
         return "the group whose instances it draws is destroyed";
     }
-    const auto isLeader = [&](const SuppleGroup& other) { return other.id == group.leader(); };
-    const bool now = std::any_of(desc.groups, desc.groups + desc.groupCount, isLeader);
-    return now || leader->askedFrame() == frame_ ? nullptr
-                                                 : "the group whose instances it draws is not recorded in this frame";
+    return leader->link.call == call || leader->askedFrame() == frame_
+               ? nullptr
+               : "the group whose instances it draws is not recorded in this frame";
 }
 
-Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
+Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc, uint64_t call) const {
     Group* first = nullptr;
     Group** last = &first;
+    // The words are put together only where they are needed: recording allocates nothing.
+    const auto refuseOf = [](uint32_t g, const Group* group, ErrorCode code, const std::string& reason) {
+        return Error{code, "suppleRecord: " + nameOf(g, group) + ": " + reason};
+    };
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
-        // The words are put together only where they are needed: recording allocates nothing.
-        Group* const group = groups.find(desc.groups[g].id).get();
-        const auto refuse = [g, group](ErrorCode code, const std::string& reason) {
-            return Error{code, "suppleRecord: " + nameOf(g, group) + ": " + reason};
-        };
+        Group* const group = groups.at(desc.groups[g].id);
+        const auto refuse = [&](ErrorCode code, const std::string& reason) { return refuseOf(g, group, code, reason); };
         if (group == nullptr) {
             return refuse(ErrorCode::staleHandle, "stale or foreign handle");
         }
         if (group->askedFrame() == frame_) {
             return refuse(ErrorCode::order, "recorded twice in frame " + std::to_string(frame_));
-        }
-        if (const char* const fault = faultOfLeader(*group, desc)) {
-            return refuse(ErrorCode::order, fault);
         }
         View* const view = group->view();
         if (view != nullptr && !view->hasCamera()) {
@@ -588,14 +772,18 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
         if (view != nullptr && view->lastRecordedFrame() == frame_) {
             return refuse(ErrorCode::order, "other groups of its view are recorded already: one call takes them all");
         }
-        for (const Group* other = first; other != nullptr; other = other->link.next) {
-            if (other == group) {
-                return refuse(ErrorCode::argument, "listed twice");
-            }
+        if (group->link.call == call) {
+            return refuse(ErrorCode::argument, "listed twice");
         }
-        group->link = {nullptr, desc.groups[g]};
+        group->link = {nullptr, desc.groups[g], call};
         *last = group;
         last = &group->link.next;
+    }
+    for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        const Group* const group = groups.at(desc.groups[g].id);
+        if (const char* const fault = faultOfLeader(*group, call)) {
+            return refuseOf(g, group, ErrorCode::order, fault);
+        }
     }
     // Whether a group is left out, those that follow it must know.
     const Separated own = separate(first, [](const Group& group) { return !group.follows(); });
@@ -603,10 +791,17 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc) const {
 }
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
+    if (group.staticsThere() && !group.staticsPending() && group.asset().stream == nullptr) {
+        return {0, true};
+    }
     const std::scoped_lock lock(uploading_);
     VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
     bytes += recordStream(commandBuffer, group, bytes);
-    return {bytes, !group.lacksStatics()};
+    if (group.lacksStatics()) {
+        return {bytes, false};
+    }
+    group.noteStaticsThere();
+    return {bytes, true};
 }
 
 Status Context::recordUploads(VkCommandBuffer commandBuffer) {
@@ -670,7 +865,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if (Status open = checkOpen("suppleRecord"); !open) {
         return open;
     }
-    const Result<Group*> linked = linkGroups(desc);
+    const uint64_t call = ++recordings_;
+    const Result<Group*> linked = linkGroups(desc, call);
     if (!linked) {
         return linked.error();
     }
@@ -686,7 +882,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
                            {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
     }
     gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, needs);
-    Frame frame{device, commandBuffer, *dispatches, frame_, framesInFlight_, desc.time, *linked, *this};
+    Frame frame{device,    commandBuffer, *dispatches, dispatches.tasks(), frame_, framesInFlight_,
+                desc.time, *linked,       *this};
     Timings::Recording timing;
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;
@@ -695,18 +892,12 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     }
     recordPass(frame, kUploads, timing);
     const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });
-    markLeaders(groups);
+    markLeaders(groups, call);
     recordEmptyViews(frame, groups.second);
-    recordBarrier(frame, Behind::uploads);
     frame.groups = groups.first;
+    frame.numberGroups();
     frame.findRoom();
-    for (const Row& row : kPasses) {
-        if (row.work.isCageStages()) {
-            recordCageStages(frame, stages_.rows(), timing);
-        } else if (row.wants == always || frame.any(row.wants)) {
-            recordPass(frame, row, timing);
-        }
-    }
+    recordBehindUploads(frame, timing);
     timing.end();
     if (recordsHashes()) {
         recordHashes(frame, *hashes_, recorder_->hashesSurfacesIn(frame_));

@@ -49,6 +49,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->view_ = shared.view;
     group->device_ = shared.device;
     group->handsOver_ = shared.handsOver;
+    group->number_ = shared.number;
     group->recipe_ = GroupRecipe(desc);
     group->desc_ = desc;
     TessellationDesc tessellation;
@@ -106,7 +107,11 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
 
 Status Group::setRate(uint32_t rate) {
     Status status = surfaces_.setRate(rate);
-    rate_ = status ? rate : rate_;
+    if (status) {
+        rate_ = rate;
+        taskNeeds_ = countTasks();
+        ++tasksVersion_;
+    }
     return status;
 }
 
@@ -207,6 +212,10 @@ Status Group::createRest(const GroupShared& shared) {
     status = status && shared.hashes != nullptr ? createHashes(shared.hashes) : status;
     if (status) {
         addMembers(shared);
+        taskNeeds_ = countTasks();
+        for (const auto& surface : surfaces_) {
+            patchesAtLevels_ += surface->patchesAtLevels();
+        }
     }
     return status;
 }
@@ -388,10 +397,10 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.windowCount = windows().count();
 }
 
-gpu::TaskNeeds Group::taskNeeds() const {
+gpu::TaskNeeds Group::countTasks() const {
     const uint32_t windows = listing_.windows().count();
     const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
-    gpu::TaskNeeds needs{windows * (Playback::kParts + stages), windows * (1 + stages)};
+    gpu::TaskNeeds needs{windows * (Playback::kTasks + stages), windows * (1 + stages)};
     needs += {windows + Culling::kGroupPasses + gpu::TaskDispatches::kPhases, windows + 1}; // bounds and lists
     needs += points_.taskNeeds();
     for (const auto& surface : surfaces_) {
@@ -460,7 +469,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     bool changed = listing_.changed(slots());
     PassCost cost =
         follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
-    pastStep_ = glm::vec3(frame.origin - origin_);
+    const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them
         boxes_.find(slots(), poses());
@@ -474,11 +483,35 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     cost += recordPoseList(commandBuffer, frame.number);
     for (const auto& surface : surfaces_) {
-        surface->setPastStep(pastStep_);
+        surface->setPastStep(step);
         cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
+    changed = findList(frame.number) || changed;
+    const bool pastMoves =
+        step != pastStep_ && surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); });
+    tasksVersion_ += changed || pastMoves ? 1 : 0;
+    pastStep_ = step;
     return cost;
+}
+
+gpu::TaskOwner Group::taskOwner() const {
+    gpu::TaskOwner owner;
+    owner.id = number_;
+    owner.version = tasksVersion_;
+    for (const auto& surface : surfaces_) {
+        owner.pools |= surface->pool(); // they take turns together
+        owner.recordsOnce = owner.recordsOnce || surface->attributesDue();
+    }
+    if (view_ != nullptr) {
+        owner.pools |= view_->pool() << 1u;
+        owner.room = view_->roomInFrame();
+        owner.countsRates = view_->countsRates();
+    }
+    if (!follows() && instances_->poses().playback() != nullptr) {
+        owner.poses = instances_->poses().playback()->tasksMade();
+    }
+    return owner;
 }
 
 bool Group::findUnseen() {
@@ -487,6 +520,18 @@ bool Group::findUnseen() {
     }
     // Groups that draw the same instances read their deformed cages, wherever their views look.
     return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_.boxes());
+}
+
+bool Group::findList(uint64_t frame) {
+    const bool before = listsSeen_, empty = windows().visible == 0;
+    if (!empty || handsOver_) {
+        emptyList_.renew();
+    }
+    listsSeen_ = view_ != nullptr && emptyList_.due();
+    if (empty && listsSeen_) {
+        emptyList_.record(frame);
+    }
+    return listsSeen_ != before;
 }
 
 PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
@@ -549,9 +594,12 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
 
 void Group::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
+    staticsThere_ = false;
     noDraws_.cancelFrame(frame);
+    emptyList_.cancelFrame(frame);
     if (passesFrame_ == frame) {
         listing_.forgetAll();
+        ++tasksVersion_;
     }
 }
 

@@ -42,6 +42,7 @@ struct GroupShared {
     std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1;              ///< of the instances
+    uint64_t number = 0;                       ///< no other group of the context ever has it
     bool handsOver = false;                    ///< to another queue family: every output is written anew in every frame
     const Group* before = nullptr;             ///< whose indices it may take over; null: none
     std::shared_ptr<const StageHashes> hashes; ///< of a recording; null: there are none
@@ -70,7 +71,12 @@ public:
     /// Without the asset's tables, the view's buffers, and the instances of another group.
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     /// What its passes need in a frame.
-    [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
+    [[nodiscard]] const gpu::TaskNeeds& taskNeeds() const { return taskNeeds_; }
+    /// Who records its tasks, and what they follow from in this frame.
+    [[nodiscard]] gpu::TaskOwner taskOwner() const;
+    [[nodiscard]] uint64_t number() const { return number_; }
+    /// Whether tasks of a frame may stand in others.
+    [[nodiscard]] bool keepsTasks() const { return stages_.keepTasks(); }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -96,6 +102,10 @@ public:
     /// Visible instances that the last recording has left out before they were posed.
     [[nodiscard]] uint32_t unposed() const { return outOfSight_.count(); }
 
+    /// Groups of a view: whether the frame lists what is seen. Where nothing was listed and nothing is to list, lists,
+    /// arguments and draws stand.
+    [[nodiscard]] bool listsSeen() const { return listsSeen_; }
+
     /// Whether the device finds the bounds of instances.
     [[nodiscard]] bool hasBounds() const { return culling_ != nullptr || listedBounds_ != nullptr; }
     [[nodiscard]] SuppleBufferRange bounds() const; ///< if hasBounds()
@@ -107,8 +117,11 @@ public:
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
     [[nodiscard]] bool staticsPending() const override { return lacksStatics() || points_.uploadsPending(); }
     /// Whether frames leave the group out for want of static data.
-    [[nodiscard]] bool lacksStatics() const { return FrameMembers::staticsPending(); }
+    [[nodiscard]] bool lacksStatics() const { return !staticsThere_ && FrameMembers::staticsPending(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
+    /// All are recorded. They stay, unless the frame that has them is cancelled.
+    void noteStaticsThere() { staticsThere_ = true; }
+    [[nodiscard]] bool staticsThere() const { return staticsThere_; }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
@@ -138,6 +151,8 @@ public:
 
     /// Vertices of the view's budget that an instance needs at its coarsest, and all that the host shows.
     [[nodiscard]] uint32_t leastVertices() const { return culling_ != nullptr ? surfaces_.leastVertices() : 0; }
+    /// Patches of an instance that are drawn at levels.
+    [[nodiscard]] uint32_t patchesAtLevels() const { return patchesAtLevels_; }
     [[nodiscard]] uint64_t leastVerticesOfAll() const { return uint64_t{leastVertices()} * windows().visible; }
     /// The same of the view's pool.
     [[nodiscard]] uint64_t poolUnitsOfAll() const {
@@ -164,7 +179,10 @@ public:
     struct Link {
         Group* next = nullptr;
         SuppleGroup handle{};
+        uint64_t call = 0;      ///< of suppleRecord, that lists it
         bool leadsView = false; ///< it is the first group of its view
+        uint32_t number = 0;    ///< in the order of the frame
+        uint32_t inView = 0;    ///< the same among the groups of its view
     };
     Link link;
 
@@ -177,10 +195,13 @@ private:
     /// Whether the view's pool has room for an instance.
     [[nodiscard]] Status checkPool() const;
     [[nodiscard]] Status createVisibility();
+    [[nodiscard]] gpu::TaskNeeds countTasks() const;
     /// Whether other groups draw its instances too.
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// Finds listsSeen(). True if it is another than before.
+    bool findList(uint64_t frame);
     /// With update rates: chooses them by sizes on the screen, and lists what is posed.
     PassCost recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame);
     /// What is hashed of the group, a hash each.
@@ -199,7 +220,6 @@ private:
     SuppleGroupDesc desc_{};   ///< without pointers
     uint32_t rate_ = 0;        ///< that was set last; 0: none
     glm::dvec3 origin_{0.0};   ///< of the last recording
-    glm::vec3 pastStep_{0.0f}; ///< how far it has moved since the one before
     const gpu::Device* device_ = nullptr;
     bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances
@@ -218,8 +238,14 @@ private:
     PointSets points_;
     Surfaces surfaces_;
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
+    gpu::TaskNeeds taskNeeds_;
+    uint32_t patchesAtLevels_ = 0; ///< in a view
+    glm::vec3 pastStep_{0.0f};     ///< of the last recording
     RecordedOnce noDraws_;
-    bool outputsAsked_ = false;
+    RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
+    bool listsSeen_ = false;
+    bool outputsAsked_ = false, staticsThere_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 

@@ -563,7 +563,9 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
 }
 
 bool Playback::has(Part part) const {
-    const bool posed = !listsPoses() || list_.poseCount() > 0;
+    // Parts of which a frame has nothing keep their place, as others have something.
+    const bool always = device_->mapping.sharesDispatches;
+    const bool posed = !listsPoses() || list_.poseCount() > 0 || always;
     switch (part) {
     case Part::roots:
         return posed && (roots_ || plants_);
@@ -572,9 +574,9 @@ bool Playback::has(Part part) const {
     case Part::drivers:
         return posed && hasDrivers();
     case Part::springs:
-        return hasSprings() && list_.swingingCount() > 0;
+        return hasSprings() && (list_.swingingCount() > 0 || always);
     case Part::mix:
-        return takesUpdateRates() && list_.mixCount() > 0;
+        return takesUpdateRates() && (list_.mixCount() > 0 || always);
     default:
         return posed;
     }
@@ -585,6 +587,11 @@ skinning::PoseKernels::Locals Playback::locals() const {
     const double first = std::min(firstStep_, time_);
     const bool inTransition = transitions_.meets(first, time_) && bounds_.anyInTransition(first, time_);
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
+}
+
+uint64_t Playback::tasksMade() const {
+    const uint32_t bits = 1u | (has(Part::roots) ? 2u : 0) | (has(Part::modifiers) ? 4u : 0) | (plants_ ? 8u : 0);
+    return bits | static_cast<uint32_t>(locals()) << 4;
 }
 
 PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& windows) const {
@@ -610,12 +617,12 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
 
 void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const {
     const PosePush push = pushOf(part, window, windows);
-    if (push.instanceCount == 0) {
+    if (push.instanceCount == 0 && !dispatches.takesEmpty()) {
         return;
     }
     switch (part) {
     case Part::locals:
-        kernels_->recordLocals(dispatches, sets_[window], locals(), push);
+        recordLocals(dispatches, sets_[window], push);
         break;
     case Part::roots:
         kernels_->recordRoots(dispatches, sets_[window], push);
@@ -636,6 +643,21 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
         kernels_->recordMix(dispatches, sets_[window], mode_, push);
         break;
     }
+}
+
+void Playback::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+    using Locals = skinning::PoseKernels::Locals;
+    const Locals now = locals();
+    if (!dispatches.takesEmpty() || !takesTransitions()) {
+        kernels_->recordLocals(dispatches, set, now, push);
+        return;
+    }
+    // Transitions begin and end: the kernel that waits keeps its place.
+    PosePush none = push;
+    none.instanceCount = 0;
+    const bool inTransition = now == Locals::transition;
+    kernels_->recordLocals(dispatches, set, adds_ ? Locals::add : Locals::blend, inTransition ? none : push);
+    kernels_->recordLocals(dispatches, set, Locals::transition, inTransition ? push : none);
 }
 
 void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {

@@ -164,10 +164,15 @@ public:
 
     enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
     static constexpr uint32_t kParts = 7;
+    static constexpr uint32_t kTasks = kParts + 1; ///< of a window at most: with transitions locals are two
     /// A part of the pass over the instances of a window.
     void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const;
+    /// What the tasks of all parts follow from, beside windows and time; never 0.
+    [[nodiscard]] uint64_t tasksMade() const;
+    /// How their push constants (shared::PosePush) begin.
+    [[nodiscard]] skinning::SplitTime splitTime() const { return skinning::splitTime(time_); }
     /// Poses that a frame makes of these instances.
     [[nodiscard]] uint32_t poseCount(const InstanceWindows& windows) const {
         return listsPoses() ? list_.poseCount() : windows.visible;
@@ -189,6 +194,7 @@ private:
     void sampleShown(uint32_t slot, const TransitionRequest& request);
     void startTransition(uint32_t slot, const TransitionRequest& request);
     [[nodiscard]] skinning::PoseKernels::Locals locals() const;
+    void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
     /// Both ends of an instance.

@@ -42,6 +42,12 @@ public:
         }
         return slots_[index].value;
     }
+    /// The same for who does not keep it.
+    [[nodiscard]] T* at(uint64_t id) const noexcept {
+        const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
+        const bool known = index < slots_.size() && slots_[index].generation == id >> 32;
+        return known ? slots_[index].value.get() : nullptr;
+    }
     std::shared_ptr<T> remove(uint64_t id) noexcept {
         if (find(id) == nullptr) {
             return nullptr;

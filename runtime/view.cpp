@@ -18,7 +18,8 @@ namespace {
 static_assert(SUPPLE_GRID_QUAD == kLodQuadForm && SUPPLE_GRID_TRIANGLE_RINGS == kLodTriangleForm &&
               SUPPLE_GRID_QUAD_RINGS == kLodQuadRingsForm && SUPPLE_GRID_PENTAGON_RINGS == kLodPentagonForm);
 static_assert(SUPPLE_PRIORITY_COUNT == kPriorityCount);
-static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t));
+static_assert(sizeof(LodSolution) <= 16 * sizeof(uint32_t) &&
+              sizeof(LodCamera) == (kLodSolution - kLodCamera) * sizeof(uint32_t));
 static_assert(kLodAlignment * 4 == 256 && SUPPLE_LOD_BUCKETS(kRunStep) % kLodAlignment == 0 &&
               SUPPLE_LOD_RECORDS(kRunStep) % kLodAlignment == 0 && 4 * kLodBucketStride % kLodAlignment == 0 &&
               kLodBucketStride > kCapacityCount);
@@ -32,6 +33,7 @@ constexpr uint32_t kDefaultRuns = 1024;
 constexpr uint32_t kMostVertices = kMinSamples * (0xFFFFFFFFu / kSplitUnit + 1u);
 static_assert(kMostVertices == SUPPLE_MAX_VIEW_VERTICES);
 constexpr VkDeviceSize kCountBytes = VkDeviceSize{kListHeaderWords} * 4; ///< of a group
+constexpr VkDeviceSize kSizeBytes = 2 * VkDeviceSize{kSizeRanks} * 4;
 /// Where the view's pool ends, and the solution behind it.
 constexpr VkDeviceSize kSolvedBytes = (kLodSolution - kLodPoolEnd) * VkDeviceSize{4} + sizeof(LodSolution);
 constexpr VkDeviceSize kRecordBytes = VkDeviceSize{kLodRecordWords} * 4;
@@ -112,8 +114,8 @@ Status View::createBuffers() {
     words_ = plan.add(
         {"supple view", wordBytes, kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     cull_ = plan.add({"supple view, frustum", sizeof(CullView), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    sizes_ =
-        plan.add({"supple view, sizes", 2 * kSizeRanks * VkDeviceSize{4}, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    sizes_ = plan.add({"supple view, sizes", kSizeBytes + (countsOfView() ? 2 * maxRuns() * kCountBytes : 0),
+                       kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     streams_.plan(plan, StreamSet::ofView(desc_.flags), desc_.vertexFormat, vertices, vertices, 1);
     Status status = planPools(plan);
     status = status ? plan.create(device, gpu::MemoryKind::deviceLocal) : status;
@@ -319,6 +321,13 @@ uint32_t View::room() const {
     return budget() > padding ? budget() - padding : 0;
 }
 
+void View::findRoom() {
+    const bool fit = verticesNeeded_ <= room() && poolUnitsNeeded_ <= poolUnits();
+    roomInFrame_ = fit ? kRoomForAll : room();
+    verticesNeeded_ = poolUnitsNeeded_ = 0;
+    groupsInFrame_ = 0;
+}
+
 VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
     recordedBefore_ = recordedFrame_;
     recordedFrame_ = frame;
@@ -335,13 +344,15 @@ VkDeviceSize View::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame) {
         from += size;
         bytes += size;
     };
+    const LodCamera camera = levelCamera();
+    std::memcpy(&hostWords_[kLodCamera], &camera, sizeof(camera));
     const CullView cull = cullView();
     copy(cull_.buffer(), 0, &cull, sizeof(cull));
     copy(words_.buffer(), 0, hostWords_.data(), kLodSolution * VkDeviceSize{4});
     if (endOfRuns_ > 0) {
         copy(words_.buffer(), kLodRuns * VkDeviceSize{4}, runWords_.data(), endOfRuns_ * kRunBytes);
     }
-    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0);
+    device_->vk.CmdFillBuffer(commandBuffer, sizes_.buffer(), 0, VK_WHOLE_SIZE, 0); // counts of groups too
     return bytes;
 }
 
@@ -432,8 +443,23 @@ void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDevi
     const uint64_t place = recordedFrame_ % framesInFlight_;
     const uint32_t index = solved_[place].groups++;
     solved_[place].of[index] = group;
-    const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
-    device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+    if (!countsOfView()) {
+        const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
+        device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+    }
+}
+
+void View::recordCounts(VkCommandBuffer commandBuffer) const {
+    const uint64_t place = recordedFrame_ % framesInFlight_;
+    if (countsOfView()) {
+        const VkBufferCopy region{kSizeBytes, place * readbackBytes() + kSolvedBytes,
+                                  kCountBytes * solved_[place].groups};
+        device_->vk.CmdCopyBuffer(commandBuffer, sizes_.buffer(), readback_.buffer(0), 1, &region);
+    }
+}
+
+bool View::countsOfView() const {
+    return device_->mapping.sharesDispatches;
 }
 
 SuppleViewStatistics View::read(size_t place) const {

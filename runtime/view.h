@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
@@ -47,7 +48,16 @@ public:
     [[nodiscard]] uint32_t room() const;
     /// The same for a frame's groups; kRoomForAll if even all instances fit at their coarsest, their coefficients too.
     [[nodiscard]] uint32_t roomInFrame() const { return roomInFrame_; }
-    void setRoomInFrame(uint32_t room) { roomInFrame_ = room; }
+    /// Adds what one of the frame's groups needs at most; its number among them.
+    [[nodiscard]] uint32_t addNeeds(uint64_t vertices, uint64_t poolUnits) {
+        verticesNeeded_ += vertices;
+        poolUnitsNeeded_ += poolUnits;
+        return groupsInFrame_++;
+    }
+    /// Behind addNeeds() of all.
+    void findRoom();
+    /// A group is recorded in this call of suppleRecord. True: it is the first of the view.
+    [[nodiscard]] bool enter(uint64_t call) { return std::exchange(call_, call) != call; }
     [[nodiscard]] bool hasCamera() const { return hasCamera_; }
 
     /// The pools of coefficients that groups with levels share, of so many units (shared::kPoolUnit). 0: they have
@@ -89,6 +99,8 @@ public:
     /// instances were seen (Culling::countOffset).
     void recordReadback(VkCommandBuffer commandBuffer);
     void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group);
+    /// Behind those of all groups.
+    void recordCounts(VkCommandBuffer commandBuffer) const;
     void beginFrame(uint64_t completedFrame) override;
     void cancelFrame(uint64_t frame) override;
     /// What the frame hands over with the first of its groups. Of the words only those that hosts read: the others must
@@ -118,6 +130,8 @@ private:
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
     [[nodiscard]] Status createSolver(surface::Programs& passes);
     [[nodiscard]] uint32_t budget() const;
+    /// Counts of all groups lie behind the sizes. Otherwise each group has its own.
+    [[nodiscard]] bool countsOfView() const;
     [[nodiscard]] VkDeviceSize uploadBytes() const; ///< of a frame, with all runs that there may be
     [[nodiscard]] VkDeviceSize readbackBytes() const;
     [[nodiscard]] VkDeviceSize recordOffset() const; ///< where records begin among the words
@@ -153,6 +167,9 @@ private:
     RecordedOnce indicesRelease_;
     RecordedOnce noDraws_; ///< due: the last frame of the view may have left draws
     uint32_t roomInFrame_ = shared::kRoomForAll;
+    uint64_t verticesNeeded_ = 0, poolUnitsNeeded_ = 0;
+    uint64_t call_ = 0;
+    uint32_t groupsInFrame_ = 0;
     uint64_t recordedFrame_ = 0, recordedBefore_ = 0;
     struct Solved {
         uint64_t frame = 0;

@@ -27,6 +27,9 @@ using shared::kSegmentFrames;
 
 constexpr double kStill = 0.5;       // of a budget: what a property may lose to be constant
 constexpr double kForRounding = 0.6; // of a budget; the rest is for skipped frames
+constexpr int kBalancings = 2;
+constexpr double kBalance = 0.7;   // the power of what is left with which a budget grows
+constexpr double kLeastUsed = 0.1; // of the error: less counts as that
 constexpr double kOffGridRate = 60.0;
 constexpr uint32_t kMostFrames = 4096;
 constexpr size_t kMostPoses = 400'000;         // frames times nodes: memory for what the clip was
@@ -110,6 +113,7 @@ struct Track {
     double reach = 0.0;                        ///< distance moved per radian, or per unit of a value
     double fromRest = 0.0, fromConstant = 0.0; ///< distance moved if it is kept at these
     bool jumps = false;                        ///< a rotation by more than the decoder's arc between two frames
+    double share = 1.0;                        ///< its budget, in budgets of the clip
     Spans spans;
 
     [[nodiscard]] ChannelPath path() const { return channel->path; }
@@ -149,7 +153,7 @@ public:
             if (!takeWork() || !follow()) {
                 return std::nullopt;
             }
-            if (std::optional<Found> fine = search(errors_.fine, [&](double budget) { return attempt(budget); })) {
+            if (std::optional<Found> fine = balanced(errors_.fine, [&](double budget) { return attempt(budget); })) {
                 addTwin(*fine);
                 return std::move(fine->clip);
             }
@@ -221,7 +225,8 @@ private:
     bool takeWork() {
         const cage::Character& character = distance_.character();
         const size_t targets = comparesWeights() ? character.morphs.targets.size() : 0;
-        const uint64_t work = uint64_t{last_} * (20 * tracks_.size() + distance_.all().size() + targets + driverWork());
+        const uint64_t work = (1 + kBalancings) * uint64_t{last_} *
+                              (20 * tracks_.size() + distance_.all().size() + targets + driverWork());
         leftOut_ = last_ > kMostFrames                                                     ? "it has too many frames"
                    : last_ * (character.skeleton.nodes.size() + targets / 16) > kMostPoses ? "it has too many poses"
                    : work > workLeft_ ? "the clips before it took too long"
@@ -465,7 +470,7 @@ private:
         attempt.packed.last = last_;
         attempt.rest = rest_;
         for (const Track& track : tracks_) {
-            std::optional<PackedProperty> own = packed(track, budget);
+            std::optional<PackedProperty> own = packed(track, budget * track.share);
             if (own && (track.jumps || !fitsLayout(*own))) {
                 attempt.rest.push_back(*track.channel);
             } else if (own) {
@@ -543,6 +548,45 @@ private:
         return std::nullopt;
     }
 
+    /// As search(), also with budgets that differ: if all that follows a node is off by less than it may be, what moves
+    /// the node gets more. What stands at the end of a long chain, as fingers do, needs smaller budgets than a foot.
+    template <class Make>
+    std::optional<Found> balanced(double error, Make&& make) {
+        for (Track& track : tracks_) {
+            track.share = 1.0;
+        }
+        std::optional<Found> best = search(error, make);
+        std::optional<Found> last = best;
+        for (int i = 0; i < kBalancings && last; ++i) {
+            const std::vector<double> off = offBelow(last->clip);
+            for (Track& track : tracks_) {
+                track.share *= std::pow(error / std::max(off[order_.nodes[track.place]], kLeastUsed * error), kBalance);
+            }
+            last = search(error, make);
+            if (last && clipBytes(order_, last->clip) < clipBytes(order_, best->clip)) {
+                best = last;
+            }
+        }
+        return best;
+    }
+    /// By node: the largest distance of what follows it, in extents.
+    [[nodiscard]] std::vector<double> offBelow(const cage::Clip& clip) {
+        const cage::Skeleton& skeleton = distance_.character().skeleton;
+        std::vector<double> off(skeleton.nodes.size(), 0.0);
+        std::vector<glm::dmat4> globals(skeleton.nodes.size());
+        for (uint32_t k = 0; k < truth_.size(); ++k) {
+            sampleClip(distance_.character(), clip, timeOf(0.5 * k), pose_);
+            distance_.globalsOf(pose_, globals);
+            distance_.takeLargest(globals, truth_[k], off);
+        }
+        for (auto node = skeleton.parentsFirst.rbegin(); node != skeleton.parentsFirst.rend(); ++node) {
+            if (const uint32_t parent = skeleton.nodes[*node].parent; parent != cage::kNone) {
+                off[parent] = std::max(off[parent], off[*node]);
+            }
+        }
+        return off;
+    }
+
     /// Gives the clip its coarse twin, if that takes less than what it stands in for.
     void addTwin(Found& fine) {
         if (!errors_.wantTwins()) {
@@ -552,7 +596,7 @@ private:
             twinLeftOut_ = std::exchange(leftOut_, nullptr);
             return;
         }
-        const std::optional<Found> coarse = search(errors_.coarse, [&](double budget) {
+        const std::optional<Found> coarse = balanced(errors_.coarse, [&](double budget) {
             Attempt own = attempt(budget);
             own.rest = fine.attempt.rest; // what is not packed plays with either
             std::erase_if(own.packed.properties, [&](const PackedProperty& property) {

@@ -19,10 +19,10 @@ namespace supple::skinning {
 /// not become smaller. Returns why other clips were left out, one line each: they take more than 4,096 frames, more
 /// than 400,000 poses of nodes, or come after so much work that it takes about ten minutes.
 ///
-/// The encoder gives each property the same budget, in units of distance: the largest for which the whole clip keeps
-/// within the error, found by bisection. A property that can be left at rest, or constant, for half of the budget, is.
-/// Else 0.4 of it go to frames that are skipped, as many as possible, by dynamic programming, and 0.6 to the step of
-/// the lattice.
+/// The encoder gives each property a budget, in units of distance: first the same, the largest for which the whole clip
+/// keeps within the error, found by bisection; then more where what follows is off by less. A property that can be left
+/// at rest, or constant, for half of the budget, is. Else 0.4 of it go to frames that are skipped, as many as possible,
+/// by dynamic programming, and 0.6 to the step of the lattice.
 ///
 /// If `coarseError` is larger than `error`, clips get coarse twins within that: but for clips whose twin would take as
 /// much as the segments that it stands in for, or would not move at all.

@@ -55,6 +55,24 @@ double PoseDistance::between(const std::vector<glm::dmat4>& a, const std::vector
     return worst / extent_;
 }
 
+void PoseDistance::takeLargest(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
+                               std::vector<double>& largest) const {
+    const cage::SkinWeights& weights = character_.weights;
+    for (const uint32_t v : all_) {
+        const double own = glm::length(vertex(v, a) - vertex(v, b)) / extent_;
+        for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
+            double& of = largest[character_.skin.joints[weights.influences[i].joint]];
+            of = std::max(of, own);
+        }
+    }
+    for (const uint32_t node : character_.skin.joints) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double own = glm::length(shellPoint(a[node], axis) - shellPoint(b[node], axis)) / extent_;
+            largest[node] = std::max(largest[node], own);
+        }
+    }
+}
+
 void PoseDistance::place(const std::vector<glm::dmat4>& globals, std::vector<glm::dvec3>& points) const {
     points.clear();
     for (const uint32_t v : watched_) {

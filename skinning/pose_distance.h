@@ -52,6 +52,10 @@ public:
     [[nodiscard]] double between(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
                                  std::span<const uint32_t> vertices) const;
 
+    /// Raises `largest`, by node, to the distance of vertices that follow a joint, and of its shell, in extents.
+    void takeLargest(const std::vector<glm::dmat4>& a, const std::vector<glm::dmat4>& b,
+                     std::vector<double>& largest) const;
+
 private:
     [[nodiscard]] glm::dvec3 vertex(uint32_t v, const std::vector<glm::dmat4>& globals) const;
     [[nodiscard]] glm::dvec3 shellPoint(const glm::dmat4& m, int axis) const;

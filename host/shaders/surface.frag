@@ -31,27 +31,7 @@ layout(constant_id = 0) const bool kLightPerVertex = false; // see surface.vert
 
 const vec3 kClay = vec3(0.50, 0.47, 0.44);
 
-// A color a class of patches, as sRGB bytes. Chosen so that classes of one scheme keep apart for eyes of every kind, those
-// of different schemes as well as so many colors can: under simulated protanopia, deuteranopia and tritanopia the former are
-// 0.12 and more apart in OKLab, the latter 0.05, with differences of lightness, which shading changes, counted half.
-const vec3 kClassColors[18] = vec3[18](vec3(0x8E, 0x9B, 0xA8),  // regular: slate
-                                       vec3(0x50, 0x20, 0x80),  // perturbed: violet
-                                       vec3(0x80, 0x20, 0x50),  // polar: wine
-                                       vec3(0xF0, 0xE4, 0x42),  // P_3: yellow
-                                       vec3(0xD5, 0x5E, 0x00),  // P_4: vermilion
-                                       vec3(0x20, 0x20, 0xC8),  // P_5: blue
-                                       vec3(0x98, 0x50, 0x98),  // fragments of Catmull-Clark: mauve
-                                       vec3(0x80, 0xE0, 0xE0),  // Loop: cyan
-                                       vec3(0xB0, 0xE0, 0x98),  // blend: light green
-                                       vec3(0x50, 0x80, 0xE0),  // blend, sharp: sky blue
-                                       vec3(0xC8, 0xB8, 0x98),  // triangles of polygons: sand
-                                       vec3(0xF0, 0xA8, 0x48),  // irregular: amber
-                                       vec3(0xC0, 0x00, 0x18),  // irregular, sharp: red
-                                       vec3(0x78, 0x30, 0xA8),  // creased: purple
-                                       vec3(0x48, 0x98, 0x90),  // Loop, regular: teal
-                                       vec3(0xF8, 0xB8, 0xA8),  // Loop, irregular: salmon
-                                       vec3(0x90, 0x30, 0xF0),  // Loop, irregular, sharp: electric violet
-                                       vec3(0x90, 0x78, 0x60)); // blend, regular: taupe
+const uint kClassColors[kClassCount] = uint[kClassCount](SUPPLE_CLASS_COLORS);
 
 /// Distances from the patch's border, in segments.
 vec3 insideBorder() {
@@ -96,7 +76,7 @@ vec3 shownTangent(vec3 front) {
 Material paintedMaterial(vec3 albedo) {
     if (kView == kViewPatches && push.domain != kDrawMesh) {
         uint number = inPatch & ~kPatchIsMirrored;
-        vec3 color = fromSrgb(kClassColors[patchWords[kPatchWords * number]] / 255.0);
+        vec3 color = fromSrgb(unpackUnorm4x8(kClassColors[patchWords[kPatchWords * number]]).bgr);
         return plainMaterial(color * (1.0 + 0.34 * (patchHash(number) - 0.5)), 0.5);
     }
     return kView == kViewShaded || isFlatView(kView) ? materialAt(albedo, inUvs) : plainMaterial(kClay, 0.55);

@@ -246,7 +246,7 @@ void Culling::recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) c
     kernels_->recordSizes(dispatches, listSets_[0], {0, windows_->visible, leastVertices, instanceUnits_});
 }
 
-PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room) const {
+PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room, uint32_t number) const {
     ListPush push{};
     push.room = room;
     push.poolRoom = poolUnits_;
@@ -256,6 +256,7 @@ PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room) const {
     push.windowCount = windows_->count();
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
+    push.counts = 2 * kSizeRanks + kListHeaderWords * number;
     kernels_->recordList(dispatches, listSets_[0], push);
     return {0, 0, true};
 }

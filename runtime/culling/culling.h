@@ -86,8 +86,8 @@ public:
     void takePool(uint32_t pool) { pool_ = pool; }
     /// What the listed instances need, each `leastVertices` at least. Only if that may be more than there is.
     void recordSizes(gpu::Dispatches& dispatches, uint32_t leastVertices) const;
-    /// `room`: vertices, or shared::kRoomForAll.
-    PassCost recordList(gpu::Dispatches& dispatches, uint32_t room) const;
+    /// `room`: vertices, or shared::kRoomForAll. `number`: of the group among those of the view.
+    PassCost recordList(gpu::Dispatches& dispatches, uint32_t room, uint32_t number) const;
     /// With rates, behind the list: what the listed instances need in the budget.
     PassCost recordDemand(gpu::Dispatches& dispatches) const;
     /// With rates, behind the view's solution: the lists of all rates. `counted`: the budget scales levels.

@@ -111,6 +111,9 @@ struct CageStageRow {
     /// The cages that it leaves lie within what joint palettes bound (skinning/reach.h), and it keeps nothing from
     /// frame to frame. Of groups with other stages all instances are posed, in sight or not.
     bool keepsReach = false;
+    /// Its dispatches follow from the windows of instances alone. Groups with other stages record all that they
+    /// dispatch anew in every frame.
+    bool keepsTasks = false;
 };
 
 } // namespace supple::runtime

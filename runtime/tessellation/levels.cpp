@@ -170,7 +170,9 @@ Status Levels::prepareRate(uint32_t) {
 }
 
 VkDeviceSize Levels::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
-    program_.setCamera(view()->levelCamera());
+    if (!desc_.device->mapping.sharesDispatches) { // there it is read from the view's words
+        program_.setCamera(view()->levelCamera());
+    }
     const VkDeviceSize bytes = Tessellation::recordUpload(commandBuffer, frame, changed);
     pool_ = view()->poolUnits() > 0 ? view()->pool() : pool_;
     return bytes;

@@ -102,7 +102,7 @@ PassCost OneRate::recordMotion(surface::Round& round) const {
     }
     bool first = true;
     const auto evaluate = [&](const surface::Sets& sets, uint32_t from, uint32_t count, bool past) {
-        if (count == 0) {
+        if (count == 0 && !round.dispatches.takesEmpty()) {
             return;
         }
         if (!first) {

@@ -9,7 +9,15 @@
 #include "shaders/shared/lod.h"
 
 BUFFER(, Words, kViewWordsBinding, std430, uint, words)
+#ifdef TASKS // counts of all groups side by side, behind the sizes: one copy takes them to the host
+BUFFER(, Sizes, kSizeBinding, std430, uint, sizes)
+void storeCounts(uint at, uint words[5]) {
+    [[unroll]] for (uint i = 0u; i < 5u; ++i) sizes.at[at + i] = words[i];
+}
+#else
 BUFFER(readonly, Sizes, kSizeBinding, std430, uint, sizes)
+void storeCounts(uint, uint[5]) {}
+#endif
 
 shared uvec4 countsOf[kMaxLanes]; // with a past, new, left out, occluded
 shared uint sumsOf[kMaxLanes];
@@ -123,5 +131,8 @@ void main() {
         total += counts;
         listed += window.y;
     }
-    if (lane == 0u) storeHeader(0u, total, listed);
+    if (lane == 0u) {
+        storeHeader(0u, total, listed);
+        storeCounts(push.counts, uint[](total.x + total.y, total.x, listed, total.z, total.w));
+    }
 }

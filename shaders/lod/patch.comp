@@ -203,8 +203,8 @@ float triangleLevel(uint record, uint base) {
 #endif
 
 // Orthographic: the direction it looks in, which all rays have.
-bool orthographic() { return push.camera.orthographic != 0u; }
-vec3 camera() { return vec3(push.camera.position[0], push.camera.position[1], push.camera.position[2]); }
+bool orthographic() { return LOD_CAMERA.orthographic != 0u; }
+vec3 camera() { return vec3(LOD_CAMERA.position[0], LOD_CAMERA.position[1], LOD_CAMERA.position[2]); }
 
 mat3 frameAt(vec3 middle) { return frameTowards(orthographic() ? camera() : middle - camera()); }
 Pyramid emptyPyramid() {

@@ -119,6 +119,7 @@ struct ListPush {
     uint poolUnits; // that an instance takes of it; 0: none
     uint pools;     // words of the list in which slots have their places: every second from here on
     uint maxGroups; // of a dispatch in x
+    uint counts;    // shared dispatches: word of the sizes that the header of all windows is written to as well
 };
 struct DemandPush {
     uint firstEntry; // of the host list

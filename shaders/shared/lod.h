@@ -81,7 +81,8 @@ SUPPLE_SHARED_CONST kPatternWordCount = 108u;
 SUPPLE_SHARED_CONST kLodPatterns = 0u;
 SUPPLE_SHARED_CONST kLodGrids = kLodPatterns + kPatternWordCount;
 SUPPLE_SHARED_CONST kLodPoolEnd = kLodGrids + 2u * kLodForms * kCapacityCount;
-SUPPLE_SHARED_CONST kLodSolution = kLodPoolEnd + 4u; // what stands before it comes from the host
+SUPPLE_SHARED_CONST kLodCamera = kLodPoolEnd + 4u; // LodCamera, for shared dispatches
+SUPPLE_SHARED_CONST kLodSolution = kLodCamera + 8u; // what stands before it comes from the host
 SUPPLE_SHARED_CONST kLodCapacities = kLodSolution + 16u;
 SUPPLE_SHARED_CONST kLodSplit = kLodCapacities + kPriorityCount * kLodBinStride;
 SUPPLE_SHARED_CONST kLodRated = kLodSplit + kPriorityCount * kLodForms * kLodBinStride;
@@ -179,8 +180,7 @@ struct LodPush {
     uint maskWords;    // an instance
     uint countsHidden; // 1: this surface of the group counts the patches that an instance hides
     uint runs;         // that the view has room for
-    LodCamera
-        camera; // where back faces are left out, of an orthographic one: the direction it looks in for its position
+    LodCamera camera; // View::levelCamera. Shared dispatches leave it out: kLodCamera
 };
 // What the passes that make a level of chains are told.
 struct DepthPush {

@@ -131,8 +131,7 @@ TEST(CpuEqualsDevice, Loop) {
 TEST(CpuEqualsDevice, Blend) {
     GpuOptions options;
     options.scheme = SUPPLE_SCHEME_BLEND;
-    // Beside charts that are points or curves surfaces may fold.
-    compareCages("blend", options, {}, everyNth(subdivisionZoo(), 4), {8, 6}, 180.0);
+    compareCages("blend", options, {}, everyNth(subdivisionZoo(), 4), {8, 6}, 0.05);
 }
 
 /// Without creases, or with endless ones that go on.
@@ -181,7 +180,7 @@ TEST(CpuEqualsDevice, CharactersInAPose) {
             CpuGroup group(path, cpu);
             Worst worst;
             ASSERT_NO_FATAL_FAILURE(compare(own, group, path, worst));
-            report(file, worst, scheme == SUPPLE_SCHEME_BLEND ? 8.0 : 0.2);
+            report(file, worst, 0.2);
         }
     }
 }

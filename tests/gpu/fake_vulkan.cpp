@@ -145,14 +145,23 @@ VKAPI_ATTR void VKAPI_CALL pipelineBarrier(VkCommandBuffer, const VkDependencyIn
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t) {
     fake->dispatches.emplace_back(x, y);
 }
-VKAPI_ATTR void VKAPI_CALL copyBuffer(VkCommandBuffer, VkBuffer from, VkBuffer to, uint32_t,
-                                      const VkBufferCopy* region) {
+VKAPI_ATTR void VKAPI_CALL copyBuffer(VkCommandBuffer, VkBuffer from, VkBuffer to, uint32_t count,
+                                      const VkBufferCopy* regions) {
     fake->copies.emplace_back(from, to);
+    fake->copiedRegions.emplace_back(regions, regions + count);
     const FakeVulkan::BoundBuffer& source = fake->buffers.at(from);
     const FakeVulkan::BoundBuffer& target = fake->buffers.at(to);
-    std::memcpy(fake->memory.at(target.memory).data() + target.offset,
-                fake->memory.at(source.memory).data() + source.offset, region->size);
+    for (const VkBufferCopy& region : fake->copiedRegions.back()) {
+        std::memcpy(fake->memory.at(target.memory).data() + target.offset + region.dstOffset,
+                    fake->memory.at(source.memory).data() + source.offset + region.srcOffset, region.size);
+    }
 }
+VKAPI_ATTR VkDeviceAddress VKAPI_CALL bufferAddress(VkDevice, const VkBufferDeviceAddressInfo* info) {
+    return std::bit_cast<uintptr_t>(info->buffer) << 32u;
+}
+VKAPI_ATTR void VKAPI_CALL bindPipeline(VkCommandBuffer, VkPipelineBindPoint, VkPipeline) {}
+VKAPI_ATTR void VKAPI_CALL pushConstants(VkCommandBuffer, VkPipelineLayout, VkShaderStageFlags, uint32_t, uint32_t,
+                                         const void*) {}
 
 } // namespace
 
@@ -187,6 +196,9 @@ FakeVulkan::FakeVulkan() {
     vk.CmdPipelineBarrier2 = pipelineBarrier;
     vk.CmdDispatch = dispatch;
     vk.CmdCopyBuffer = copyBuffer;
+    vk.GetBufferDeviceAddress = bufferAddress;
+    vk.CmdBindPipeline = bindPipeline;
+    vk.CmdPushConstants = pushConstants;
 
     constexpr VkDeviceSize kGiB = VkDeviceSize{1} << 30;
     device.maxBufferSize = kGiB;

@@ -48,6 +48,7 @@ struct FakeVulkan {
     std::vector<Pipeline> pipelines;                         ///< all ever made
     size_t pipelineCalls = 0;                                ///< vkCreateComputePipelines
     std::vector<std::pair<VkBuffer, VkBuffer>> copies;       ///< from, to
+    std::vector<std::vector<VkBufferCopy>> copiedRegions;    ///< of each of the copies
     std::vector<std::pair<uint32_t, uint32_t>> dispatches;   ///< x, y
     std::vector<VkMemoryBarrier2> barriers;                  ///< global ones
     /// Barriers of buffers, by vkCmdPipelineBarrier2 that has any.

@@ -4,6 +4,7 @@
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_view.h"
+#include "tests/support/wrapped_vulkan.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ constexpr SuppleScheme kSchemes[] = {SUPPLE_SCHEME_PREP,    SUPPLE_SCHEME_PM,   
                                      SUPPLE_SCHEME_POLYGONS};
 constexpr const char* kPatterns[] = {"ff", "3f", "01", "nan", "random"};
 /// What happens before a frame: w a warm-up, c instances come, h all hide, v all are visible, a the camera looks away,
-/// t towards them; and n a frame that draws nothing, s one that draws all.
-constexpr const char* kScripts[] = {"tncs", "wacntshnvsantsat", "chtnnvs", "acnnhtnvsanntsshn"};
+/// t towards them, x a frame is cancelled; and n a frame that draws nothing, s one that draws all.
+constexpr const char* kScripts[] = {"tncs", "wacntshnvsantsat", "chtnnvs", "acnnhtnvsanntsshn", "ctsaxnntxanntxs"};
 
 /// The layer of tests/poison, for devices that are made while it lives. The pattern can change from allocation to
 /// allocation.
@@ -152,6 +153,9 @@ private:
                 EXPECT_EQ(suppleSetTransform(context_.handle(), instances_.back(), &place[0][0]), SUPPLE_OK);
             }
             break;
+        case 'x':
+            context_.cancel(crowd_->group());
+            break;
         case 'h':
         case 'v':
             for (const SuppleInstance instance : instances_) {
@@ -211,6 +215,34 @@ TEST_P(Unseen, NothingIsDrawnAndWhatComesAfterIsRight) {
         }
     }
     EXPECT_EQ(device->validation()->messageCount(), 0u);
+}
+
+/// Where nothing was listed and nothing is to list, the list stands.
+TEST(UnseenGroups, AreListedOnce) {
+    WrappedVulkan& wrapped = wrappedVulkan();
+    const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+    ASSERT_NE(device, nullptr);
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        CrowdContext context(*device, mapping);
+        const SuppleAsset cube = context.createAsset(perturbed(cage::makeCubeSphere(1), 0.05f, 3));
+        Stage stage(context, cube, SUPPLE_SCHEME_PM, SUPPLE_POSES_SET);
+        ASSERT_TRUE(stage.valid());
+        const auto dispatchesIn = [&](const char* frame) {
+            wrapped.dispatches = 0;
+            (void)stage.play(frame);
+            return wrapped.dispatches;
+        };
+        (void)stage.play("ctsa");
+        const uint64_t listed = dispatchesIn("n"), stands = dispatchesIn("n");
+        EXPECT_EQ(stands + 1, listed);
+        EXPECT_EQ(dispatchesIn("n"), stands);
+        (void)stage.play("tsax"); // the frame that listed nothing never ran
+        EXPECT_EQ(dispatchesIn("n"), listed);
+        EXPECT_EQ(dispatchesIn("n"), stands);
+        (void)stage.play("ts");
+    }
+    (void)wrappedVulkan();
 }
 
 } // namespace

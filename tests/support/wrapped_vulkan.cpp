@@ -26,6 +26,7 @@ struct Table {
     PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
     PFN_vkGetQueryPoolResults GetQueryPoolResults;
     PFN_vkCmdCopyQueryPoolResults CmdCopyQueryPoolResults;
+    PFN_vkSetDebugUtilsObjectNameEXT SetDebugUtilsObjectNameEXT;
 };
 Table real;
 WrappedVulkan state;
@@ -58,8 +59,19 @@ VKAPI_ATTR void VKAPI_CALL copyBuffer(VkCommandBuffer commands, VkBuffer source,
     ++state.copies;
     for (uint32_t i = 0; i < count; ++i) {
         state.copiedBytes += regions[i].size;
+        state.watchedBytes += state.watched.contains(target) ? regions[i].size : 0;
     }
     real.CmdCopyBuffer(commands, source, target, count, regions);
+}
+VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
+    if (info->objectType == VK_OBJECT_TYPE_BUFFER) {
+        const auto buffer = reinterpret_cast<VkBuffer>(info->objectHandle);
+        state.watched.erase(buffer); // handles come again
+        if (state.watchedName != nullptr && std::strcmp(info->pObjectName, state.watchedName) == 0) {
+            state.watched.insert(buffer);
+        }
+    }
+    return real.SetDebugUtilsObjectNameEXT(device, info);
 }
 VKAPI_ATTR void VKAPI_CALL fillBuffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
                                       uint32_t value) {
@@ -222,6 +234,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL wrappedGetInstanceProcAddr(VkInstance i
     const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         return wrap(real.GetDeviceProcAddr, function, &getDeviceProcAddr);
+    }
+    if (std::strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0 && function != nullptr) {
+        return wrap(real.SetDebugUtilsObjectNameEXT, function, &setName);
     }
     if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) {
         return wrap(real.GetPhysicalDeviceProperties2, function, &properties);

@@ -13,6 +13,7 @@ struct WrappedVulkan {
     // counted
     uint64_t maps = 0, flushes = 0, updates = 0, invalidates = 0;
     uint64_t copies = 0, copiedBytes = 0;
+    uint64_t watchedBytes = 0; ///< copied into `watched`
     uint64_t fills = 0, barriers = 0, allocations = 0;
     uint64_t dispatches = 0, indirectDispatches = 0;
     uint64_t workgroups = 0; ///< of all vkCmdDispatch
@@ -27,6 +28,8 @@ struct WrappedVulkan {
     VkResult queryFailure = VK_SUCCESS; ///< when not a success: of vkGetQueryPoolResults
     uint64_t ticksAPass = 0;            ///< when not 0: timestamps read are this far apart, one from the next
     uint64_t buffers = 0;
+    const char* watchedName = nullptr; ///< of buffers
+    std::set<VkBuffer> watched;        ///< those that were given the name
     bool hideSynchronization2 = false;
     uint32_t maxStorageBufferRange = 0;     ///< when not 0: what the device says
     uint32_t maxTexelBufferElements = 0;    ///< the same

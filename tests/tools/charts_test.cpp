@@ -64,6 +64,22 @@ TEST(Charts, TicksAreRoundAndEncloseTheValues) {
         << "marks count, too";
 }
 
+TEST(Charts, FramesAreCountedInWholeNumbers) {
+    for (const size_t frames : {1u, 2u, 3u, 7u, 30u}) {
+        Histogram histogram{std::vector<double>(frames, 1.0), "ms", {}};
+        histogram.values.back() = 2.0;
+        const std::string svg = toSvg(histogram);
+        size_t ticks = 0;
+        for (size_t at = svg.find("text-anchor=\"end\">"); at != std::string::npos && svg.find("frames") > at;
+             at = svg.find("text-anchor=\"end\">", at + 1)) {
+            const double tick = std::stod(svg.substr(at + 18));
+            EXPECT_EQ(tick, std::floor(tick)) << frames;
+            ++ticks;
+        }
+        EXPECT_GE(ticks, 2u);
+    }
+}
+
 TEST(Charts, NamesStandApart) {
     LineChart chart = lineOf({1.0, 2.0}, false);
     for (int i = 0; i < 10; ++i) {

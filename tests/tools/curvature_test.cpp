@@ -14,8 +14,6 @@
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"
 #include "tools/supple/curvature_view.h"
-#include "tools/supple/legend.h"
-#include "tools/supple/views.h"
 
 #include <atomic>
 #include <cmath>
@@ -349,15 +347,6 @@ TEST_F(Curvature, ScaleHasZeroInTheMiddle) {
     EXPECT_EQ(marks.front().at, 0.0f);
     EXPECT_EQ(marks.back().at, 1.0f);
     EXPECT_EQ(marks[marks.size() / 2].at, 0.5f);
-}
-
-TEST_F(Curvature, ItsViewsHaveLegends) {
-    for (const char* name : {"mean-curvature", "gaussian-curvature", "highlights", "isophotes"}) {
-        const auto view = std::find_if(std::begin(tools::kViews), std::end(tools::kViews),
-                                       [&](const tools::NamedView& known) { return known.name == std::string(name); });
-        ASSERT_NE(view, std::end(tools::kViews)) << name;
-        EXPECT_TRUE(tools::legendOf(view->view).has_value()) << name;
-    }
 }
 
 } // namespace

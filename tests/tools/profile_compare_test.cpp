@@ -132,6 +132,20 @@ ProfileRun runOf(uint32_t rate) {
     return run;
 }
 
+TEST(ProfileCompare, EndsWithAVerdict) {
+    const PassChange still{"deform", 1.0, 1.01, 0.01, -0.02, 0.03, false};
+    const PassChange frame{"frame", 2.0, 2.03, 0.015, -0.02, 0.03, false};
+    RunChange run{"a.glb, pm", 16, {still, frame}};
+    EXPECT_EQ(verdictOf({run}), "verdict: no difference; frames differ by at most 1.5 %, which counts as noise");
+    run.passes.push_back({"evaluate", 1.0, 1.2, 0.2, 0.1, 0.3, true});
+    RunChange other{"b.glb, pm", 16, {{"deform", 1.0, 0.5, -0.5, -0.6, -0.4, true}}};
+    EXPECT_EQ(verdictOf({run}), "verdict: slower: a.glb, pm: evaluate +20.0 %");
+    EXPECT_EQ(verdictOf({other}), "verdict: faster: b.glb, pm: deform -50.0 %");
+    EXPECT_EQ(verdictOf({run, other}),
+              "verdict: slower: a.glb, pm: evaluate +20.0 %; faster: b.glb, pm: deform -50.0 %");
+    EXPECT_EQ(verdictOf({{"c.glb, pm", 1, {}}}), "verdict: nothing was compared");
+}
+
 TEST(ProfileHtml, IsOnePageWithAllOfIt) {
     const std::vector<ProfileRun> runs{runOf(4), runOf(8)};
     RunChange change{"a.glb, pm", 1, {{"deform", 1.0, 2.0, 1.0, 0.9, 1.1, true}}};
@@ -142,9 +156,9 @@ TEST(ProfileHtml, IsOnePageWithAllOfIt) {
     report.warnings = {"a <b>.glb: 3 faces are flat"};
     report.budgetMs = 5.0;
     const std::string page = toHtml(report);
-    for (const char* part :
-         {"a &lt;b&gt;.glb", "3 faces are flat", "<svg", "budget 5", "data:image/png;base64,UE5HIGJ5dGVz",
-          "prefers-color-scheme:dark", "over rate", "class=\"slower\"", "</html>"}) {
+    for (const char* part : {"a &lt;b&gt;.glb", "3 faces are flat", "<svg", "budget 5",
+                             "data:image/png;base64,UE5HIGJ5dGVz", "prefers-color-scheme:dark", "over rate",
+                             "class=\"slower\"", "</html>", "of the frame. ", "verdict: slower"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     EXPECT_EQ(page.find("a <b>"), std::string::npos) << "names are escaped";

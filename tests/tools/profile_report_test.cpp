@@ -1,5 +1,7 @@
 #include "tools/supple/profile_report.h"
 
+#include "tools/supple/profile_advice.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -118,9 +120,28 @@ TEST(ProfileReport, MemoryIsToldByPurposeTheLargestFirst) {
     EXPECT_EQ(json["allocations"], 7);
 }
 
+TEST(ProfileReport, SaysWhatCostsMostAndWhatWouldHelp) {
+    ProfileRun run = sampleRun();
+    for (FrameSample& frame : run.frames) { // 4 ms more of a frame that took 6
+        frame.passes[1].gpuEnd += 4 * kMillisecond;
+    }
+    run.frames[0].passes.push_back({"upload", 9e15, 9e15 + 9 * kMillisecond, 0.0, 7, 112}); // once
+    EXPECT_EQ(adviceOf(run).find("evaluate takes 60 % of the frame. Half of the --rate"), 0u) << adviceOf(run);
+    run.budget = 1000;
+    EXPECT_NE(adviceOf(run).find("--budget"), std::string::npos);
+    EXPECT_NE(toTable(run, summarizeRun(run)).find(adviceOf(run)), std::string::npos);
+    for (FrameSample& frame : run.frames) {
+        frame.passes.resize(2);
+        frame.passes[0].gpuEnd = frame.passes[0].gpuBegin + 0.1 * kMillisecond;
+        frame.passes[1].gpuBegin = frame.passes[1].gpuEnd - 0.1 * kMillisecond;
+    }
+    EXPECT_EQ(adviceOf(run).find("98 % of the frame lies between passes."), 0u) << adviceOf(run);
+}
+
 TEST(ProfileReport, NoFramesGiveZeros) {
     ProfileRun run = sampleRun();
     run.frames.clear();
+    EXPECT_EQ(adviceOf(run), "");
     EXPECT_DOUBLE_EQ(summarizeRun(run).total.gpu.median, 0.0);
     const std::vector<ProfileRun> runs{run};
     EXPECT_EQ(toJson({}, runs)["runs"][0]["frames"], 0);

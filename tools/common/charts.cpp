@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 namespace supple::tools {
@@ -37,15 +38,18 @@ constexpr Color kColors[] = {{"paper", "#fff"},   {"ink", "#1c2026"}, {"soft", "
 /// Where the colors are used up.
 constexpr const char* kDashes[] = {"none", "7 4", "2 3"};
 
+enum class Scale : uint8_t { linear, counts, logarithmic }; ///< counts: linear, of whole numbers
+
 /// Round values that enclose least and largest. Linear ones begin at 0 if `least` does not lie far above it.
-std::vector<double> ticksOf(double least, double largest, bool logarithmic) {
+std::vector<double> ticksOf(double least, double largest, Scale scale) {
     if (!(largest > 0.0)) {
         return {0.0, 1.0};
     }
     std::vector<double> ticks;
-    if (!logarithmic) {
+    if (scale != Scale::logarithmic) {
         const double power = std::pow(10.0, std::floor(std::log10(largest)));
-        const double step = largest / power > 5.0 ? power : largest / power > 2.0 ? power / 2.0 : power / 5.0;
+        const double fine = largest / power > 5.0 ? power : largest / power > 2.0 ? power / 2.0 : power / 5.0;
+        const double step = scale == Scale::counts ? std::max(std::round(fine), 1.0) : fine;
         const double first = least > largest / 2.0 ? std::floor(least / step) : 0.0;
         for (double tick = first; tick == first || (tick - 1.0) * step < largest; tick += 1.0) {
             ticks.push_back(tick * step);
@@ -71,8 +75,9 @@ std::vector<double> ticksOf(double least, double largest, bool logarithmic) {
 /// The left axis with its lines.
 class Axis {
 public:
-    Axis(double least, double largest, bool logarithmic, double bottom = kBottom)
-        : ticks_(ticksOf(least, largest, logarithmic)), logarithmic_(logarithmic && largest > 0.0), bottom_(bottom) {}
+    Axis(double least, double largest, Scale scale, double bottom = kBottom)
+        : ticks_(ticksOf(least, largest, scale)), logarithmic_(scale == Scale::logarithmic && largest > 0.0),
+          bottom_(bottom) {}
     [[nodiscard]] double y(double value) const {
         const double least = ticks_.front(), most = ticks_.back();
         const double t =
@@ -232,7 +237,7 @@ std::string toSvg(const StackedBars& chart) {
     for (const auto& [name, value] : chart.lines) {
         largest = std::max(largest, value);
     }
-    const Axis axis(0.0, largest, false);
+    const Axis axis(0.0, largest, Scale::linear);
     std::string svg = begin() + axis.svg(chart.unit);
     const double step = bars == 0 ? 0.0 : (kRight - kLeft) / static_cast<double>(bars), gap = step > 4.0 ? 1.0 : 0.0;
     for (size_t bar = 0; bar < bars; ++bar) {
@@ -277,7 +282,7 @@ std::string toSvg(const Histogram& chart) {
         const auto bin = static_cast<size_t>((value - least) / width * static_cast<double>(kBins));
         counts[std::min(bin, kBins - 1)] += 1.0;
     }
-    const Axis axis(0.0, *std::max_element(counts.begin(), counts.end()), false);
+    const Axis axis(0.0, *std::max_element(counts.begin(), counts.end()), Scale::counts);
     const auto x = [&](double value) { return std::lerp(kLeft, kRight, (value - least) / width); };
     std::string svg = begin() + axis.svg("frames");
     const double step = (kRight - kLeft) / static_cast<double>(kBins);
@@ -318,7 +323,7 @@ std::string toSvg(const LineChart& chart) {
         return {};
     }
     const double bottom = chart.height - (kHeight - kBottom), titleHeight = chart.title.empty() ? 0.0 : 28.0;
-    const Axis axis(least, most, chart.logarithmic, bottom);
+    const Axis axis(least, most, chart.logarithmic ? Scale::logarithmic : Scale::linear, bottom);
     std::string svg = begin(chart.height, -titleHeight) + axis.svg(chart.unit, kLineRight);
     if (!chart.title.empty()) {
         svg += formatted("<text class=\"title\" x=\"%g\" y=\"%g\">", kLeft - 6.0, 18.0 - titleHeight) +

@@ -96,12 +96,20 @@ Status drawRow(Session& session, const cage::GalleryCage& subject, const Gallery
     return success();
 }
 
+/// The scale that all pictures have in common.
+std::optional<Legend> scaleOf(uint32_t view) {
+    ViewFacts facts;
+    facts.occlusionMaps = facts.jointMoves = true;
+    std::optional<Legend> legend = legendOf(view, facts);
+    return legend && legend->bar != Legend::Bar::none ? legend : std::nullopt;
+}
+
 Status drawGallery(Session& session, const GalleryOptions& options, VkExtent2D cell, uint32_t view) {
     const std::vector<cage::GalleryCage> cages = chosenCages(options.only);
     const std::vector<std::string> columns = galleryColumns();
     const uint32_t step = kSheetLabelHeight + cell.height + kSheetGap;
     const auto across = static_cast<uint32_t>(columns.size()), down = static_cast<uint32_t>(cages.size());
-    const std::optional<Legend> legend = legendOf(view);
+    const std::optional<Legend> legend = scaleOf(view);
     host::Picture sheet = blankSheet(kSheetGap + across * (cell.width + kSheetGap),
                                      kSheetGap + kSheetLabelHeight + down * step + (legend ? kLegendHeight : 0));
     for (uint32_t column = 0; column < across; ++column)

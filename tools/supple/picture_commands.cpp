@@ -62,6 +62,8 @@ void bindShown(CLI::App& command, DrawOptions& draw) {
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
+    command.add_flag("--legend,!--no-legend", draw.legend,
+                     "What the view's colors stand for, in the picture's corner (on unless --no-legend)");
     const HelpGroup camera(command, "Camera");
     command.add_option("--yaw", draw.yaw, "Degrees; 0 looks at the front")
         ->check(CLI::Range(-360.0, 360.0))

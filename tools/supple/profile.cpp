@@ -108,6 +108,9 @@ void printChanges(const std::vector<RunChange>& changes) {
     for (const RunChange& change : changes) {
         std::printf("\n%s", toTable(change).c_str());
     }
+    if (!changes.empty()) {
+        std::printf("\n%s\n", verdictOf(changes).c_str());
+    }
 }
 
 /// Another build and this one in turns.

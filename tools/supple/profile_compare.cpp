@@ -1,5 +1,6 @@
 #include "tools/supple/profile_compare.h"
 
+#include "tools/common/formatted.h"
 #include "tools/common/statistics.h"
 
 #include <algorithm>
@@ -302,6 +303,37 @@ std::string toTable(const RunChange& run) {
         table += line;
     }
     return table;
+}
+
+std::string verdictOf(const std::vector<RunChange>& runs) {
+    std::string slower, faster;
+    double largest = 0.0;
+    bool any = false;
+    for (const RunChange& run : runs) {
+        std::string ownSlower, ownFaster;
+        for (const PassChange& pass : run.passes) {
+            if (pass.before == 0.0 || pass.after == 0.0) {
+                continue;
+            }
+            any = true;
+            largest = pass.pass == kFrame ? std::max(largest, std::abs(pass.change)) : largest;
+            if (pass.significant) {
+                std::string& own = pass.change > 0.0 ? ownSlower : ownFaster;
+                own += formatted("%s%s %+.1f %%", own.empty() ? "" : ", ", pass.pass.c_str(), 100.0 * pass.change);
+            }
+        }
+        slower += ownSlower.empty() ? "" : (slower.empty() ? "" : "; ") + run.name + ": " + ownSlower;
+        faster += ownFaster.empty() ? "" : (faster.empty() ? "" : "; ") + run.name + ": " + ownFaster;
+    }
+    if (!any) {
+        return "verdict: nothing was compared";
+    }
+    if (slower.empty() && faster.empty()) {
+        return formatted("verdict: no difference; frames differ by at most %.1f %%, which counts as noise",
+                         100.0 * largest);
+    }
+    return "verdict: " + (slower.empty() ? "" : "slower: " + slower) + (slower.empty() || faster.empty() ? "" : "; ") +
+           (faster.empty() ? "" : "faster: " + faster);
 }
 
 Json toJson(const std::vector<RunChange>& runs) {

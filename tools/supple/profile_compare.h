@@ -59,6 +59,8 @@ struct CompareRules {
                                                  const std::vector<MeasuredRun>& after, const CompareRules& rules = {});
 
 [[nodiscard]] std::string toTable(const RunChange& run);
+/// One line: "no slower", "slower: hero.glb, pm, rate 8, 1 instance: evaluate +12.3 %", or what was not compared.
+[[nodiscard]] std::string verdictOf(const std::vector<RunChange>& runs);
 [[nodiscard]] nlohmann::ordered_json toJson(const std::vector<RunChange>& runs);
 /// "hero.glb, pm: evaluate 12.3 % slower" for each significant change above `percent`; none: empty.
 [[nodiscard]] std::vector<std::string> slowerThan(const std::vector<RunChange>& runs, double percent);

@@ -3,6 +3,7 @@
 #include "tools/common/charts.h"
 #include "tools/common/formatted.h"
 #include "tools/supple/memory_report.h"
+#include "tools/supple/profile_advice.h"
 #include "tools/supple/profile_report.h"
 
 #include <algorithm>
@@ -29,6 +30,8 @@ td,th{padding:3px 8px;text-align:right;border-bottom:1px solid var(--grid)}th{co
 td:first-child,th:first-child{text-align:left;white-space:nowrap}
 i{display:inline-block;width:10px;height:10px;border-radius:2px;margin-right:7px}
 svg{width:100%;height:auto;display:block}
+ul{padding-left:20px}.wide{overflow-x:auto}.wide td{white-space:nowrap}
+@media(max-width:700px){body{padding:12px}.wide svg{min-width:640px}.show img{width:100%}.tile{flex:1 1 130px}}
 .slower{color:var(--mark);font-weight:600}.faster{color:var(--c2);font-weight:600}
 code{background:var(--card);padding:1px 5px;border-radius:4px;overflow-wrap:anywhere}
 )";
@@ -82,8 +85,9 @@ std::string tilesOf(const ProfileRun& run, const RunSummary& summary) {
 }
 
 std::string passTable(const RunSummary& summary) {
-    std::string text = "<table><tr><th>pass<th>median ms<th>5 to 95 %<th>longest<th>share<th>points<th>bytes"
-                       "<th>GB/s<th>CPU ms</tr>";
+    std::string text =
+        "<div class=wide><table><tr><th>pass<th>median ms<th>5 to 95 %<th>longest<th>share<th>points<th>bytes"
+        "<th>GB/s<th>CPU ms</tr>";
     const auto row = [&](const PassSummary& pass, const std::string& name) {
         text += "<tr><td>" + name +
                 formatted("<td>%.4f<td>%.4f to %.4f<td>%.4f<td>%.1f %%<td>%llu<td>%llu<td>%.2f<td>%.4f</tr>",
@@ -97,7 +101,7 @@ std::string passTable(const RunSummary& summary) {
     }
     row(summary.total, "<b>frame</b>");
     return text +
-           "</table><p class=soft>Shares are of the frame, from the first begin to the last end. Spans of a pass "
+           "</table></div><p class=soft>Shares are of the frame, from the first begin to the last end. Spans of a pass "
            "that overlap count once; passes that overlap each other make more than 100 %.</p>";
 }
 
@@ -106,8 +110,9 @@ std::string surfacesOf(const ProfileRun& run, const RunSummary& summary) {
     if (!areSeveral(run.surfaces)) {
         return "";
     }
-    std::string text = "<h3>Groups and surfaces</h3><table><tr><th>what passes work on<th>median ms<th>5 to 95 %"
-                       "<th>share<th>parts</tr>";
+    std::string text =
+        "<h3>Groups and surfaces</h3><div class=wide><table><tr><th>what passes work on<th>median ms<th>5 to 95 %"
+        "<th>share<th>parts</tr>";
     for (size_t i = 0; i < run.surfaces.size(); ++i) {
         const Summary& gpu = summary.surfaces[i];
         text += "<tr><td>" + escaped(nameOf(run.surfaces[i])) +
@@ -115,9 +120,9 @@ std::string surfacesOf(const ProfileRun& run, const RunSummary& summary) {
                           summary.total.gpu.median > 0.0 ? 100.0 * gpu.median / summary.total.gpu.median : 0.0) +
                 escaped(partsText(run.surfaces[i])) + "</tr>";
     }
-    return text +
-           "</table><p class=soft>Parts of one scheme are one surface and go through passes together. How many of "
-           "its patches a part has is a guess at its share of the time.</p>";
+    return text + "</table></div><p class=soft>Parts of one scheme are one surface and go through passes together. How "
+                  "many of "
+                  "its patches a part has is a guess at its share of the time.</p>";
 }
 
 std::string memoryOf(const ProfileRun& run) {
@@ -133,6 +138,11 @@ std::string memoryOf(const ProfileRun& run) {
         bar.shares.emplace_back(purpose.name, bytes);
     }
     return "<h3>Memory by purpose</h3>" + toSvg(bar) + "<p>" + legend + "</p>";
+}
+
+/// What scrolls by itself where the page is narrower.
+std::string wide(const std::string& content) {
+    return "<div class=wide>" + content + "</div>";
 }
 
 std::string legendOf(const std::vector<ChartSeries>& series) {
@@ -157,8 +167,8 @@ std::string framesOf(const ProfileRun& run, const RunSummary& summary, double bu
         bars.lines.emplace_back("budget", budgetMs);
         histogram.lines.emplace_back("budget", budgetMs);
     }
-    return "<h3>Passes of every frame</h3>" + toSvg(bars) + legendOf(bars.series) +
-           "<h3>How long frames take on the device</h3>" + toSvg(histogram);
+    return "<h3>Passes of every frame</h3>" + wide(toSvg(bars)) + legendOf(bars.series) +
+           "<h3>How long frames take on the device</h3>" + wide(toSvg(histogram));
 }
 
 std::string whatRan(const ProfileRun& run) {
@@ -184,7 +194,8 @@ std::string sectionOf(const ProfileRun& run, const HtmlReport& report) {
             text += "<img alt=\"what was measured\" src=\"data:image/png;base64," + base64(picture.png) + "\">";
         }
     }
-    text += "<div style=\"flex:1;min-width:300px\">" + tilesOf(run, summary) + "</div></div>";
+    text += "<div style=\"flex:1 1 300px;min-width:0\">" + tilesOf(run, summary) + "<p><b>" + escaped(adviceOf(run)) +
+            "</b></p></div></div>";
     text += framesOf(run, summary, report.budgetMs) + "<h3>Passes</h3>" + passTable(summary) +
             surfacesOf(run, summary) + memoryOf(run);
     if (run.budget > 0) {
@@ -244,7 +255,7 @@ std::string sweepOf(std::span<const ProfileRun> runs, uint32_t ProfileRun::*swep
             series.values.resize(lines.x.size(), 0.0);
         }
         text += "<h3>" + escaped(first.file) + ", " + escaped(first.scheme) + ": over " + escaped(name) + "</h3>" +
-                toSvg(lines);
+                wide(toSvg(lines));
     }
     return text;
 }
@@ -257,7 +268,7 @@ std::string changesOf(std::span<const RunChange> changes) {
             continue;
         }
         text += "<h3>" + escaped(run.name) + "</h3>";
-        text += "<table><tr><th>pass<th>before ms<th>after ms<th>change<th>within, at 99.9 %<th></tr>";
+        text += "<div class=wide><table><tr><th>pass<th>before ms<th>after ms<th>change<th>within, at 99.9 %<th></tr>";
         for (const PassChange& pass : run.passes) {
             text += "<tr><td>" + escaped(pass.pass) + formatted("<td>%.4f<td>%.4f", pass.before, pass.after);
             if (pass.before == 0.0 || pass.after == 0.0) {
@@ -268,12 +279,14 @@ std::string changesOf(std::span<const RunChange> changes) {
             text += formatted("<td>%+.1f %%<td>%+.1f to %+.1f %%<td class=\"%s\">%s</tr>", 100.0 * pass.change,
                               100.0 * pass.low, 100.0 * pass.high, word, word);
         }
-        text += "</table>";
+        text += "</table></div>";
     }
     if (!left.empty()) {
         text += "<p class=soft>The earlier result does not have: " + left + ".</p>";
     }
-    return text.empty() ? text : "<h2>Compared with the earlier result</h2>" + text;
+    return text.empty() ? text
+                        : "<h2>Compared with the earlier result</h2><p>" +
+                              escaped(verdictOf({changes.begin(), changes.end()})) + "</p>" + text;
 }
 
 std::string missingOf(const HtmlReport& report) {

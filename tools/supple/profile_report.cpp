@@ -2,6 +2,7 @@
 
 #include "tools/common/formatted.h"
 #include "tools/supple/memory_report.h"
+#include "tools/supple/profile_advice.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -194,7 +195,8 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
     if (run.budget > 0) {
         table += "  drawn: " + drawnText(run, summary) + "\n";
     }
-    return table;
+    const std::string advice = adviceOf(run);
+    return advice.empty() ? table : table + "  " + advice + "\n";
 }
 
 nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun> runs) {

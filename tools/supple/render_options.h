@@ -34,6 +34,7 @@ struct DrawOptions {
     bool cageOverlay = false;            ///< the cage's edges drawn over the surface
     bool split = false;                  ///< the cage beside the surface
     bool ground = true;                  ///< a floor that takes shadows
+    bool legend = true;                  ///< what the view's colors stand for, in the picture's corner
     bool alpha = false;                  ///< nothing behind the figure: render, animate
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down

@@ -184,6 +184,7 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile
         const Result<uint32_t> joint = host::findNamed(file, "joint", stage->figure_->jointNames(), options.joint);
         if (!joint)
             return joint.error();
+        stage->joint_ = *joint;
         if (const Status status = stage->group_->showWeights(*joint); !status)
             return status.error();
     }
@@ -241,9 +242,8 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
         return status.error();
     if (!alpha) {
         Result<host::Picture> picture = drawPasses(scene);
-        const std::optional<Legend> legend = scene.cageFaces ? std::nullopt : legendOf(scene.view);
-        if (picture && legend)
-            drawLegend(*picture, *legend);
+        if (picture && options_.legend && !scene.cageFaces)
+            drawLegendOf(scene.view, *picture);
         return picture;
     }
     scene.backdrop = glm::vec3(0.0f);
@@ -255,6 +255,12 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
     if (!overWhite)
         return overWhite.error();
     return host::pictureWithAlpha(*overBlack, *overWhite);
+}
+
+void Stage::drawLegendOf(uint32_t view, host::Picture& picture) const {
+    const std::optional<Legend> legend = legendOf(view, viewFactsOf(levels_ ? *levels_ : *group_, joint_));
+    if (legend)
+        drawLegend(picture, *legend);
 }
 
 Result<host::Picture> Stage::drawPasses(host::Scene scene) {

@@ -88,6 +88,7 @@ private:
     /// What the view shows of the figure as it is posed: levels for this camera, or what is measured.
     [[nodiscard]] Status prepare(const host::Scene& scene);
     [[nodiscard]] Status chooseLevels(const host::Scene& scene);
+    void drawLegendOf(uint32_t view, host::Picture& picture) const;
 
     Session& session_;
     const DrawOptions options_;
@@ -96,6 +97,7 @@ private:
     std::unique_ptr<host::FigureGroup> levels_; ///< is drawn instead of group_, if levels are wanted
     std::optional<cage::Cage> cage_;            ///< if the view is measured
     SurfaceRules rules_;
+    uint32_t joint_ = 0; ///< whose weights are shown
     ClipTime pose_;
     std::unique_ptr<host::SurfaceRenderer> renderer_;
     host::FigureBinding binding_; ///< of the group that is drawn

@@ -16,6 +16,7 @@ int runView(const ViewOptions&) {
 
 #include "host/overlay.h"
 #include "host/window.h"
+#include "tools/supple/view_overlay.h"
 #include "tools/supple/view_panel.h"
 #include "tools/supple/view_pictures.h"
 #include "tools/supple/view_stage.h"
@@ -51,6 +52,10 @@ Look lookOf(const ViewOptions& options) {
     return options.look == "fast" ? Look::fast : Look::studio;
 }
 
+std::string fileName(const std::string& path) {
+    return printable(std::filesystem::path(path).filename().string());
+}
+
 /// Everything of the viewer, in the order it is made; it goes in the opposite order.
 class Viewer {
 public:
@@ -83,6 +88,9 @@ private:
     [[nodiscard]] Status fitTarget();
     [[nodiscard]] Status fulfil(const PanelWishes& wishes);
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
+    /// Shows what is being done while the window does not answer: over the last picture, or over nothing.
+    [[nodiscard]] Status announce(const std::string& what);
+    void clearWindow(const host::WindowFrame& frame) const;
     void copyToWindow(const host::WindowFrame& frame) const;
     void copyToHost(const host::WindowFrame& frame) const;
     [[nodiscard]] Status writeScreenshot(const std::string& path) const;
@@ -137,6 +145,8 @@ Status Viewer::open(VkExtent2D size) {
         return status.error();
     if (const Status status = keep(host::Overlay::create(*device_, *window_), overlay_); !status)
         return status.error();
+    if (const Status status = announce("starting"); !status)
+        return status.error();
     // The largest maps that a look of view_look.h has.
     host::StudioQuality quality = host::StudioQuality::interactive(device_->isCpu());
     quality.shadowSize = std::max(quality.shadowSize, host::StudioQuality::refining().shadowSize);
@@ -183,6 +193,8 @@ Status Viewer::openFirst(float shape) {
                 refuse(i, file.error());
             continue;
         }
+        if (const Status told = announce("opening " + fileName(options_.files[i])); !told)
+            return told.error();
         const Status status = stage_->open(options_.files[i], options_.clip, shape);
         if (status) {
             panel_->file = i;
@@ -216,6 +228,8 @@ double Viewer::secondsSinceLast() {
 }
 
 Status Viewer::run() {
+    if (const Status status = announce("compiling shaders; the first time takes longest"); !status)
+        return status.error();
     uint32_t drawn = 0;
     bool windowPicture = false;
     while (!window_->shouldClose()) {
@@ -283,6 +297,8 @@ Status Viewer::show(const std::string& path) {
     const auto index = static_cast<size_t>(known - panel_->files.begin());
     if (known == panel_->files.end())
         panel_->files.push_back({path, false});
+    if (const Status status = announce("opening " + fileName(path)); !status)
+        return status.error();
     window_->waitIdle(context_->lastFrame());
     if (const Status status = stage_->open(path, {}, aspect()); !status) {
         refuse(index, status.error());
@@ -331,7 +347,13 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
             window_->copyText(export_.report());
     }
     Status remade = success();
-    if (wishes.scheme && *wishes.scheme != stage_->scheme())
+    const bool otherScheme = wishes.scheme && *wishes.scheme != stage_->scheme();
+    const bool otherRate = wishes.rate && *wishes.rate != stage_->group().edgeRate();
+    if (otherScheme || wishes.skinning || otherRate || stage_->needsOtherGroup())
+        remade = announce("making the surface");
+    if (!remade)
+        return remade.error();
+    if (otherScheme)
         remade = stage_->setScheme(*wishes.scheme, context_->lastFrame());
     else if (wishes.skinning && *wishes.skinning != stage_->skinning())
         remade = stage_->setSkinning(*wishes.skinning, context_->lastFrame());
@@ -394,6 +416,41 @@ Status Viewer::drawFrame(const host::WindowFrame& frame, bool readBack) {
         copyToHost(frame);
     }
     return window_->end(frame, number);
+}
+
+Status Viewer::announce(const std::string& what) {
+    if (options_.frames > 0) // counted frames are always the same
+        return success();
+    const Result<std::optional<host::WindowFrame>> begun = window_->begin();
+    if (!begun || !begun->has_value())
+        return begun ? success() : begun.error();
+    const host::WindowFrame& frame = **begun;
+    const uint64_t number = context_->nextFrame();
+    if (const Status status = context_->check(suppleBeginFrame(context_->handle(), number, window_->completedFrame()),
+                                              "suppleBeginFrame");
+        !status)
+        return status.error();
+    overlay_->beginPanels();
+    drawAnnouncement(what);
+    overlay_->endPanels();
+    if (lastShown_ && targetGeneration_ == window_->swapchain().generation())
+        copyToWindow(frame);
+    else
+        clearWindow(frame);
+    if (const Status status = overlay_->record(frame); !status)
+        return status.error();
+    return window_->end(frame, number);
+}
+
+void Viewer::clearWindow(const host::WindowFrame& frame) const {
+    const VkImage image = window_->swapchain().image(frame.image);
+    host::imageBarrier(frame.commands, image, kWholeImage,
+                       {VK_IMAGE_LAYOUT_UNDEFINED, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}},
+                       {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite});
+    const VkClearColorValue color{{0.35f, 0.36f, 0.38f, 1.0f}}; // about the studio's wall
+    vkCmdClearColorImage(frame.commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1, &kWholeImage);
+    host::imageBarrier(frame.commands, image, kWholeImage, {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kCopyWrite},
+                       {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kColor});
 }
 
 void Viewer::copyToWindow(const host::WindowFrame& frame) const {

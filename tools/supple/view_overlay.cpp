@@ -35,25 +35,54 @@ void drawJoints(const ViewStage& stage, float aspect) {
     }
 }
 
-/// In the lower right corner.
-void drawScale(const Legend& legend) {
-    constexpr float kMargin = 16.0f, kInset = 12.0f, kBarHeight = 12.0f, kLeastWidth = 260.0f;
-    const float line = ImGui::GetTextLineHeightWithSpacing();
-    const float bar = std::max(kLeastWidth, ImGui::CalcTextSize(legend.title.c_str()).x);
+constexpr float kMargin = 16.0f, kInset = 12.0f, kBarHeight = 12.0f, kLeastWidth = 260.0f;
+
+/// The box in the lower right corner for something of this size, which begins at the point returned.
+ImVec2 drawBox(float width, float height) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const ImVec2 corner(size.x - kMargin - bar - 2.0f * kInset, size.y - kMargin - kBarHeight - 2.0f * line - kInset);
+    const ImVec2 corner(size.x - kMargin - width - 2.0f * kInset, size.y - kMargin - height - kInset);
+    ImGui::GetBackgroundDrawList()->AddRectFilled(corner, ImVec2(size.x - kMargin, size.y - kMargin),
+                                                  IM_COL32(0, 0, 0, 160), 4.0f);
+    return {corner.x + kInset, corner.y + 0.5f * kInset};
+}
+
+ImU32 packed(const std::array<uint8_t, 3>& color) {
+    return IM_COL32(color[0], color[1], color[2], 255);
+}
+
+void drawSwatches(const Legend& legend) {
+    const float line = ImGui::GetTextLineHeightWithSpacing(), side = ImGui::GetTextLineHeight();
+    float width = 0.0f;
+    for (const Legend::Swatch& swatch : legend.swatches)
+        width = std::max(width, ImGui::CalcTextSize(swatch.text.c_str()).x);
+    ImVec2 at = drawBox(width + line + kInset, line * static_cast<float>(legend.swatches.size()));
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    draw.AddRectFilled(corner, ImVec2(size.x - kMargin, size.y - kMargin), IM_COL32(0, 0, 0, 160), 4.0f);
-    const ImVec2 left(corner.x + kInset, corner.y + 0.5f * kInset + line);
+    for (const Legend::Swatch& swatch : legend.swatches) {
+        draw.AddRectFilled(at, ImVec2(at.x + side, at.y + side), packed(swatch.color));
+        draw.AddText(ImVec2(at.x + line + kInset, at.y), ImGui::GetColorU32(ImGuiCol_Text), swatch.text.c_str());
+        at.y += line;
+    }
+}
+
+/// The title, with a bar below it if there is one.
+void drawScale(const Legend& legend) {
+    const float line = ImGui::GetTextLineHeightWithSpacing(), title = ImGui::CalcTextSize(legend.title.c_str()).x;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-    draw.AddText(ImVec2(left.x, left.y - line), ink, legend.title.c_str());
+    if (legend.bar == Legend::Bar::none) {
+        draw.AddText(drawBox(title, line), ink, legend.title.c_str());
+        return;
+    }
+    const float bar = std::max(kLeastWidth, title);
+    const ImVec2 top = drawBox(bar, kBarHeight + 2.0f * line);
+    draw.AddText(top, ink, legend.title.c_str());
+    const ImVec2 left(top.x, top.y + line);
     const int steps = legend.bar == Legend::Bar::stripes ? 4 * static_cast<int>(legend.stripes) : 64;
     for (int i = 0; i < steps; ++i) {
         const float from = static_cast<float>(i) / static_cast<float>(steps),
                     to = static_cast<float>(i + 1) / static_cast<float>(steps);
-        const std::array<uint8_t, 3> color = barColor(legend, 0.5f * (from + to));
         draw.AddRectFilled(ImVec2(left.x + from * bar, left.y), ImVec2(left.x + to * bar, left.y + kBarHeight),
-                           IM_COL32(color[0], color[1], color[2], 255));
+                           packed(barColor(legend, 0.5f * (from + to))));
     }
     for (const Legend::Mark& mark : legend.marks) {
         const float half = 0.5f * ImGui::CalcTextSize(mark.text.c_str()).x;
@@ -67,12 +96,26 @@ void drawScale(const Legend& legend) {
 void drawOverPicture(const ViewStage& stage, float aspect) {
     if (stage.settings.joints)
         drawJoints(stage, aspect);
-    std::optional<Legend> legend = stage.settings.cageFaces ? std::nullopt : legendOf(stage.settings.view);
+    if (stage.settings.cageFaces)
+        return;
+    std::optional<Legend> legend = legendOf(stage.settings.view, viewFactsOf(stage.group(), stage.settings.joint));
     if (!legend)
         return;
     if (isMeasured(stage.settings.view))
         legend->title += ", " + printable(stage.measuredPose());
-    drawScale(*legend);
+    if (legend->swatches.empty())
+        drawScale(*legend);
+    else
+        drawSwatches(*legend);
+}
+
+void drawAnnouncement(const std::string& text) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize, own = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 at(0.5f * (size.x - own.x), 0.5f * (size.y - own.y));
+    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    draw.AddRectFilled(ImVec2(at.x - kInset, at.y - kInset), ImVec2(at.x + own.x + kInset, at.y + own.y + kInset),
+                       IM_COL32(0, 0, 0, 200), 4.0f);
+    draw.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 } // namespace supple::tools

@@ -609,6 +609,8 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     if (stage.settings.panel) {
         ImGui::SetNextWindowPos(ImVec2(16.0f, 16.0f), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kPanelRight - 32.0f, 0.0f), ImGuiCond_Always);
+        const float width = kPanelRight - 32.0f, height = std::max(ImGui::GetIO().DisplaySize.y - 32.0f, 64.0f);
+        ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, height)); // scrolls beyond that
         if (ImGui::Begin("supple", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
             ImGui::PushItemWidth(-kLabelWidth);
             buildSections(state, stage, wishes, aspect);

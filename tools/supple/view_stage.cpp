@@ -81,10 +81,12 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     if (!group)
         return group.error();
     std::vector<ClipTime> poses;
+    std::vector<size_t> measuredEnds;
     const auto clipCount = static_cast<uint32_t>((*figure)->clips().size());
     for (uint32_t i = 0; i < clipCount; ++i) {
         const std::vector<ClipTime> times = spreadTimes(**figure, i, kMeasuredPoses);
         poses.insert(poses.end(), times.begin(), times.end());
+        measuredEnds.push_back(poses.size());
     }
     if (poses.empty())
         poses.push_back({});
@@ -106,6 +108,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     morphs_ = host::targetsByName(*figure_);
     settings.morphWeights = std::move(*weights);
     extent_ = std::move(*extent);
+    measuredEnds_ = std::move(measuredEnds);
     settings.clip = *chosen != SUPPLE_REST_POSE || clipCount == 0 ? *chosen : 0;
     settings.fadeClip = SUPPLE_REST_POSE;
     settings.joint = 0;
@@ -212,9 +215,21 @@ void ViewStage::frameFigure(float aspect) {
     fitFigure(aspect);
 }
 
+Extent ViewStage::reach() const {
+    if (settings.clip >= measuredEnds_.size())
+        return extent_;
+    const size_t first = settings.clip == 0 ? 0 : measuredEnds_[settings.clip - 1], end = measuredEnds_[settings.clip];
+    const auto part = [&](const std::vector<glm::vec3>& points) {
+        const size_t each = points.size() / measuredEnds_.back();
+        return std::vector<glm::vec3>(points.begin() + static_cast<ptrdiff_t>(first * each),
+                                      points.begin() + static_cast<ptrdiff_t>(end * each));
+    };
+    return {part(extent_.points), part(extent_.cagePoints), extent_.bounds};
+}
+
 void ViewStage::fitFigure(float aspect) {
     const float shape = aspect * (1.0f - covered_) * (settings.split ? 0.5f : 1.0f);
-    camera_ = host::frameCamera(extent_.framed(settings.split), camera_.yaw, camera_.pitch, shape, kWindowMargin);
+    camera_ = host::frameCamera(reach().framed(settings.split), camera_.yaw, camera_.pitch, shape, kWindowMargin);
     aside_ = 0.5f * covered_ * aspect;
     pan(-aside_, 0.0f);
 }

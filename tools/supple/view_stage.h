@@ -89,7 +89,7 @@ public:
     void advance(double seconds);
     /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
     void setCovered(float share) { covered_ = share; }
-    /// As at first.
+    /// As at first: all that the clip reaches.
     void frameFigure(float aspect);
     /// From where the camera stands now.
     void fitFigure(float aspect);
@@ -152,6 +152,8 @@ private:
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate,
                                                                          bool levels, bool plays) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
+    /// Of the clip that plays.
+    [[nodiscard]] Extent reach() const;
     void readTimings();
     [[nodiscard]] Status readPartShares();
     /// Clip, time and crossfade, morph targets.
@@ -206,7 +208,8 @@ private:
     uint32_t shownValues_ = 0;                         ///< counts measurements
     std::vector<Retired> retired_;                     ///< before figure_ in time, so gone before it
     ViewPlayback playback_;
-    Extent extent_;
+    Extent extent_;                    ///< over all clips
+    std::vector<size_t> measuredEnds_; ///< by clip: behind its poses in extent_; none: the rest pose was measured
     host::Camera camera_;
     host::Camera levelCamera_; ///< that levels are chosen by
     TimeHistory passTimes_;
