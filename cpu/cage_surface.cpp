@@ -29,8 +29,7 @@ public:
         return place;
     }
     void weigh(const Place& place, PointWeights& out) const override {
-        const std::span<const uint32_t> corners =
-            std::span(vertices_).subspan(starts_[place.piece], starts_[place.piece + 1] - starts_[place.piece]);
+        const std::span<const uint32_t> corners = cornersOf(place.piece);
         const double x = place.x, y = place.y;
         if (corners.size() == 4) {
             out.add({corners[0], (1.0 - x) * (1.0 - y), y - 1.0, x - 1.0});
@@ -44,13 +43,19 @@ public:
         } else {
             const size_t next = (place.sector + 1) % corners.size();
             const double share = 1.0 / static_cast<double>(corners.size()); // of the middle
-            out.add({corners[place.sector], (1.0 - x) - y, -1.0, -1.0});
-            out.add({corners[next], x, 1.0, 0.0});
             for (const uint32_t corner : corners) {
-                out.add({corner, share * y, 0.0, share});
+                out.append({corner, share * y, 0.0, share});
             }
+            out.append({corners[place.sector], (1.0 - x) - y, -1.0, -1.0});
+            out.append({corners[next], x, 1.0, 0.0});
+            out.merge();
         }
         out.turn(place);
+    }
+
+    [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(holes_.size()); }
+    [[nodiscard]] std::span<const uint32_t> cornersOf(uint32_t face) const {
+        return std::span(vertices_).subspan(starts_[face], starts_[face + 1] - starts_[face]);
     }
 
 private:
@@ -65,11 +70,23 @@ public:
 
     Status build(std::span<const glm::vec3> cage, const RunJobs& /*runJobs*/) override {
         cage_.assign(cage.begin(), cage.end());
+        middles_.resize(surface_.faceCount());
+        for (uint32_t face = 0; face < surface_.faceCount(); ++face) {
+            const std::span<const uint32_t> corners = surface_.cornersOf(face);
+            if (corners.size() > 4) {
+                middles_[face] = middleOf(corners);
+            }
+        }
         return success();
     }
     void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const override {
+        PointWeights weights;
         for (size_t p = 0; p < places.size(); ++p) {
-            PointWeights weights;
+            if (surface_.cornersOf(places[p].piece).size() > 4) {
+                out[p] = inTriangle(places[p]);
+                continue;
+            }
+            weights.clear();
             surface_.weigh(places[p], weights);
             const glm::dvec3 first(cage_[weights.entries()[0].vertex]);
             out[p] = {};
@@ -84,8 +101,30 @@ public:
     }
 
 private:
+    /// Relative to its first corner: differences keep their digits far from the origin.
+    [[nodiscard]] glm::dvec3 middleOf(std::span<const uint32_t> corners) const {
+        const glm::dvec3 first(cage_[corners[0]]);
+        glm::dvec3 sum(0.0);
+        for (const uint32_t corner : corners) {
+            sum += glm::dvec3(cage_[corner]) - first;
+        }
+        return first + sum / static_cast<double>(corners.size());
+    }
+    /// Of a side and the middle of its face.
+    [[nodiscard]] SurfaceJet inTriangle(const Place& place) const {
+        const std::span<const uint32_t> corners = surface_.cornersOf(place.piece);
+        const glm::dvec3 first(cage_[corners[place.sector]]);
+        SurfaceJet jet;
+        jet.du = glm::dvec3(cage_[corners[(place.sector + 1) % corners.size()]]) - first;
+        jet.dv = middles_[place.piece] - first;
+        jet.position = first + place.x * jet.du + place.y * jet.dv;
+        turn(place, jet);
+        return jet;
+    }
+
     const CageSurface& surface_;
     std::vector<glm::vec3> cage_;
+    std::vector<glm::dvec3> middles_; ///< of faces of more than four sides
 };
 
 std::unique_ptr<Pose> CageSurface::newPose() const {

@@ -38,9 +38,12 @@ public:
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 
-    /// The sector that a place of a quad lies in.
-    [[nodiscard]] static subdivision::LimitShape::Sector sectorAt(const subdivision::LimitShape& shape, uint32_t quad,
-                                                                  double u, double v);
+    /// What a place of a quad is evaluated from.
+    [[nodiscard]] static subdivision::SectorLevel levelAt(const subdivision::LimitShape& shape, uint32_t quad, double u,
+                                                          double v);
+    /// The place on that net, whose level is not 0.
+    [[nodiscard]] static Point on(const subdivision::LevelNet& net, const subdivision::LimitShape::Sector& sector,
+                                  double u, double v);
 
     [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 
@@ -52,7 +55,7 @@ public:
 
 private:
     /// (a, b): from the quarter's corner along its two edges, up to 1/2. Derivatives in a and b.
-    [[nodiscard]] Point inQuarter(const subdivision::LimitShape::Sector& sector, double a, double b) const;
+    [[nodiscard]] static Point inQuarter(const subdivision::LevelNet& net, uint32_t sector, double a, double b);
 
     std::shared_ptr<const subdivision::PosedLimit> own_; ///< null: the pose is another one's
     const subdivision::LimitPose* pose_;

@@ -169,11 +169,6 @@ public:
         }
         begin(fragment);
     }
-    /// The same with points of the caller's, in the order of the fragment's net.
-    void load(const Fragment& fragment, std::span<const Vec> points) {
-        points_.assign(points.begin(), points.end());
-        begin(fragment);
-    }
 
     /// The points become differences from the first. Rings shrink from level to level: so their rounding does too.
     void recentre() {

@@ -123,13 +123,8 @@ void LimitPose::buildNets(FragmentNet<double>& net, uint32_t fragment) {
 }
 
 FragmentNet<double> LimitPose::netOf(const Fragment& fragment) const {
-    if (alone_.empty()) {
-        FragmentNet<double> net(shape_.mesh(), isolated());
-        net.load(fragment);
-        return net;
-    }
-    FragmentNet<double> net(shape_.mesh(), {});
-    net.load(fragment, alone_);
+    FragmentNet<double> net(shape_.mesh(), isolated());
+    net.load(fragment);
     return net;
 }
 

@@ -59,10 +59,6 @@ private:
 class LimitPose {
 public:
     explicit LimitPose(const LimitShape& shape);
-    /// Of one fragment alone, no other of which may be asked: its points on the isolated level, in the order of its
-    /// net.
-    LimitPose(const LimitShape& shape, std::span<const glm::dvec3> points)
-        : shape_(shape), alone_(points.begin(), points.end()) {}
     /// `positions`: of the cage that the mesh was built from.
     [[nodiscard]] Status build(std::span<const glm::dvec3> positions, const RunJobs& runJobs);
     [[nodiscard]] Status build(std::span<const glm::vec3> positions, const RunJobs& runJobs);
@@ -71,9 +67,7 @@ public:
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
     /// A fragment on the isolated level.
     [[nodiscard]] FragmentNet<double> netOf(const Fragment& fragment) const;
-    [[nodiscard]] bool keeps(uint32_t fragment, uint32_t level) const {
-        return alone_.empty() && level <= shape_.keptOf(fragment).last;
-    }
+    [[nodiscard]] bool keeps(uint32_t fragment, uint32_t level) const { return level <= shape_.keptOf(fragment).last; }
     /// A kept level: its origin, then its points.
     [[nodiscard]] std::span<const glm::dvec3> kept(uint32_t fragment, uint32_t level) const;
 
@@ -84,7 +78,12 @@ private:
     std::vector<glm::dvec3> given_;              ///< positions that came as floats
     std::vector<std::vector<glm::dvec3>> steps_; ///< the vertices after each step
     std::vector<glm::dvec3> nets_;
-    std::vector<glm::dvec3> alone_; ///< of one fragment, in the place of all others
+};
+
+/// What a place is evaluated from: the net of a sector on a level. Level 0: the limit at the centre.
+struct SectorLevel {
+    LimitShape::Sector sector;
+    uint32_t level = 0;
 };
 
 /// A fragment's net on a level: points up to radius 3 and the sharpness that is left.
@@ -92,6 +91,12 @@ class LevelNet {
 public:
     /// Level 2 and up; a facet has level 1.
     LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level);
+    /// Of the caller's points, relative to nothing. They must outlive it.
+    LevelNet(const Mesh& mesh, uint32_t fragment, uint32_t level, std::span<const glm::dvec3> points)
+        : mesh_(mesh), fragment_(mesh.fragments[fragment]), level_(level), origin_(0.0), points_(points) {}
+
+    [[nodiscard]] const Fragment& fragment() const { return fragment_; }
+    [[nodiscard]] uint32_t level() const { return level_; }
 
     /// Relative to the origin, which is the first of them.
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }

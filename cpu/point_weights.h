@@ -5,6 +5,7 @@
 #include "cpu/form.h"
 #include "cpu/place.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -35,6 +36,22 @@ public:
         }
         entries_.push_back(weight);
     }
+    /// The same of many: they are summed up by merge(), which leaves them rising by vertex.
+    void append(const VertexWeight& weight) { entries_.push_back(weight); }
+    void merge() {
+        std::stable_sort(entries_.begin(), entries_.end(),
+                         [](const VertexWeight& a, const VertexWeight& b) { return a.vertex < b.vertex; });
+        size_t kept = 0;
+        for (size_t k = 0; k < entries_.size(); ++k) {
+            if (kept > 0 && entries_[kept - 1].vertex == entries_[k].vertex) {
+                VertexWeight& sum = entries_[kept - 1];
+                sum.position += entries_[k].position, sum.du += entries_[k].du, sum.dv += entries_[k].dv;
+            } else {
+                entries_[kept++] = entries_[k];
+            }
+        }
+        entries_.resize(kept);
+    }
     /// Adds a point that is a combination of vertices itself. `weight`: what the point has; its vertex is not asked.
     void add(const surface::Form& point, const VertexWeight& weight) {
         for (const surface::Form::Entry& entry : point.entries()) {
@@ -56,7 +73,7 @@ public:
     [[nodiscard]] std::span<VertexWeight> entries() { return entries_; }
 
 private:
-    std::vector<VertexWeight> entries_; ///< a few dozen
+    std::vector<VertexWeight> entries_; ///< a few dozen; more at vertices of many faces
 };
 
 } // namespace supple::cpu
