@@ -221,6 +221,11 @@ private:
     };
     /// Makes the sets of a group for the one that takes its place.
     [[nodiscard]] Status remakePoints(const Group& before, Remade& remade);
+    /// `table`: null, and it is made anew.
+    [[nodiscard]] Result<std::shared_ptr<PointSet>> remadeFor(Group& group, const PointSet& set,
+                                                              PointTableBuffer table);
+    /// With the pipeline of the format.
+    [[nodiscard]] Result<PointKernels*> kernelsFor(SupplePointFormat format);
     void tellDropped(const Remade& remade) const;
     void replacePoints(const Remade& remade);
     void dropPoints(uint64_t group);

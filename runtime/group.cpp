@@ -445,6 +445,7 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
 
 void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
     waitingFrame_ = lastRecordedFrame_ = frame;
+    points_.noteAsked(frame);
     if (!noDraws_.due()) {
         return;
     }
@@ -466,6 +467,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         culling_->takePool(view_->pool());
     }
     passesFrame_ = lastRecordedFrame_ = frame.number;
+    points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
     PassCost cost =
         follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
@@ -489,7 +491,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
     const bool pastMoves =
-        step != pastStep_ && surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); });
+        step != pastStep_ &&
+        (points_.havePasts() || surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); }));
     tasksVersion_ += changed || pastMoves ? 1 : 0;
     pastStep_ = step;
     return cost;
@@ -499,6 +502,7 @@ gpu::TaskOwner Group::taskOwner() const {
     gpu::TaskOwner owner;
     owner.id = number_;
     owner.version = tasksVersion_;
+    owner.recordsOnce = points_.beginsAny();
     for (const auto& surface : surfaces_) {
         owner.pools |= surface->pool(); // they take turns together
         owner.recordsOnce = owner.recordsOnce || surface->attributesDue();
@@ -583,7 +587,7 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
     if (listedBounds_ != nullptr) {
         transfers.add(listedBounds_->bounds().buffer);
     }
-    points_.addTransfers(transfers);
+    points_.addTransfers(transfers, askedFrame());
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, askedFrame());
     }

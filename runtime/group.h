@@ -122,6 +122,11 @@ public:
     /// All are recorded. They stay, unless the frame that has them is cancelled.
     void noteStaticsThere() { staticsThere_ = true; }
     [[nodiscard]] bool staticsThere() const { return staticsThere_; }
+    /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
+    void notePointsChanged(uint64_t number) {
+        number_ = number;
+        taskNeeds_ = countTasks();
+    }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
@@ -217,9 +222,9 @@ private:
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
     GroupRecipe recipe_;
-    SuppleGroupDesc desc_{};   ///< without pointers
-    uint32_t rate_ = 0;        ///< that was set last; 0: none
-    glm::dvec3 origin_{0.0};   ///< of the last recording
+    SuppleGroupDesc desc_{}; ///< without pointers
+    uint32_t rate_ = 0;      ///< that was set last; 0: none
+    glm::dvec3 origin_{0.0}; ///< of the last recording
     const gpu::Device* device_ = nullptr;
     bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances

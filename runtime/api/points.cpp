@@ -41,6 +41,9 @@ std::optional<Error> faultOf(const SupplePointQuery& query) {
     if ((query.cage == nullptr) != (query.cageVertexCount == 0)) {
         return Error{ErrorCode::nullPointer, "cage and cageVertexCount do not agree"};
     }
+    if (query.cage != nullptr && query.kind == SUPPLE_FIND_UV) {
+        return Error{ErrorCode::argument, "UV takes no cage: texture coordinates are those of the file"};
+    }
     const size_t numbers = query.kind == SUPPLE_FIND_NEAREST ? 3 : 2;
     const auto isSound = [](float x) { return std::abs(x) <= SUPPLE_MAX_COORDINATE; };
     if (query.values != nullptr && !std::all_of(query.values, query.values + numbers * query.count, isSound)) {
@@ -61,12 +64,13 @@ SuppleResult suppleFindPoints(SuppleContext handle, SuppleGroup group, const Sup
         if (const std::optional<Error> fault = faultOf(query)) {
             return refuse(context, found, fault->code, kFindPoints, fault->message);
         }
-        if (out == nullptr) {
+        if (out == nullptr && query.count > 0) {
             return refuse(context, found, ErrorCode::nullPointer, kFindPoints, "out is null");
         }
         const auto surfaces = Context::surfacesOf(found);
         const Status status =
-            surfaces ? runtime::findPoints(*surfaces, query, std::span(out, query.count)) : Status(surfaces.error());
+            surfaces ? runtime::findPoints(*surfaces, found.points().finder(), query, std::span(out, query.count))
+                     : Status(surfaces.error());
         return status ? SUPPLE_OK : refuse(context, found, status.error().code, kFindPoints, status.error().message);
     });
 }

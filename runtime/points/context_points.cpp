@@ -2,13 +2,16 @@
 #include "runtime/context.h"
 #include "runtime/points/point_stencils.h"
 
+#include <algorithm>
+
 namespace supple::runtime {
 
 namespace {
 
 /// Whether handles of points mean the same in both: faces go by number.
 bool haveSameFaces(const cage::Cage& a, const cage::Cage& b) {
-    return a.vertexCount() == b.vertexCount() && a.faceStarts == b.faceStarts && a.faceVertices == b.faceVertices;
+    return a.vertexCount() == b.vertexCount() && a.faceStarts == b.faceStarts && a.faceVertices == b.faceVertices &&
+           a.holes == b.holes;
 }
 
 PointRecipe recipeOf(const SupplePointSetDesc& desc) {
@@ -23,7 +26,8 @@ PointRecipe recipeOf(const SupplePointSetDesc& desc) {
 
 Result<PointTableBuffer> tableOf(const gpu::Device& device, const CpuGroup& surfaces, const PointRecipe& recipe) {
     Result<std::vector<uint32_t>> words =
-        pointTable(surfaces, recipe.points, recipe.tangents, recipe.format == SUPPLE_POINT_DERIVATIVES_32);
+        pointTable(surfaces, recipe.points, recipe.tangents, recipe.format == SUPPLE_POINT_DERIVATIVES_32,
+                   std::min(mostTableElements(device), kMostPointElements));
     return words ? makePointTable(device, std::move(*words)) : words.error();
 }
 
@@ -45,13 +49,17 @@ Result<uint64_t> Context::createPointSet(const SupplePointSetDesc& desc) {
     const auto refuse = [&](const Error& error) {
         return Error{error.code, "suppleCreatePointSet: " + group->asset().character.name + ": " + error.message};
     };
+    // What is cheap comes first.
+    if (const Status room = PointSet::check(group->pointSource(), desc.pointCount, desc.format); !room) {
+        return refuse(room.error());
+    }
     const auto surfaces = surfacesOf(*group);
     if (!surfaces) {
         return refuse(surfaces.error());
     }
-    const Result<PointKernels*> kernels = kernels_->points();
+    const Result<PointKernels*> kernels = kernelsFor(desc.format);
     if (!kernels) {
-        return kernels.error();
+        return refuse(kernels.error());
     }
     PointRecipe recipe = recipeOf(desc);
     Result<PointTableBuffer> table = tableOf(*device_, **surfaces, recipe);
@@ -69,6 +77,7 @@ Result<uint64_t> Context::createPointSet(const SupplePointSetDesc& desc) {
     group->points().makeRoom();
     const uint64_t id = pointSets.insert(*set);
     group->points().add(std::move(*set));
+    group->notePointsChanged(++groupsMade_);
     return id;
 }
 
@@ -79,6 +88,7 @@ bool Context::destroyPointSet(uint64_t id) {
     }
     if (const std::shared_ptr<Group> group = groups.find(set->group())) {
         group->points().remove(*set, set->lastRecordedFrame() > 0 ? frame_ : 0);
+        group->notePointsChanged(++groupsMade_);
     }
     return true;
 }
@@ -107,29 +117,51 @@ Status Context::remakePoints(const Group& before, Remade& remade) {
         if (!sameFaces) {
             return;
         }
-        const Result<PointKernels*> kernels = kernels_->points();
-        const auto surfaces = surfacesOf(group);
-        status = !kernels ? Status(kernels.error()) : !surfaces ? Status(surfaces.error()) : success();
-        if (!status) {
-            return;
-        }
-        Result<PointTableBuffer> table =
-            sameAsset ? Result<PointTableBuffer>(set.table()) : tableOf(*device_, **surfaces, set.recipe());
-        if (!table) {
-            status = table.error();
-            return;
-        }
-        Result<std::shared_ptr<PointSet>> made =
-            PointSet::create(group.pointSource(), **kernels, set.recipe(), std::move(*table), remade.id);
+        Result<std::shared_ptr<PointSet>> made = remadeFor(group, set, sameAsset ? set.table() : nullptr);
         if (!made) {
-            status = made.error();
+            const char* const function = sameAsset ? "suppleSetCapacity: " : "suppleReloadAsset: ";
+            status = Error{made.error().code, function + group.asset().character.name +
+                                                  ": a point set of its group: " + made.error().message};
             return;
         }
         group.points().makeRoom();
         group.points().add(*made);
         own.set = std::move(*made);
     });
+    group.notePointsChanged(++groupsMade_);
     return status;
+}
+
+Result<std::shared_ptr<PointSet>> Context::remadeFor(Group& group, const PointSet& set, PointTableBuffer table) {
+    const PointRecipe& recipe = set.recipe();
+    if (const Status room = PointSet::check(group.pointSource(), set.pointCount(), recipe.format); !room) {
+        return room.error();
+    }
+    const Result<PointKernels*> kernels = kernelsFor(recipe.format);
+    if (!kernels) {
+        return kernels.error();
+    }
+    if (table == nullptr) {
+        const auto surfaces = surfacesOf(group);
+        if (!surfaces) {
+            return surfaces.error();
+        }
+        Result<PointTableBuffer> made = tableOf(*device_, **surfaces, recipe);
+        if (!made) {
+            return made.error();
+        }
+        table = std::move(*made);
+    }
+    return PointSet::create(group.pointSource(), **kernels, recipe, std::move(table), set.group());
+}
+
+Result<PointKernels*> Context::kernelsFor(SupplePointFormat format) {
+    Result<PointKernels*> kernels = kernels_->points();
+    if (!kernels) {
+        return kernels;
+    }
+    const Status prepared = (*kernels)->prepare(format);
+    return prepared ? kernels : prepared.error();
 }
 
 void Context::tellDropped(const Remade& remade) const {

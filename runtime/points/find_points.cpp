@@ -1,139 +1,32 @@
 #include "runtime/points/find_points.h"
 
 #include "runtime/cpu_group.h"
+#include "runtime/points/point_pieces.h"
+#include "runtime/points/seed_tree.h"
+#include "runtime/points/uv_tree.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace supple::runtime {
 namespace {
 
-/// Samples along a side of a piece that searches begin from, and how many of the nearest are taken.
-constexpr uint32_t kSeedsAlong = 4;
-constexpr size_t kSeeds = 8;
 constexpr int kRounds = 10;
 constexpr double kLongestStep = 0.25;
+/// Of the extent: places that differ by less in their distance are equally near.
+constexpr double kTie = 1e-6;
 
 glm::dvec3 vectorAt(const float* v) {
     return {v[0], v[1], v[2]};
 }
-
-/// What points count by: a quad, a triangle, or of a face of more sides the triangle of a side and the middle.
-struct Piece {
-    uint32_t face = 0, side = 0;
-    bool isQuad = false;
-
-    [[nodiscard]] SuppleSurfacePoint at(double a, double b) const {
-        return {face, side, static_cast<float>(a), static_cast<float>(b)};
-    }
-};
-std::vector<Piece> piecesOf(const CpuGroup& group) {
-    std::vector<Piece> pieces;
-    const cage::Cage& cage = group.cage();
-    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
-        const uint32_t sides = cage.sides(face);
-        for (uint32_t side = 0; side < (sides > 4 ? sides : 1); ++side) {
-            const Piece piece{face, side, sides == 4};
-            if (group.find(piece.at(0.25, 0.25)).place.fault == nullptr) { // not a hole
-                pieces.push_back(piece);
-            }
-        }
-    }
-    return pieces;
-}
-
-/// Cells of a piece: squares, or triangles in triangles.
-struct Cell {
-    glm::dvec2 origin{0.0}, x{0.0}, y{0.0};
-};
-std::vector<Cell> cellsOf(bool isQuad, uint32_t along) {
-    const double width = 1.0 / along;
-    std::vector<Cell> cells;
-    for (uint32_t j = 0; j < along; ++j) {
-        for (uint32_t i = 0; i < (isQuad ? along : along - j); ++i) {
-            const glm::dvec2 origin(i * width, j * width), x(width, 0.0), y(0.0, width);
-            cells.push_back({origin, x, y});
-            if (!isQuad && i + j + 1 < along) { // the one that is turned
-                cells.push_back({origin + x + y, -x, -y});
-            }
-        }
-    }
-    return cells;
-}
-
-/// Takes the nearest of many points, by a tree that halves them along the longest side of their box.
-class SeedTree {
-public:
-    struct Seed {
-        glm::dvec3 position{0.0};
-        uint32_t piece = 0;
-        double a = 0.0, b = 0.0;
-    };
-    explicit SeedTree(std::vector<Seed> seeds) : seeds_(std::move(seeds)), axes_(seeds_.size(), 0) {
-        split(0, seeds_.size());
-    }
-
-    /// The nearest, in rising order of their distance.
-    [[nodiscard]] std::vector<Seed> nearest(const glm::dvec3& to) const {
-        std::vector<std::pair<double, size_t>> best;
-        search(0, seeds_.size(), to, best);
-        std::vector<Seed> found;
-        for (const auto& [distance, seed] : best) {
-            found.push_back(seeds_[seed]);
-        }
-        return found;
-    }
-
-private:
-    void split(size_t begin, size_t end) {
-        if (end - begin < 2) {
-            return;
-        }
-        glm::dvec3 low = seeds_[begin].position, high = low;
-        for (size_t k = begin; k < end; ++k) {
-            low = glm::min(low, seeds_[k].position);
-            high = glm::max(high, seeds_[k].position);
-        }
-        const glm::dvec3 size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const size_t middle = (begin + end) / 2;
-        const auto at = [&](size_t k) { return seeds_.begin() + static_cast<ptrdiff_t>(k); };
-        std::nth_element(at(begin), at(middle), at(end),
-                         [&](const Seed& x, const Seed& y) { return x.position[axis] < y.position[axis]; });
-        axes_[middle] = static_cast<uint8_t>(axis);
-        split(begin, middle);
-        split(middle + 1, end);
-    }
-    void search(size_t begin, size_t end, const glm::dvec3& to, std::vector<std::pair<double, size_t>>& best) const {
-        if (begin == end) {
-            return;
-        }
-        const size_t middle = (begin + end) / 2;
-        const glm::dvec3 offset = seeds_[middle].position - to;
-        const std::pair<double, size_t> own(glm::dot(offset, offset), middle);
-        best.insert(std::upper_bound(best.begin(), best.end(), own), own);
-        best.resize(std::min(best.size(), kSeeds));
-        const double apart = offset[axes_[middle]]; // negative: the point lies behind the plane
-        const auto visit = [&](bool below) {
-            below ? search(begin, middle, to, best) : search(middle + 1, end, to, best);
-        };
-        visit(apart > 0.0);
-        if (best.size() < kSeeds || apart * apart < best.back().first) {
-            visit(apart <= 0.0);
-        }
-    }
-
-    std::vector<Seed> seeds_;
-    std::vector<uint8_t> axes_; ///< of the seed in the middle of a range
-};
 
 /// Newton's method for the distance, held to a piece.
 class NearestInPiece {
@@ -230,60 +123,6 @@ private:
     glm::dvec3 to_;
 };
 
-/// All cells of all pieces, with the jets at their middles.
-Status forEachCell(const CpuPose& pose, std::span<const Piece> pieces, uint32_t along,
-                   const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) {
-    const std::array<std::vector<Cell>, 2> cells{cellsOf(false, along), cellsOf(true, along)};
-    for (uint32_t p = 0; p < pieces.size(); ++p) {
-        const std::vector<Cell>& own = cells[pieces[p].isQuad ? 1 : 0];
-        const double middle = pieces[p].isQuad ? 0.5 : 1.0 / 3.0;
-        std::vector<SuppleSurfacePoint> points;
-        for (const Cell& cell : own) {
-            const glm::dvec2 at = cell.origin + middle * (cell.x + cell.y);
-            points.push_back(pieces[p].at(at.x, at.y));
-        }
-        std::vector<SuppleSurfaceJet> jets(points.size());
-        if (Status evaluated = pose.evaluate(points, jets.data(), {}); !evaluated) {
-            return evaluated;
-        }
-        for (size_t k = 0; k < own.size(); ++k) {
-            visit(p, own[k], jets[k]);
-        }
-    }
-    return success();
-}
-
-Status findNearest(const CpuPose& pose, std::span<const Piece> pieces, const float* positions,
-                   std::span<SuppleSurfacePoint> out) {
-    std::vector<SeedTree::Seed> seeds;
-    const Status made =
-        forEachCell(pose, pieces, kSeedsAlong, [&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
-            const glm::dvec2 at = cell.origin + (pieces[p].isQuad ? 0.5 : 1.0 / 3.0) * (cell.x + cell.y);
-            seeds.push_back({vectorAt(jet.position), p, at.x, at.y});
-        });
-    if (!made) {
-        return made;
-    }
-    const SeedTree tree(std::move(seeds));
-    for (size_t k = 0; k < out.size(); ++k) {
-        const glm::dvec3 to = vectorAt(positions + 3 * k);
-        double least = std::numeric_limits<double>::infinity();
-        for (const SeedTree::Seed& seed : tree.nearest(to)) {
-            const auto found = NearestInPiece(pose, pieces[seed.piece], to).from(seed.a, seed.b);
-            if (!found) {
-                return found.error();
-            }
-            const Piece& piece = pieces[seed.piece];
-            const bool tied = found->distance == least && piece.face < out[k].face;
-            if (found->distance < least || tied) {
-                least = found->distance;
-                out[k] = piece.at(found->a, found->b);
-            }
-        }
-    }
-    return success();
-}
-
 /// Numbers from 0 to 1, the same for a seed everywhere (splitmix64).
 class RandomNumbers {
 public:
@@ -299,7 +138,138 @@ private:
     uint64_t state_;
 };
 
-Status scatter(const CpuPose& pose, std::span<const Piece> pieces, uint32_t seed, std::span<SuppleSurfacePoint> out) {
+} // namespace
+
+/// The surfaces in one pose, with what searches of every kind begin from.
+class PointFinder {
+public:
+    explicit PointFinder(std::shared_ptr<const CpuGroup> group) : pieces_(piecesOf(*group)), pose_(std::move(group)) {}
+
+    /// `cage`: of all vertices.
+    [[nodiscard]] Status build(const float* cage) {
+        if (Status built = pose_.build(reinterpret_cast<const std::byte*>(cage), sizeof(glm::vec3), {}); !built) {
+            return built;
+        }
+        tree_.reset();
+        return success();
+    }
+    [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    [[nodiscard]] bool isOf(const std::shared_ptr<const CpuGroup>& group) const {
+        return &pose_.group() == group.get();
+    }
+
+    [[nodiscard]] Status findNearest(const float* positions, std::span<SuppleSurfacePoint> out);
+    [[nodiscard]] Status scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const;
+
+private:
+    /// All cells of all pieces, with the jets at their middles.
+    Status forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const;
+    Status plant();
+    [[nodiscard]] Result<SuppleSurfacePoint> nearestTo(const glm::dvec3& to) const;
+
+    std::vector<Piece> pieces_;
+    CpuPose pose_;
+    std::optional<SeedTree> tree_; ///< made when a nearest point is asked for
+    double tie_ = 0.0;
+};
+
+Status
+PointFinder::forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const {
+    const cage::Cage& cage = pose_.group().cage();
+    std::vector<Cell> cells;
+    std::pair<bool, uint32_t> kind(false, 0); // of the cells
+    std::vector<SuppleSurfacePoint> points;
+    std::vector<SuppleSurfaceJet> jets;
+    for (uint32_t p = 0; p < pieces_.size(); ++p) {
+        const Piece& piece = pieces_[p];
+        const std::pair<bool, uint32_t> own(piece.isQuad, cellsAlong(cage.sides(piece.face)));
+        if (own != kind) {
+            kind = own;
+            cells = cellsOf(kind.first, kind.second);
+            jets.resize(cells.size());
+        }
+        points.clear();
+        for (const Cell& cell : cells) {
+            const glm::dvec2 at = cell.middle(piece.isQuad);
+            points.push_back(piece.at(at.x, at.y));
+        }
+        if (Status evaluated = pose_.evaluate(points, jets.data(), {}); !evaluated) {
+            return evaluated;
+        }
+        for (size_t k = 0; k < cells.size(); ++k) {
+            visit(p, cells[k], jets[k]);
+        }
+    }
+    return success();
+}
+
+Status PointFinder::plant() {
+    std::vector<SeedTree::Seed> seeds;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+        const glm::dvec2 at = cell.middle(pieces_[p].isQuad);
+        const glm::dvec3 position = vectorAt(jet.position);
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+        seeds.push_back({position, p, at.x, at.y});
+    });
+    if (made) {
+        tie_ = kTie * glm::distance(low, high);
+        tree_.emplace(std::move(seeds));
+    }
+    return made;
+}
+
+Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
+    struct Candidate {
+        const Piece* piece = nullptr;
+        NearestInPiece::Found found;
+    };
+    std::array<Candidate, SeedTree::kNearest> candidates;
+    size_t count = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const SeedTree::Seed& seed : tree_->nearest(to)) {
+        const Piece& piece = pieces_[seed.piece];
+        const auto found = NearestInPiece(pose_, piece, to).from(seed.a, seed.b);
+        if (!found) {
+            return found.error();
+        }
+        candidates[count++] = {&piece, *found};
+        least = std::min(least, found->distance);
+    }
+    // Faces that meet at a point differ by rounding there.
+    const double most = std::sqrt(least) + tie_;
+    const Candidate* best = nullptr;
+    for (size_t k = 0; k < count; ++k) {
+        const Candidate& own = candidates[k];
+        if (std::sqrt(own.found.distance) > most) {
+            continue;
+        }
+        const auto rank = [](const Candidate& c) { return std::tuple(c.piece->face, c.found.distance); };
+        if (best == nullptr || rank(own) < rank(*best)) {
+            best = &own;
+        }
+    }
+    return best->piece->at(best->found.a, best->found.b);
+}
+
+Status PointFinder::findNearest(const float* positions, std::span<SuppleSurfacePoint> out) {
+    if (!tree_) {
+        if (Status planted = plant(); !planted) {
+            return planted;
+        }
+    }
+    for (size_t k = 0; k < out.size(); ++k) {
+        const Result<SuppleSurfacePoint> found = nearestTo(vectorAt(positions + 3 * k));
+        if (!found) {
+            return found.error();
+        }
+        out[k] = *found;
+    }
+    return success();
+}
+
+Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const {
     struct Area {
         uint32_t piece = 0;
         Cell cell;
@@ -307,11 +277,10 @@ Status scatter(const CpuPose& pose, std::span<const Piece> pieces, uint32_t seed
     };
     std::vector<Area> areas;
     double sum = 0.0;
-    const Status made =
-        forEachCell(pose, pieces, kSeedsAlong, [&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
-            sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * (pieces[p].isQuad ? 1.0 : 0.5);
-            areas.push_back({p, cell, sum});
-        });
+    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+        sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * cell.size(pieces_[p].isQuad);
+        areas.push_back({p, cell, sum});
+    });
     if (!made) {
         return made;
     }
@@ -323,103 +292,30 @@ Status scatter(const CpuPose& pose, std::span<const Piece> pieces, uint32_t seed
             std::upper_bound(areas.begin(), areas.end(), target, [](double t, const Area& own) { return t < own.end; }),
             areas.end() - 1);
         double x = number(), y = number();
-        if (!pieces[area->piece].isQuad && x + y > 1.0) {
+        if (!pieces_[area->piece].isQuad && x + y > 1.0) {
             x = 1.0 - x;
             y = 1.0 - y;
         }
         const glm::dvec2 at = area->cell.origin + x * area->cell.x + y * area->cell.y;
-        out[k] = pieces[area->piece].at(at.x, at.y);
+        out[k] = pieces_[area->piece].at(at.x, at.y);
     }
     return success();
 }
 
-/// The texture coordinates of a piece's corners.
-class PieceUvs {
-public:
-    PieceUvs(const cage::Cage& cage, std::span<const glm::vec2> uvs, const Piece& piece) {
-        const uint32_t first = cage.faceStarts[piece.face], sides = cage.sides(piece.face);
-        const auto corner = [&](uint32_t k) { return glm::dvec2(uvs[first + k % sides]); };
-        if (sides <= 4) {
-            count_ = sides;
-            for (uint32_t k = 0; k < sides; ++k) {
-                corners_[k] = corner(k);
-            }
-            return;
-        }
-        corners_ = {corner(piece.side), corner(piece.side + 1), {}, {}};
-        for (uint32_t k = 0; k < sides; ++k) {
-            corners_[2] += corner(k) / static_cast<double>(sides);
-        }
-    }
+namespace {
 
-    /// The numbers of the point that has the coordinates, if the piece covers them.
-    [[nodiscard]] std::optional<glm::dvec2> find(const glm::dvec2& uv) const {
-        const auto [low, high] = box();
-        if (uv.x < low.x || uv.y < low.y || uv.x > high.x || uv.y > high.y) {
-            return std::nullopt;
-        }
-        return count_ == 4 ? inQuad(uv - corners_[0]) : inTriangle(uv - corners_[0]);
-    }
-
-private:
-    static double crossOf(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-    static bool isIn(double t) { return t >= -1e-9 && t <= 1.0 + 1e-9; }
-    [[nodiscard]] std::pair<glm::dvec2, glm::dvec2> box() const {
-        glm::dvec2 low = corners_[0], high = low;
-        for (uint32_t k = 1; k < count_; ++k) {
-            low = glm::min(low, corners_[k]);
-            high = glm::max(high, corners_[k]);
-        }
-        return {low, high};
-    }
-    [[nodiscard]] std::optional<glm::dvec2> inTriangle(const glm::dvec2& h) const {
-        const glm::dvec2 x = corners_[1] - corners_[0], y = corners_[2] - corners_[0];
-        const double area = crossOf(x, y), a = crossOf(h, y) / area, b = crossOf(x, h) / area;
-        return isIn(a) && isIn(b) && a + b <= 1.0 + 1e-9 ? std::optional(glm::dvec2(a, b)) : std::nullopt;
-    }
-    /// h = u e + v f + u v g, by the quadratic for v in its stable form.
-    [[nodiscard]] std::optional<glm::dvec2> inQuad(const glm::dvec2& h) const {
-        const glm::dvec2 e = corners_[1] - corners_[0], f = corners_[3] - corners_[0],
-                         g = (corners_[0] - corners_[1]) + (corners_[2] - corners_[3]);
-        const double k2 = crossOf(g, f), k1 = crossOf(e, f) + crossOf(h, g), k0 = crossOf(h, e);
-        const double root = k1 * k1 - 4.0 * k2 * k0;
-        if (!(root >= 0.0)) {
-            return std::nullopt;
-        }
-        const double s = -0.5 * (k1 + std::copysign(std::sqrt(root), k1));
-        for (const double v : {k0 / s, s / k2}) {
-            const glm::dvec2 across = e + v * g, rest = h - v * f;
-            const double u = std::abs(across.x) > std::abs(across.y) ? rest.x / across.x : rest.y / across.y;
-            if (isIn(u) && isIn(v)) {
-                return glm::dvec2(u, v);
-            }
-        }
-        return std::nullopt;
-    }
-
-    std::array<glm::dvec2, 4> corners_{};
-    uint32_t count_ = 3;
-};
-
-Status findUvs(const CpuGroup& group, std::span<const Piece> pieces, const SupplePointQuery& query,
-               std::span<SuppleSurfacePoint> out) {
+Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
     const cage::Cage& cage = group.cage();
     const std::vector<glm::vec2>& uvs = query.uvSet == 0 ? cage.cornerUvs : cage.cornerUvs1;
     if (uvs.empty()) {
         return Error{ErrorCode::range, "the character has no UV set " + std::to_string(query.uvSet)};
     }
-    std::vector<PieceUvs> covers;
-    covers.reserve(pieces.size());
-    for (const Piece& piece : pieces) {
-        covers.emplace_back(cage, uvs, piece);
-    }
+    const std::vector<Piece> pieces = piecesOf(group);
+    const UvTree tree(cage, uvs, pieces);
     for (size_t k = 0; k < out.size(); ++k) {
-        const glm::dvec2 uv(query.values[2 * k], query.values[2 * k + 1]);
         out[k] = {SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
-        for (size_t p = 0; p < pieces.size() && out[k].face == SUPPLE_NO_FACE; ++p) {
-            if (const std::optional<glm::dvec2> at = covers[p].find(uv)) {
-                out[k] = pieces[p].at(std::clamp(at->x, 0.0, 1.0), std::clamp(at->y, 0.0, 1.0));
-            }
+        if (const auto found = tree.find({query.values[2 * k], query.values[2 * k + 1]})) {
+            out[k] = pieces[found->piece].at(std::clamp(found->at.x, 0.0, 1.0), std::clamp(found->at.y, 0.0, 1.0));
         }
     }
     return success();
@@ -427,27 +323,32 @@ Status findUvs(const CpuGroup& group, std::span<const Piece> pieces, const Suppl
 
 } // namespace
 
-Status findPoints(const std::shared_ptr<const CpuGroup>& group, const SupplePointQuery& query,
-                  std::span<SuppleSurfacePoint> out) {
-    const std::vector<Piece> pieces = piecesOf(*group);
-    if (pieces.empty()) {
-        return Error{ErrorCode::argument, "the surfaces have no faces"};
-    }
+Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<PointFinder>& kept,
+                  const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
     if (query.kind == SUPPLE_FIND_UV) {
-        return findUvs(*group, pieces, query, out);
+        return findUvs(*group, query, out);
     }
     const cage::Cage& cage = group->cage();
     if (query.cage != nullptr && query.cageVertexCount != cage.vertexCount()) {
         return Error{ErrorCode::range, std::to_string(query.cageVertexCount) + " vertices for a cage of " +
                                            std::to_string(cage.vertexCount())};
     }
-    CpuPose pose(group);
-    const void* const positions = query.cage != nullptr ? static_cast<const void*>(query.cage) : cage.positions.data();
-    if (Status built = pose.build(static_cast<const std::byte*>(positions), sizeof(glm::vec3), {}); !built) {
-        return built;
+    std::shared_ptr<PointFinder> finder = query.cage == nullptr ? kept : nullptr;
+    if (finder == nullptr || !finder->isOf(group)) {
+        finder = std::make_shared<PointFinder>(group);
+        const float* const positions = query.cage != nullptr ? query.cage : &cage.positions[0].x;
+        if (Status built = finder->build(positions); !built) {
+            return built;
+        }
     }
-    return query.kind == SUPPLE_FIND_NEAREST ? findNearest(pose, pieces, query.values, out)
-                                             : scatter(pose, pieces, query.seed, out);
+    if (query.cage == nullptr) {
+        kept = finder;
+    }
+    if (finder->pieces().empty()) {
+        return Error{ErrorCode::argument, "the surfaces have no faces"};
+    }
+    return query.kind == SUPPLE_FIND_NEAREST ? finder->findNearest(query.values, out)
+                                             : finder->scatter(query.seed, out);
 }
 
 } // namespace supple::runtime

@@ -12,7 +12,7 @@ namespace supple::runtime {
 
 class PointKernels {
 public:
-    /// Both must outlive the pass.
+    /// Both must outlive the kernels.
     [[nodiscard]] static Result<PointKernels> create(const gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Makes the pipeline of a format, if it is not there.

@@ -25,16 +25,18 @@ AlignedRange alignedRange(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize byt
     return {{buffer, offset - before, bytes + before}, static_cast<uint32_t>(before / gpu::kVec4Bytes)};
 }
 
+VkDeviceSize bytesOf(SupplePointFormat format) {
+    return gpu::kVec4Bytes * pointElements(format);
+}
+/// What a descriptor reaches behind the alignment of its offset.
+VkDeviceSize roomOf(const gpu::Device& device) {
+    const VkDeviceSize limit = device.limits.maxStorageBufferRange;
+    return limit - std::min(limit, kOffsetAlignment);
+}
+
 } // namespace
 
 Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<uint32_t> words) {
-    const VkDeviceSize elements = words.size() / 4;
-    const uint64_t most = device.mapping.wide ? device.limits.maxStorageBufferRange / gpu::kVec4Bytes
-                                              : device.limits.maxTexelBufferElements;
-    if (elements > most) {
-        return Error{ErrorCode::limit, "the weights of the points are " + std::to_string(elements) +
-                                           " elements, of which the device takes " + std::to_string(most)};
-    }
     auto keeper = std::make_shared<const std::vector<uint32_t>>(std::move(words));
     const gpu::StaticRequest request{"supple points table",
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
@@ -46,6 +48,26 @@ Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<u
     return std::make_shared<gpu::StaticBuffers>(std::move(*made));
 }
 
+uint64_t mostTableElements(const gpu::Device& device) {
+    return device.mapping.wide ? device.limits.maxStorageBufferRange / gpu::kVec4Bytes
+                               : device.limits.maxTexelBufferElements;
+}
+
+Status PointSet::check(const PointSource& source, uint32_t points, SupplePointFormat format) {
+    const VkDeviceSize stride = bytesOf(format), room = roomOf(*source.device);
+    if (points * stride > room) {
+        return Error{ErrorCode::limit, std::to_string(points) +
+                                           " points exceed the device's storage-buffer range: the most is " +
+                                           std::to_string(room / stride)};
+    }
+    const uint32_t instances = source.listing->windows().size;
+    if (uint64_t{points} * instances > std::numeric_limits<uint32_t>::max()) {
+        return Error{ErrorCode::limit, std::to_string(points) + " points of " + std::to_string(instances) +
+                                           " instances are more than 32 bits number"};
+    }
+    return success();
+}
+
 Result<std::shared_ptr<PointSet>> PointSet::create(const PointSource& source, PointKernels& kernels, PointRecipe recipe,
                                                    PointTableBuffer table, uint64_t group) {
     auto set = std::make_shared<PointSet>();
@@ -54,9 +76,8 @@ Result<std::shared_ptr<PointSet>> PointSet::create(const PointSource& source, Po
     set->recipe_ = std::move(recipe);
     set->table_ = std::move(table);
     set->group_ = group;
-    Status status = kernels.prepare(set->recipe_.format);
-    status = status ? set->findReaches() : status;
-    status = status ? set->createBuffers() : status;
+    set->findReaches();
+    Status status = set->createBuffers();
     status = status ? set->createSets() : status;
     if (!status) {
         return status.error();
@@ -64,21 +85,9 @@ Result<std::shared_ptr<PointSet>> PointSet::create(const PointSource& source, Po
     return set;
 }
 
-Status PointSet::findReaches() {
+void PointSet::findReaches() {
     const InstanceWindows& windows = source_.listing->windows();
-    const VkDeviceSize points = pointCount(), ofInstance = points * bytesOfPoint();
-    const VkDeviceSize limit = source_.device->limits.maxStorageBufferRange;
-    const VkDeviceSize room = limit - std::min(limit, kOffsetAlignment);
-    const uint64_t fit = room / ofInstance;
-    if (fit == 0) {
-        return Error{ErrorCode::limit, std::to_string(points) +
-                                           " points exceed the device's storage-buffer range: the most is " +
-                                           std::to_string(room / bytesOfPoint())};
-    }
-    if (points * windows.size > std::numeric_limits<uint32_t>::max()) {
-        return Error{ErrorCode::limit, std::to_string(points) + " points of " + std::to_string(windows.size) +
-                                           " instances are more than 32 bits number"};
-    }
+    const uint64_t fit = roomOf(*source_.device) / (VkDeviceSize{pointCount()} * bytesOfPoint());
     for (uint32_t w = 0; w < windows.count(); ++w) {
         for (uint32_t first = 0; first < windows.slots(w);) {
             const auto count = static_cast<uint32_t>(std::min<uint64_t>(fit, windows.slots(w) - first));
@@ -86,7 +95,6 @@ Status PointSet::findReaches() {
             first += count;
         }
     }
-    return success();
 }
 
 Status PointSet::createBuffers() {

@@ -29,6 +29,8 @@ struct PointRecipe {
 /// What the device has of the points of a set: shared by the sets that take each other's place.
 using PointTableBuffer = std::shared_ptr<gpu::StaticBuffers>;
 [[nodiscard]] Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<uint32_t> words);
+/// How many elements of one the device binds.
+[[nodiscard]] uint64_t mostTableElements(const gpu::Device& device);
 
 /// Where a set of a group takes its cages from. What it points to must outlive the set.
 struct PointSource {
@@ -41,7 +43,9 @@ struct PointSource {
 /// Recording allocates nothing.
 class PointSet final : public gpu::FrameMember {
 public:
-    /// `group`: the handle's number.
+    /// Whether so many points have room, before anything is made.
+    [[nodiscard]] static Status check(const PointSource& source, uint32_t points, SupplePointFormat format);
+    /// check() has been asked. `group`: the handle's number.
     [[nodiscard]] static Result<std::shared_ptr<PointSet>> create(const PointSource& source, PointKernels& kernels,
                                                                   PointRecipe recipe, PointTableBuffer table,
                                                                   uint64_t group);
@@ -55,6 +59,10 @@ public:
     [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
     [[nodiscard]] uint64_t lastRecordedFrame() const { return lastRecordedFrame_; }
     void addTransfers(Transfers& transfers) const { transfers.add(output_.buffer(0)); }
+
+    [[nodiscard]] bool hasPasts() const { return recipe_.format == SUPPLE_POINT_FRAME_64; }
+    /// Whether its next recording is its first.
+    [[nodiscard]] bool begins() const { return first_.due() && !staticsPending(); }
 
     /// Frames of instances that the listing has, unless the table is not there yet. `pastStep`: how far the origin of
     /// the coordinates has moved since the group's last recording.
@@ -76,9 +84,8 @@ private:
         uint32_t firstElement = 0, firstPast = 0;
     };
     [[nodiscard]] uint32_t bytesOfPoint() const { return 16u * shared::pointElements(recipe_.format); }
-    [[nodiscard]] bool hasPasts() const { return recipe_.format == SUPPLE_POINT_FRAME_64; }
     [[nodiscard]] Status createBuffers();
-    [[nodiscard]] Status findReaches();
+    void findReaches();
     [[nodiscard]] Status createSets();
     [[nodiscard]] shared::PointPush pushOf(const Reach& reach) const;
 

@@ -29,8 +29,30 @@ gpu::TaskNeeds PointSets::taskNeeds() const {
     return needs;
 }
 
-void PointSets::addTransfers(Transfers& transfers) const {
-    forEach([&](const PointSet& set) { set.addTransfers(transfers); });
+bool PointSets::havePasts() const {
+    bool any = false;
+    forEach([&](const PointSet& set) { any = any || set.hasPasts(); });
+    return any;
+}
+
+bool PointSets::beginsAny() const {
+    bool any = false;
+    forEach([&](const PointSet& set) { any = any || set.begins(); });
+    return any;
+}
+
+void PointSets::noteAsked(uint64_t frame) {
+    for (Entry& entry : sets_) {
+        entry.askedFrame = frame;
+    }
+}
+
+void PointSets::addTransfers(Transfers& transfers, uint64_t frame) const {
+    for (const Entry& entry : sets_) { // the releases of those that were removed since are recorded
+        if (entry.askedFrame == frame && frame != 0 && (!entry.removed || entry.lastFrame == frame)) {
+            entry.set->addTransfers(transfers);
+        }
+    }
 }
 
 PassCost PointSets::record(gpu::Dispatches& dispatches, uint64_t frame, const glm::vec3& pastStep) {

@@ -10,12 +10,12 @@
 namespace supple::runtime {
 
 class CpuGroup;
+class PointFinder;
 
-/// Passes on what concerns all of them. Frames of the group do not wait for what a set uploads: until it is there, they
-/// leave the set out.
+/// Frames of the group do not wait for what a set uploads: until it is there, they leave the set out.
 class PointSets final : public gpu::FrameMember {
 public:
-    void add(std::shared_ptr<PointSet> set) { sets_.push_back({std::move(set), false, 0}); }
+    void add(std::shared_ptr<PointSet> set) { sets_.push_back({std::move(set)}); }
     /// Room for another one, so that add() needs no memory.
     void makeRoom() { sets_.reserve(sets_.size() + 1); }
     /// Frames up to `lastFrame` may still use it.
@@ -25,10 +25,19 @@ public:
     /// The group's surfaces, which points are found on; null until setSurfaces().
     [[nodiscard]] const std::shared_ptr<const CpuGroup>& surfaces() const { return surfaces_; }
     void setSurfaces(std::shared_ptr<const CpuGroup> surfaces) { surfaces_ = std::move(surfaces); }
+    /// What findPoints() keeps from call to call.
+    [[nodiscard]] std::shared_ptr<PointFinder>& finder() { return finder_; }
 
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
     [[nodiscard]] gpu::TaskNeeds taskNeeds() const;
-    void addTransfers(Transfers& transfers) const;
+    /// Whether some set remembers where its points were.
+    [[nodiscard]] bool havePasts() const;
+    /// Whether the next recording is the first of some set.
+    [[nodiscard]] bool beginsAny() const;
+    /// Notes that the group is recorded in the frame, with the sets that there are.
+    void noteAsked(uint64_t frame);
+    /// Of the sets that were there when the group was recorded.
+    void addTransfers(Transfers& transfers, uint64_t frame) const;
     PassCost record(gpu::Dispatches& dispatches, uint64_t frame, const glm::vec3& pastStep);
 
     /// Whether something is due for recordStatics().
@@ -44,7 +53,8 @@ private:
     struct Entry {
         std::shared_ptr<PointSet> set;
         bool removed = false;
-        uint64_t lastFrame = 0; ///< of a removed one
+        uint64_t lastFrame = 0;  ///< of a removed one
+        uint64_t askedFrame = 0; ///< noteAsked()
     };
     template <class F>
     void forEach(F&& visit) const {
@@ -57,6 +67,7 @@ private:
 
     std::vector<Entry> sets_;
     std::shared_ptr<const CpuGroup> surfaces_;
+    std::shared_ptr<PointFinder> finder_;
 };
 
 } // namespace supple::runtime

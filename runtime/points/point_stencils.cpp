@@ -12,7 +12,7 @@
 namespace supple::runtime {
 namespace {
 
-/// Shares that are nothing beside the largest of their kind: what is left of sums.
+/// A share that is smaller than this, beside the largest of its kind, is what rounding has left of a sum.
 constexpr double kNoShare = 1e-11;
 /// Where du and dv are parallel in the bind pose, the frame is that of a place so far on the way to the middle.
 constexpr double kInside = 1e-3;
@@ -50,16 +50,37 @@ glm::dvec3 tangentIn(const BindFrame& frame, const glm::dvec3& from) {
     return length > 1e-6 * glm::length(from) ? flat / length : glm::normalize(frame.du);
 }
 
+/// Blocks of points are packed as they are full, so that what a point has in double does not stay.
 class PointTable {
 public:
-    PointTable(const CpuGroup& group, std::span<const float> tangents, bool derivatives)
-        : group_(group), tangents_(tangents), derivatives_(derivatives) {}
+    PointTable(const CpuGroup& group, size_t pointCount, std::span<const float> tangents, bool derivatives,
+               uint64_t mostElements)
+        : group_(group), tangents_(tangents), derivatives_(derivatives), mostElements_(mostElements),
+          blocks_((pointCount + shared::kPointBlock - 1) / shared::kPointBlock), words_(4 * blocks_) {}
 
-    /// Adds the next point. Its fault, or null.
-    const char* add(const SuppleSurfacePoint& point) {
+    /// Adds the next point.
+    Status add(const SuppleSurfacePoint& point) {
+        if (Status weighed = weigh(point); !weighed) {
+            const Error& error = weighed.error();
+            return Error{error.code, "points[" + std::to_string(added_) + "], face " + std::to_string(point.face) +
+                                         ": " + error.message};
+        }
+        ++added_;
+        return starts_.size() == shared::kPointBlock ? pack() : success();
+    }
+    /// Of all points.
+    Result<std::vector<uint32_t>> finish() {
+        if (Status packed = starts_.empty() ? success() : pack(); !packed) {
+            return packed.error();
+        }
+        return std::move(words_);
+    }
+
+private:
+    Status weigh(const SuppleSurfacePoint& point) {
         const CpuGroup::Found found = group_.find(point);
         if (found.place.fault != nullptr) {
-            return found.place.fault;
+            return Error{ErrorCode::range, found.place.fault};
         }
         const CpuGroup::Part& part = group_.parts()[found.part];
         const cpu::PointWeights position = weightsAt(part, found.place.place);
@@ -67,39 +88,12 @@ public:
             found.place.held ? weightsAt(part, found.place.beside) : cpu::PointWeights(position);
         const BindFrame frame = bindFrame(beside, group_.cage());
         if (frame.normal != glm::dvec3(0.0) || derivatives_) {
-            put(position, beside, frame);
-            return nullptr;
+            return put(position, beside, frame);
         }
         const CpuGroup::Found inside = group_.find(inwards(point));
         const cpu::PointWeights near = weightsAt(group_.parts()[inside.part], inside.place.place);
-        put(position, near, bindFrame(near, group_.cage()));
-        return nullptr;
+        return put(position, near, bindFrame(near, group_.cage()));
     }
-
-    [[nodiscard]] std::vector<uint32_t> words() const {
-        std::vector<uint32_t> headers, weights;
-        const size_t blocks = (starts_.size() + shared::kPointBlock - 1) / shared::kPointBlock;
-        for (size_t block = 0; block < blocks; ++block) {
-            const size_t first = block * shared::kPointBlock,
-                         count = std::min<size_t>(shared::kPointBlock, starts_.size() - first);
-            size_t longest = 0;
-            for (size_t point = first; point < first + count; ++point) {
-                longest = std::max(longest, sharesOf(point).size());
-            }
-            headers.insert(headers.end(), {static_cast<uint32_t>(blocks + weights.size() / 4),
-                                           static_cast<uint32_t>(longest), static_cast<uint32_t>(count), 0u});
-            for (size_t i = 0; i < longest; ++i) {
-                for (size_t point = first; point < first + count; ++point) {
-                    const std::span<const Share> shares = sharesOf(point);
-                    putShare(i < shares.size() ? shares[i] : Share{shares[0].vertex}, weights);
-                }
-            }
-        }
-        headers.insert(headers.end(), weights.begin(), weights.end());
-        return headers;
-    }
-
-private:
     /// By vertex of the whole cage.
     static cpu::PointWeights weightsAt(const CpuGroup::Part& part, const cpu::Place& place) {
         cpu::PointWeights weights;
@@ -119,15 +113,15 @@ private:
     }
 
     /// `beside`: where derivatives come from.
-    void put(const cpu::PointWeights& position, const cpu::PointWeights& beside, const BindFrame& frame) {
-        const size_t first = shares_.size(), point = starts_.size();
+    Status put(const cpu::PointWeights& position, const cpu::PointWeights& beside, const BindFrame& frame) {
+        const size_t first = shares_.size(), point = added_;
         starts_.push_back(first);
         // The tangent and the bitangent as combinations of du and dv.
         glm::dvec2 ofTangent(0.0), ofBitangent(0.0);
         if (derivatives_) {
             ofTangent = {1.0, 0.0};
             ofBitangent = {0.0, 1.0};
-        } else if (frame.normal != glm::dvec3(0.0)) { // else nobody knows any
+        } else if (frame.normal != glm::dvec3(0.0)) { // else there is none to carry along
             const glm::dvec3 given = tangents_.empty() ? glm::dvec3(0.0)
                                                        : glm::dvec3(tangents_[3 * point], tangents_[3 * point + 1],
                                                                     tangents_[3 * point + 2]);
@@ -144,23 +138,32 @@ private:
             ofBitangent = solve(glm::cross(frame.normal, tangent));
         }
         for (const cpu::VertexWeight& entry : position.entries()) {
-            shareOf(first, entry.vertex).position += entry.position;
+            shares_.push_back({entry.vertex, entry.position});
         }
         for (const cpu::VertexWeight& entry : beside.entries()) {
-            Share& share = shareOf(first, entry.vertex);
-            share.a += ofTangent.x * entry.du + ofTangent.y * entry.dv;
-            share.b += ofBitangent.x * entry.du + ofBitangent.y * entry.dv;
+            shares_.push_back({entry.vertex, 0.0, ofTangent.x * entry.du + ofTangent.y * entry.dv,
+                               ofBitangent.x * entry.du + ofBitangent.y * entry.dv});
         }
         finish(first);
+        const size_t count = shares_.size() - first;
+        return count <= kMostPointVertices ? success()
+                                           : Status(Error{ErrorCode::limit, "it hangs on " + std::to_string(count) +
+                                                                                " vertices of the cage: the most is " +
+                                                                                std::to_string(kMostPointVertices)});
     }
-    Share& shareOf(size_t first, uint32_t vertex) {
-        const auto known = std::find_if(shares_.begin() + static_cast<ptrdiff_t>(first), shares_.end(),
-                                        [&](const Share& share) { return share.vertex == vertex; });
-        return known != shares_.end() ? *known : shares_.emplace_back(Share{vertex});
-    }
-    /// Leaves out what is nothing, and puts the heaviest vertex first.
+    /// Sums up the shares of each vertex, leaves out what is nothing, and puts the heaviest vertex first.
     void finish(size_t first) {
         const auto begin = shares_.begin() + static_cast<ptrdiff_t>(first);
+        std::stable_sort(begin, shares_.end(), [](const Share& x, const Share& y) { return x.vertex < y.vertex; });
+        auto last = begin;
+        for (auto share = begin + 1; share != shares_.end(); ++share) {
+            if (share->vertex == last->vertex) {
+                last->position += share->position, last->a += share->a, last->b += share->b;
+            } else {
+                *++last = *share;
+            }
+        }
+        shares_.erase(last + 1, shares_.end());
         double position = 0.0, slope = 0.0;
         for (auto share = begin; share != shares_.end(); ++share) {
             position = std::max(position, std::abs(share->position));
@@ -173,10 +176,34 @@ private:
                                                 std::abs(share.b) <= kNoShare * slope;
                                      }),
                       shares_.end());
-        std::sort(begin, shares_.end(), [](const Share& x, const Share& y) { return x.vertex < y.vertex; });
         const auto heaviest = std::max_element(begin, shares_.end(),
                                                [](const Share& x, const Share& y) { return x.position < y.position; });
         std::rotate(begin, heaviest, heaviest + 1);
+    }
+    /// Writes the block in hand.
+    Status pack() {
+        size_t longest = 0;
+        for (size_t point = 0; point < starts_.size(); ++point) {
+            longest = std::max(longest, sharesOf(point).size());
+        }
+        const size_t before = words_.size() / 4, elements = before + longest * starts_.size();
+        if (elements > mostElements_) {
+            return Error{ErrorCode::limit, "the weights of the first " + std::to_string(added_) + " points are " +
+                                               std::to_string(elements) + " elements: the most is " +
+                                               std::to_string(mostElements_)};
+        }
+        const uint32_t header[4] = {static_cast<uint32_t>(before), static_cast<uint32_t>(longest),
+                                    static_cast<uint32_t>(starts_.size()), 0};
+        std::copy_n(header, 4, words_.begin() + static_cast<ptrdiff_t>(4 * ((added_ - 1) / shared::kPointBlock)));
+        for (size_t i = 0; i < longest; ++i) {
+            for (size_t point = 0; point < starts_.size(); ++point) {
+                const std::span<const Share> shares = sharesOf(point);
+                putShare(i < shares.size() ? shares[i] : Share{shares[0].vertex}, words_);
+            }
+        }
+        starts_.clear();
+        shares_.clear();
+        return success();
     }
     [[nodiscard]] std::span<const Share> sharesOf(size_t point) const {
         const size_t end = point + 1 < starts_.size() ? starts_[point + 1] : shares_.size();
@@ -190,6 +217,10 @@ private:
     const CpuGroup& group_;
     std::span<const float> tangents_;
     bool derivatives_;
+    uint64_t mostElements_;
+    size_t blocks_, added_ = 0;
+    std::vector<uint32_t> words_; ///< a header for each block, then their weights
+    // Of the block in hand:
     std::vector<size_t> starts_; ///< by point, into shares_
     std::vector<Share> shares_;
 };
@@ -206,15 +237,14 @@ Result<std::shared_ptr<const CpuGroup>> surfacesOf(std::shared_ptr<const Prepare
 }
 
 Result<std::vector<uint32_t>> pointTable(const CpuGroup& group, std::span<const SuppleSurfacePoint> points,
-                                         std::span<const float> tangents, bool derivatives) {
-    PointTable table(group, tangents, derivatives);
-    for (size_t p = 0; p < points.size(); ++p) {
-        if (const char* const fault = table.add(points[p])) {
-            return Error{ErrorCode::range,
-                         "points[" + std::to_string(p) + "], face " + std::to_string(points[p].face) + ": " + fault};
+                                         std::span<const float> tangents, bool derivatives, uint64_t mostElements) {
+    PointTable table(group, points.size(), tangents, derivatives, mostElements);
+    for (const SuppleSurfacePoint& point : points) {
+        if (Status added = table.add(point); !added) {
+            return added.error();
         }
     }
-    return table.words();
+    return table.finish();
 }
 
 } // namespace supple::runtime

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -45,7 +46,8 @@ SupplePointQuery queryOf(SupplePointQueryKind kind, size_t count, const float* v
 
 std::vector<SuppleSurfacePoint> found(const Surfaces& surfaces, const SupplePointQuery& query) {
     std::vector<SuppleSurfacePoint> points(query.count);
-    const Status status = runtime::findPoints(surfaces, query, points);
+    std::shared_ptr<runtime::PointFinder> kept;
+    const Status status = runtime::findPoints(surfaces, kept, query, points);
     EXPECT_TRUE(status) << (status ? "" : status.error().message);
     return points;
 }
@@ -141,7 +143,120 @@ TEST(FindPoints, TextureCoordinatesNameThePoint) {
     EXPECT_EQ(back.back().face, SUPPLE_NO_FACE);
     SupplePointQuery other = queryOf(SUPPLE_FIND_UV, uvs.size(), &uvs[0].x);
     other.uvSet = 1;
-    EXPECT_FALSE(runtime::findPoints(surfaces, other, points));
+    std::shared_ptr<runtime::PointFinder> kept;
+    EXPECT_FALSE(runtime::findPoints(surfaces, kept, other, points));
+}
+
+/// Faces that meet at a place are equally near to it: the lowest is taken, whatever rounding says.
+TEST(FindPoints, OfFacesThatMeetTheLowestIsTaken) {
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_CAGE}) {
+        const cage::Cage cage = perturbed(cage::makeCubeSphere(4), 0.01f, 3);
+        const Surfaces surfaces = surfacesOf(cage, scheme);
+        constexpr float kCorners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        std::vector<SuppleSurfacePoint> corners;
+        std::vector<uint32_t> lowest, of(cage.vertexCount(), SUPPLE_NO_FACE);
+        for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+            for (uint32_t k = 0; k < 4; ++k) {
+                const uint32_t vertex = cage.faceVertices[cage.faceStarts[face] + k];
+                of[vertex] = std::min(of[vertex], face);
+                corners.push_back({face, 0, kCorners[k][0], kCorners[k][1]});
+                lowest.push_back(of[vertex]);
+            }
+        }
+        const At own = at(surfaces, corners);
+        const auto nearest = found(surfaces, queryOf(SUPPLE_FIND_NEAREST, corners.size(), &own.positions[0].x));
+        for (size_t k = 0; k < corners.size(); ++k) {
+            EXPECT_EQ(nearest[k].face, lowest[k]) << "scheme " << scheme << ", corner " << k;
+        }
+    }
+}
+
+/// A search is no square of a face's sides.
+TEST(FindPoints, AFaceOfManySidesIsSearched) {
+    constexpr uint32_t kSides = 20'000;
+    cage::Cage disc;
+    disc.faceStarts = {0, kSides};
+    for (uint32_t k = 0; k < kSides; ++k) {
+        const float angle = 6.2831853f * static_cast<float>(k) / kSides;
+        disc.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0f);
+        disc.faceVertices.push_back(k);
+    }
+    const Surfaces surfaces = surfacesOf(disc, SUPPLE_SCHEME_CAGE);
+    const At spread = at(surfaces, found(surfaces, queryOf(SUPPLE_FIND_SCATTER, 1000)));
+    double inside = 0.0;
+    for (const glm::vec3& p : spread.positions) {
+        EXPECT_LE(glm::length(p), 1.0f);
+        inside += glm::length(p) < std::sqrt(0.5f) ? 1.0 : 0.0;
+    }
+    EXPECT_NEAR(inside / 1000.0, 0.5, 0.06);
+    const glm::vec3 place(0.3f, -0.4f, 1.0f);
+    const At nearest = at(surfaces, found(surfaces, queryOf(SUPPLE_FIND_NEAREST, 1, &place.x)));
+    EXPECT_LE(glm::distance(nearest.positions[0], glm::vec3(0.3f, -0.4f, 0.0f)), 1e-3f);
+}
+
+/// Coordinates that several faces cover, of many faces: the lowest has them.
+TEST(FindPoints, TheLowestOfTheFacesThatCoverACoordinate) {
+    constexpr uint32_t kSide = 40;
+    cage::Cage cage;
+    cage.faceStarts = {0};
+    std::mt19937 random(3);
+    const auto number = [&](float most) { return most * static_cast<float>(random() % 4096) / 4096.0f; };
+    std::vector<glm::vec2> lows;
+    std::vector<float> sizes;
+    for (uint32_t face = 0; face < kSide * kSide; ++face) {
+        lows.emplace_back(number(0.9f), number(0.9f));
+        sizes.push_back(0.002f + number(0.05f));
+        for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+            cage.faceVertices.push_back(static_cast<uint32_t>(cage.positions.size()));
+            cage.positions.emplace_back(corner, static_cast<float>(face));
+            cage.cornerUvs.push_back(lows.back() + sizes.back() * corner);
+        }
+        cage.faceStarts.push_back(static_cast<uint32_t>(cage.faceVertices.size()));
+    }
+    const Surfaces surfaces = surfacesOf(cage, SUPPLE_SCHEME_CAGE);
+    std::vector<glm::vec2> uvs;
+    for (uint32_t k = 0; k < 2000; ++k) {
+        uvs.emplace_back(number(1.0f), number(1.0f));
+    }
+    const auto points = found(surfaces, queryOf(SUPPLE_FIND_UV, uvs.size(), &uvs[0].x));
+    size_t covered = 0;
+    for (size_t k = 0; k < uvs.size(); ++k) {
+        uint32_t expected = SUPPLE_NO_FACE;
+        for (uint32_t face = 0; face < lows.size() && expected == SUPPLE_NO_FACE; ++face) {
+            const glm::vec2 in = (uvs[k] - lows[face]) / sizes[face];
+            expected = in.x >= 0.0f && in.y >= 0.0f && in.x <= 1.0f && in.y <= 1.0f ? face : expected;
+        }
+        EXPECT_EQ(points[k].face, expected) << k;
+        covered += expected != SUPPLE_NO_FACE ? 1 : 0;
+    }
+    EXPECT_GT(covered, 500u);
+}
+
+/// What a search of the bind pose has made stays for the next one, and not for another cage.
+TEST(FindPoints, SearchesOfTheBindPoseShareWhatTheyBeginFrom) {
+    const cage::Cage cage = perturbed(cage::makeCubeSphere(3), 0.02f, 3);
+    const Surfaces surfaces = surfacesOf(cage, SUPPLE_SCHEME_PM);
+    std::shared_ptr<runtime::PointFinder> kept;
+    std::vector<SuppleSurfacePoint> first(1), second(1), moved(1);
+    const glm::vec3 place(0.4f, 0.9f, 0.3f);
+    SupplePointQuery query = queryOf(SUPPLE_FIND_NEAREST, 1, &place.x);
+    ASSERT_TRUE(runtime::findPoints(surfaces, kept, query, first));
+    ASSERT_NE(kept, nullptr);
+    const auto* const before = kept.get();
+    std::vector<glm::vec3> shifted = cage.positions;
+    for (glm::vec3& p : shifted) {
+        p.x += 1.5f;
+    }
+    query.cage = &shifted[0].x;
+    query.cageVertexCount = static_cast<uint32_t>(shifted.size());
+    ASSERT_TRUE(runtime::findPoints(surfaces, kept, query, moved));
+    EXPECT_EQ(kept.get(), before);
+    query.cage = nullptr;
+    query.cageVertexCount = 0;
+    ASSERT_TRUE(runtime::findPoints(surfaces, kept, query, second));
+    EXPECT_EQ(kept.get(), before);
+    EXPECT_EQ(std::memcmp(first.data(), second.data(), sizeof(first[0])), 0);
+    EXPECT_NE(std::memcmp(first.data(), moved.data(), sizeof(first[0])), 0);
 }
 
 } // namespace

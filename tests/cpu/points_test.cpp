@@ -16,6 +16,7 @@
 #include "tools/reference/prep.h"
 
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -209,7 +210,7 @@ TEST(CpuPoints, WeightsGiveTheSurface) {
         const std::vector<glm::vec3> moved = perturbed(entry.cage, 0.3f, 9).positions;
         const std::vector<SuppleSurfaceJet> jets = jetsOf(moved);
         const double size = extent(doublePositions(entry.cage));
-        double position = 0.0, tangent = 0.0, normal = 0.0;
+        double position = 0.0, tangent = 0.0, normal = 0.0, inner = 0.0;
         size_t longest = 0;
         for (size_t k = 0; k < points.size(); ++k) {
             const WeighedPoint own = weighed(*table, k, moved);
@@ -219,14 +220,93 @@ TEST(CpuPoints, WeightsGiveTheSurface) {
             raise(position, glm::distance(own.position, asVector(jets[k].position)) / size);
             raise(tangent, glm::distance(own.a, du) / glm::length(du));
             raise(normal, glm::distance(glm::cross(own.a, own.b), n) / glm::length(n));
+            if (k % 3 == 0) { // no corner
+                raise(inner, std::max(glm::distance(own.a, du) / glm::length(du),
+                                      glm::distance(glm::cross(own.a, own.b), n) / glm::length(n)));
+            }
             longest = std::max(longest, own.count);
         }
-        std::printf("%-28s position %.1e of the extent, tangent %.1e, normal %.1e; most vertices %zu\n", entry.name,
-                    position, tangent, normal, longest);
+        std::printf(
+            "%-28s position %.1e of the extent, tangent %.1e, normal %.1e, off corners %.1e; most vertices %zu\n",
+            entry.name, position, tangent, normal, inner, longest);
         EXPECT_LE(position, 1e-6) << entry.name;
-        EXPECT_LE(tangent, 1e-3) << entry.name;
+        EXPECT_LE(tangent, 2e-5) << entry.name;
         EXPECT_LE(normal, 2e-3) << entry.name;
+        EXPECT_LE(inner, 2e-5) << entry.name;
     }
+}
+
+/// The surfaces of a cage, for tables.
+std::shared_ptr<const runtime::CpuGroup> surfacesOfCage(const cage::Cage& cage, SuppleScheme scheme) {
+    const host::CageArrays arrays(cage);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
+    EXPECT_TRUE(character.ok());
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = scheme;
+    const auto made = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
+    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
+    return made ? *made : nullptr;
+}
+
+/// Points beside a vertex of many faces hang on all of them. Their weights take time in proportion, at any distance.
+TEST(CpuPoints, AVertexOfManyFacesTakesNoSquareOfTheirNumber) {
+    constexpr uint32_t kValence = 400;
+    const cage::Cage cage = gyroBipyramid(kValence);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const auto surfaces = surfacesOfCage(cage, scheme);
+        ASSERT_NE(surfaces, nullptr);
+        std::vector<SuppleSurfacePoint> points;
+        for (uint32_t k = 0; k < 100; ++k) {
+            const float off = std::exp2(-static_cast<float>(k % 32));
+            const uint32_t face = k % cage.faceCount();
+            points.push_back({face, 0, 0.3f * off, 0.2f * off});
+            points.push_back({face, 0, 1.0f - 0.3f * off, 0.2f * off});
+            points.push_back({face, 0, 0.3f * off, 1.0f - 0.5f * off});
+        }
+        const auto start = std::chrono::steady_clock::now();
+        const Result<std::vector<uint32_t>> table = runtime::pointTable(*surfaces, points, {}, true);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        ASSERT_TRUE(table.ok());
+        runtime::CpuPose pose(surfaces);
+        const std::vector<glm::vec3> moved = perturbed(cage, 0.3f, 9).positions;
+        std::vector<SuppleSurfaceJet> jets(points.size());
+        ASSERT_TRUE(pose.build(reinterpret_cast<const std::byte*>(moved.data()), sizeof(glm::vec3), {}));
+        ASSERT_TRUE(pose.evaluate(points, jets.data(), {}));
+        double position = 0.0, slope = 0.0;
+        size_t longest = 0;
+        for (size_t k = 0; k < points.size(); ++k) {
+            const WeighedPoint own = weighed(*table, k, moved);
+            raise(position, glm::distance(own.position, asVector(jets[k].position)));
+            raise(slope, glm::distance(own.a, asVector(jets[k].du)) / glm::length(asVector(jets[k].du)));
+            longest = std::max(longest, own.count);
+        }
+        std::printf("scheme %u: %.2f ms a point; position %.1e, du %.1e; most vertices %zu\n", scheme,
+                    1e3 * took.count() / static_cast<double>(points.size()), position, slope, longest);
+        EXPECT_GE(longest, kValence);
+        EXPECT_LE(position, 2e-6);
+        EXPECT_LE(slope, 1e-4);
+        EXPECT_LT(took.count(), 20.0) << "a square of the faces takes minutes";
+    }
+}
+
+/// What has no bound is refused by name, before it is made.
+TEST(CpuPoints, TooManyWeightsAreRefused) {
+    const auto expectRefused = [](const Result<std::vector<uint32_t>>& table, const std::string& reason) {
+        ASSERT_FALSE(table.ok());
+        EXPECT_EQ(table.error().code, ErrorCode::limit);
+        EXPECT_NE(table.error().message.find(reason), std::string::npos) << table.error().message;
+    };
+    const auto poles = surfacesOfCage(gyroBipyramid(5000), SUPPLE_SCHEME_CATMULL_CLARK);
+    const SuppleSurfacePoint atPole{0, 0, 0.001f, 0.001f};
+    std::vector<SuppleSurfacePoint> points{{0, 0, 0.3f, 0.3f}, atPole};
+    for (const auto& [a, b] : {std::pair(0.001f, 0.001f), std::pair(0.998f, 0.001f), std::pair(0.001f, 0.998f)}) {
+        points.push_back({0, 0, a, b});
+    }
+    expectRefused(runtime::pointTable(*poles, points, {}, false), ", face 0: it hangs on ");
+    const auto small = surfacesOfCage(fanOverPentagons(6), SUPPLE_SCHEME_CATMULL_CLARK);
+    const std::vector<SuppleSurfacePoint> many(1000, {0, 0, 0.3f, 0.3f});
+    expectRefused(runtime::pointTable(*small, many, {}, false, 2000), "the weights of the first ");
 }
 
 /// The nearest rotation, as the device makes it of A and B.

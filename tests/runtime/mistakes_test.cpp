@@ -228,6 +228,7 @@ void addInstances(std::vector<Mistake>& rows) {
                             s.group({.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
                         return suppleSetClipPose(s.context(), players.instances[0], 0, 0.0);
                     }});
+#if defined(SUPPLE_WITH_CPU)
     rows.push_back({"a point on a face that the cage lacks", [](Scene& s) {
                         const SuppleSurfacePoint points[] = {{0, 0, 0.5f, 0.5f}, {999, 0, 0.5f, 0.5f}};
                         SupplePointSet set{};
@@ -242,6 +243,7 @@ void addInstances(std::vector<Mistake>& rows) {
                         auto output = Scene::asking<SupplePointOutput>();
                         return suppleGetPointOutput(s.context(), set, &output);
                     }});
+#endif
     rows.push_back({"a row-major transform", [](Scene& s) {
                         const float rows4[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
                         return suppleSetTransform(s.context(), s.instance(), rows4);
@@ -427,6 +429,9 @@ std::vector<std::string> documentedRows() {
             rows.push_back(line);
         }
     }
+#if !defined(SUPPLE_WITH_CPU) // no points
+    std::erase_if(rows, [](const std::string& row) { return row.starts_with("| a point "); });
+#endif
     return rows;
 }
 

@@ -17,6 +17,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <supple/supple.hpp>
 
@@ -402,6 +403,227 @@ TEST_F(SurfacePoints, FollowTheirGroup) {
     crowd.run();
     crowd.end();
     EXPECT_EQ(suppleDestroyPointSet(own.handle(), left.handle()), SUPPLE_ERROR_ARGUMENT);
+    (void)own.takeLines();
+}
+
+/// A face that has become a hole has no points any more, though the faces are the same otherwise.
+TEST_F(SurfacePoints, GoWhereAFaceHasBecomeAHole) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const cage::Character tube = bentTube();
+    const SuppleAsset asset = own.createAsset(tube);
+    Crowd crowd(own, groupOf(asset, SUPPLE_SCHEME_PM, 1));
+    const PointSetOf set(crowd, pointsOf(tube.cage, 1), SUPPLE_POINT_FRAME_48);
+    crowd.pose(crowd.spawn(), 0, 0.6, placeOf(1));
+    crowd.run();
+    cage::Character open = tube;
+    open.cage.holes = {3};
+    ASSERT_EQ(own.reloadAsset(asset, open), SUPPLE_OK) << "the asset is good";
+    EXPECT_EQ(own.takeCount(SUPPLE_MESSAGE_POINTS_DROPPED), 1u);
+    crowd.run();
+    (void)own.takeLines();
+}
+
+/// Points that do not exist, by name.
+TEST_F(SurfacePoints, RefuseHandlesThatNameNoPoint) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    cage::Character tube = bentTube();
+    tube.cage.holes = {2};
+    Crowd crowd(own, groupOf(own.createAsset(tube), SUPPLE_SCHEME_CATMULL_CLARK, 1));
+    ASSERT_TRUE(crowd.valid());
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    ASSERT_EQ(tube.cage.sides(0), 4u);
+    for (const SuppleSurfacePoint& bad :
+         {SuppleSurfacePoint{0, 7, 0.5f, 0.5f}, SuppleSurfacePoint{0, 0xFFFFFFFFu, 0.5f, 0.5f},
+          SuppleSurfacePoint{0, 0, nan, 0.5f}, SuppleSurfacePoint{0, 0, 0.5f, inf},
+          SuppleSurfacePoint{0, 0, -0.1f, 0.5f}, SuppleSurfacePoint{2, 0, 0.5f, 0.5f},
+          SuppleSurfacePoint{SUPPLE_NO_FACE, 0, 0.5f, 0.5f}}) {
+        const SuppleSurfacePoint points[] = {{0, 0, 0.5f, 0.5f}, bad};
+        SupplePointSetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.group = crowd.group();
+        desc.points = points;
+        desc.pointCount = 2;
+        SupplePointSet set{1};
+        (void)own.takeLines();
+        EXPECT_EQ(suppleCreatePointSet(own.handle(), &desc, &set), SUPPLE_ERROR_ARGUMENT);
+        EXPECT_EQ(set.id, 0u);
+        bool named = false;
+        for (const auto& line : own.takeLines()) {
+            named = named || line.text.find("points[1], face " + std::to_string(bad.face)) != std::string::npos;
+        }
+        EXPECT_TRUE(named) << bad.face << " " << bad.side << " " << bad.a << " " << bad.b;
+    }
+}
+
+/// Groups of several schemes and of parts, followers and views: each point is on the surface of its own part.
+TEST_F(SurfacePoints, LieOnTheSurfaceOfAGroupThatFollows) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const cage::Character tube = bentTube();
+    const SuppleAsset asset = own.createAsset(tube);
+    Crowd leader(own, groupOf(asset, SUPPLE_SCHEME_PM, 2));
+    SuppleGroupDesc desc = groupOf(asset, SUPPLE_SCHEME_CATMULL_CLARK, 0);
+    desc.instancesOf = leader.group();
+    Crowd follower(own, desc);
+    ASSERT_TRUE(follower.valid());
+    const std::vector<SuppleSurfacePoint> points = pointsOf(tube.cage, 1);
+    const PointSetOf set(follower, points, SUPPLE_POINT_FRAME_48);
+    Crowd alone(own, groupOf(asset, SUPPLE_SCHEME_CATMULL_CLARK, 2));
+    const PointSetOf expected(alone, points, SUPPLE_POINT_FRAME_48);
+    for (uint32_t slot = 0; slot < 2; ++slot) {
+        leader.pose(leader.spawn(), 0, 0.4 * slot, placeOf(slot));
+        alone.pose(alone.spawn(), 0, 0.4 * slot, placeOf(slot));
+    }
+    const std::vector<SuppleGroup> groups{leader.group(), follower.group(), alone.group()};
+    own.run(groups);
+    for (uint32_t slot = 0; slot < 2; ++slot) {
+        EXPECT_TRUE(set.bytes(slot) == expected.bytes(slot));
+    }
+    ASSERT_EQ(suppleSetCapacity(own.handle(), leader.group(), 5), SUPPLE_OK);
+    own.run(groups);
+    for (uint32_t slot = 0; slot < 2; ++slot) {
+        EXPECT_TRUE(set.bytes(slot) == expected.bytes(slot));
+    }
+}
+
+/// Tasks of shared dispatches that stand from frame to frame know of sets that come and go.
+TEST_F(SurfacePoints, HaveTheSameBitsInSharedDispatches) {
+    CrowdContext plain(*testDevice(), SUPPLE_MAPPING_WIDE, 2, 0);
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    const cage::Character tube = bentTube();
+    struct Scene {
+        CrowdContext& context;
+        Crowd first, second;
+        std::vector<SuppleInstance> instances;
+        std::vector<std::unique_ptr<PointSetOf>> sets;
+    };
+    std::vector<std::unique_ptr<Scene>> scenes;
+    for (CrowdContext* const own : {&plain, &shared}) {
+        const SuppleAsset asset = own->createAsset(tube);
+        scenes.push_back(std::unique_ptr<Scene>(new Scene{*own,
+                                                          Crowd(*own, groupOf(asset, SUPPLE_SCHEME_PM)),
+                                                          Crowd(*own, groupOf(asset, SUPPLE_SCHEME_CATMULL_CLARK)),
+                                                          {},
+                                                          {}}));
+        Scene& scene = *scenes.back();
+        for (Crowd* const crowd : {&scene.first, &scene.second}) {
+            for (uint32_t slot = 0; slot < 2; ++slot) {
+                scene.instances.push_back(crowd->spawn());
+                crowd->pose(scene.instances.back(), 0, 0.3 * slot, placeOf(slot));
+            }
+        }
+    }
+    const auto add = [&](bool toSecond, uint32_t perFace, SupplePointFormat format) {
+        for (const auto& scene : scenes) {
+            scene->sets.push_back(std::make_unique<PointSetOf>(toSecond ? scene->second : scene->first,
+                                                               pointsOf(tube.cage, perFace), format));
+        }
+    };
+    const auto remove = [&](size_t set) {
+        for (const auto& scene : scenes) {
+            EXPECT_EQ(suppleDestroyPointSet(scene->context.handle(), scene->sets[set]->handle()), SUPPLE_OK);
+            scene->sets.erase(scene->sets.begin() + static_cast<ptrdiff_t>(set));
+        }
+    };
+    const auto setOrigin = [&](double x) {
+        const double origin[3] = {x, 0.0, 0.0};
+        for (const auto& scene : scenes) {
+            EXPECT_EQ(suppleSetOrigin(scene->context.handle(), origin), SUPPLE_OK);
+        }
+    };
+    const auto run = [&](const char* what) {
+        for (uint32_t frame = 0; frame < 5; ++frame) { // there are as many rooms as two frames in flight need, and more
+            for (const auto& scene : scenes) {
+                scene->first.pose(scene->instances[0], 0, 0.1 * frame, placeOf(0, frame));
+                scene->context.run(std::vector{scene->first.group(), scene->second.group()});
+            }
+            for (size_t set = 0; set < scenes[0]->sets.size(); ++set) {
+                const auto one = plain.device().readBuffer(scenes[0]->sets[set]->output().frames),
+                           other = plain.device().readBuffer(scenes[1]->sets[set]->output().frames);
+                ASSERT_TRUE(one.ok() && other.ok());
+                EXPECT_TRUE(*one == *other) << what << ", frame " << frame << ", set " << set;
+            }
+        }
+    };
+    run("no set");
+    add(false, 1, SUPPLE_POINT_FRAME_64);
+    run("a set");
+    add(true, 2, SUPPLE_POINT_FRAME_48);
+    run("another set");
+    setOrigin(0.5);
+    run("another origin");
+    remove(0);
+    run("the first is gone");
+    add(false, 1, SUPPLE_POINT_FRAME_64);
+    run("one in its place");
+    remove(1);
+    add(false, 1, SUPPLE_POINT_FRAME_64);
+    run("another in the same frame");
+    for (const auto& scene : scenes) {
+        scene->context.cancel(std::vector{scene->first.group(), scene->second.group()});
+    }
+    run("a frame is cancelled");
+    for (const auto& scene : scenes) {
+        EXPECT_EQ(suppleSetCapacity(scene->context.handle(), scene->first.group(), 7), SUPPLE_OK);
+    }
+    run("more capacity");
+}
+
+/// Points anywhere on the characters of the samples, in a pose: every frame is three unit vectors at right angles.
+TEST_F(SurfacePoints, HaveFramesOnEveryCharacter) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    for (const char* const file : {"pip.glb", "pip_quads.glb", "wren.glb", "helmet.glb"}) {
+        const SuppleAsset asset = own.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/" + file);
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+            Crowd crowd(own, groupOf(asset, scheme, 1));
+            ASSERT_TRUE(crowd.valid()) << file;
+            std::vector<SuppleSurfacePoint> points(1000);
+            SupplePointQuery query{};
+            query.structSize = sizeof(query);
+            query.kind = SUPPLE_FIND_SCATTER;
+            query.count = static_cast<uint32_t>(points.size());
+            query.seed = 3;
+            ASSERT_EQ(suppleFindPoints(own.handle(), crowd.group(), &query, points.data()), SUPPLE_OK);
+            for (size_t k = 0; k < points.size(); k += 3) { // on borders and corners too
+                points[k].a = std::round(points[k].a);
+                points[k].b = 0.0f;
+            }
+            const PointSetOf set(crowd, points, SUPPLE_POINT_FRAME_48);
+            (void)crowd.spawn();
+            crowd.run();
+            double worst = 0.0;
+            for (const PointOnDevice& p : set.read(0)) {
+                const glm::dmat3 frame(p.tangent, p.bitangent, p.normal);
+                const glm::dmat3 product = glm::transpose(frame) * frame - glm::dmat3(1.0);
+                for (int column = 0; column < 3; ++column) {
+                    raise(worst, glm::length(product[column]));
+                }
+            }
+            std::printf("%-14s scheme %u: %.1e\n", file, scheme, worst);
+            EXPECT_LE(worst, 1e-6) << file << ", scheme " << scheme;
+            (void)own.takeLines();
+        }
+    }
+}
+
+/// What searches refuse, and a search for nothing.
+TEST_F(SurfacePoints, AreFoundForGroups) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const cage::Character tube = bentTube();
+    Crowd crowd(own, groupOf(own.createAsset(tube), SUPPLE_SCHEME_PM, 1));
+    SupplePointQuery query{};
+    query.structSize = sizeof(query);
+    query.kind = SUPPLE_FIND_NEAREST;
+    EXPECT_EQ(suppleFindPoints(own.handle(), crowd.group(), &query, nullptr), SUPPLE_OK) << "none are asked for";
+    const float place[3] = {1.0f, 2.0f, 0.5f};
+    query.count = 1;
+    query.values = place;
+    EXPECT_EQ(suppleFindPoints(own.handle(), crowd.group(), &query, nullptr), SUPPLE_ERROR_ARGUMENT);
+    SuppleSurfacePoint point{};
+    EXPECT_EQ(suppleFindPoints(own.handle(), crowd.group(), &query, &point), SUPPLE_OK);
+    query.kind = SUPPLE_FIND_UV;
+    query.cage = &tube.cage.positions[0].x;
+    query.cageVertexCount = static_cast<uint32_t>(tube.cage.positions.size());
+    EXPECT_EQ(suppleFindPoints(own.handle(), crowd.group(), &query, &point), SUPPLE_ERROR_ARGUMENT);
     (void)own.takeLines();
 }
 
