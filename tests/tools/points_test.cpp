@@ -53,6 +53,7 @@ TEST_F(Points, WritesFramesOfTheSurface) {
 
 TEST_F(Points, SaysWhatIsWrongWithThem) {
     expectFailure(points("{}"), 1, "points.json: is no JSON list of points");
+    expectFailure(points("[]"), 1, "points.json: has no points");
     expectFailure(points(R"([{"face":3,"u":0.5}])"), 1, "points.json: point 0: needs face, u and v");
     expectFailure(points(R"([{"face":3,"u":0.5,"v":0.5},{"face":-1,"u":0.5,"v":0.5}])"), 1, "point 1: needs face");
     expectFailure(points(R"([{"part":77,"face":3,"u":0.5,"v":0.5}])"), 1, "point 0: ");

@@ -90,8 +90,11 @@ Result<GivenPoints> readPoints(const std::string& path, const cage::Character& c
         return Error{ErrorCode::io, path + ": cannot be read"};
     }
     const PointsJson json = PointsJson::parse(file, nullptr, false);
-    if (!json.is_array() || json.empty()) {
+    if (!json.is_array()) {
         return Error{ErrorCode::asset, path + ": is no JSON list of points"};
+    }
+    if (json.empty()) {
+        return Error{ErrorCode::asset, path + ": has no points"};
     }
     GivenPoints points;
     for (size_t p = 0; p < json.size(); ++p) {
