@@ -75,8 +75,8 @@ typedef struct SupplePointOutput {
     uint32_t reserved;        /**< 0 */
     /** Point k of the instance in slot s is element s * pointCount + k, of stride bytes, in the coordinates of surface
      * vertices. Instances that no frame has deformed since the set was made have zeros. Those that are hidden, or left
-     * out as their view does not see them (SUPPLE_VIEW_CULL), keep what they had (with SUPPLE_CONTEXT_ASYNC_COMPUTE what
-     * they have is undefined): see docs/surface_points.md. */
+     * out as their view does not see them (SUPPLE_VIEW_CULL), keep what they had (with SUPPLE_CONTEXT_ASYNC_COMPUTE
+     * what they have is undefined): see docs/surface_points.md. */
     SuppleBufferRange frames;
 } SupplePointOutput;
 
@@ -87,16 +87,17 @@ typedef struct SupplePointOutput {
  * suppleSetCapacity and suppleReloadAsset make the set anew: ask for its output again. If the reloaded cage has other
  * faces the set is destroyed, with a warning (SUPPLE_MESSAGE_POINTS_DROPPED).
  *
- * The first set of a group takes 10 to 100 ms, as it makes the group's surfaces on the CPU (supple_cpu.h), and the first
- * of a format compiles a pipeline. Then a point takes about 0.01 ms; beside a vertex of many faces 0.001 ms a face.
- * suppleReloadAsset takes the points again. Sharpness that suppleSetSharpness sets is not seen: points have that of the file.
+ * The first set of a group takes 10 to 100 ms, as it makes the group's surfaces on the CPU (supple_cpu.h), and the
+ * first of a format compiles a pipeline. Then a point takes about 0.01 ms; beside a vertex of many faces 0.001 ms a
+ * face. suppleReloadAsset takes the points again. Sharpness that suppleSetSharpness sets is not seen: points have that
+ * of the file.
  *
  * Errors: a stale handle; no points, flags, a format that does not exist; a face that does not exist or is a hole, a
  * place outside its face (the log names the first such point); tangents that are not finite; what suppleCpuCreateGroup
- * refuses; more points than the device can bind for one instance, or than 32 bits number with all instances; a point that
- * hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each vertex of a point) or than
- * the device binds; memory. SUPPLE_ERROR_UNSUPPORTED if the library was
- * built with SUPPLE_WITH_CPU=OFF. `out->id` is 0 then. */
+ * refuses; more points than the device can bind for one instance, or than 32 bits number with all instances; a point
+ * that hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each vertex of a point)
+ * or than the device binds; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with SUPPLE_WITH_CPU=OFF.
+ * `out->id` is 0 then. */
 SUPPLE_API SuppleResult suppleCreatePointSet(SuppleContext context, const SupplePointSetDesc* desc,
                                              SupplePointSet* out);
 /** Its buffer stays until all frames that may use it are complete. */
@@ -106,8 +107,8 @@ SUPPLE_API SuppleResult suppleGetPointOutput(SuppleContext context, SupplePointS
 
 /** By what suppleFindPoints finds points. */
 typedef enum SupplePointQueryKind {
-    /** The nearest point to each place: x, y, z in the coordinates of the cage. Of faces that meet there (distances that
-     * differ by less than a millionth of the extent), the lowest. */
+    /** The nearest point to each place: x, y, z in the coordinates of the cage. Of faces that meet there (distances
+     * that differ by less than a millionth of the extent), the lowest. */
     SUPPLE_FIND_NEAREST = 0,
     /** The point with these texture coordinates: u, v. Of several, that of the lowest face. Where no face covers them,
      * its face is SUPPLE_NO_FACE. Faces have straight texture coordinates here: quads bilinear ones,
@@ -135,9 +136,9 @@ typedef struct SupplePointQuery {
 /** Finds points on the surfaces of a group, on the CPU: for a set, or to be kept in a file. No device is waited for.
  *
  * out: query->count points; null if there are none. Like a first set, the first call for a group makes its surfaces.
- * NEAREST begins from 16 samples a face, which the first call in the bind pose makes and keeps (1 KB a face); with a cage
- * each call makes its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call. The result
- * is the same on every machine up to rounding.
+ * NEAREST begins from 16 samples a face, which the first call in the bind pose makes and keeps (1 KB a face); with a
+ * cage each call makes its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call.
+ * The result is the same on every machine up to rounding.
  *
  * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a cage of another number of
  * vertices; a UV set that the character lacks; what suppleCreatePointSet refuses of a group. */
