@@ -383,19 +383,15 @@ Jet hermiteJet(const Jet& t) {
     return ((2.0 * t + -3.0) * (t * t)) + 1.0;
 }
 
-} // namespace
-
-SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<double>> coefficients, uint32_t face,
-                       double u, double v) {
+/// Calls add(chart, coefficient, weight) for all that a point of a face is made of.
+template <class Add>
+void forEachWeight(const Mesh& mesh, uint32_t face, double u, double v, Add&& add) {
     const Jet s = Jet::first(u), r = Jet::second(v);
     const std::array<std::array<Jet, 2>, 4> views{{{s, r}, {r, 1.0 - s}, {1.0 - s, 1.0 - r}, {1.0 - r, s}}};
-    SurfaceJet sum;
-    const glm::dvec3 origin = coefficients[mesh.corners[4 * size_t{face}].chart][0];
     for (uint32_t k = 0; k < 4; ++k) {
         const Corner& corner = mesh.corners[4 * face + k];
-        const ChartCoefficients<double>& c = coefficients[corner.chart];
         const Jet weight = hermiteJet(views[k][0]) * hermiteJet(views[k][1]);
-        sum.add(c[0] - origin, weight);
+        add(corner.chart, 0, weight);
         const ChartClass& chartClass = mesh.classOf(corner.chart);
         if (chartClass.kind == ChartKind::point) {
             continue;
@@ -405,12 +401,50 @@ SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<doubl
         const std::array<Jet, kCoefficients> basis = {Jet::constant(0.0), zetaV,      vv,    t,
                                                       zetaU * zetaV,      zetaU * vv, t * t, zetaU * zetaU * zetaV,
                                                       zetaU * zetaU * vv};
-        for (size_t a = 1; a < kCoefficients; ++a) {
-            sum.add(c[a], weight * basis[a]);
+        for (uint32_t a = 1; a < kCoefficients; ++a) {
+            add(corner.chart, a, weight * basis[a]);
         }
     }
+}
+
+} // namespace
+
+SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<double>> coefficients, uint32_t face,
+                       double u, double v) {
+    SurfaceJet sum;
+    const glm::dvec3 origin = coefficients[mesh.corners[4 * size_t{face}].chart][0];
+    forEachWeight(mesh, face, u, v, [&](uint32_t chart, uint32_t a, const Jet& weight) {
+        sum.add(a == 0 ? coefficients[chart][0] - origin : coefficients[chart][a], weight);
+    });
     sum.position += origin;
     return sum;
+}
+
+void weighCoefficient(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t number, uint32_t coefficient,
+                      const cpu::VertexWeight& weight, cpu::PointWeights& out) {
+    const Chart& chart = mesh.charts[number];
+    const FitMatrix& matrix = matrices[chart.chartClass];
+    double vertex = coefficient == 0 ? 1.0 : 0.0;
+    const auto add = [&](uint32_t of, double factor) {
+        cpu::VertexWeight own = factor * weight;
+        own.vertex = of;
+        out.add(own);
+    };
+    for (uint32_t i = 0; i < matrix.ringPoints; ++i) {
+        const double factor = matrix.weight(coefficient, i);
+        if (factor != 0.0) {
+            add(mesh.ring[chart.firstRing + i], factor);
+            vertex -= factor;
+        }
+    }
+    add(chart.vertex, vertex);
+}
+
+void weighJet(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t face, double u, double v,
+              cpu::PointWeights& out) {
+    forEachWeight(mesh, face, u, v, [&](uint32_t chart, uint32_t a, const Jet& weight) {
+        weighCoefficient(mesh, matrices, chart, a, {0, weight.value, weight.x, weight.y}, out);
+    });
 }
 
 template ChartCoefficients<double> coefficientsOf<double>(const Mesh&, std::span<const FitMatrix>, uint32_t,

@@ -4,6 +4,7 @@
 
 #include "cpu/chart_point.h"
 #include "cpu/jet.h"
+#include "cpu/point_weights.h"
 #include "surface/blend/mesh.h"
 #include "surface/blend/weights.h"
 
@@ -102,5 +103,12 @@ private:
 /// the result is not finite.
 [[nodiscard]] SurfaceJet evaluateJet(const Mesh& mesh, std::span<const ChartCoefficients<double>> coefficients,
                                      uint32_t face, double u, double v);
+
+/// The same point as weights of the vertices of Mesh::cage. `matrices`: by class.
+void weighJet(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t face, double u, double v,
+              cpu::PointWeights& out);
+/// Adds a coefficient of a chart with its weight.
+void weighCoefficient(const Mesh& mesh, std::span<const FitMatrix> matrices, uint32_t chart, uint32_t coefficient,
+                      const cpu::VertexWeight& weight, cpu::PointWeights& out);
 
 } // namespace supple::surface::blend

@@ -2,6 +2,7 @@
 #include "cpu/blend.h"
 #include "cpu/grid_places.h"
 #include "cpu/held.h"
+#include "cpu/limit_weights.h"
 #include "cpu/normals.h"
 #include "cpu/patch_faces.h"
 #include "cpu/patch_place.h"
@@ -58,6 +59,24 @@ public:
         return places_.ofSample(patch, surface::Domain::quad, rate, sample, inside);
     }
 
+    void weigh(const Place& place, PointWeights& out) const override {
+        PointWeights ofQuads;
+        const uint32_t chart = cornerChart(place);
+        if (isAtCorner(place) && !isPolynomial(mesh_.classOf(chart))) {
+            surface::blend::weighCoefficient(mesh_, matrices_, chart, 0, {0, 1.0, 0.0, 0.0}, ofQuads);
+        } else {
+            surface::blend::weighJet(mesh_, matrices_, place.piece, place.x, place.y, ofQuads);
+            ofQuads.turn(place);
+        }
+        out = throughStencils(ofQuads, mesh_.stencils);
+    }
+
+    static bool isAtCorner(const Place& place) {
+        return (place.x == 0.0 || place.x == 1.0) && (place.y == 0.0 || place.y == 1.0);
+    }
+    [[nodiscard]] uint32_t cornerChart(const Place& place) const {
+        return chartOf(place.piece, nearestQuadCorner(place));
+    }
     [[nodiscard]] bool hasFlatPlaces(uint32_t patch) const override {
         const uint32_t piece = placeOfSample(patch, 1, 0, 0.0).piece;
         for (uint32_t k = 0; k < 4; ++k) {
@@ -133,9 +152,10 @@ public:
     void evaluate(std::span<const Place> places, std::span<SurfaceJet> out) const override {
         for (size_t p = 0; p < places.size(); ++p) {
             const Place& place = places[p];
-            if (isAtCorner(place) && !isPolynomial(surface_.mesh().classOf(cornerChart(place)))) {
+            const uint32_t chart = surface_.cornerChart(place);
+            if (BlendSurface::isAtCorner(place) && !isPolynomial(surface_.mesh().classOf(chart))) {
                 out[p] = {};
-                out[p].position = charts_[cornerChart(place)][0];
+                out[p].position = charts_[chart][0];
                 continue;
             }
             out[p] = surface::blend::evaluateJet(surface_.mesh(), charts_, place.piece, place.x, place.y);
@@ -143,19 +163,12 @@ public:
         }
     }
     [[nodiscard]] glm::dvec3 limitNormal(const Place& place) const override {
-        const uint32_t chart = cornerChart(place);
-        const bool hasPlane = isAtCorner(place) && !surface_.isFlat(place); // of its own
+        const uint32_t chart = surface_.cornerChart(place);
+        const bool hasPlane = BlendSurface::isAtCorner(place) && !surface_.isFlat(place); // of its own
         return hasPlane ? unitNormal(charts_[chart][3], charts_[chart][1]) : glm::dvec3(0.0);
     }
 
 private:
-    static bool isAtCorner(const Place& place) {
-        return (place.x == 0.0 || place.x == 1.0) && (place.y == 0.0 || place.y == 1.0);
-    }
-    [[nodiscard]] uint32_t cornerChart(const Place& place) const {
-        return surface_.chartOf(place.piece, nearestQuadCorner(place));
-    }
-
     const BlendSurface& surface_;
     std::vector<glm::dvec3> positions_; ///< of the cage
     std::vector<glm::dvec3> vertices_;  ///< of the quads

@@ -101,11 +101,10 @@ glm::dvec3 unitNormal(const glm::dvec3& du, const glm::dvec3& dv) {
 
 } // namespace
 
-Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated, uint32_t fragmentNumber,
-                    uint32_t sector) {
-    const Fragment& fragment = mesh.fragments[fragmentNumber];
-    FragmentNet<double> net(mesh, isolated);
-    net.load(fragment);
+Point limitAtCentre(const subdivision::LimitPose& pose, const LimitShape::Sector& at) {
+    const subdivision::Mesh& mesh = pose.shape().mesh();
+    const Fragment& fragment = mesh.fragments[at.fragment];
+    const FragmentNet<double> net = pose.netOf(fragment);
     const Fan fan = net.fanOf(fragment);
     const auto spokes = mesh.spokeSharpness.begin() + fragment.firstSpoke;
     const Limit limit = limitOf({fan, {spokes, spokes + fragment.spokes()}, fragment.centreSharpness});
@@ -120,7 +119,7 @@ Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> i
     Point point;
     point.position = centre + weighted(limit.position);
     for (const LimitRun& run : limit.runs) {
-        if ((sector + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
+        if ((at.number + fan.sectors - run.firstSector) % fan.sectors >= run.sectors) {
             continue;
         }
         glm::dvec3 normal(0.0);
@@ -139,17 +138,44 @@ void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& poin
     point.dvv = v.x * v.x * aa + 2.0 * v.x * v.y * ab + v.y * v.y * bb;
 }
 
-Point LimitSurface::at(uint32_t quad, double u, double v) const {
+namespace {
+
+/// The corner that a place is nearest to.
+uint32_t cornerAt(double u, double v) {
     const bool right = u > 1.0 - u, up = v > 1.0 - v;
-    const uint32_t corner = up ? (right ? 2 : 3) : (right ? 1 : 0);
+    return up ? (right ? 2 : 3) : (right ? 1 : 0);
+}
+
+} // namespace
+
+subdivision::SectorLevel LimitSurface::levelAt(const LimitShape& shape, uint32_t quad, double u, double v) {
+    const LimitShape::Sector& sector = shape.sectors()[4 * size_t{quad} + cornerAt(u, v)];
+    if (shape.isUniform(sector.fragment)) {
+        return {sector, 2};
+    }
+    const double larger = std::max(std::min(u, 1.0 - u), std::min(v, 1.0 - v));
+    if (larger < std::exp2(-kMostLevels)) {
+        return {sector, 0};
+    }
+    int exponent = 0;
+    std::frexp(larger, &exponent);
+    // 2^-level <= the larger one < 2^(1 - level)
+    return {sector, static_cast<uint32_t>(std::clamp(1 - exponent, 2, kMostLevels))};
+}
+
+Point LimitSurface::at(uint32_t quad, double u, double v) const {
+    const subdivision::SectorLevel at = levelAt(pose_->shape(), quad, u, v);
+    return at.level == 0 ? limitAtCentre(*pose_, at.sector)
+                         : on({*pose_, at.sector.fragment, at.level}, at.sector, u, v);
+}
+
+Point LimitSurface::on(const LevelNet& net, const LimitShape::Sector& sector, double u, double v) {
+    const uint32_t corner = cornerAt(u, v);
+    const bool right = corner == 1 || corner == 2, up = corner >= 2;
     const double across = right ? 1.0 - u : u, along = up ? 1.0 - v : v;
     const bool turned = corner % 2 == 1; // a runs along v
-    const LimitShape& shape = pose_->shape();
-    const LimitShape::Sector& sector = shape.sectors()[4 * size_t{quad} + corner];
     const double a = turned ? along : across, b = turned ? across : along;
-    Point point = std::max(a, b) < std::exp2(-kMostLevels) && !shape.isUniform(sector.fragment)
-                      ? limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number)
-                      : inQuarter(sector, a, b);
+    Point point = inQuarter(net, sector.number, a, b);
     const glm::dvec3 da = point.du, db = point.dv;
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {{{da, db}, {-db, da}, {-da, -db}, {db, -da}}};
     point.du = derivatives[corner][0];
@@ -160,25 +186,19 @@ Point LimitSurface::at(uint32_t quad, double u, double v) const {
     return point;
 }
 
-Point LimitSurface::inQuarter(const LimitShape::Sector& sector, double a, double b) const {
-    const LimitShape& shape = pose_->shape();
-    const Fragment& fragment = shape.mesh().fragments[sector.fragment];
-    int exponent = 0;
-    std::frexp(std::max(a, b), &exponent);
-    // 2^-level <= the larger one < 2^(1 - level)
-    const int level = shape.isUniform(sector.fragment) ? 2 : std::clamp(1 - exponent, 2, kMostLevels);
-    const LevelNet net(*pose_, sector.fragment, static_cast<uint32_t>(level));
+Point LimitSurface::inQuarter(const LevelNet& net, uint32_t sector, double a, double b) {
+    const Fragment& fragment = net.fragment();
     const Fan fan{Subdivision::catmullClark, fragment.sectors, fragment.open};
-    const double scale = std::exp2(level), x = a * scale, y = b * scale;
+    const double scale = std::exp2(net.level()), x = a * scale, y = b * scale;
     const bool farA = x >= 1.0, farB = y >= 1.0;
     const uint32_t spokes = fragment.spokes();
-    const float alongA = net.sharpnessOf(sector.number), alongB = net.sharpnessOf((sector.number + 1) % spokes);
+    const float alongA = net.sharpnessOf(sector), alongB = net.sharpnessOf((sector + 1) % spokes);
     Leaf leaf;
     leaf.firstA = farA ? 0 : -1;
     leaf.firstB = farB ? 0 : -1;
     leaf.a = leafWeights(farA ? x - 1.0 : x, farA ? 0.0f : alongB);
     leaf.b = leafWeights(farB ? y - 1.0 : y, farB ? 0.0f : alongA);
-    Point point = evaluate(net, fan, sector.number, leaf);
+    Point point = evaluate(net, fan, sector, leaf);
     point.normal = unitNormal(point.du, point.dv);
     point.du *= scale;
     point.dv *= scale;

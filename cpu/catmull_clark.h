@@ -25,9 +25,8 @@ struct Point {
 /// Second derivatives in other parameters: each of `u` and `v` has the slopes of the point's own two in it.
 void turnSecondDerivatives(const glm::dvec2& u, const glm::dvec2& v, Point& point);
 
-/// The limit at the centre of a vertex fragment, with the normal of a sector. `isolated`: the points of the mesh.
-[[nodiscard]] Point limitAtCentre(const subdivision::Mesh& mesh, std::span<const glm::dvec3> isolated,
-                                  uint32_t fragment, uint32_t sector);
+/// The limit at the centre of a vertex fragment, with the normal of a sector.
+[[nodiscard]] Point limitAtCentre(const subdivision::LimitPose& pose, const subdivision::LimitShape::Sector& sector);
 
 /// The limit surface over the quads of a cage, or of the cage after one step if not all of its faces are quads: then
 /// face f gives one quad per corner, in the order of the corners (surface::refine()).
@@ -39,6 +38,13 @@ public:
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 
+    /// What a place of a quad is evaluated from.
+    [[nodiscard]] static subdivision::SectorLevel levelAt(const subdivision::LimitShape& shape, uint32_t quad, double u,
+                                                          double v);
+    /// The place on that net, whose level is not 0.
+    [[nodiscard]] static Point on(const subdivision::LevelNet& net, const subdivision::LimitShape::Sector& sector,
+                                  double u, double v);
+
     [[nodiscard]] uint32_t quadCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 
     /// At (u, v) of a quad, both from 0 to 1, u from corner 0 to corner 1. The position is exact to rounding but within
@@ -49,7 +55,7 @@ public:
 
 private:
     /// (a, b): from the quarter's corner along its two edges, up to 1/2. Derivatives in a and b.
-    [[nodiscard]] Point inQuarter(const subdivision::LimitShape::Sector& sector, double a, double b) const;
+    [[nodiscard]] static Point inQuarter(const subdivision::LevelNet& net, uint32_t sector, double a, double b);
 
     std::shared_ptr<const subdivision::PosedLimit> own_; ///< null: the pose is another one's
     const subdivision::LimitPose* pose_;

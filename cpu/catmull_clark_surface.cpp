@@ -4,6 +4,7 @@
 #include "cpu/fragment_limits.h"
 #include "cpu/grid_places.h"
 #include "cpu/held.h"
+#include "cpu/limit_weights.h"
 #include "cpu/patch_faces.h"
 #include "cpu/patch_place.h"
 #include "cpu/patch_surface.h"
@@ -71,6 +72,16 @@ public:
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
         return places_.ofSample(patch, surface::Domain::quad, rate, sample, inside);
+    }
+
+    void weigh(const Place& place, PointWeights& out) const override {
+        if (const uint32_t patch = patchOf(place.piece); patch != cage::kNone) {
+            Place regular = place;
+            regular.piece = patch;
+            regular_.weigh(regular, out);
+        } else {
+            weighLimit<surface::catmull_clark::LimitSurface>(shape_, place, out);
+        }
     }
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }

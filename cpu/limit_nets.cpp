@@ -122,6 +122,12 @@ void LimitPose::buildNets(FragmentNet<double>& net, uint32_t fragment) {
     }
 }
 
+FragmentNet<double> LimitPose::netOf(const Fragment& fragment) const {
+    FragmentNet<double> net(shape_.mesh(), isolated());
+    net.load(fragment);
+    return net;
+}
+
 std::span<const glm::dvec3> LimitPose::kept(uint32_t fragment, uint32_t level) const {
     const LimitShape::Kept& kept = shape_.keptOf(fragment);
     const uint32_t before = kept.last == 1 ? 0 : level - 2;
@@ -130,14 +136,13 @@ std::span<const glm::dvec3> LimitPose::kept(uint32_t fragment, uint32_t level) c
 
 LevelNet::LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level)
     : mesh_(pose.shape().mesh()), fragment_(mesh_.fragments[fragment]), level_(level) {
-    if (level <= pose.shape().keptOf(fragment).last) {
+    if (pose.keeps(fragment, level)) {
         const std::span<const glm::dvec3> kept = pose.kept(fragment, level);
         origin_ = kept[0];
         points_ = kept.subspan(1);
         return;
     }
-    FragmentNet<double> net(mesh_, pose.isolated());
-    net.load(fragment_);
+    FragmentNet<double> net = pose.netOf(fragment_);
     const Fan fan = net.fanOf(fragment_);
     for (uint32_t j = 2; j <= level; ++j) {
         net.refine(fan, pose.shape().patternOf(fan), pointCount(fan, 3));

@@ -65,6 +65,9 @@ public:
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }
     [[nodiscard]] std::span<const glm::dvec3> isolated() const { return steps_.back(); }
+    /// A fragment on the isolated level.
+    [[nodiscard]] FragmentNet<double> netOf(const Fragment& fragment) const;
+    [[nodiscard]] bool keeps(uint32_t fragment, uint32_t level) const { return level <= shape_.keptOf(fragment).last; }
     /// A kept level: its origin, then its points.
     [[nodiscard]] std::span<const glm::dvec3> kept(uint32_t fragment, uint32_t level) const;
 
@@ -77,11 +80,23 @@ private:
     std::vector<glm::dvec3> nets_;
 };
 
+/// What a place is evaluated from: the net of a sector on a level. Level 0: the limit at the centre.
+struct SectorLevel {
+    LimitShape::Sector sector;
+    uint32_t level = 0;
+};
+
 /// A fragment's net on a level: points up to radius 3 and the sharpness that is left.
 class LevelNet {
 public:
     /// Level 2 and up; a facet has level 1.
     LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level);
+    /// Of the caller's points, relative to nothing. They must outlive it.
+    LevelNet(const Mesh& mesh, uint32_t fragment, uint32_t level, std::span<const glm::dvec3> points)
+        : mesh_(mesh), fragment_(mesh.fragments[fragment]), level_(level), origin_(0.0), points_(points) {}
+
+    [[nodiscard]] const Fragment& fragment() const { return fragment_; }
+    [[nodiscard]] uint32_t level() const { return level_; }
 
     /// Relative to the origin, which is the first of them.
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }

@@ -241,15 +241,49 @@ void addSpokes(const Lattice& lattice, double x, double y, Point& point) {
 
 } // namespace
 
-Point LimitSurface::at(uint32_t triangle, double v, double w) const {
-    const std::array<double, 3> weights = {1.0 - v - w, v, w};
+namespace {
+
+/// The corner that has more than half of the weight, or 3: the middle.
+uint32_t cornerAt(const std::array<double, 3>& weights) {
     uint32_t corner = 0;
     while (corner < 3 && weights[corner] <= 0.5) {
         ++corner;
     }
-    const Sector& sector = pose_->shape().sectors()[4 * size_t{triangle} + corner];
-    Point point = corner == 3 ? inMiddle(sector, 1.0 - 2.0 * weights[0], 1.0 - 2.0 * weights[1])
-                              : atDistance(sector, weights[(corner + 1) % 3], weights[(corner + 2) % 3]);
+    return corner;
+}
+
+} // namespace
+
+subdivision::SectorLevel LimitSurface::levelAt(const LimitShape& shape, uint32_t triangle, double v, double w) {
+    const std::array<double, 3> weights = {1.0 - v - w, v, w};
+    const uint32_t corner = cornerAt(weights);
+    const LimitShape::Sector& sector = shape.sectors()[4 * size_t{triangle} + corner];
+    if (corner == 3) {
+        return {sector, 1};
+    }
+    if (shape.isUniform(sector.fragment)) {
+        return {sector, 2};
+    }
+    const double distance = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
+    if (distance < std::exp2(-kMostLevels)) {
+        return {sector, 0};
+    }
+    int exponent = 0;
+    std::frexp(distance, &exponent);
+    return {sector, static_cast<uint32_t>(std::max(1 - exponent, 2))}; // 2^-level <= distance < 2^(1 - level)
+}
+
+Point LimitSurface::at(uint32_t triangle, double v, double w) const {
+    const subdivision::SectorLevel at = levelAt(pose_->shape(), triangle, v, w);
+    return at.level == 0 ? catmull_clark::limitAtCentre(*pose_, at.sector)
+                         : on({*pose_, at.sector.fragment, at.level}, at.sector, v, w);
+}
+
+Point LimitSurface::on(const LevelNet& net, const LimitShape::Sector& sector, double v, double w) {
+    const std::array<double, 3> weights = {1.0 - v - w, v, w};
+    const uint32_t corner = cornerAt(weights);
+    Point point = corner == 3 ? inMiddle(net, 1.0 - 2.0 * weights[0], 1.0 - 2.0 * weights[1])
+                              : atDistance(net, sector.number, weights[(corner + 1) % 3], weights[(corner + 2) % 3]);
     const glm::dvec3 a = point.du, b = point.dv;
     const std::array<std::array<glm::dvec3, 2>, 4> derivatives = {
         {{a, b}, {-b, a - b}, {b - a, -a}, {2.0 * (a - b), 2.0 * a}}};
@@ -265,20 +299,11 @@ Point LimitSurface::at(uint32_t triangle, double v, double w) const {
     return point;
 }
 
-Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
-    const LimitShape& shape = pose_->shape();
-    const Fragment& fragment = shape.mesh().fragments[sector.fragment];
-    const bool uniform = shape.isUniform(sector.fragment);
-    if (!uniform && a + b < std::exp2(-kMostLevels)) {
-        return catmull_clark::limitAtCentre(shape.mesh(), pose_->isolated(), sector.fragment, sector.number);
-    }
-    int exponent = 0;
-    std::frexp(a + b, &exponent);
-    const int level = uniform ? 2 : std::max(1 - exponent, 2); // 2^-level <= a + b < 2^(1 - level)
-    const LevelNet net(*pose_, sector.fragment, static_cast<uint32_t>(level));
+Point LimitSurface::atDistance(const LevelNet& net, uint32_t sector, double a, double b) {
+    const Fragment& fragment = net.fragment();
     const Fan fan{Subdivision::loop, fragment.sectors, fragment.open};
-    const Lattice lattice(net, fan, sector.number);
-    const double scale = std::exp2(level), x = a * scale, y = b * scale;
+    const Lattice lattice(net, fan, sector);
+    const double scale = std::exp2(net.level()), x = a * scale, y = b * scale;
     Point point;
     if (x >= 1.0) {
         point = boxSpline(lattice, {1, 0}, 1, x - 1.0, y);
@@ -297,8 +322,7 @@ Point LimitSurface::atDistance(const Sector& sector, double a, double b) const {
     return point;
 }
 
-Point LimitSurface::inMiddle(const Sector& facet, double x, double y) const {
-    const LevelNet net(*pose_, facet.fragment, 1);
+Point LimitSurface::inMiddle(const LevelNet& net, double x, double y) {
     const Lattice lattice(net);
     Point point = boxSpline(lattice, {0, 0}, 1, x, y);
     point.position += net.origin();

@@ -22,6 +22,13 @@ public:
     LimitSurface(const subdivision::Mesh& mesh, std::span<const glm::dvec3> positions)
         : own_(std::make_shared<const subdivision::PosedLimit>(mesh, positions)), pose_(&own_->pose) {}
 
+    /// What a place of a triangle is evaluated from; a facet's level is 1.
+    [[nodiscard]] static subdivision::SectorLevel levelAt(const subdivision::LimitShape& shape, uint32_t triangle,
+                                                          double v, double w);
+    /// The place on that net, whose level is not 0.
+    [[nodiscard]] static Point on(const subdivision::LevelNet& net, const subdivision::LimitShape::Sector& sector,
+                                  double v, double w);
+
     [[nodiscard]] uint32_t triangleCount() const { return static_cast<uint32_t>(pose_->shape().sectors().size() / 4); }
 
     /// Where corners 1 and 2 of a triangle have the weights v and w, and corner 0 the rest. Derivatives are those in v
@@ -31,11 +38,10 @@ public:
     [[nodiscard]] Point at(uint32_t triangle, double v, double w) const;
 
 private:
-    using Sector = subdivision::LimitShape::Sector;
     /// (a, b): from the corner along its two edges, up to 1/2 together. Derivatives in a and b.
-    [[nodiscard]] Point atDistance(const Sector& sector, double a, double b) const;
-    /// (x, y): weights of corners 1 and 2 of the facet. Derivatives in x and y.
-    [[nodiscard]] Point inMiddle(const Sector& facet, double x, double y) const;
+    [[nodiscard]] static Point atDistance(const subdivision::LevelNet& net, uint32_t sector, double a, double b);
+    /// (x, y): weights of corners 1 and 2 of the facet, whose net it is. Derivatives in x and y.
+    [[nodiscard]] static Point inMiddle(const subdivision::LevelNet& net, double x, double y);
 
     std::shared_ptr<const subdivision::PosedLimit> own_; ///< null: the pose is another one's
     const subdivision::LimitPose* pose_;

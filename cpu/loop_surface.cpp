@@ -3,6 +3,7 @@
 #include "cpu/fragment_limits.h"
 #include "cpu/grid_places.h"
 #include "cpu/held.h"
+#include "cpu/limit_weights.h"
 #include "cpu/loop.h"
 #include "cpu/patch_faces.h"
 #include "cpu/patch_place.h"
@@ -81,6 +82,10 @@ public:
     }
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override {
         return places_.ofSample(patch, surface::Domain::triangle, rate, sample, inside);
+    }
+
+    void weigh(const Place& place, PointWeights& out) const override {
+        weighLimit<surface::loop::LimitSurface>(shape_, place, out);
     }
 
     [[nodiscard]] const LimitShape& shape() const { return shape_; }

@@ -210,6 +210,116 @@ void PatchSet::evaluate(std::span<const Place> places, const PatchPose& pose, st
     quartics.flush(pose.origin, turned, out);
 }
 
+namespace {
+
+/// Bernstein polynomials of degree N - 1 at t, and their slopes.
+template <size_t N>
+struct Bernstein {
+    explicit Bernstein(double t) {
+        std::array<double, N> lower{}; // of one degree less
+        value[0] = 1.0;
+        for (size_t degree = 1; degree < N; ++degree) {
+            lower = value;
+            for (size_t k = degree + 1; k-- > 0;) {
+                value[k] = (1.0 - t) * (k < degree ? lower[k] : 0.0) + t * (k > 0 ? lower[k - 1] : 0.0);
+            }
+        }
+        for (size_t k = 0; k < N; ++k) {
+            slope[k] = static_cast<double>(N - 1) * ((k > 0 ? lower[k - 1] : 0.0) - (k + 1 < N ? lower[k] : 0.0));
+        }
+    }
+    std::array<double, N> value{}, slope{};
+};
+
+/// What the coefficients of a tensor patch have at a place.
+template <size_t N>
+std::array<VertexWeight, N * N> tensorWeights(const Place& place) {
+    const Bernstein<N> u(place.x), v(place.y);
+    std::array<VertexWeight, N * N> weights;
+    for (size_t k = 0; k < weights.size(); ++k) {
+        const size_t i = k % N, j = k / N;
+        weights[k] = {0, u.value[i] * v.value[j], u.slope[i] * v.value[j], u.value[i] * v.slope[j]};
+    }
+    return weights;
+}
+
+/// What the 15 coefficients of a sector have where its corners have the weights w.
+std::array<VertexWeight, 15> quarticWeights(const glm::dvec3& w) {
+    constexpr std::array<double, 5> kFactorials{1.0, 1.0, 2.0, 6.0, 24.0};
+    std::array<VertexWeight, 15> weights;
+    size_t number = 0;
+    for (int r = 0; r <= 4; ++r) {
+        for (int i = 0; i + r <= 4; ++i) {
+            const std::array<int, 3> powers{4 - i - r, i, r};
+            const auto term = [&](int lowered) { // the product, or its slope by one of the weights
+                double product = 24.0;
+                for (int c = 0; c < 3; ++c) {
+                    const auto power = static_cast<size_t>(powers[static_cast<size_t>(c)]);
+                    product *= std::pow(w[c], static_cast<double>(power) - (c == lowered ? 1.0 : 0.0)) /
+                               kFactorials[power] * (c == lowered ? static_cast<double>(power) : 1.0);
+                }
+                return product;
+            };
+            const auto slope = [&](int by) { return powers[static_cast<size_t>(by)] > 0 ? term(by) : 0.0; };
+            weights[number++] = {0, term(-1), slope(1) - slope(0), slope(2) - slope(0)};
+        }
+    }
+    return weights;
+}
+
+} // namespace
+
+void PatchSet::weighRow(uint32_t row, const VertexWeight& weight, PointWeights& out) const {
+    // As build() has it: the first vertex has what the others leave of 1.
+    const Row& of = rows_[row];
+    double rest = 1.0;
+    for (uint32_t k = of.first + 1; k < of.first + of.count; ++k) {
+        const double own = weights_[k];
+        VertexWeight entry = own * weight;
+        entry.vertex = vertices_[k];
+        out.add(entry);
+        rest -= own;
+    }
+    VertexWeight entry = rest * weight;
+    entry.vertex = vertices_[of.first];
+    out.add(entry);
+}
+
+void PatchSet::weigh(const Place& place, PointWeights& out) const {
+    const Patch& patch = patches_[place.piece];
+    const auto weighAll = [&](const auto& weights) {
+        for (uint32_t k = 0; k < weights.size(); ++k) {
+            weighRow(coefficients_[patch.first + k], weights[k], out);
+        }
+    };
+    if (patch.kind == Kind::cubic) {
+        weighAll(tensorWeights<4>(place));
+        out.turn(place);
+        return;
+    }
+    if (patch.kind == Kind::quintic) {
+        weighAll(tensorWeights<6>(place));
+        out.turn(place);
+        return;
+    }
+    std::array<Form, 31> coefficients;
+    for (uint32_t k = 0; k < patch.count; ++k) {
+        coefficients[k] = Form::ofVertex(k);
+    }
+    const SectorPlace sector = sectorPlace(patch.sides, place);
+    const std::array<Form, 15> net =
+        surface::pm::quarticOf(surface::pm::SectorView<Form>(coefficients, patch.sides, Form()), sector.place.sector);
+    const std::array<VertexWeight, 15> weights = quarticWeights(sector.weights);
+    PointWeights ofPatch; // by coefficient
+    for (size_t k = 0; k < net.size(); ++k) {
+        ofPatch.add(net[k], weights[k]);
+    }
+    for (const VertexWeight& entry : ofPatch.entries()) {
+        weighRow(coefficients_[patch.first + entry.vertex], entry, out);
+    }
+    out.turn(sector.place);
+}
+
 /// The weights of all parameters of a rate, the same in every lane.
 template <uint32_t N>
 struct PatchSet::GridWeights {

@@ -5,6 +5,7 @@
 #include "cpu/form.h"
 #include "cpu/jobs.h"
 #include "cpu/place.h"
+#include "cpu/point_weights.h"
 #include "surface/patch_class.h"
 
 #include <array>
@@ -58,6 +59,9 @@ public:
     /// of the sector's second corner and of the middle. The result is by the places' own a and b.
     void evaluate(std::span<const Place> places, const PatchPose& pose, std::span<SurfaceJet> out) const;
 
+    /// Fills in the weights of a place, as evaluate() has it.
+    void weigh(const Place& place, PointWeights& out) const;
+
     /// Polar patches have a row without du: their normals ask for care.
     [[nodiscard]] bool hasFastGrid(uint32_t patch) const { return patches_[patch].patchClass != PatchClass::polar; }
     /// The samples of patches that have one, in the order of their domains, patch after patch. Normals are
@@ -81,6 +85,8 @@ private:
 
     uint32_t add(Kind kind, PatchClass patchClass, uint32_t sides, std::span<const Form> coefficients);
     uint32_t rowOf(const Form& form);
+    /// Adds a coefficient with its weights.
+    void weighRow(uint32_t row, const VertexWeight& weight, PointWeights& out) const;
     [[nodiscard]] const glm::vec3& coefficient(const Patch& patch, uint32_t k, const PatchPose& pose) const {
         return pose.points[coefficients_[patch.first + k]];
     }

@@ -19,6 +19,7 @@ class PatchSurface : public Surface {
 public:
     [[nodiscard]] std::unique_ptr<Pose> newPose() const override;
     [[nodiscard]] Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const override;
+    void weigh(const Place& place, PointWeights& out) const override { set_.weigh(place, out); }
 
 protected:
     explicit PatchSurface(Patches patches) : Surface(patches) {}

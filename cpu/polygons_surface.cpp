@@ -29,6 +29,13 @@ public:
         place.piece = patch;
         return place;
     }
+    void weigh(const Place& place, PointWeights& out) const override {
+        const auto& corners = patches()[place.piece].corners;
+        out.add({corners[0], (1.0 - place.x) - place.y, -1.0, -1.0});
+        out.add({corners[1], place.x, 1.0, 0.0});
+        out.add({corners[2], place.y, 0.0, 1.0});
+        out.turn(place);
+    }
 
 private:
     CutFaces faces_;

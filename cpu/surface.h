@@ -7,6 +7,7 @@
 #include "cpu/jobs.h"
 #include "cpu/patch_set.h"
 #include "cpu/place.h"
+#include "cpu/point_weights.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
 
@@ -50,6 +51,8 @@ public:
     /// Where a sample of a patch lies, moved by a share of the way to the middle of the patch or of its sector.
     /// Derivatives are those in the patch's own domain.
     [[nodiscard]] virtual Place placeOfSample(uint32_t patch, uint32_t rate, uint32_t sample, double inside) const = 0;
+    /// Fills in the weights of a place, with derivatives by its a and b: what Pose::evaluate() gives of any cage.
+    virtual void weigh(const Place& place, PointWeights& out) const = 0;
 
     /// The samples of the patches begin..end, in the order of the device. Normals are of unit length, or zero where
     /// there is none.
@@ -102,5 +105,8 @@ using Patches = std::span<const surface::PatchInfo>;
 [[nodiscard]] Built loopSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built blendSurface(const surface::Recipe& recipe, const cage::Cage& cage, Patches patches);
 [[nodiscard]] Built polygonsSurface(const cage::Cage& cage, Patches patches);
+/// The cage itself, which has no patches: triangles, bilinear quads, and faces of more sides as triangles round their
+/// middle.
+[[nodiscard]] std::unique_ptr<const Surface> cageSurface(const cage::Cage& cage);
 
 } // namespace supple::cpu

@@ -423,8 +423,8 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
     if (!made) {
         return made.error();
     }
-    remade.push_back({id, std::move(*made)});
-    return success();
+    remade.push_back({id, std::move(*made), {}});
+    return remakePoints(group, remade.back());
 }
 
 Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
@@ -459,6 +459,7 @@ Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
 void Context::replace(std::vector<Remade>& remade) {
     makeRoom(retired_, groups.slotCount() + remade.size());
     for (Remade& own : remade) {
+        replacePoints(own);
         retired_.push_back(retired(groups.replace(own.id, std::move(own.group))));
     }
 }
@@ -516,6 +517,7 @@ Status Context::reload(uint64_t id, Result<std::shared_ptr<Asset>> made, uint64_
     }
     for (const Remade& own : *remade) {
         tellNotes(*own.group);
+        tellDropped(own);
     }
     tellBuiltLate(*asset);
     asset->startStream();
@@ -574,6 +576,7 @@ bool Context::destroyGroup(uint64_t id) {
     if (group == nullptr) {
         return false;
     }
+    dropPoints(id);
     retired_.push_back(retired(std::move(group))); // freed by the next beginFrame that may
     return true;
 }

@@ -103,6 +103,11 @@ public:
     [[nodiscard]] Result<uint64_t> createAsset(std::shared_ptr<const Prepared> prepared, uint64_t clipPoolBytes);
     [[nodiscard]] Result<uint64_t> createGroup(const SuppleGroupDesc& desc);
     bool destroyGroup(uint64_t id);
+    /// `desc`: its structSize and its numbers are checked.
+    [[nodiscard]] Result<uint64_t> createPointSet(const SupplePointSetDesc& desc);
+    bool destroyPointSet(uint64_t id);
+    /// The surfaces of a group on the CPU, made when something first needs them.
+    [[nodiscard]] static Result<std::shared_ptr<const CpuGroup>> surfacesOf(Group& group);
     /// ClipStream::request, if the asset's clips are streamed.
     [[nodiscard]] Status requestClip(Asset& asset, const ClipRequest& request);
     /// Makes the group anew with another capacity, and those that follow it.
@@ -134,6 +139,7 @@ public:
     SlotMap<Asset> assets;
     SlotMap<Group> groups;
     SlotMap<View> views;
+    SlotMap<PointSet> pointSets;
 
 private:
     /// Makes ready for the hashes of a recording.
@@ -202,11 +208,27 @@ private:
         std::shared_ptr<Asset> asset; ///< null: they keep theirs
         const AssetMatch& match;
     };
-    /// A group that takes the place of another, once all are made.
+    /// A group that takes the place of another, once all are made, and so its point sets. A set that is null is
+    /// dropped.
     struct Remade {
+        struct Points {
+            uint64_t id = 0;
+            std::shared_ptr<PointSet> set;
+        };
         uint64_t id = 0;
         std::shared_ptr<Group> group;
+        std::vector<Points> points;
     };
+    /// Makes the sets of a group for the one that takes its place.
+    [[nodiscard]] Status remakePoints(const Group& before, Remade& remade);
+    /// `table`: null, and it is made anew.
+    [[nodiscard]] Result<std::shared_ptr<PointSet>> remadeFor(Group& group, const PointSet& set,
+                                                              PointTableBuffer table);
+    /// With the pipeline of the format.
+    [[nodiscard]] Result<PointKernels*> kernelsFor(SupplePointFormat format);
+    void tellDropped(const Remade& remade) const;
+    void replacePoints(const Remade& remade);
+    void dropPoints(uint64_t group);
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace supple::runtime {
 
@@ -93,7 +94,8 @@ Result<std::shared_ptr<const CpuGroup>> CpuGroup::create(std::shared_ptr<const P
     group->partOfFace_.assign(group->cage().faceCount(), 0);
     group->faceInPart_.assign(group->cage().faceCount(), 0);
     if (desc.scheme == SUPPLE_SCHEME_CAGE) {
-        return Error{ErrorCode::argument, "SUPPLE_SCHEME_CAGE has no surface"};
+        group->addCage();
+        return std::shared_ptr<const CpuGroup>(std::move(group));
     }
     const Result<std::vector<SchemeParts>> schemes = schemesOf(*group->prepared_, desc);
     if (!schemes) {
@@ -145,9 +147,7 @@ Status CpuGroup::addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool 
             faceInPart_[piece.faces[f]] = f;
         }
     } else {
-        for (uint32_t f = 0; f < faceInPart_.size(); ++f) {
-            faceInPart_[f] = f;
-        }
+        std::iota(faceInPart_.begin(), faceInPart_.end(), 0u);
     }
     auto made = cpu::Surface::create(planned->recipe, prepared_->cageOf(part.piece.get()), patches);
     if (!made) {
@@ -155,6 +155,13 @@ Status CpuGroup::addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool 
     }
     part.surface = std::move(*made);
     return success();
+}
+
+void CpuGroup::addCage() {
+    Part& part = parts_.emplace_back();
+    part.scheme = SUPPLE_SCHEME_CAGE;
+    part.surface = cpu::cageSurface(cage());
+    std::iota(faceInPart_.begin(), faceInPart_.end(), 0u);
 }
 
 uint64_t CpuGroup::vertexCount(const Part& part, uint32_t rate) {

@@ -26,7 +26,7 @@ public:
         std::unique_ptr<const cpu::Surface> surface;
     };
 
-    /// `desc`: checked.
+    /// `desc`: checked. SUPPLE_SCHEME_CAGE: the surface is the cage itself, which has no patches.
     [[nodiscard]] static Result<std::shared_ptr<const CpuGroup>> create(std::shared_ptr<const Prepared> prepared,
                                                                         const SuppleGroupDesc& desc);
 
@@ -46,6 +46,7 @@ public:
     [[nodiscard]] Found find(const SuppleSurfacePoint& point) const;
 
 private:
+    void addCage();
     Status addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool chosen, const std::vector<uint32_t>& parts);
 
     std::shared_ptr<const Prepared> prepared_;

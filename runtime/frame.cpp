@@ -166,6 +166,10 @@ PassCost recordPose(const Frame& frame, Group& group) {
     return poses<part>(group) ? group.poses().recordPart(frame.dispatches, part, group.windows()) : PassCost{};
 }
 
+PassCost recordPoints(const Frame& frame, Group& group) {
+    return group.recordPoints(frame.dispatches);
+}
+
 PassCost recordBounds(const Frame& frame, Group& group) {
     return group.hasBounds() ? group.recordBounds(frame.dispatches) : PassCost{};
 }
@@ -274,6 +278,9 @@ bool always(Group&) {
 bool isInView(Group& group) {
     return group.view() != nullptr;
 }
+bool hasPoints(Group& group) {
+    return !group.points().empty();
+}
 bool hasBounds(Group& group) {
     return group.hasBounds();
 }
@@ -326,6 +333,7 @@ constexpr Row kPasses[] = {
     {SUPPLE_PASS_POSE, poses<Playback::Part::palette>, recordPose<Playback::Part::palette>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::mix>, recordPose<Playback::Part::mix>},
     {SUPPLE_PASS_DEFORM, always, {}},
+    {SUPPLE_PASS_POINTS, hasPoints, recordPoints, Behind::nothing},
     {SUPPLE_PASS_BOUNDS, hasBounds, recordBounds, Behind::bounds},
     {SUPPLE_PASS_BOUNDS, readsBounds, recordBoundsReadback, Behind::readback, false, true},
     {SUPPLE_PASS_BOUNDS,
@@ -785,13 +793,13 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc, uint64_t call) 
 }
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
-    if (group.staticsThere() && group.asset().stream == nullptr) {
+    if (group.staticsThere() && !group.staticsPending() && group.asset().stream == nullptr) {
         return {0, true};
     }
     const std::scoped_lock lock(uploading_);
     VkDeviceSize bytes = group.staticsPending() ? group.recordStatics(commandBuffer, frame_) : 0;
     bytes += recordStream(commandBuffer, group, bytes);
-    if (group.staticsPending()) {
+    if (group.lacksStatics()) {
         return {bytes, false};
     }
     group.noteStaticsThere();

@@ -295,6 +295,7 @@ void Group::addMembers(const GroupShared& shared) {
         addMember(*instances_);
     }
     addMember(stages_);
+    addMember(points_);
     if (view_ != nullptr) {
         addMember(*culling_);
         addMember(*view_);
@@ -374,6 +375,10 @@ Status Group::createVisibility() {
                : success();
 }
 
+PointSource Group::pointSource() const {
+    return {device_, &listing_, instances_->cages().buffer(), instances_->cageStride()};
+}
+
 SuppleBufferRange Group::bounds() const {
     return culling_ != nullptr ? culling_->bounds() : listedBounds_->bounds();
 }
@@ -399,6 +404,7 @@ gpu::TaskNeeds Group::countTasks() const {
     const uint32_t stages = stages_.count(static_cast<uint32_t>(surfaces_.size()));
     gpu::TaskNeeds needs{windows * (Playback::kTasks + stages), windows * (1 + stages)};
     needs += {windows + Culling::kGroupPasses + gpu::TaskDispatches::kPhases, windows + 1}; // bounds and lists
+    needs += points_.taskNeeds();
     for (const auto& surface : surfaces_) {
         needs += surface->taskNeeds();
     }
@@ -409,6 +415,7 @@ gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
     use += stages_.memoryUse();
+    use += points_.memoryUse();
     if (boundsReadback_ != nullptr) {
         use += boundsReadback_->memoryUse();
     }
@@ -440,6 +447,7 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
 
 void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
     waitingFrame_ = lastRecordedFrame_ = frame;
+    points_.noteAsked(frame);
     if (!noDraws_.due()) {
         return;
     }
@@ -461,6 +469,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         culling_->takePool(view_->pool());
     }
     passesFrame_ = lastRecordedFrame_ = frame.number;
+    points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
     PassCost cost =
         follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
@@ -484,7 +493,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
     const bool pastMoves =
-        step != pastStep_ && surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); });
+        step != pastStep_ &&
+        (points_.havePasts() || surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); }));
     tasksVersion_ += changed || pastMoves ? 1 : 0;
     pastStep_ = step;
     return cost;
@@ -494,6 +504,7 @@ gpu::TaskOwner Group::taskOwner() const {
     gpu::TaskOwner owner;
     owner.id = number_;
     owner.version = tasksVersion_;
+    owner.recordsOnce = points_.beginsAny();
     for (const auto& surface : surfaces_) {
         owner.pools |= surface->pool(); // they take turns together
         owner.recordsOnce = owner.recordsOnce || surface->attributesDue();
@@ -578,6 +589,7 @@ void Group::addTransfers(Transfers& transfers, bool withView) const {
     if (listedBounds_ != nullptr) {
         transfers.add(listedBounds_->bounds().buffer);
     }
+    points_.addTransfers(transfers, askedFrame());
     for (const auto& surface : surfaces_) {
         surface->addTransfers(transfers, askedFrame());
     }

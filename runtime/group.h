@@ -13,6 +13,7 @@
 #include "runtime/culling/out_of_sight.h"
 #include "runtime/group_recipe.h"
 #include "runtime/instance_set.h"
+#include "runtime/points/point_sets.h"
 #include "runtime/recording/stage_hashes.h"
 #include "runtime/stages/cage_stages.h"
 #include "runtime/surfaces.h"
@@ -88,6 +89,10 @@ public:
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
     /// What makes the cages of its surfaces.
     [[nodiscard]] CageStages& stages() { return stages_; }
+    [[nodiscard]] PointSets& points() { return points_; }
+    [[nodiscard]] const PointSets& points() const { return points_; }
+    /// What its point sets are made from.
+    [[nodiscard]] PointSource pointSource() const;
     [[nodiscard]] Surfaces& surfaces() { return surfaces_; }
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     // Null if the group belongs to no view.
@@ -110,11 +115,18 @@ public:
     [[nodiscard]] float boundsMargin() const;
 
     // Recording, in the order of a frame; runtime/frame.cpp has the passes.
-    [[nodiscard]] bool staticsPending() const override { return !staticsThere_ && FrameMembers::staticsPending(); }
+    [[nodiscard]] bool staticsPending() const override { return lacksStatics() || points_.uploadsPending(); }
+    /// Whether frames leave the group out for want of static data.
+    [[nodiscard]] bool lacksStatics() const { return !staticsThere_ && FrameMembers::staticsPending(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override;
     /// All are recorded. They stay, unless the frame that has them is cancelled.
     void noteStaticsThere() { staticsThere_ = true; }
     [[nodiscard]] bool staticsThere() const { return staticsThere_; }
+    /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
+    void notePointsChanged(uint64_t number) {
+        number_ = number;
+        taskNeeds_ = countTasks();
+    }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
@@ -128,6 +140,8 @@ public:
     PassCost recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame);
     /// Notes that the frame has something of the group. recordStatics() and recordUpload() do so themselves.
     void noteRecorded(uint64_t frame) { lastRecordedFrame_ = frame; }
+    /// Behind the deformed cages.
+    PassCost recordPoints(gpu::Dispatches& dispatches) { return points_.record(dispatches, passesFrame_, pastStep_); }
     /// If hasBounds().
     PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.
@@ -226,6 +240,7 @@ private:
     std::vector<Hashed> hashed_;
     std::unique_ptr<HashedParts> hashes_; ///< of hashed_
     CageStages stages_;
+    PointSets points_;
     Surfaces surfaces_;
     uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change

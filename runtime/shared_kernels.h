@@ -3,6 +3,7 @@
 
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/culling/occlusion_kernels.h"
+#include "runtime/points/point_kernels.h"
 #include "runtime/recording/stage_hashes.h"
 #include "skinning/pose_kernels.h"
 
@@ -24,6 +25,8 @@ public:
     [[nodiscard]] Result<BoundsKernels*> bounds() { return made(bounds_); }
     /// For views with occlusion.
     [[nodiscard]] Result<OcclusionKernels*> occlusion() { return made(occlusion_); }
+    /// For groups with point sets.
+    [[nodiscard]] Result<PointKernels*> points() { return made(points_); }
     /// For recordings with hashes.
     [[nodiscard]] Result<HashKernels*> hashes() { return made(hashes_); }
 
@@ -57,6 +60,7 @@ private:
     std::unique_ptr<skinning::PoseKernels> pose_;
     std::unique_ptr<BoundsKernels> bounds_;
     std::unique_ptr<OcclusionKernels> occlusion_;
+    std::unique_ptr<PointKernels> points_;
     std::unique_ptr<HashKernels> hashes_;
 };
 

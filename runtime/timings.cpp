@@ -8,7 +8,7 @@
 
 namespace supple::runtime {
 
-static_assert(kPassCount == SUPPLE_PASS_SHORTFALL + 1, "add the name of the pass");
+static_assert(kPassCount == SUPPLE_PASS_POINTS + 1, "add the name of the pass");
 
 const char* passName(SupplePass pass) {
     const uint32_t index = rawValue(pass);

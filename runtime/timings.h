@@ -20,9 +20,9 @@
 namespace supple::runtime {
 
 /// By SupplePass. That of all passes together stands in warnings.
-inline constexpr const char* kPassNames[] = {"all passes", "upload",   "attributes", "pose",     "deform", "bounds",
-                                             "list",       "vertex",   "assemble",   "patch",    "level",  "solve",
-                                             "place",      "evaluate", "motion",     "shortfall"};
+inline constexpr const char* kPassNames[] = {"all passes", "upload",   "attributes", "pose",      "deform", "bounds",
+                                             "list",       "vertex",   "assemble",   "patch",     "level",  "solve",
+                                             "place",      "evaluate", "motion",     "shortfall", "points"};
 inline constexpr size_t kPassCount = std::size(kPassNames);
 [[nodiscard]] const char* passName(SupplePass pass);
 /// The most entries that a group can have in a frame, for each of its surfaces, beside one for every cage stage. Pose

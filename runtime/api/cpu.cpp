@@ -83,6 +83,9 @@ SuppleResult createCpuGroup(const SuppleCpuGroupDesc& desc, SuppleCpuGroup* out,
     if (const std::optional<Error> fault = group.takePlanned(desc.group, false)) {
         return refuse(fault->code, fault->message);
     }
+    if (group.desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return refuse(ErrorCode::argument, "SUPPLE_SCHEME_CAGE has no surface");
+    }
     auto made = runtime::CpuGroup::create(desc.prepared->prepared, group.desc);
     if (!made) {
         return log.refused(kCreateCpuGroup, made.error());

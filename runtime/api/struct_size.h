@@ -59,6 +59,9 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleViewDesc)                                                                                                  \
     X(SuppleCameraDesc)                                                                                                \
     X(SuppleDepthPyramidDesc)                                                                                          \
+    X(SupplePointSetDesc)                                                                                              \
+    X(SupplePointQuery)                                                                                                \
+    X(SupplePointOutput)                                                                                               \
     X(SuppleLevelOutput)                                                                                               \
     X(SuppleViewStatistics)                                                                                            \
     X(SuppleCpuGroupDesc)                                                                                              \

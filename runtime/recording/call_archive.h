@@ -22,7 +22,8 @@ namespace supple::runtime {
 template <class T>
 concept RawNumber = std::is_arithmetic_v<std::remove_const_t<T>> || std::is_enum_v<std::remove_const_t<T>>;
 template <class T>
-concept CallHandle = std::same_as<T, SuppleAsset> || std::same_as<T, SuppleGroup> || std::same_as<T, SuppleView>;
+concept CallHandle = std::same_as<T, SuppleAsset> || std::same_as<T, SuppleGroup> || std::same_as<T, SuppleView> ||
+    std::same_as<T, SupplePointSet>;
 
 /// In the place of a list's length: its pointer is null.
 inline constexpr uint32_t kNullList = 0xFFFFFFFFu;

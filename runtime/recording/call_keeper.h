@@ -83,6 +83,12 @@ private:
     void take(const calls::DestroyGroup& call);
     void take(const calls::SetCapacity& call) { put({{call.group.id}, kCallNumber<calls::SetCapacity>}, call); }
     void take(const calls::SetRate& call) { put({{call.group.id}, kCallNumber<calls::SetRate>}, call); }
+    void take(const calls::CreatePointSet& call) {
+        put({{call.desc.group.id}, kCallNumber<calls::CreatePointSet>, call.set.id}, call);
+    }
+    void take(const calls::DestroyPointSet& call) {
+        calls_.erase({{call.group.id}, kCallNumber<calls::CreatePointSet>, call.set.id});
+    }
     void take(const calls::SetTime& call);
     void take(const calls::SetMask& call);
     void take(const calls::SetCamera& call) { put({{call.view.id}, kCallNumber<calls::SetCamera>}, call); }

@@ -343,6 +343,22 @@ struct RequestClip {
         a(c.asset, c.clip, c.request);
     }
 };
+struct CreatePointSet {
+    SupplePointSet set{};
+    SupplePointSetDesc desc{};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.set, c.desc);
+    }
+};
+struct DestroyPointSet {
+    SupplePointSet set{};
+    SuppleGroup group{}; ///< whose it is
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.set, c.group);
+    }
+};
 
 } // namespace calls
 
@@ -355,7 +371,8 @@ using Call =
                  calls::SetMatrixPose, calls::SetMorphWeights, calls::SetJointMatrices, calls::SetPose,
                  calls::SetPlayback, calls::SetTime, calls::SetMask, calls::SetModifiers, calls::SetModifierTarget,
                  calls::SetCamera, calls::SetDepthPyramid, calls::SetOrigin, calls::SetUploadBudget, calls::BeginFrame,
-                 calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record, calls::RequestClip>;
+                 calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record, calls::RequestClip,
+                 calls::CreatePointSet, calls::DestroyPointSet>;
 
 /// The functions that make them, in the same order.
 inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames = {
@@ -368,7 +385,8 @@ inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames =
     "suppleSetPlayback",       "suppleSetTime",         "suppleSetMask",          "suppleSetModifiers",
     "suppleSetModifierTarget", "suppleSetCamera",       "suppleSetDepthPyramid",  "suppleSetOrigin",
     "suppleSetUploadBudget",   "suppleBeginFrame",      "suppleCancelFrame",      "suppleRecordUploads",
-    "suppleRecordWarmUp",      "suppleRecord",          "suppleRequestClip"};
+    "suppleRecordWarmUp",      "suppleRecord",          "suppleRequestClip",      "suppleCreatePointSet",
+    "suppleDestroyPointSet"};
 
 /// The place of a type among those of a variant.
 template <class T, class... Types>
@@ -453,6 +471,19 @@ template <class A, CallStruct<SuppleClipRequest> T>
 void fields(A& a, T& request) {
     a.sized(request);
     a(request.use, request.begin, request.end);
+}
+template <class A, CallStruct<SuppleSurfacePoint> T>
+void fields(A& a, T& point) {
+    a(point.face, point.side, point.a, point.b);
+}
+template <class A, CallStruct<SupplePointSetDesc> T>
+void fields(A& a, T& desc) {
+    a.sized(desc);
+    a(desc.flags, desc.group, desc.format);
+    a.list(desc.points, desc.pointCount);
+    uint32_t numbers = 3 * desc.pointCount;
+    a.list(desc.tangents, numbers);
+    a.require(desc.tangents == nullptr || numbers == 3 * uint64_t{desc.pointCount});
 }
 template <class A, CallStruct<SuppleMaskDesc> T>
 void fields(A& a, T& mask) {

@@ -10,17 +10,7 @@ BUFFER(writeonly, Tangents, kTangentBinding, std430, uint, tangents)
 BUFFER(readonly, Directions, kDirectionBinding, std430, uint, directions)
 
 #include "shaders/evaluate/frame.glsl"
-
-// Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer, "A Survey of Efficient Representations for Independent Unit
-// Vectors" (JCGT 2014): octahedral coordinates. `scale`: 1 / (|x| + |y| + |z|).
-vec2 octahedralOf(vec3 n, float scale) {
-    vec2 p = n.xy * scale;
-    // Where z < 0, 1 - |y| = |x| + |z| with the sign of x, and so for y.
-    uint fold = floatBitsToUint(max(-n.z, 0.0) * scale);
-    return p + uintBitsToFloat((floatBitsToUint(p) & 0x80000000u) | fold);
-}
-// packSnorm2x16 of what needs no clamping: adding 3/2 2^23 rounds to integers, which stand in the low bits then.
-uvec2 roundedBits(vec2 p, vec2 most) { return floatBitsToUint(p * most + 12582912.0); }
+#include "shaders/shared/octahedral.glsl"
 
 // Of normals of any length. A zero one is +z.
 uint encodeOctahedral(vec3 n) {

@@ -1,5 +1,9 @@
 // Points of faces: they lie where the grid has them, and derivatives are those of the surface.
 #include "cage/topology.h"
+#include "runtime/arrays/character_arrays.h"
+#include "runtime/cpu_group.h"
+#include "runtime/points/point_stencils.h"
+#include "shaders/shared/points.h"
 #include "surface/grid.h"
 #include "surface/patch_class.h"
 #include "tests/support/cpu_group.h"
@@ -11,9 +15,12 @@
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"
 
+#include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 #include <tuple>
 
@@ -85,6 +92,31 @@ glm::dvec3 asVector(const float* v) {
     return {v[0], v[1], v[2]};
 }
 
+/// What the table of a point set (shaders/shared/points.h) makes of a cage.
+struct WeighedPoint {
+    glm::dvec3 position{0.0}, a{0.0}, b{0.0};
+    size_t count = 0; ///< of weights
+};
+WeighedPoint weighed(const std::vector<uint32_t>& table, size_t point, const std::vector<glm::vec3>& cage) {
+    const auto element = [&](size_t at) { return std::span(table).subspan(4 * at, 4); };
+    const auto header = element(point / shared::kPointBlock);
+    WeighedPoint out;
+    out.count = header[1];
+    size_t at = header[0] + point % shared::kPointBlock;
+    const glm::dvec3 first(cage[element(at)[0]]);
+    for (uint32_t i = 1; i < header[1]; ++i) {
+        at += header[2];
+        const auto weight = element(at);
+        const glm::dvec3 offset = glm::dvec3(cage[weight[0]]) - first;
+        const auto share = [&](size_t of) { return static_cast<double>(std::bit_cast<float>(weight[of])); };
+        out.position += share(1) * offset;
+        out.a += share(2) * offset;
+        out.b += share(3) * offset;
+    }
+    out.position += first;
+    return out;
+}
+
 /// Differences over such a step: the error is of its square, and of float's rounding over it.
 constexpr float kStep = 1.0f / 256.0f;
 
@@ -140,6 +172,202 @@ TEST(CpuPoints, DerivativesAreThoseOfTheSurface) {
         EXPECT_LE(second[most], 2e-2) << entry.name;
         EXPECT_LE(first.back(), 1e-2) << entry.name;
     }
+}
+
+/// Points as the device has them: the weights of a point set, of any cage.
+TEST(CpuPoints, WeightsGiveTheSurface) {
+    std::vector<SchemeCage> entries = schemeCages();
+    entries.push_back({"cage", SUPPLE_SCHEME_CAGE, entries[1].cage});
+    entries.push_back({"cage, mixed faces", SUPPLE_SCHEME_CAGE, entries[2].cage});
+    for (const SchemeCage& entry : entries) {
+        const host::CageArrays arrays(entry.cage);
+        Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
+        ASSERT_TRUE(character.ok());
+        SuppleGroupDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.scheme = entry.scheme;
+        const SuppleFragmentsOptions fragments{sizeof(fragments), entry.rules};
+        desc.fragments = &fragments;
+        const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
+        ASSERT_TRUE(surfaces.ok()) << entry.name << ": " << surfaces.error().message;
+        std::vector<SuppleSurfacePoint> points;
+        std::mt19937 random(5);
+        for (uint32_t face = 0; face < entry.cage.faceCount(); ++face) {
+            points.push_back(innerPoint(entry.cage, face, random));
+            points.push_back({face, 0, 0.0f, 0.0f});
+            points.push_back({face, entry.cage.sides(face) > 4 ? 2u : 0u, 1.0f, 0.0f});
+        }
+        const Result<std::vector<uint32_t>> table = runtime::pointTable(**surfaces, points, {}, false);
+        ASSERT_TRUE(table.ok()) << entry.name;
+        runtime::CpuPose pose(*surfaces);
+        const auto jetsOf = [&](const std::vector<glm::vec3>& cage) {
+            std::vector<SuppleSurfaceJet> jets(points.size());
+            EXPECT_TRUE(pose.build(reinterpret_cast<const std::byte*>(cage.data()), sizeof(glm::vec3), {}));
+            EXPECT_TRUE(pose.evaluate(points, jets.data(), {}));
+            return jets;
+        };
+        const std::vector<SuppleSurfaceJet> bind = jetsOf(entry.cage.positions);
+        const std::vector<glm::vec3> moved = perturbed(entry.cage, 0.3f, 9).positions;
+        const std::vector<SuppleSurfaceJet> jets = jetsOf(moved);
+        const double size = extent(doublePositions(entry.cage));
+        double position = 0.0, tangent = 0.0, normal = 0.0, inner = 0.0;
+        size_t longest = 0;
+        for (size_t k = 0; k < points.size(); ++k) {
+            const WeighedPoint own = weighed(*table, k, moved);
+            const glm::dvec3 du0 = asVector(bind[k].du), n0 = glm::cross(du0, asVector(bind[k].dv));
+            const glm::dvec3 du = asVector(jets[k].du) / glm::length(du0);
+            const glm::dvec3 n = glm::cross(asVector(jets[k].du), asVector(jets[k].dv)) / glm::length(n0);
+            raise(position, glm::distance(own.position, asVector(jets[k].position)) / size);
+            raise(tangent, glm::distance(own.a, du) / glm::length(du));
+            raise(normal, glm::distance(glm::cross(own.a, own.b), n) / glm::length(n));
+            if (k % 3 == 0) { // no corner
+                raise(inner, std::max(glm::distance(own.a, du) / glm::length(du),
+                                      glm::distance(glm::cross(own.a, own.b), n) / glm::length(n)));
+            }
+            longest = std::max(longest, own.count);
+        }
+        std::printf(
+            "%-28s position %.1e of the extent, tangent %.1e, normal %.1e, off corners %.1e; most vertices %zu\n",
+            entry.name, position, tangent, normal, inner, longest);
+        EXPECT_LE(position, 1e-6) << entry.name;
+        EXPECT_LE(tangent, 2e-5) << entry.name;
+        EXPECT_LE(normal, 2e-3) << entry.name;
+        EXPECT_LE(inner, 2e-5) << entry.name;
+    }
+}
+
+/// The surfaces of a cage, for tables.
+std::shared_ptr<const runtime::CpuGroup> surfacesOfCage(const cage::Cage& cage, SuppleScheme scheme) {
+    const host::CageArrays arrays(cage);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
+    EXPECT_TRUE(character.ok());
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = scheme;
+    const auto made = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
+    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
+    return made ? *made : nullptr;
+}
+
+/// Points beside a vertex of many faces hang on all of them. Their weights take time in proportion, at any distance.
+TEST(CpuPoints, AVertexOfManyFacesTakesNoSquareOfTheirNumber) {
+    constexpr uint32_t kValence = 400;
+    const cage::Cage cage = gyroBipyramid(kValence);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP}) {
+        const auto surfaces = surfacesOfCage(cage, scheme);
+        ASSERT_NE(surfaces, nullptr);
+        std::vector<SuppleSurfacePoint> points;
+        for (uint32_t k = 0; k < 100; ++k) {
+            const float off = std::exp2(-static_cast<float>(k % 32));
+            const uint32_t face = k % cage.faceCount();
+            points.push_back({face, 0, 0.3f * off, 0.2f * off});
+            points.push_back({face, 0, 1.0f - 0.3f * off, 0.2f * off});
+            points.push_back({face, 0, 0.3f * off, 1.0f - 0.5f * off});
+        }
+        const auto start = std::chrono::steady_clock::now();
+        const Result<std::vector<uint32_t>> table = runtime::pointTable(*surfaces, points, {}, true);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        ASSERT_TRUE(table.ok());
+        runtime::CpuPose pose(surfaces);
+        const std::vector<glm::vec3> moved = perturbed(cage, 0.3f, 9).positions;
+        std::vector<SuppleSurfaceJet> jets(points.size());
+        ASSERT_TRUE(pose.build(reinterpret_cast<const std::byte*>(moved.data()), sizeof(glm::vec3), {}));
+        ASSERT_TRUE(pose.evaluate(points, jets.data(), {}));
+        double position = 0.0, slope = 0.0;
+        size_t longest = 0;
+        for (size_t k = 0; k < points.size(); ++k) {
+            const WeighedPoint own = weighed(*table, k, moved);
+            raise(position, glm::distance(own.position, asVector(jets[k].position)));
+            raise(slope, glm::distance(own.a, asVector(jets[k].du)) / glm::length(asVector(jets[k].du)));
+            longest = std::max(longest, own.count);
+        }
+        std::printf("scheme %u: %.2f ms a point; position %.1e, du %.1e; most vertices %zu\n", scheme,
+                    1e3 * took.count() / static_cast<double>(points.size()), position, slope, longest);
+        EXPECT_GE(longest, kValence);
+        EXPECT_LE(position, 2e-6);
+        EXPECT_LE(slope, 1e-4);
+        EXPECT_LT(took.count(), 20.0) << "a square of the faces takes minutes";
+    }
+}
+
+/// What has no bound is refused by name, before it is made.
+TEST(CpuPoints, TooManyWeightsAreRefused) {
+    const auto expectRefused = [](const Result<std::vector<uint32_t>>& table, const std::string& reason) {
+        ASSERT_FALSE(table.ok());
+        EXPECT_EQ(table.error().code, ErrorCode::limit);
+        EXPECT_NE(table.error().message.find(reason), std::string::npos) << table.error().message;
+    };
+    const auto poles = surfacesOfCage(gyroBipyramid(5000), SUPPLE_SCHEME_CATMULL_CLARK);
+    const SuppleSurfacePoint atPole{0, 0, 0.001f, 0.001f};
+    std::vector<SuppleSurfacePoint> points{{0, 0, 0.3f, 0.3f}, atPole};
+    for (const auto& [a, b] : {std::pair(0.001f, 0.001f), std::pair(0.998f, 0.001f), std::pair(0.001f, 0.998f)}) {
+        points.push_back({0, 0, a, b});
+    }
+    expectRefused(runtime::pointTable(*poles, points, {}, false), ", face 0: it hangs on ");
+    const auto small = surfacesOfCage(fanOverPentagons(6), SUPPLE_SCHEME_CATMULL_CLARK);
+    const std::vector<SuppleSurfacePoint> many(1000, {0, 0, 0.3f, 0.3f});
+    expectRefused(runtime::pointTable(*small, many, {}, false, 2000), "the weights of the first ");
+}
+
+/// The nearest rotation, as the device makes it of A and B.
+glm::dmat3 frameOf(const WeighedPoint& point) {
+    const glm::dvec3 n = glm::normalize(glm::cross(point.a, point.b));
+    const glm::dvec3 t = glm::normalize(point.a + glm::cross(point.b, n));
+    return {t, glm::cross(n, t), n};
+}
+
+/// The faces at a smooth vertex have their own derivatives there, which vanish or grow without bound if it is not
+/// regular. The frames agree, in a pose that bends and shears.
+TEST(CpuPoints, FacesAgreeOnTheFrameOfAVertex) {
+    const cage::Cage cage = perturbed(biped(), 0.05f, 6);
+    const host::CageArrays arrays(cage);
+    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
+    ASSERT_TRUE(character.ok());
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
+    const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
+    ASSERT_TRUE(surfaces.ok());
+    std::vector<glm::vec3> bent;
+    for (const glm::vec3& p : cage.positions) {
+        const float angle = 0.4f * p.y;
+        bent.emplace_back(std::cos(angle) * p.x - std::sin(angle) * p.z + 0.5f * p.y, 1.2f * p.y,
+                          std::sin(angle) * p.x + std::cos(angle) * p.z);
+    }
+    std::vector<SuppleSurfacePoint> points;
+    std::vector<float> tangents;
+    std::map<uint32_t, std::vector<size_t>> atVertex;
+    constexpr float kCorners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (uint32_t face = 0; face < cage.faceCount(); ++face) {
+        ASSERT_EQ(cage.sides(face), 4u);
+        for (uint32_t k = 0; k < 4; ++k) {
+            atVertex[cage.faceVertices[cage.faceStarts[face] + k]].push_back(points.size());
+            points.push_back({face, 0, kCorners[k][0], kCorners[k][1]});
+            tangents.insert(tangents.end(), {0.3f, 1.0f, -0.2f});
+        }
+    }
+    const Result<std::vector<uint32_t>> table = runtime::pointTable(**surfaces, points, tangents, false);
+    ASSERT_TRUE(table.ok());
+    double rest = 0.0, posed = 0.0;
+    size_t irregular = 0;
+    for (const auto& [vertex, own] : atVertex) {
+        irregular += own.size() != 4 ? 1 : 0;
+        for (const size_t point : own) {
+            const auto angle = [&](const std::vector<glm::vec3>& of) {
+                const glm::dmat3 turn =
+                    glm::transpose(frameOf(weighed(*table, own[0], of))) * frameOf(weighed(*table, point, of));
+                return glm::degrees(glm::length(turn[0] - glm::dvec3(1, 0, 0)) +
+                                    glm::length(turn[1] - glm::dvec3(0, 1, 0)));
+            };
+            raise(rest, angle(cage.positions));
+            raise(posed, angle(bent));
+        }
+    }
+    std::printf("%zu vertices, %zu irregular: %.1e degrees in the bind pose, %.1e bent\n", atVertex.size(), irregular,
+                rest, posed);
+    EXPECT_GT(irregular, 5u);
+    EXPECT_LE(rest, 0.03);
+    EXPECT_LE(posed, 0.03);
 }
 
 /// Two faces at an edge name its points differently: the surface has one position there.

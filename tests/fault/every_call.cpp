@@ -84,6 +84,7 @@ public:
         record();
         createAssets();
         createGroups();
+        createPoints();
         prepare();
         pose();
         ask();
@@ -310,6 +311,35 @@ private:
             createInstance(i);
             createInstance(i);
         }
+    }
+
+    /// Of two groups, whose frames then have them; the first set is left to them.
+    void createPoints() {
+#if defined(SUPPLE_WITH_CPU)
+        const SuppleSurfacePoint points[] = {{0, 0, 0.5f, 0.25f}, {1, 0, 0.0f, 1.0f}};
+        const float tangents[] = {1, 0, 0, 0, 1, 0};
+        SupplePointSetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.points = points;
+        desc.tangents = tangents;
+        desc.pointCount = 2;
+        desc.format = SUPPLE_POINT_FRAME_64;
+        SupplePointSet set{};
+        desc.group = groups_[0];
+        call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
+        get<SupplePointOutput>("suppleGetPointOutput",
+                               [&](auto* out) { return suppleGetPointOutput(handle(), set, out); });
+        const float place[] = {0.5f, 1.0f, 0.25f};
+        SupplePointQuery query{};
+        query.structSize = sizeof(query);
+        query.count = 1;
+        query.values = place;
+        SuppleSurfacePoint nearest{};
+        call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
+        desc.group = groups_[1];
+        call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
+        call("suppleDestroyPointSet", [&] { return suppleDestroyPointSet(handle(), set); });
+#endif
     }
 
     void createInstance(size_t group) {

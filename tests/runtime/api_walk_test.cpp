@@ -2609,6 +2609,138 @@ void pipelines(Rows& r) {
     r.accept(kMake, "valid", [=](World& w) { return make(w.handle(), true, planned(w, kSize, 0), 1); });
 }
 
+void points(Rows& r) {
+    constexpr const char *kCreate = "suppleCreatePointSet", *kDestroy = "suppleDestroyPointSet",
+                         *kOutput = "suppleGetPointOutput";
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE;
+    using Desc = SupplePointSetDesc;
+    static constexpr SuppleSurfacePoint kPoints[] = {{0, 0, 0.5f, 0.25f}, {1, 0, 0.0f, 1.0f}};
+    static constexpr float kTangents[] = {1, 0, 0, 0, 1, 0}, kBadTangents[] = {1, 0, 0, 0, kNan, 0};
+    static constexpr SuppleSurfacePoint kOutside[] = {{0, 0, 1.5f, 0.25f}, {0, 0, 0.0f, 0.0f}};
+    static constexpr SuppleSurfacePoint kNoFace[] = {{0, 0, 0.5f, 0.25f}, {1u << 20, 0, 0.0f, 0.0f}};
+    const auto desc = [](World& w) {
+        Desc made{};
+        made.structSize = sizeof(made);
+        made.group = w.spare.group;
+        made.points = kPoints;
+        made.tangents = kTangents;
+        made.pointCount = 2;
+        return made;
+    };
+    const auto create = [](World& w, const Desc* given) {
+        SupplePointSet* const out = w.newHandle<SupplePointSet>();
+        const SuppleResult result = suppleCreatePointSet(w.handle(), given, out);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyPointSet(w.handle(), *out), SUPPLE_OK);
+        } else {
+            EXPECT_EQ(out->id, 0u);
+        }
+        return result;
+    };
+    r.nullContext(kCreate, [=](World& w, SuppleContext c) {
+        const Desc given = desc(w);
+        return suppleCreatePointSet(c, &given, w.newHandle<SupplePointSet>());
+    });
+    r.refuse(kCreate, "out null", SUPPLE_MESSAGE_NULL_POINTER, [=](World& w) {
+        const Desc given = desc(w);
+        return suppleCreatePointSet(w.handle(), &given, nullptr);
+    });
+    const auto spoiled = [&](const char* what, int message, auto spoil) {
+        r.refuse(kCreate, what, message, [=](World& w) {
+            Desc given = desc(w);
+            spoil(w, given);
+            return create(w, &given);
+        });
+    };
+    spoiled("points null", SUPPLE_MESSAGE_NULL_POINTER, [](World&, Desc& d) { d.points = nullptr; });
+    spoiled("no points", kRange, [](World&, Desc& d) { d.pointCount = 0; });
+    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 1; });
+    spoiled("format", kRange, [](World&, Desc& d) { d.format = static_cast<SupplePointFormat>(4); });
+    spoiled("tangents NaN", SUPPLE_MESSAGE_NOT_FINITE, [](World&, Desc& d) { d.tangents = kBadTangents; });
+    spoiled("stale group", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Desc& d) { d.group = w.staleGroup; });
+    spoiled("foreign group", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Desc& d) { d.group = w.theirs.main.group; });
+#if defined(SUPPLE_WITH_CPU)
+    r.description<Desc>(kCreate, "desc", desc, create);
+    spoiled("outside of the face", kRange, [](World&, Desc& d) { d.points = kOutside; });
+    spoiled("no such face", kRange, [](World&, Desc& d) { d.points = kNoFace; });
+#endif
+    r.nullContext(kDestroy, [](World&, SuppleContext c) { return suppleDestroyPointSet(c, {}); });
+    r.nullContext(kOutput, [](World& w, SuppleContext c) {
+        return suppleGetPointOutput(c, {}, w.watched<SupplePointOutput>(sizeof(SupplePointOutput)));
+    });
+    constexpr const char* kFind = "suppleFindPoints";
+    using Query = SupplePointQuery;
+    static constexpr float kPlaces[] = {0, 0, 0, 1, 2, 3}, kBadPlaces[] = {0, 0, 0, 1, kNan, 3};
+    const auto query = [](World&) {
+        Query made{};
+        made.structSize = sizeof(made);
+        made.count = 2;
+        made.values = kPlaces;
+        return made;
+    };
+    const auto find = [](World& w, const Query* given) {
+        return suppleFindPoints(w.handle(), w.spare.group, given, w.plain<SuppleSurfacePoint>(2));
+    };
+    r.groups(kFind, [=](World& w, SuppleContext c, SuppleGroup group) {
+        const Query given = query(w);
+        return suppleFindPoints(c, group, &given, w.plain<SuppleSurfacePoint>(2));
+    });
+    r.refuse(kFind, "out null", SUPPLE_MESSAGE_NULL_POINTER, [=](World& w) {
+        const Query given = query(w);
+        return suppleFindPoints(w.handle(), w.spare.group, &given, nullptr);
+    });
+    const auto askedOtherwise = [&](const char* what, int message, auto spoil) {
+        r.refuse(kFind, what, message, [=](World& w) {
+            Query given = query(w);
+            spoil(given);
+            return find(w, &given);
+        });
+    };
+    askedOtherwise("values null", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.values = nullptr; });
+    askedOtherwise("values NaN", SUPPLE_MESSAGE_NOT_FINITE, [](Query& q) { q.values = kBadPlaces; });
+    askedOtherwise("kind", kRange, [](Query& q) { q.kind = static_cast<SupplePointQueryKind>(3); });
+    askedOtherwise("a seed for NEAREST", kRange, [](Query& q) { q.seed = 1; });
+    askedOtherwise("a UV set for NEAREST", kRange, [](Query& q) { q.uvSet = 1; });
+    askedOtherwise("a cage of no vertices", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.cage = kPlaces; });
+#if defined(SUPPLE_WITH_CPU)
+    r.description<Query>(kFind, "query", query, find);
+    askedOtherwise("another cage", kRange, [](Query& q) {
+        q.cage = kPlaces;
+        q.cageVertexCount = 2;
+    });
+    r.accept(kFind, "SCATTER", [=](World& w) {
+        Query given = query(w);
+        given.kind = SUPPLE_FIND_SCATTER;
+        given.values = nullptr;
+        given.seed = 7;
+        return find(w, &given);
+    });
+#endif
+    for (const uint64_t id : {uint64_t{0}, ~uint64_t{0}}) {
+        r.refuse(kDestroy, "no set", SUPPLE_MESSAGE_STALE_HANDLE,
+                 [=](World& w) { return suppleDestroyPointSet(w.handle(), {id}); });
+        r.refuse(kOutput, "no set", SUPPLE_MESSAGE_STALE_HANDLE, [=](World& w) {
+            return suppleGetPointOutput(w.handle(), {id}, w.watched<SupplePointOutput>(sizeof(SupplePointOutput)));
+        });
+    }
+#if defined(SUPPLE_WITH_CPU)
+    r.output<SupplePointOutput>(kOutput, [=](World& w, SupplePointOutput* out) {
+        const Desc given = desc(w);
+        SupplePointSet set{};
+        EXPECT_EQ(suppleCreatePointSet(w.handle(), &given, &set), SUPPLE_OK);
+        const SuppleResult result = suppleGetPointOutput(w.handle(), set, out);
+        EXPECT_EQ(suppleDestroyPointSet(w.handle(), set), SUPPLE_OK);
+        return result;
+    });
+#else
+    r.add(kCreate, "a library without surfaces on the CPU", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_DEVICE_UNSUITED,
+          [=](World& w) {
+              const Desc given = desc(w);
+              return create(w, &given);
+          });
+#endif
+}
+
 std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
@@ -2632,6 +2764,7 @@ std::vector<Row> allRows() {
     frames(r);
     measurements(r);
     memoryUses(r);
+    points(r);
     return std::move(r.rows);
 }
 
@@ -2748,8 +2881,8 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    std::vector<const char*> names{"supple.h",         "supple_view.h",      "supple_playback.h",
-                                   "supple_prepare.h", "supple_character.h", "supple_recording.h"};
+    std::vector<const char*> names{"supple.h",           "supple_view.h",      "supple_playback.h", "supple_prepare.h",
+                                   "supple_character.h", "supple_recording.h", "supple_points.h"};
 #if defined(SUPPLE_WITH_CPU)
     names.push_back("supple_cpu.h");
 #endif

@@ -78,6 +78,15 @@ public:
         EXPECT_EQ(suppleCreateView(own.handle(), &desc, &view), SUPPLE_OK);
         return group({.scheme = scheme, .view = view});
     }
+    [[nodiscard]] SuppleResult createPoints(SuppleGroup group, std::span<const SuppleSurfacePoint> points,
+                                            SupplePointSet& out) const {
+        SupplePointSetDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.group = group;
+        desc.points = points.data();
+        desc.pointCount = static_cast<uint32_t>(points.size());
+        return suppleCreatePointSet(context(), &desc, &out);
+    }
     [[nodiscard]] SuppleResult begin(uint64_t frame, uint64_t completed) const {
         return suppleBeginFrame(own.handle(), frame, completed);
     }
@@ -219,6 +228,22 @@ void addInstances(std::vector<Mistake>& rows) {
                             s.group({.scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK});
                         return suppleSetClipPose(s.context(), players.instances[0], 0, 0.0);
                     }});
+#if defined(SUPPLE_WITH_CPU)
+    rows.push_back({"a point on a face that the cage lacks", [](Scene& s) {
+                        const SuppleSurfacePoint points[] = {{0, 0, 0.5f, 0.5f}, {999, 0, 0.5f, 0.5f}};
+                        SupplePointSet set{};
+                        return s.createPoints(s.cage.group, points, set);
+                    }});
+    rows.push_back({"a point set of a group that is destroyed", [](Scene& s) {
+                        const SmallGroup group = s.group({.scheme = SUPPLE_SCHEME_CAGE});
+                        const SuppleSurfacePoint points[] = {{0, 0, 0.5f, 0.5f}};
+                        SupplePointSet set{};
+                        s.good(s.createPoints(group.group, points, set));
+                        s.good(suppleDestroyGroup(s.context(), group.group));
+                        auto output = Scene::asking<SupplePointOutput>();
+                        return suppleGetPointOutput(s.context(), set, &output);
+                    }});
+#endif
     rows.push_back({"a row-major transform", [](Scene& s) {
                         const float rows4[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
                         return suppleSetTransform(s.context(), s.instance(), rows4);
@@ -404,6 +429,9 @@ std::vector<std::string> documentedRows() {
             rows.push_back(line);
         }
     }
+#if !defined(SUPPLE_WITH_CPU) // no points
+    std::erase_if(rows, [](const std::string& row) { return row.starts_with("| a point "); });
+#endif
     return rows;
 }
 

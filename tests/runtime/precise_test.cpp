@@ -32,6 +32,7 @@ constexpr Checked kShaders[] = {
     {"pm/facet.comp", "canonical"},
     {"pm/evaluate.comp", "position"},
     {"deform/deform.comp", "p"},
+    {"points/stencils.comp", "tangent", false},
     {"subdivision/isolate.comp", "canonical"},
     {"fragments/refine.comp", "p"},
     {"chains/vertex.comp", "canonical"},

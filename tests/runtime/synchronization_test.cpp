@@ -188,6 +188,40 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     EXPECT_EQ(handedOver(both), sorted(buffers));
 }
 
+#if defined(SUPPLE_WITH_CPU)
+/// Of point sets, those that were there when the group was recorded.
+TEST_F(AsyncCompute, HandsOverPointsThatTheFrameHad) {
+    (void)handedOver({&group, 1});
+    const SuppleSurfacePoint point{0, 0, 0.25f, 0.5f};
+    SupplePointSetDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.group = group;
+    desc.points = &point;
+    desc.pointCount = 1;
+    const auto make = [&](SupplePointSet& set) {
+        EXPECT_EQ(suppleCreatePointSet(context->handle(), &desc, &set), SUPPLE_OK);
+        SupplePointOutput output{};
+        output.structSize = sizeof(output);
+        EXPECT_EQ(suppleGetPointOutput(context->handle(), set, &output), SUPPLE_OK);
+        return output.frames.buffer;
+    };
+    SupplePointSet first{}, second{};
+    std::vector<VkBuffer> buffers = wanted(false, false);
+    buffers.push_back(make(first));
+    EXPECT_EQ(handedOver({&group, 1}), sorted(buffers));
+    // One that is made behind the recording: nothing has released it.
+    const VkBuffer late = make(second);
+    std::vector<VkBuffer> acquired = buffersOf(acquires(*context, {&group, 1}));
+    EXPECT_EQ(acquired, sorted(buffers));
+    EXPECT_EQ(suppleDestroyPointSet(context->handle(), first), SUPPLE_OK);
+    EXPECT_EQ(buffersOf(acquires(*context, {&group, 1})), sorted(buffers)) << "its release is recorded";
+    buffers = wanted(false, false);
+    buffers.push_back(late);
+    EXPECT_EQ(handedOver({&group, 1}), sorted(buffers));
+    EXPECT_EQ(suppleDestroyPointSet(context->handle(), second), SUPPLE_OK);
+}
+#endif
+
 // What hosts read of a view's words changes hands, and nothing comes back: whatever stands there afterwards, the next
 // frame is right.
 TEST_F(AsyncCompute, OfAViewsWordsOnlyWhatHostsReadIsHandedOver) {

@@ -26,6 +26,7 @@ public:
         for (uint32_t i = 0; i < changes; ++i) {
             change();
         }
+        changePoints(frame);
         time_ += 0.03;
         set(suppleSetTime(handle(), played_.group, time_));
         setCamera();
@@ -56,6 +57,25 @@ private:
     [[nodiscard]] uint32_t upTo(uint32_t end) { return std::uniform_int_distribution<uint32_t>(0, end - 1)(random_); }
     [[nodiscard]] float number(float low = -1.0f, float high = 1.0f) {
         return std::uniform_real_distribution<float>(low, high)(random_);
+    }
+
+    /// A point set that comes and goes.
+    void changePoints([[maybe_unused]] uint32_t frame) {
+#if defined(SUPPLE_WITH_CPU)
+        if (frame % 4 == 2) {
+            const SuppleSurfacePoint point{0, 0, 0.5f, 0.25f};
+            SupplePointSetDesc desc{};
+            desc.structSize = sizeof desc;
+            desc.group = posed_.group;
+            desc.points = &point;
+            desc.pointCount = 1;
+            desc.format = SUPPLE_POINT_FRAME_64;
+            set(suppleCreatePointSet(handle(), &desc, &points_));
+        } else if (frame % 4 == 0 && points_.id != 0) {
+            set(suppleDestroyPointSet(handle(), points_));
+            points_ = {};
+        }
+#endif
     }
 
     void create() {
@@ -352,6 +372,7 @@ private:
     SuppleView view_{}, unused_{};
     Many posed_, played_, rates_, sharp_;
     SuppleGroup follower_{};
+    SupplePointSet points_{};
     double time_ = 0.0;
     VkDeviceSize budget_ = 1u << 22;
     bool hasMask_ = false;

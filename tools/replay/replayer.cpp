@@ -108,6 +108,20 @@ public:
     Status operator()(const calls::DestroyGroup& call) {
         return r_.knows(call.group) ? check(suppleDestroyGroup(context_, r_.own(call.group))) : success();
     }
+    Status operator()(const calls::CreatePointSet& call) {
+        if (!r_.knows(call.desc.group)) {
+            return success();
+        }
+        SupplePointSetDesc desc = call.desc;
+        desc.group = r_.own(call.desc.group);
+        return check(suppleCreatePointSet(context_, &desc, &r_.pointSets_[call.set.id]));
+    }
+    Status operator()(const calls::DestroyPointSet& call) {
+        const auto set = r_.pointSets_.find(call.set.id);
+        return set != r_.pointSets_.end() || r_.knows(call.group)
+                   ? check(suppleDestroyPointSet(context_, set != r_.pointSets_.end() ? set->second : SupplePointSet{}))
+                   : success();
+    }
     Status operator()(const calls::SetCapacity& call) {
         return check(suppleSetCapacity(context_, r_.own(call.group), call.capacity));
     }

@@ -50,6 +50,7 @@ void bindBench(CLI::App& app, int& exitCode);
 void bindView(CLI::App& app, int& exitCode);
 void bindConvert(CLI::App& app, int& exitCode);
 void bindCook(CLI::App& app, int& exitCode);
+void bindPoints(CLI::App& app, int& exitCode);
 void bindReplay(CLI::App& app, int& exitCode);
 
 } // namespace supple::tools

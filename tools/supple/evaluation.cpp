@@ -149,7 +149,8 @@ Status play(host::Context& context, SuppleGroup group, SuppleInstance instance, 
 } // namespace
 
 Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
-                            const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags) {
+                            const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags,
+                            const std::function<Status(SuppleGroup)>& prepare) {
     host::Context& context = *session.context;
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
@@ -185,6 +186,9 @@ Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Cha
         status = context.check(suppleSetMorphWeights(context.handle(), instance, pose.morphWeights.data(),
                                                      static_cast<uint32_t>(pose.morphWeights.size())),
                                "suppleSetMorphWeights");
+    }
+    if (status && prepare) {
+        status = prepare(group);
     }
     if (status) {
         const SuppleGroup groups[] = {group};

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -59,8 +60,9 @@ struct Pose {
     double simulate = 0.0;       ///< seconds that the clip has played in a loop while springs swung; 0: nothing swings
 };
 
-/// `asset` is of `character`. `groupFlags`: SuppleGroupFlags.
+/// `asset` is of `character`. `groupFlags`: SuppleGroupFlags. `prepare`: what the group gets before its frame.
 [[nodiscard]] Result<Evaluation> evaluate(Session& session, SuppleAsset asset, const cage::Character& character,
-                                          const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags);
+                                          const SurfaceFlags& surface, const Pose& pose, uint32_t groupFlags,
+                                          const std::function<Status(SuppleGroup)>& prepare = {});
 
 } // namespace supple::tools

@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     bindView(app, exitCode);
     bindConvert(app, exitCode);
     bindCook(app, exitCode);
+    bindPoints(app, exitCode);
     bindReplay(app, exitCode);
 
     try {

@@ -12,8 +12,8 @@
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
  * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
- * the device plays) and supple_recording.h (what a host does, to be replayed) are for hosts that need them. This header
- * includes all five at its end.
+ * the device plays), supple_points.h (points that ride on surfaces) and supple_recording.h (what a host does, to be
+ * replayed) are for hosts that need them. This header includes all six at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -170,6 +170,7 @@ typedef enum SuppleMessage {
     SUPPLE_MESSAGE_SCHEME_NOTE = 202,      /**< what a scheme changed in the cage */
     SUPPLE_MESSAGE_RATE_CHANGED = 203,     /**< the scheme takes another rate than the one asked for */
     SUPPLE_MESSAGE_NOT_PREPARED = 204,     /**< a group built what supplePrepare was not told of */
+    SUPPLE_MESSAGE_POINTS_DROPPED = 205,   /**< a reloaded cage has other faces: a point set is destroyed */
     SUPPLE_MESSAGE_DEVICE_UNSUITED = 300,  /**< see suppleQueryRequirements */
     SUPPLE_MESSAGE_FEATURE_DISABLED = 301, /**< the device has it, but the host did not enable it */
     SUPPLE_MESSAGE_LIMIT = 302,
@@ -1611,6 +1612,7 @@ typedef enum SupplePass {
     SUPPLE_PASS_EVALUATE = 13,
     SUPPLE_PASS_MOTION = 14,
     SUPPLE_PASS_SHORTFALL = 15, /**< no pass: see SuppleTiming.pass */
+    SUPPLE_PASS_POINTS = 16,    /**< supple_points.h */
     SUPPLE_PASS_MAX_ENUM = 0x7FFFFFFF
 } SupplePass;
 
@@ -1688,7 +1690,7 @@ typedef struct SuppleMemoryUse {
     VkDeviceSize cages;        /**< deformed cages */
     VkDeviceSize coefficients; /**< of patches; with MOTION those of two frames */
     VkDeviceSize vertices;     /**< surface vertices */
-    VkDeviceSize streams;      /**< beside them: previous positions, attributes */
+    VkDeviceSize streams;      /**< beside them: previous positions, attributes, frames of points */
     VkDeviceSize lists;        /**< of instances and patches, with bounds, levels and indirect arguments */
     VkDeviceSize scratch;      /**< what one pass leaves for the next */
     VkDeviceSize staging;      /**< what goes up: per frame in flight, and of static tables until they are uploaded */
@@ -1737,6 +1739,7 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 
 #include "supple_character.h" /* IWYU pragma: export */
 #include "supple_playback.h"  /* IWYU pragma: export */
+#include "supple_points.h"    /* IWYU pragma: export */
 #include "supple_prepare.h"   /* IWYU pragma: export */
 #include "supple_recording.h" /* IWYU pragma: export */
 #include "supple_view.h"      /* IWYU pragma: export */

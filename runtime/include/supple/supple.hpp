@@ -238,6 +238,9 @@ inline void destroy(SuppleContext context, SuppleView view) {
 inline void destroy(SuppleContext context, SuppleInstance instance) {
     suppleDestroyInstance(context, instance);
 }
+inline void destroy(SuppleContext context, SupplePointSet set) {
+    suppleDestroyPointSet(context, set);
+}
 
 /// Owns a handle, or nothing. The context must outlive it.
 template <class Handle>
@@ -446,6 +449,11 @@ public:
         return suppleSetCapacity(context_, handle_, capacity);
     }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
+    /// Points of its surfaces, into `out` (resized to query.count).
+    [[nodiscard]] SuppleResult findPoints(const SupplePointQuery& query, std::vector<SuppleSurfacePoint>& out) const {
+        out.resize(query.count);
+        return suppleFindPoints(context_, handle_, &query, out.data());
+    }
     /// Sets the time by which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
     /// An empty span: the mask has no values of that kind.
@@ -525,6 +533,22 @@ public:
     [[nodiscard]] SuppleResult statistics(SuppleViewStatistics& out) const {
         out = sized<SuppleViewStatistics>();
         return suppleGetViewStatistics(context_, handle_, &out);
+    }
+};
+
+/// Owns a SupplePointSet. Its context and its group must outlive it.
+class PointSet : public Owner<SupplePointSet> {
+public:
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SupplePointSetDesc& desc, PointSet& out) {
+        return out.replace(context.handle(),
+                           [&](SupplePointSet& made) { return suppleCreatePointSet(context.handle(), &desc, &made); });
+    }
+
+    /// Ask again when the group has another capacity or its asset is reloaded.
+    [[nodiscard]] SuppleResult output(SupplePointOutput& out) const {
+        out = sized<SupplePointOutput>();
+        return suppleGetPointOutput(context_, handle_, &out);
     }
 };
 

@@ -70,18 +70,6 @@ typedef struct SuppleCpuGridInfo {
     uint32_t indexCount;  /**< of its triangles: three each */
 } SuppleCpuGridInfo;
 
-/** A point of a surface, whatever its scheme: a face of the character's cage and a place in it. Corners are those of
- * the face, in its order. On an edge it belongs to the face named, with that side's derivatives. */
-typedef struct SuppleSurfacePoint {
-    uint32_t face; /**< of the cage, below SuppleCpuGroupInfo.faceCount */
-    uint32_t side; /**< faces of five and more sides: the side, from corner `side` to the next. Others: 0 */
-    /** Triangle: a and b are the weights of corners 1 and 2. Quad: a from corner 0 (0) to corner 1 (1), b from corner 0
-     * to corner 3. More sides: in the triangle of the side and the face's middle, a is the weight of corner side + 1
-     * and b that of the middle. */
-    float a;
-    float b; /**< see a */
-} SuppleSurfacePoint;
-
 /** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
  * ones. du x dv points outwards. Where a scheme cuts a face, they jump inside it (docs/cpu.md). */
 typedef struct SuppleSurfaceJet {

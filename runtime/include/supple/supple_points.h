@@ -1,0 +1,152 @@
+/**
+ * @file supple_points.h
+ * Points on the surfaces of a group's instances: an earring, an arrow, hair roots. In every frame a buffer on the
+ * device has where they are and how they are turned. supple.h includes this header; docs/surface_points.md shows how it
+ * is used.
+ *
+ * A point is a face of the cage and a place in it (SuppleSurfacePoint), whatever the scheme. It lies on the limit of
+ * the surface and rides on it in poses of every source. It needs no surface vertices, so it is the same at every rate
+ * and level of detail, and groups with SUPPLE_SCHEME_CAGE have points too.
+ */
+#ifndef SUPPLE_POINTS_H
+#define SUPPLE_POINTS_H
+
+#include "supple.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SUPPLE_NO_FACE 0xFFFFFFFFu /**< suppleFindPoints: there is no such point */
+
+/** Points on the surfaces of one group. It is destroyed with its group. */
+typedef struct SupplePointSet {
+    uint64_t id; /**< 0 is never a valid handle */
+} SupplePointSet;
+
+/** A point of a surface, whatever its scheme: a face of the character's cage and a place in it. Corners are those of
+ * the face, in its order. On an edge it belongs to the face named, with that side's derivatives. */
+typedef struct SuppleSurfacePoint {
+    uint32_t face; /**< of the character's cage */
+    uint32_t side; /**< faces of five and more sides: the side, from corner `side` to the next. Others: 0 */
+    /** Triangle: a and b are the weights of corners 1 and 2. Quad: a from corner 0 (0) to corner 1 (1), b from corner 0
+     * to corner 3. More sides: in the triangle of the side and the face's middle, a is the weight of corner side + 1
+     * and b that of the middle. */
+    float a;
+    float b; /**< see a */
+} SuppleSurfacePoint;
+
+/** What the device has of a point. The frame is three unit vectors at right angles: the tangent t, the bitangent b and
+ * the normal n, which points outwards. It turns with the surface as its nearest rotation: shear in the surface turns it
+ * by half of the shear, and it does not depend on the two numbers of the face. It is never zero. Where a pose mirrors
+ * the surface, b = -(n x t), else b = n x t. */
+typedef enum SupplePointFormat {
+    /** Rows of a 3x4 matrix: (t.x, b.x, n.x, p.x), (t.y, b.y, n.y, p.y), (t.z, b.z, n.z, p.z), p the position.
+     * A VkTransformMatrixKHR. */
+    SUPPLE_POINT_FRAME_48 = 0,
+    /** The same, then the position in the frame before (in this frame's coordinates, suppleSetOrigin), and how much
+     * larger the surface is at the point than in the bind pose (an area). A point without a past has its own position:
+     * in the first frame of the set, and where SUPPLE_GROUP_MOTION has none. */
+    SUPPLE_POINT_FRAME_64 = 1,
+    SUPPLE_POINT_VERTEX_16 = 2, /**< position and normal, as SUPPLE_VERTEX_16 */
+    /** No frame: the derivatives of the position by a and by b of the point, each x, y, z, 0. */
+    SUPPLE_POINT_DERIVATIVES_32 = 3,
+    SUPPLE_POINT_FORMAT_MAX_ENUM = 0x7FFFFFFF
+} SupplePointFormat;
+
+/** A set of points. Pointers are needed during the call only. */
+typedef struct SupplePointSetDesc {
+    uint32_t structSize;
+    uint32_t flags;                   /**< 0 */
+    SuppleGroup group;                /**< whose surfaces the points are on */
+    const SuppleSurfacePoint* points; /**< pointCount of them */
+    /** Optional: x, y, z per point, the direction of its tangent in the bind pose. What is not in the tangent plane is
+     * taken away. Null, or across the plane: the tangent is along the first number of the face. */
+    const float* tangents;
+    uint32_t pointCount;      /**< 1 and more */
+    SupplePointFormat format; /**< what the device writes */
+} SupplePointSetDesc;
+
+/** Filled by suppleGetPointOutput. */
+typedef struct SupplePointOutput {
+    uint32_t structSize;
+    SupplePointFormat format; /**< as in the description */
+    uint32_t pointCount;      /**< of the set */
+    uint32_t reserved;        /**< 0 */
+    /** Point k of the instance in slot s is element s * pointCount + k, of stride bytes, in the coordinates of surface
+     * vertices. Instances that no frame has deformed since the set was made have zeros. Those that are hidden, or left
+     * out as their view does not see them (SUPPLE_VIEW_CULL), keep what they had (with SUPPLE_CONTEXT_ASYNC_COMPUTE
+     * what they have is undefined): see docs/surface_points.md. */
+    SuppleBufferRange frames;
+} SupplePointOutput;
+
+/** Puts points on the surfaces of a group. suppleRecord writes their frames for every instance of the group that it
+ * deforms, in the pass *points*, behind *deform*; SuppleRecordDesc.after then covers them too. Frames go on while the
+ * tables of the set are uploaded (suppleSetUploadBudget), and leave the set out until they are there.
+ *
+ * suppleSetCapacity and suppleReloadAsset make the set anew: ask for its output again. If the reloaded cage has other
+ * faces the set is destroyed, with a warning (SUPPLE_MESSAGE_POINTS_DROPPED).
+ *
+ * The first set of a group takes 10 to 100 ms, as it makes the group's surfaces on the CPU (supple_cpu.h), and the
+ * first of a format compiles a pipeline. Then a point takes about 0.01 ms; beside a vertex of many faces 0.001 ms a
+ * face. suppleReloadAsset takes the points again. Sharpness that suppleSetSharpness sets is not seen: points have that
+ * of the file.
+ *
+ * Errors: a stale handle; no points, flags, a format that does not exist; a face that does not exist or is a hole, a
+ * place outside its face (the log names the first such point); tangents that are not finite; what suppleCpuCreateGroup
+ * refuses; more points than the device can bind for one instance, or than 32 bits number with all instances; a point
+ * that hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each vertex of a point)
+ * or than the device binds; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with SUPPLE_WITH_CPU=OFF.
+ * `out->id` is 0 then. */
+SUPPLE_API SuppleResult suppleCreatePointSet(SuppleContext context, const SupplePointSetDesc* desc,
+                                             SupplePointSet* out);
+/** Its buffer stays until all frames that may use it are complete. */
+SUPPLE_API SuppleResult suppleDestroyPointSet(SuppleContext context, SupplePointSet set);
+/** Where the frames of a set are. */
+SUPPLE_API SuppleResult suppleGetPointOutput(SuppleContext context, SupplePointSet set, SupplePointOutput* out);
+
+/** By what suppleFindPoints finds points. */
+typedef enum SupplePointQueryKind {
+    /** The nearest point to each place: x, y, z in the coordinates of the cage. Of faces that meet there (distances
+     * that differ by less than a millionth of the extent), the lowest. */
+    SUPPLE_FIND_NEAREST = 0,
+    /** The point with these texture coordinates: u, v. Of several, that of the lowest face. Where no face covers them,
+     * its face is SUPPLE_NO_FACE. Faces have straight texture coordinates here: quads bilinear ones,
+     * also where Loop or polygons cut them into triangles, which draw others. */
+    SUPPLE_FIND_UV = 1,
+    /** Points spread evenly by area: each of as many equal parts of the area has one, and neighbours may be close. */
+    SUPPLE_FIND_SCATTER = 2,
+    SUPPLE_FIND_MAX_ENUM = 0x7FFFFFFF
+} SupplePointQueryKind;
+
+/** What suppleFindPoints is asked. Pointers are needed during the call only. */
+typedef struct SupplePointQuery {
+    uint32_t structSize;
+    SupplePointQueryKind kind; /**< by what */
+    uint32_t count;            /**< of points to find */
+    uint32_t uvSet;            /**< UV: 0 or 1, as in the file. Else 0 */
+    uint32_t seed;             /**< SCATTER: another one gives other points. Else 0 */
+    uint32_t cageVertexCount;  /**< of cage; 0 without one */
+    const float* values;       /**< NEAREST: 3 for each point; UV: 2. SCATTER: null */
+    /** Optional, NEAREST and SCATTER: x, y, z of the character's cage vertices, deformed. Null: the bind pose. UV takes
+     * none. */
+    const float* cage;
+} SupplePointQuery;
+
+/** Finds points on the surfaces of a group, on the CPU: for a set, or to be kept in a file. No device is waited for.
+ *
+ * out: query->count points; null if there are none. Like a first set, the first call for a group makes its surfaces.
+ * NEAREST begins from 16 samples a face, which the first call in the bind pose makes and keeps (1 KB a face); with a
+ * cage each call makes its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call.
+ * The result is the same on every machine up to rounding.
+ *
+ * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a cage of another number of
+ * vertices; a UV set that the character lacks; what suppleCreatePointSet refuses of a group. */
+SUPPLE_API SuppleResult suppleFindPoints(SuppleContext context, SuppleGroup group, const SupplePointQuery* query,
+                                         SuppleSurfacePoint* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SUPPLE_POINTS_H */

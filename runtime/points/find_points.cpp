@@ -1,0 +1,354 @@
+#include "runtime/points/find_points.h"
+
+#include "runtime/cpu_group.h"
+#include "runtime/points/point_pieces.h"
+#include "runtime/points/seed_tree.h"
+#include "runtime/points/uv_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace supple::runtime {
+namespace {
+
+constexpr int kRounds = 10;
+constexpr double kLongestStep = 0.25;
+/// Of the extent: places that differ by less in their distance are equally near.
+constexpr double kTie = 1e-6;
+
+glm::dvec3 vectorAt(const float* v) {
+    return {v[0], v[1], v[2]};
+}
+
+/// Newton's method for the distance, held to a piece.
+class NearestInPiece {
+public:
+    NearestInPiece(const CpuPose& pose, const Piece& piece, const glm::dvec3& to)
+        : pose_(pose), piece_(piece), to_(to) {}
+
+    struct Found {
+        double a = 0.0, b = 0.0, distance = 0.0; ///< the distance is squared
+    };
+    [[nodiscard]] Result<Found> from(double a, double b) const {
+        Found best{a, b, 0.0};
+        Result<SuppleSurfaceJet> jet = jetAt(best);
+        if (!jet) {
+            return jet.error();
+        }
+        best.distance = distanceOf(*jet);
+        for (int round = 0; round < kRounds; ++round) {
+            glm::dvec2 step = stepAt(*jet, best);
+            bool nearer = false;
+            for (int halving = 0; halving < 6 && !nearer && step != glm::dvec2(0.0); ++halving, step *= 0.5) {
+                Found next = held(best.a + step.x, best.b + step.y);
+                const Result<SuppleSurfaceJet> there = jetAt(next);
+                if (!there) {
+                    return there.error();
+                }
+                next.distance = distanceOf(*there);
+                nearer = next.distance < best.distance;
+                if (nearer) {
+                    best = next;
+                    jet = *there;
+                }
+            }
+            if (!nearer) {
+                break;
+            }
+        }
+        return best;
+    }
+
+private:
+    [[nodiscard]] Result<SuppleSurfaceJet> jetAt(const Found& place) const {
+        const SuppleSurfacePoint point = piece_.at(place.a, place.b);
+        SuppleSurfaceJet jet;
+        const Status evaluated = pose_.evaluate({&point, 1}, &jet, {});
+        return evaluated ? Result<SuppleSurfaceJet>(jet) : evaluated.error();
+    }
+    [[nodiscard]] double distanceOf(const SuppleSurfaceJet& jet) const {
+        const glm::dvec3 e = vectorAt(jet.position) - to_;
+        return glm::dot(e, e);
+    }
+    [[nodiscard]] Found held(double a, double b) const {
+        a = std::clamp(a, 0.0, 1.0);
+        b = std::clamp(b, 0.0, 1.0);
+        if (!piece_.isQuad && a + b > 1.0) { // straight to the slant
+            const double over = 0.5 * (a + b - 1.0);
+            a = std::clamp(a - over, 0.0, 1.0);
+            b = 1.0 - a;
+        }
+        return {a, b, 0.0};
+    }
+    /// On a border that the gradient pushes against, only the way along it is left.
+    [[nodiscard]] glm::dvec2 stepAt(const SuppleSurfaceJet& jet, const Found& at) const {
+        const glm::dvec3 e = vectorAt(jet.position) - to_, du = vectorAt(jet.du), dv = vectorAt(jet.dv);
+        const glm::dvec2 g(glm::dot(du, e), glm::dot(dv, e));
+        double aa = glm::dot(du, du), ab = glm::dot(du, dv), bb = glm::dot(dv, dv);
+        const double fullAa = aa + glm::dot(vectorAt(jet.duu), e), fullAb = ab + glm::dot(vectorAt(jet.duv), e),
+                     fullBb = bb + glm::dot(vectorAt(jet.dvv), e);
+        if (fullAa > 0.0 && fullAa * fullBb > fullAb * fullAb) { // else Gauss and Newton
+            aa = fullAa, ab = fullAb, bb = fullBb;
+        }
+        const auto along = [&](const glm::dvec2& way) {
+            const double bend = way.x * (aa * way.x + ab * way.y) + way.y * (ab * way.x + bb * way.y);
+            return bend > 0.0 ? -(glm::dot(g, way) / bend) * way : glm::dvec2(0.0);
+        };
+        const bool holdsA = (at.a <= 0.0 && g.x > 0.0) || (piece_.isQuad && at.a >= 1.0 && g.x < 0.0);
+        const bool holdsB = (at.b <= 0.0 && g.y > 0.0) || (piece_.isQuad && at.b >= 1.0 && g.y < 0.0);
+        const bool onSlant = !piece_.isQuad && at.a + at.b >= 1.0 && g.x + g.y < 0.0;
+        const double area = aa * bb - ab * ab;
+        glm::dvec2 step(0.0);
+        if (holdsA || holdsB) {
+            step = holdsA && holdsB ? step : along(holdsA ? glm::dvec2(0.0, 1.0) : glm::dvec2(1.0, 0.0));
+        } else if (onSlant) {
+            step = along({1.0, -1.0});
+        } else if (area > 0.0) {
+            step = {(ab * g.y - bb * g.x) / area, (ab * g.x - aa * g.y) / area};
+        }
+        const double length = std::max(std::abs(step.x), std::abs(step.y));
+        return length > kLongestStep ? (kLongestStep / length) * step : step;
+    }
+
+    const CpuPose& pose_;
+    const Piece& piece_;
+    glm::dvec3 to_;
+};
+
+/// Numbers from 0 to 1, the same for a seed everywhere (splitmix64).
+class RandomNumbers {
+public:
+    explicit RandomNumbers(uint64_t seed) : state_(seed) {}
+    double operator()() {
+        uint64_t z = state_ += 0x9E3779B97F4A7C15u;
+        z = (z ^ (z >> 30u)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27u)) * 0x94D049BB133111EBu;
+        return static_cast<double>((z ^ (z >> 31u)) >> 11u) * 0x1p-53;
+    }
+
+private:
+    uint64_t state_;
+};
+
+} // namespace
+
+/// The surfaces in one pose, with what searches of every kind begin from.
+class PointFinder {
+public:
+    explicit PointFinder(std::shared_ptr<const CpuGroup> group) : pieces_(piecesOf(*group)), pose_(std::move(group)) {}
+
+    /// `cage`: of all vertices.
+    [[nodiscard]] Status build(const float* cage) {
+        if (Status built = pose_.build(reinterpret_cast<const std::byte*>(cage), sizeof(glm::vec3), {}); !built) {
+            return built;
+        }
+        tree_.reset();
+        return success();
+    }
+    [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    [[nodiscard]] bool isOf(const std::shared_ptr<const CpuGroup>& group) const {
+        return &pose_.group() == group.get();
+    }
+
+    [[nodiscard]] Status findNearest(const float* positions, std::span<SuppleSurfacePoint> out);
+    [[nodiscard]] Status scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const;
+
+private:
+    /// All cells of all pieces, with the jets at their middles.
+    Status forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const;
+    Status plant();
+    [[nodiscard]] Result<SuppleSurfacePoint> nearestTo(const glm::dvec3& to) const;
+
+    std::vector<Piece> pieces_;
+    CpuPose pose_;
+    std::optional<SeedTree> tree_; ///< made when a nearest point is asked for
+    double tie_ = 0.0;
+};
+
+Status
+PointFinder::forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const {
+    const cage::Cage& cage = pose_.group().cage();
+    std::vector<Cell> cells;
+    std::pair<bool, uint32_t> kind(false, 0); // of the cells
+    std::vector<SuppleSurfacePoint> points;
+    std::vector<SuppleSurfaceJet> jets;
+    for (uint32_t p = 0; p < pieces_.size(); ++p) {
+        const Piece& piece = pieces_[p];
+        const std::pair<bool, uint32_t> own(piece.isQuad, cellsAlong(cage.sides(piece.face)));
+        if (own != kind) {
+            kind = own;
+            cells = cellsOf(kind.first, kind.second);
+            jets.resize(cells.size());
+        }
+        points.clear();
+        for (const Cell& cell : cells) {
+            const glm::dvec2 at = cell.middle(piece.isQuad);
+            points.push_back(piece.at(at.x, at.y));
+        }
+        if (Status evaluated = pose_.evaluate(points, jets.data(), {}); !evaluated) {
+            return evaluated;
+        }
+        for (size_t k = 0; k < cells.size(); ++k) {
+            visit(p, cells[k], jets[k]);
+        }
+    }
+    return success();
+}
+
+Status PointFinder::plant() {
+    std::vector<SeedTree::Seed> seeds;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+        const glm::dvec2 at = cell.middle(pieces_[p].isQuad);
+        const glm::dvec3 position = vectorAt(jet.position);
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+        seeds.push_back({position, p, at.x, at.y});
+    });
+    if (made) {
+        tie_ = kTie * glm::distance(low, high);
+        tree_.emplace(std::move(seeds));
+    }
+    return made;
+}
+
+Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
+    struct Candidate {
+        const Piece* piece = nullptr;
+        NearestInPiece::Found found;
+    };
+    std::array<Candidate, SeedTree::kNearest> candidates;
+    size_t count = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const SeedTree::Seed& seed : tree_->nearest(to)) {
+        const Piece& piece = pieces_[seed.piece];
+        const auto found = NearestInPiece(pose_, piece, to).from(seed.a, seed.b);
+        if (!found) {
+            return found.error();
+        }
+        candidates[count++] = {&piece, *found};
+        least = std::min(least, found->distance);
+    }
+    // Faces that meet at a point differ by rounding there.
+    const double most = std::sqrt(least) + tie_;
+    const Candidate* best = nullptr;
+    for (size_t k = 0; k < count; ++k) {
+        const Candidate& own = candidates[k];
+        if (std::sqrt(own.found.distance) > most) {
+            continue;
+        }
+        const auto rank = [](const Candidate& c) { return std::tuple(c.piece->face, c.found.distance); };
+        if (best == nullptr || rank(own) < rank(*best)) {
+            best = &own;
+        }
+    }
+    return best->piece->at(best->found.a, best->found.b);
+}
+
+Status PointFinder::findNearest(const float* positions, std::span<SuppleSurfacePoint> out) {
+    if (!tree_) {
+        if (Status planted = plant(); !planted) {
+            return planted;
+        }
+    }
+    for (size_t k = 0; k < out.size(); ++k) {
+        const Result<SuppleSurfacePoint> found = nearestTo(vectorAt(positions + 3 * k));
+        if (!found) {
+            return found.error();
+        }
+        out[k] = *found;
+    }
+    return success();
+}
+
+Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const {
+    struct Area {
+        uint32_t piece = 0;
+        Cell cell;
+        double end = 0.0; ///< of the running sum
+    };
+    std::vector<Area> areas;
+    double sum = 0.0;
+    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+        sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * cell.size(pieces_[p].isQuad);
+        areas.push_back({p, cell, sum});
+    });
+    if (!made) {
+        return made;
+    }
+    RandomNumbers number(seed);
+    for (size_t k = 0; k < out.size(); ++k) {
+        // A point for each of as many equal parts of the area.
+        const double target = sum * ((static_cast<double>(k) + number()) / static_cast<double>(out.size()));
+        const auto area = std::min(
+            std::upper_bound(areas.begin(), areas.end(), target, [](double t, const Area& own) { return t < own.end; }),
+            areas.end() - 1);
+        double x = number(), y = number();
+        if (!pieces_[area->piece].isQuad && x + y > 1.0) {
+            x = 1.0 - x;
+            y = 1.0 - y;
+        }
+        const glm::dvec2 at = area->cell.origin + x * area->cell.x + y * area->cell.y;
+        out[k] = pieces_[area->piece].at(at.x, at.y);
+    }
+    return success();
+}
+
+namespace {
+
+Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
+    const cage::Cage& cage = group.cage();
+    const std::vector<glm::vec2>& uvs = query.uvSet == 0 ? cage.cornerUvs : cage.cornerUvs1;
+    if (uvs.empty()) {
+        return Error{ErrorCode::range, "the character has no UV set " + std::to_string(query.uvSet)};
+    }
+    const std::vector<Piece> pieces = piecesOf(group);
+    const UvTree tree(cage, uvs, pieces);
+    for (size_t k = 0; k < out.size(); ++k) {
+        out[k] = {SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
+        if (const auto found = tree.find({query.values[2 * k], query.values[2 * k + 1]})) {
+            out[k] = pieces[found->piece].at(std::clamp(found->at.x, 0.0, 1.0), std::clamp(found->at.y, 0.0, 1.0));
+        }
+    }
+    return success();
+}
+
+} // namespace
+
+Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<PointFinder>& kept,
+                  const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
+    if (query.kind == SUPPLE_FIND_UV) {
+        return findUvs(*group, query, out);
+    }
+    const cage::Cage& cage = group->cage();
+    if (query.cage != nullptr && query.cageVertexCount != cage.vertexCount()) {
+        return Error{ErrorCode::range, std::to_string(query.cageVertexCount) + " vertices for a cage of " +
+                                           std::to_string(cage.vertexCount())};
+    }
+    std::shared_ptr<PointFinder> finder = query.cage == nullptr ? kept : nullptr;
+    if (finder == nullptr || !finder->isOf(group)) {
+        finder = std::make_shared<PointFinder>(group);
+        const float* const positions = query.cage != nullptr ? query.cage : &cage.positions[0].x;
+        if (Status built = finder->build(positions); !built) {
+            return built;
+        }
+    }
+    if (query.cage == nullptr) {
+        kept = finder;
+    }
+    if (finder->pieces().empty()) {
+        return Error{ErrorCode::argument, "the surfaces have no faces"};
+    }
+    return query.kind == SUPPLE_FIND_NEAREST ? finder->findNearest(query.values, out)
+                                             : finder->scatter(query.seed, out);
+}
+
+} // namespace supple::runtime

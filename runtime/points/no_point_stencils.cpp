@@ -1,0 +1,23 @@
+// For a library that is built with SUPPLE_WITH_CPU=OFF.
+#include "runtime/points/find_points.h"
+#include "runtime/points/point_stencils.h"
+
+namespace supple::runtime {
+
+Result<std::shared_ptr<const CpuGroup>> surfacesOf(std::shared_ptr<const Prepared> /*prepared*/,
+                                                   const SuppleGroupDesc& /*desc*/) {
+    return Error{ErrorCode::disabled, "the library was built with SUPPLE_WITH_CPU=OFF: it has no surface points"};
+}
+
+Result<std::vector<uint32_t>> pointTable(const CpuGroup& /*group*/, std::span<const SuppleSurfacePoint> /*points*/,
+                                         std::span<const float> /*tangents*/, bool /*derivatives*/,
+                                         uint64_t /*mostElements*/) {
+    return Error{ErrorCode::disabled, "the library has no surface points"}; // without surfaces it is not asked
+}
+
+Status findPoints(const std::shared_ptr<const CpuGroup>& /*group*/, std::shared_ptr<PointFinder>& /*kept*/,
+                  const SupplePointQuery& /*query*/, std::span<SuppleSurfacePoint> /*out*/) {
+    return Error{ErrorCode::disabled, "the library has no surface points"};
+}
+
+} // namespace supple::runtime

@@ -1,0 +1,84 @@
+#include "runtime/points/uv_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace supple::runtime {
+
+UvTree::UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const Piece> pieces)
+    : order_(pieces.size()) {
+    pieces_.reserve(pieces.size());
+    std::vector<UvBox> boxes;
+    boxes.reserve(pieces.size());
+    glm::dvec2 middle(0.0);
+    for (const Piece& piece : pieces) {
+        const uint32_t sides = cage.sides(piece.face);
+        if (sides > 4 && piece.side == 0) { // the other sides follow
+            middle = glm::dvec2(0.0);
+            for (uint32_t k = 0; k < sides; ++k) {
+                middle += glm::dvec2(uvs[cage.faceStarts[piece.face] + k]) / static_cast<double>(sides);
+            }
+        }
+        pieces_.emplace_back(cage, uvs, piece, middle);
+        boxes.push_back(pieces_.back().box());
+    }
+    std::iota(order_.begin(), order_.end(), 0u);
+    if (!pieces.empty()) {
+        (void)split(0, static_cast<uint32_t>(pieces.size()), boxes);
+    }
+}
+
+uint32_t UvTree::split(uint32_t begin, uint32_t end, std::span<const UvBox> boxes) {
+    const auto number = static_cast<uint32_t>(nodes_.size());
+    Node node{boxes[order_[begin]], order_[begin], begin, end, 0};
+    for (uint32_t k = begin; k < end; ++k) {
+        node.box.add(boxes[order_[k]]);
+        node.first = std::min(node.first, order_[k]);
+    }
+    nodes_.push_back(node);
+    if (end - begin > kLeaf) {
+        const glm::dvec2 size = node.box.high - node.box.low;
+        const int axis = size.x >= size.y ? 0 : 1;
+        const uint32_t middle = begin + (end - begin) / 2;
+        const auto at = [&](uint32_t k) { return order_.begin() + static_cast<ptrdiff_t>(k); };
+        std::nth_element(at(begin), at(middle), at(end), [&](uint32_t x, uint32_t y) {
+            return boxes[x].low[axis] + boxes[x].high[axis] < boxes[y].low[axis] + boxes[y].high[axis];
+        });
+        (void)split(begin, middle, boxes);
+        const uint32_t second = split(middle, end, boxes);
+        nodes_[number].second = second;
+    }
+    return number;
+}
+
+std::optional<UvTree::Found> UvTree::find(const glm::dvec2& uv) const {
+    std::optional<Found> found;
+    if (!nodes_.empty()) {
+        search(0, uv, found);
+    }
+    return found;
+}
+
+void UvTree::search(uint32_t number, const glm::dvec2& uv, std::optional<Found>& found) const {
+    const Node& node = nodes_[number];
+    if (!node.box.covers(uv) || (found && found->piece < node.first)) {
+        return;
+    }
+    if (node.second != 0) {
+        search(number + 1, uv, found);
+        search(node.second, uv, found);
+        return;
+    }
+    for (uint32_t k = node.begin; k < node.end; ++k) {
+        const uint32_t piece = order_[k];
+        if (found && found->piece < piece) {
+            continue;
+        }
+        if (const std::optional<glm::dvec2> at = pieces_[piece].find(uv)) {
+            found = Found{piece, *at};
+        }
+    }
+}
+
+} // namespace supple::runtime

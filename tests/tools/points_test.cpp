@@ -1,0 +1,66 @@
+// supple points as a user runs it.
+#include "tests/tools/command_runner.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using nlohmann::json;
+using supple::test::Outcome;
+using supple::test::readText;
+using supple::test::writeText;
+
+const std::string kPointed = std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_quads.glb";
+
+class Points : public supple::test::CommandTest {
+protected:
+    /// Runs with such a file of points.
+    Outcome points(const std::string& given, const std::string& flags = "") {
+        writeText(file("points.json"), given);
+        return runOnDevice("points '" + kPointed + "' --points points.json -o frames.json " + flags);
+    }
+};
+
+double dotOf(const json& a, const json& b) {
+    double sum = 0.0;
+    for (size_t k = 0; k < 3; ++k) {
+        sum += a[k].get<double>() * b[k].get<double>();
+    }
+    return sum;
+}
+
+TEST_F(Points, WritesFramesOfTheSurface) {
+    for (const char* flags : {"--scheme catmull-clark --clip walk --time 0.4", "--scheme cage"}) {
+        const Outcome outcome =
+            points(R"([{"part":0,"face":3,"u":0.25,"v":0.5},{"face":7,"u":0,"v":1,"tangent":[0,1,0]}])", flags);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const json frames = json::parse(readText(file("frames.json")));
+        ASSERT_EQ(frames.size(), 2u);
+        EXPECT_EQ(frames[0]["face"], 3);
+        EXPECT_EQ(frames[0]["u"], 0.25);
+        for (const json& frame : frames) {
+            EXPECT_NEAR(dotOf(frame["normal"], frame["normal"]), 1.0, 1e-6);
+            EXPECT_NEAR(dotOf(frame["tangent"], frame["tangent"]), 1.0, 1e-6);
+            EXPECT_NEAR(dotOf(frame["tangent"], frame["normal"]), 0.0, 1e-6);
+            EXPECT_NEAR(dotOf(frame["bitangent"], frame["normal"]), 0.0, 1e-6);
+            const double size = std::sqrt(dotOf(frame["du"], frame["du"]));
+            EXPECT_NEAR(dotOf(frame["du"], frame["normal"]) / size, 0.0, 1e-5);
+            EXPECT_GT(frame["area"], 0.0);
+        }
+    }
+}
+
+TEST_F(Points, SaysWhatIsWrongWithThem) {
+    expectFailure(points("{}"), 1, "points.json: is no JSON list of points");
+    expectFailure(points("[]"), 1, "points.json: has no points");
+    expectFailure(points(R"([{"face":3,"u":0.5}])"), 1, "points.json: point 0: needs face, u and v");
+    expectFailure(points(R"([{"face":3,"u":0.5,"v":0.5},{"face":-1,"u":0.5,"v":0.5}])"), 1, "point 1: needs face");
+    expectFailure(points(R"([{"part":77,"face":3,"u":0.5,"v":0.5}])"), 1, "point 0: ");
+    expectFailure(points(R"([{"face":999999,"u":0.5,"v":0.5}])"), 1, "points[0], face 999999: there is no such face");
+    expectFailure(points(R"([{"face":3,"u":1.5,"v":0.5}])"), 1, "a and b do not lie in the face");
+    expectFailure(points(R"([{"face":3,"u":0.5,"v":0.5,"tangent":[1,2]}])"), 1, "tangent is not three numbers");
+    expectFailure(run("points '" + kPointed + "' --points absent.json -o out.json"), 1, "absent.json: cannot be read");
+}
+
+} // namespace
