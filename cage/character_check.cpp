@@ -225,11 +225,11 @@ void Check::jiggles() {
     }
     const std::vector<JiggleWeight>& weights = character_.weights.jiggles;
     require(weights.empty() || weights.size() == character_.cage.vertexCount(), "not one weight of jiggles a vertex");
-    require(std::ranges::all_of(weights,
-                                [&](const JiggleWeight& own) {
-                                    return own.jiggle == kNone || (own.jiggle < character_.jiggles.size() &&
-                                                                   own.weight > 0.0f && own.weight <= 1.0f);
-                                }),
+    require(std::all_of(weights.begin(), weights.end(),
+                        [&](const JiggleWeight& own) {
+                            return own.jiggle == kNone ||
+                                   (own.jiggle < character_.jiggles.size() && own.weight > 0.0f && own.weight <= 1.0f);
+                        }),
             "a vertex names no jiggle, or has no weight above 0 to 1");
 }
 

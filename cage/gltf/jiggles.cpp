@@ -59,8 +59,9 @@ std::vector<PaintedJiggle> readJiggles(const Document& document, size_t meshInde
         for (size_t i = 0; i < std::min(count, kMaxJiggles); ++i) {
             document.leniency->leaveOut([&] {
                 PaintedJiggle read = readJiggle((*given)[i], item(list, i));
-                const bool isThere = std::ranges::any_of(
-                    jiggles, [&](const PaintedJiggle& other) { return other.weights == read.weights; });
+                const bool isThere = std::any_of(jiggles.begin(), jiggles.end(), [&](const PaintedJiggle& other) {
+                    return other.weights == read.weights;
+                });
                 if (isThere) {
                     refuse(item(list, i) + " weights", cage::quoted(read.weights) + " is there twice");
                 }
