@@ -129,6 +129,16 @@ TEST_F(Bench, QuickRunIsWhole) {
     }
 
     EXPECT_EQ(result["classical"].size(), classical);
+#ifdef SUPPLE_WITH_CPU
+    ASSERT_EQ(result["points"].size(), 2u);
+    for (const Json& row : result["points"]) {
+        EXPECT_EQ(row["points"], 500);
+        EXPECT_GT(row["nsAPoint"].get<double>(), 0.0);
+    }
+    EXPECT_NE(outcome.out.find("## Points on surfaces"), std::string::npos);
+#else
+    EXPECT_TRUE(result["points"].empty());
+#endif
     ASSERT_EQ(result["rows"].size(), cages.size());
     for (size_t i = 0; i < cages.size(); ++i) {
         const Expected& expected = cages[i];

@@ -9,6 +9,7 @@
 #include "tools/bench/heat.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
+#include "tools/bench/points.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/skinning.h"
 #include "tools/bench/targets.h"
@@ -61,6 +62,9 @@ public:
             status = updateRates();
         }
         if (status) {
+            status = points();
+        }
+        if (status) {
             status = scene();
         }
         if (status) {
@@ -92,6 +96,7 @@ private:
     Status crowd();
     Status views();
     Status updateRates();
+    Status points();
     Status scene();
     Status skinning();
     Status classical();
@@ -261,6 +266,18 @@ Status Run::updateRates() {
     desc.frames = 8 * (options_.quick ? 1 : options_.rounds);
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rupdate rates: %s   ", what.c_str()); };
     return keepAs("updateRates", measureUpdateRates(device_, *workbench_, desc));
+}
+
+Status Run::points() {
+    if (crowdSize() == 0) {
+        return success();
+    }
+    PointsDesc desc;
+    desc.characters = {1, options_.quick ? 2u : 100u};
+    desc.points = options_.quick ? 500 : 10'000;
+    desc.frames = 4 * (options_.quick ? 1 : options_.rounds);
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rpoints: %s   ", what.c_str()); };
+    return keepAs("points", measurePoints(device_, *workbench_, desc));
 }
 
 Status Run::scene() {

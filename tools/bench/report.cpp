@@ -274,6 +274,15 @@ std::string updateRateTable(const Json& rows) {
     return table.empty() ? "" : "## Update rates, springs, pose drivers\n\n" + table.text(1);
 }
 
+std::string pointTable(const Json& rows) {
+    Table table({"points", "characters", "points pass, ms", "ns a point", "deform, ms"});
+    for (const Json& row : rows) {
+        table.add({row["points"].dump(), row["characters"].dump(), number(row["pointsMs"]), number(row["nsAPoint"]),
+                   number(row["deformMs"])});
+    }
+    return table.empty() ? "" : "## Points on surfaces\n\n" + table.text(0);
+}
+
 /// Nanoseconds a vertex, and over dual quaternions.
 std::string skinningTable(const Json& rows) {
     Table table({"deform pass", "vertices", "joints", "influences", "characters", "skinning", "ns a vertex",
@@ -422,6 +431,7 @@ std::string toTables(const Json& result) {
     }
     out += viewTable(result.value("views", Json::array()));
     out += updateRateTable(result.value("updateRates", Json::array()));
+    out += pointTable(result.value("points", Json::array()));
     if (result.contains("scene")) {
         out += sceneTables(result["scene"]);
     }

@@ -3,6 +3,7 @@
 #include "runtime/context.h"
 #include "runtime/cpu_group.h"
 #include "runtime/playback_desc.h"
+#include "runtime/points/find_points.h"
 #include "runtime/prepare.h"
 #include "tools/common/inside_output.h"
 
@@ -102,6 +103,29 @@ Result<SuppleAsset> Workbench::createAsset(std::shared_ptr<const runtime::Prepar
         return asset.error();
     }
     return SuppleAsset{*asset};
+}
+
+Status Workbench::scatterPoints(SuppleGroup group, uint32_t count) {
+    runtime::Group& own = inside_->group(group);
+    const auto surfaces = runtime::Context::surfacesOf(own);
+    if (!surfaces) {
+        return surfaces.error();
+    }
+    SupplePointQuery query{};
+    query.structSize = sizeof query;
+    query.kind = SUPPLE_FIND_SCATTER;
+    query.count = count;
+    std::vector<SuppleSurfacePoint> points(count);
+    if (const Status found = runtime::findPoints(*surfaces, own.points().finder(), query, points); !found) {
+        return found;
+    }
+    SupplePointSetDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.group = group;
+    desc.points = points.data();
+    desc.pointCount = count;
+    const Result<uint64_t> set = inside_->context->createPointSet(desc);
+    return set ? success() : Status(set.error());
 }
 
 Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc, uint32_t updateInterval) {

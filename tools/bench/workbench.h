@@ -48,6 +48,8 @@ public:
     /// loop, from phaseOf(i) of its length on.
     /// `updateInterval`: SupplePlaybackDesc.updateInterval.
     [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc, uint32_t updateInterval = 0);
+    /// Scatters so many points over the group's surfaces: SUPPLE_POINT_FRAME_48. They go with the group.
+    [[nodiscard]] Status scatterPoints(SuppleGroup group, uint32_t count);
     /// Of a group that plays.
     void setTime(SuppleGroup group, double seconds);
     /// Irrational steps: no two instances have a pose in common, and an instance's does not hang on how many there are.
