@@ -10,7 +10,6 @@ namespace supple::cpu {
 namespace {
 
 using namespace surface::subdivision;
-using surface::kInfiniteSharpness;
 
 Fan fanOf(const LimitShape& shape, const Fragment& fragment) {
     return {shape.mesh().subdivision, fragment.sectors, fragment.open};

@@ -262,7 +262,7 @@ Status Group::createHashes(const std::shared_ptr<const StageHashes>& hashes) {
         }
     }
     auto made = std::make_unique<HashedParts>(*device_, hashes, windows(), culling_);
-    const Status status = made->create(parts, listing_.buffer().buffer());
+    Status status = made->create(parts, listing_.buffer().buffer());
     if (status) {
         hashed_ = std::move(all);
         hashes_ = std::move(made);

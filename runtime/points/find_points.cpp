@@ -206,7 +206,7 @@ PointFinder::forEachCell(const std::function<void(uint32_t piece, const Cell&, c
 Status PointFinder::plant() {
     std::vector<SeedTree::Seed> seeds;
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+    Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
         const glm::dvec2 at = cell.middle(pieces_[p].isQuad);
         const glm::dvec3 position = vectorAt(jet.position);
         low = glm::min(low, position);
@@ -277,7 +277,7 @@ Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) co
     };
     std::vector<Area> areas;
     double sum = 0.0;
-    const Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
+    Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
         sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * cell.size(pieces_[p].isQuad);
         areas.push_back({p, cell, sum});
     });

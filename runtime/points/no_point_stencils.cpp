@@ -4,6 +4,7 @@
 
 namespace supple::runtime {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): as it is where there are surfaces
 Result<std::shared_ptr<const CpuGroup>> surfacesOf(std::shared_ptr<const Prepared> /*prepared*/,
                                                    const SuppleGroupDesc& /*desc*/) {
     return Error{ErrorCode::disabled, "the library was built with SUPPLE_WITH_CPU=OFF: it has no surface points"};

@@ -14,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace supple::tools {
@@ -99,7 +100,9 @@ Result<GivenPoints> readPoints(const std::string& path, const cage::Character& c
     GivenPoints points;
     for (size_t p = 0; p < json.size(); ++p) {
         if (const std::string fault = takePoint(json[p], character, points); !fault.empty()) {
-            return Error{ErrorCode::asset, path + ": point " + std::to_string(p) + ": " + fault};
+            std::string reason = path + ": point ";
+            reason += std::to_string(p) + ": " + fault;
+            return Error{ErrorCode::asset, std::move(reason)};
         }
     }
     return points;
