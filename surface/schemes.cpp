@@ -51,9 +51,6 @@ constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    [](const cage::Cage&) { return 0.001f; },
                                    &fragments::check};
 
-static_assert(std::all_of(std::begin(kSchemes), std::end(kSchemes),
-                          [](const Scheme& scheme) { return scheme.check != nullptr; }));
-
 /// Whether the tables are for the recipe's rate, along an edge of what the steps of subdivision leave.
 bool isMadeFor(const Tables& tables, const Recipe& recipe) {
     if (recipe.rate > kMaxRate) {
