@@ -110,7 +110,7 @@ private:
         }
         return first + sum / static_cast<double>(corners.size());
     }
-    /// Of a side and the middle of its face.
+    /// In the triangle that a side makes with the middle of its face.
     [[nodiscard]] SurfaceJet inTriangle(const Place& place) const {
         const std::span<const uint32_t> corners = surface_.cornersOf(place.piece);
         const glm::dvec3 first(cage_[corners[place.sector]]);

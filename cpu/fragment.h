@@ -157,17 +157,18 @@ public:
     /// What recentre() has taken from them, in all.
     [[nodiscard]] const Vec& origin() const { return origin_; }
 
-    /// How many points of the isolated level it begins with.
-    [[nodiscard]] uint32_t loadedPoints(const Fragment& fragment) const {
-        return fragment.kind == FragmentKind::facet ? facetPointCount(1) : pointCount(fanOf(fragment), 2);
-    }
     /// Begins with a fragment on the isolated level.
     void load(const Fragment& fragment) {
+        const uint32_t count =
+            fragment.kind == FragmentKind::facet ? facetPointCount(1) : pointCount(fanOf(fragment), 2);
         points_.clear();
-        for (uint32_t i = 0; i < loadedPoints(fragment); ++i) {
+        origin_ = Vec(T(0));
+        for (uint32_t i = 0; i < count; ++i) {
             points_.push_back(isolated_[mesh_.net[fragment.firstNet + i]]);
         }
-        begin(fragment);
+        const auto first = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
+        spokes_.assign(first, first + fragment.spokes());
+        centreSharpness_ = fragment.centreSharpness;
     }
 
     /// The points become differences from the first. Rings shrink from level to level: so their rounding does too.
@@ -223,12 +224,6 @@ public:
     }
 
 private:
-    void begin(const Fragment& fragment) {
-        origin_ = Vec(T(0));
-        const auto first = mesh_.spokeSharpness.begin() + fragment.firstSpoke;
-        spokes_.assign(first, first + fragment.spokes());
-        centreSharpness_ = fragment.centreSharpness;
-    }
     // Points of ring 1.
     [[nodiscard]] static uint32_t spokePoint(const Fan& fan, uint32_t spoke) {
         return 1 + (fan.subdivision == Subdivision::catmullClark ? 2 : 1) * spoke;

@@ -91,7 +91,7 @@ class LevelNet {
 public:
     /// Level 2 and up; a facet has level 1.
     LevelNet(const LimitPose& pose, uint32_t fragment, uint32_t level);
-    /// Of the caller's points, relative to nothing. They must outlive it.
+    /// On points of the caller, which are relative to nothing and must outlive it.
     LevelNet(const Mesh& mesh, uint32_t fragment, uint32_t level, std::span<const glm::dvec3> points)
         : mesh_(mesh), fragment_(mesh.fragments[fragment]), level_(level), origin_(0.0), points_(points) {}
 

@@ -35,7 +35,7 @@ private:
     TaskRoom* room_;
     RecordedTask* next_;
     uint32_t place_ = 0;
-    // Of the place's barriers: how many must come before the next task, as it waits for those that were written; and
+    // How many of the place's barriers must come before the next task, as it waits for those that were written; and
     // how many come before the last one of these. Other owners may have asked for more of them than this one.
     uint32_t barriers_ = 0, written_ = 0;
     bool failed_ = false;

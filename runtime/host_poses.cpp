@@ -73,6 +73,11 @@ std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
     return std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
 }
 
+void HostPoses::releaseHeld(uint32_t instance) {
+    const std::span<glm::vec4> feet = held(instance);
+    std::fill(feet.begin(), feet.end(), glm::vec4(0.0f));
+}
+
 std::span<glm::vec4> HostPoses::held(uint32_t instance) {
     const size_t feet = takesModifiers() ? asset_->clipTable->footCount : 0;
     return std::span(held_).subspan(instance * feet, feet);
@@ -185,13 +190,13 @@ void HostPoses::setBindPose(uint32_t instance) {
 
 void HostPoses::setRestPose(uint32_t instance) {
     skinning::restPose(asset_->character, memory_.pose);
-    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
+    releaseHeld(instance);
     setPose(instance);
 }
 
 void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
     skinning::sampleClip(asset_->character, asset_->character.clips[clip], time, memory_.pose);
-    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
+    releaseHeld(instance);
     skinning::Layer layer;
     layer.clip = &asset_->character.clips[clip];
     layer.time = time;
@@ -202,7 +207,7 @@ void HostPoses::setClipPose(uint32_t instance, uint32_t clip, double time) {
 void HostPoses::setLayers(uint32_t instance, const SupplePoseDesc& desc) {
     const skinning::RootSelection root = rootSelection(*asset_, desc);
     skinning::restPose(asset_->character, memory_.pose);
-    std::fill(held(instance).begin(), held(instance).end(), glm::vec4(0.0f));
+    releaseHeld(instance);
     for (uint32_t i = 0; i < desc.layerCount; ++i) {
         const skinning::Layer layer = layerOf(*asset_, desc.layers[i]);
         skinning::applyLayer(asset_->character, asset_->rig, layer, root, memory_.scratch, memory_.pose);

@@ -95,6 +95,7 @@ public:
 private:
     void setPose(uint32_t instance); ///< from pose_
     [[nodiscard]] std::span<glm::vec4> held(uint32_t instance);
+    void releaseHeld(uint32_t instance);
     /// Poses are kept as locals.
     [[nodiscard]] bool keepsLocals() const { return !hasLocals_.empty(); }
     void keepLocals(uint32_t instance);

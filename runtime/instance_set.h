@@ -46,7 +46,7 @@ public:
     [[nodiscard]] const StateRoom& room() const { return desc_.room; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
-    /// Of instances that play on the device.
+    /// Only where instances play on the device.
     [[nodiscard]] const Playback& playback() const { return *poses_->playback(); }
     [[nodiscard]] UserData& userData() { return userData_; }
     /// Without a buffer if the character has no crease sets.

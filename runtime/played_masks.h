@@ -40,9 +40,8 @@ public:
     void cancelFrame(uint64_t frame);
 
 private:
-    [[nodiscard]] size_t floats() const {
-        return values_.size() / (keepsBefore_ ? 2 : 1) / shared::kMaxMasks;
-    } ///< a mask
+    /// In a mask.
+    [[nodiscard]] size_t floats() const { return values_.size() / (keepsBefore_ ? 2 : 1) / shared::kMaxMasks; }
     /// What they are is also what they were in the last frame.
     void keepBefore();
 

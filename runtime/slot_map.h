@@ -36,23 +36,15 @@ public:
     [[nodiscard]] bool empty() const { return free_.size() == slots_.size(); }
     /// Null for a stale or foreign id.
     [[nodiscard]] std::shared_ptr<T> find(uint64_t id) const noexcept {
-        const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
-        if (index >= slots_.size() || slots_[index].generation != id >> 32) {
-            return nullptr;
-        }
-        return slots_[index].value;
+        return isKnown(id) ? slots_[indexOf(id)].value : nullptr;
     }
     /// The same for who does not keep it.
-    [[nodiscard]] T* at(uint64_t id) const noexcept {
-        const uint64_t index = (id & 0xFFFFFFFFu) - 1u;
-        const bool known = index < slots_.size() && slots_[index].generation == id >> 32;
-        return known ? slots_[index].value.get() : nullptr;
-    }
+    [[nodiscard]] T* at(uint64_t id) const noexcept { return isKnown(id) ? slots_[indexOf(id)].value.get() : nullptr; }
     std::shared_ptr<T> remove(uint64_t id) noexcept {
-        if (find(id) == nullptr) {
+        if (at(id) == nullptr) {
             return nullptr;
         }
-        const auto index = static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u);
+        const uint32_t index = indexOf(id);
         std::shared_ptr<T> value = std::move(slots_[index].value);
         ++slots_[index].generation;
         free_.push_back(index);
@@ -60,7 +52,7 @@ public:
     }
     /// Puts another value into the place of one that is there, which is returned.
     std::shared_ptr<T> replace(uint64_t id, std::shared_ptr<T> value) {
-        std::swap(slots_[static_cast<uint32_t>((id & 0xFFFFFFFFu) - 1u)].value, value);
+        std::swap(slots_[indexOf(id)].value, value);
         return value;
     }
     template <class F>
@@ -85,6 +77,11 @@ private:
         std::shared_ptr<T> value;
         uint32_t generation = 0;
     };
+    /// Beyond all slots for 0.
+    [[nodiscard]] static uint32_t indexOf(uint64_t id) { return static_cast<uint32_t>(id) - 1u; }
+    [[nodiscard]] bool isKnown(uint64_t id) const noexcept {
+        return indexOf(id) < slots_.size() && slots_[indexOf(id)].generation == id >> 32;
+    }
     [[nodiscard]] uint32_t firstGeneration() const {
         const uint64_t hashed = (reinterpret_cast<uintptr_t>(this) >> 3) * 0x9E3779B97F4A7C15ull;
         return static_cast<uint32_t>(hashed >> 33) | 1u; // 31 bits: room to count up

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kRounds = 10;
 constexpr double kLongestStep = 0.25;
-/// Of the extent: places that differ by less in their distance are equally near.
+/// Places are equally near if their distances differ by less than this part of the extent.
 constexpr double kTie = 1e-6;
 
 glm::dvec3 vectorAt(const float* v) {

@@ -25,8 +25,8 @@ AlignedRange alignedRange(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize byt
     return {{buffer, offset - before, bytes + before}, static_cast<uint32_t>(before / gpu::kVec4Bytes)};
 }
 
-VkDeviceSize bytesOf(SupplePointFormat format) {
-    return gpu::kVec4Bytes * pointElements(format);
+uint32_t bytesOf(SupplePointFormat format) {
+    return static_cast<uint32_t>(gpu::kVec4Bytes) * shared::pointElements(format);
 }
 /// What a descriptor reaches behind the alignment of its offset.
 VkDeviceSize roomOf(const gpu::Device& device) {
@@ -87,7 +87,7 @@ Result<std::shared_ptr<PointSet>> PointSet::create(const PointSource& source, Po
 
 void PointSet::findReaches() {
     const InstanceWindows& windows = source_.listing->windows();
-    const uint64_t fit = roomOf(*source_.device) / (VkDeviceSize{pointCount()} * bytesOfPoint());
+    const uint64_t fit = roomOf(*source_.device) / (VkDeviceSize{pointCount()} * bytesOf(recipe_.format));
     for (uint32_t w = 0; w < windows.count(); ++w) {
         for (uint32_t first = 0; first < windows.slots(w);) {
             const auto count = static_cast<uint32_t>(std::min<uint64_t>(fit, windows.slots(w) - first));
@@ -101,7 +101,7 @@ Status PointSet::createBuffers() {
     const VkDeviceSize points = VkDeviceSize{pointCount()} * source_.listing->windows().capacity;
     constexpr VkBufferUsageFlags kUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const gpu::BufferRequest requests[] = {
-        {"supple points", points * bytesOfPoint(),
+        {"supple points", points * bytesOf(recipe_.format),
          kUse | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
              VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
          gpu::MemoryPurpose::streams},
@@ -125,7 +125,7 @@ Status PointSet::createSets() {
     const VkBuffer list = source_.listing->buffer().buffer();
     const VkDeviceSize listBytes = source_.listing->passBytes(),
                        cageBytes = VkDeviceSize{source_.cageStride} * gpu::kVec4Bytes,
-                       pointBytes = VkDeviceSize{pointCount()} * bytesOfPoint(),
+                       pointBytes = VkDeviceSize{pointCount()} * bytesOf(recipe_.format),
                        pastBytes = VkDeviceSize{pointCount()} * kPastBytes;
     Status status = sets_.create(device, kernels_->layout(), static_cast<uint32_t>(reaches_.size()), "supple points");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
@@ -164,7 +164,7 @@ Status PointSet::createSets() {
 void PointSet::fill(SupplePointOutput& out) const {
     out.format = recipe_.format;
     out.pointCount = pointCount();
-    out.frames = {output_.buffer(0), 0, output_.size(0), bytesOfPoint()};
+    out.frames = {output_.buffer(0), 0, output_.size(0), bytesOf(recipe_.format)};
 }
 
 gpu::MemoryUse PointSet::memoryUse() const {
@@ -211,7 +211,7 @@ PassCost PointSet::record(gpu::Dispatches& dispatches, uint64_t frame, const glm
         }
     }
     const uint64_t points = uint64_t{pointCount()} * windows.visible;
-    return {points, points * (bytesOfPoint() + (hasPasts() ? kPastBytes : 0))};
+    return {points, points * (bytesOf(recipe_.format) + (hasPasts() ? kPastBytes : 0))};
 }
 
 VkDeviceSize PointSet::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {

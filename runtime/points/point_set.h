@@ -83,7 +83,6 @@ private:
         uint32_t firstSlot = 0, slotCount = 0; ///< in the window
         uint32_t firstElement = 0, firstPast = 0;
     };
-    [[nodiscard]] uint32_t bytesOfPoint() const { return 16u * shared::pointElements(recipe_.format); }
     [[nodiscard]] Status createBuffers();
     void findReaches();
     [[nodiscard]] Status createSets();

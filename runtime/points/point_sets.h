@@ -36,7 +36,7 @@ public:
     [[nodiscard]] bool beginsAny() const;
     /// Notes that the group is recorded in the frame, with the sets that there are.
     void noteAsked(uint64_t frame);
-    /// Of the sets that were there when the group was recorded.
+    /// What the sets write that were there when the group was recorded.
     void addTransfers(Transfers& transfers, uint64_t frame) const;
     PassCost record(gpu::Dispatches& dispatches, uint64_t frame, const glm::vec3& pastStep);
 

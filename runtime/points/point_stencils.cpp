@@ -68,7 +68,7 @@ public:
         ++added_;
         return starts_.size() == shared::kPointBlock ? pack() : success();
     }
-    /// Of all points.
+    /// The table's words, when all points are added.
     Result<std::vector<uint32_t>> finish() {
         if (Status packed = starts_.empty() ? success() : pack(); !packed) {
             return packed.error();
@@ -220,7 +220,7 @@ private:
     uint64_t mostElements_;
     size_t blocks_, added_ = 0;
     std::vector<uint32_t> words_; ///< a header for each block, then their weights
-    // Of the block in hand:
+    // What the block that is being filled has:
     std::vector<size_t> starts_; ///< by point, into shares_
     std::vector<Share> shares_;
 };

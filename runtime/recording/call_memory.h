@@ -12,8 +12,8 @@ class CallMemory {
 public:
     /// For any type that `new` aligns without being told; nothing of it is written.
     [[nodiscard]] void* allocate(size_t bytes) {
-        return blocks_.emplace_back(new std::byte[bytes])
-            .get(); // NOLINT(*-owning-memory): make_unique would write zeros
+        auto* const block = new std::byte[bytes]; // NOLINT(*-owning-memory): make_unique would write zeros
+        return blocks_.emplace_back(block).get();
     }
     void release() { blocks_.clear(); }
 

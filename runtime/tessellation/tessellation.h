@@ -117,7 +117,7 @@ public:
     void inRounds(gpu::Dispatches& dispatches, Record&& record) const {
         surface::inRounds(dispatches, std::forward<Record>(record));
     }
-    /// Of coefficients: which of two the newest frame writes.
+    /// Which of the two pools of coefficients the newest frame writes.
     [[nodiscard]] uint32_t pool() const { return pool_; }
     /// How far the origin of the coordinates has moved since the group's last recording.
     void setPastStep(const glm::vec3& step) { pastStep_ = step; }

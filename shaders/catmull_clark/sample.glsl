@@ -86,7 +86,7 @@ Leaf leafAt(const PatchPlace at, NetSource net, bool secondX, bool secondY, Leaf
                 blend4(x.w, slope[0], slope[1], slope[2], slope[3]));
 }
 
-// Of texture coordinates: nobody reads the frame's normal.
+// For texture coordinates: nobody reads the frame's normal.
 void irregularSample(const PatchPlace at, IrregularQuad quad, vec2 u, vec2 v, out vec3 position, out Frame frame) {
     bool right = u.x > u.y, up = v.x > v.y;
     uint corner = up ? (right ? 2u : 3u) : (right ? 1u : 0u);

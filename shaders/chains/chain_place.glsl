@@ -12,7 +12,7 @@ struct Chain {
 Chain chainOf(const PatchPlace at, uint netLists, uint points, uint lastWord) {
     uint size = tableWord(4u * netLists + lastWord), last = size >> kChainLevelShift;
 #ifdef DEPTH_OF_INSTANCE
-    // Of the instance of an empty record it may be whatever the memory holds.
+    // An empty record's instance may have whatever the memory holds.
     last = min(last, max(uint(poolPoint(at, header.depth).x), kFirstDepth - 1u));
 #endif
     return Chain(netLists, points, size & ((1u << kChainLevelShift) - 1u), last);

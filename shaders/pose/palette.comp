@@ -69,7 +69,7 @@ Affine globalOf(uint matrices, uint node) {
     return global;
 }
 
-// Of a step, only what painted vertices hang on.
+// A step needs only what painted vertices hang on.
 bool isNeeded(uint node) { return !isStep() || (table(kNodeElements * node).y & kNodeOfJiggles) != 0u; }
 
 void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {

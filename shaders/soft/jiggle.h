@@ -42,7 +42,7 @@ struct JiggleStep {
     uint skipped; // if it settles: steps that are left out since the last, over which what there was swings on; 0: at rest
 };
 
-// Of two such matrices, rows one after the other.
+// The product of two such matrices, which have their rows one after the other.
 SUPPLE_SHARED_FUNCTION vec4 springProduct(vec4 a, vec4 b) {
     SUPPLE_PRECISE vec4 product =
         vec4(a.x * b.x + a.y * b.z, a.x * b.y + a.y * b.w, a.z * b.x + a.w * b.z, a.z * b.y + a.w * b.w);
