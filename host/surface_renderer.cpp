@@ -557,7 +557,7 @@ void SurfaceRenderer::writeUniforms(const Slot& slot, VkExtent2D extent, const S
     projection[2][1] += jitter.y;
     frame.viewProjection = projection * frame.view;
     const glm::vec3 eye = scene.camera.eye();
-    frame.eye = glm::vec4(eye, 1.0f);
+    frame.eye = glm::vec4(eye, scene.lightTubes);
     frame.target = glm::vec4(center, radius);
     const bool groundSeen = scene.ground.has_value() && eye.y > *scene.ground;
     frame.ground = glm::vec4(scene.ground.value_or(0.0f), groundSeen ? 1.0f : 0.0f, 0.0f, 0.0f);

@@ -59,9 +59,10 @@ struct Scene {
     std::optional<float> split;
     /// Instead of the renderer's: no more lights, no larger maps, the same samples.
     std::optional<StudioQuality> quality;
-    uint32_t pass = 0;       ///< of StudioQuality::passes
-    bool coarse = false;     ///< the surface on the grid of its shadows
-    float pixelScale = 1.0f; ///< line widths are multiplied by it
+    uint32_t pass = 0;        ///< of StudioQuality::passes
+    bool coarse = false;      ///< the surface on the grid of its shadows
+    float pixelScale = 1.0f;  ///< line widths are multiplied by it
+    float lightTubes = 10.0f; ///< of the zebra, from one pole to the other
 };
 
 class SurfaceRenderer {

@@ -176,7 +176,7 @@ struct Light {
 struct FrameUniforms {
     mat4 viewProjection;
     mat4 view;
-    vec4 eye;
+    vec4 eye;          // w: light tubes of the zebra, from one pole to the other
     vec4 target;       // the middle of the scene; w: its radius
     vec4 ground;       // x: height, y: 1 where there is one
     vec4 viewport;     // width, height, 1 / width, 1 / height

@@ -6,7 +6,7 @@ bool hasStripes(uint view) { return view >= kViewZebra && view <= kViewIsophotes
 /// Where a place is among light tubes all round the viewer: from one tube to the next it grows by one.
 float amongTubes(vec3 position, vec3 n) {
     vec3 r = mat3(frame.view) * reflect(normalize(position - frame.eye.xyz), n);
-    return acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (10.0 / kPi);
+    return acos(clamp(dot(r, normalize(vec3(0.35, 0.93, 0.1))), -1.0, 1.0)) * (frame.eye.w / kPi);
 }
 
 /// Highlight lines (Beier and Chen, Computer-Aided Design 26, 1994): the normal's line meets a line of light. Lines of light are

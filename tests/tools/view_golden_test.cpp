@@ -225,6 +225,18 @@ TEST(LookedAtPictures, ASmootherEdgeIsNoChangeAndAThinLineIsOne) {
     EXPECT_NEAR(tinted.mean, 3.14159 * 0.09 * 127.5 / 3.0, 1.0);
 }
 
+TEST(ZebraStripes, AreFewerInSmallPicturesAlone) {
+    const auto tubesAt = [](uint32_t height) {
+        host::Scene scene;
+        fitToPixels(scene, {2 * height, height});
+        return scene.lightTubes;
+    };
+    EXPECT_EQ(tubesAt(64), 4.0f);
+    EXPECT_EQ(tubesAt(480), 6.0f);
+    EXPECT_EQ(tubesAt(800), 10.0f);
+    EXPECT_EQ(tubesAt(4320), 10.0f);
+}
+
 TEST(ViewGolden, PipAtRate2) {
     compareViews({"pip_2", "pip.glb", 2, "chest", allViews()});
 }

@@ -126,7 +126,7 @@ Result<host::Scene> sceneOf(Stage& stage, const AnimateOptions& options, const C
     scene.cageEdges = scene.cageFaces || options.draw.cageOverlay;
     if (options.draw.split)
         scene.split = 0.0f;
-    scene.pixelScale = pixelScale(size);
+    fitToPixels(scene, size);
     return scene;
 }
 

@@ -133,7 +133,7 @@ Status drawSheet(Session& session, const ContactSheetOptions& options, VkExtent2
         return status.error();
     host::Scene scene;
     scene.view = view;
-    scene.pixelScale = pixelScale(cell);
+    fitToPixels(scene, cell);
     for (size_t i = 0; i < clips->size(); ++i) {
         const uint32_t clip = (*clips)[i];
         const Result<host::Picture> row = drawRow(stage, options, layout, clip, scene);

@@ -66,7 +66,7 @@ Status drawRow(Session& session, const cage::GalleryCage& subject, const Gallery
                uint32_t view, uint32_t top, host::Picture& sheet) {
     const std::vector<std::string> columns = galleryColumns();
     host::Scene scene;
-    scene.pixelScale = pixelScale(cell);
+    fitToPixels(scene, cell);
     for (uint32_t column = 0; column < columns.size(); ++column) {
         Extent extent;
         const Result<std::unique_ptr<Stage>> stage =

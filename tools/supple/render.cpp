@@ -111,7 +111,7 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     scene.cageEdges = cage || options.draw.cageOverlay;
     if (options.draw.split)
         scene.split = 0.0f;
-    scene.pixelScale = pixelScale(size);
+    fitToPixels(scene, size);
     return scene;
 }
 

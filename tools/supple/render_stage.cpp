@@ -8,6 +8,7 @@
 #include "tools/supple/views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
 
@@ -51,8 +52,10 @@ float radians(double degrees) {
     return static_cast<float>(degrees) * glm::pi<float>() / 180.0f;
 }
 
-float pixelScale(VkExtent2D extent) {
-    return std::clamp(static_cast<float>(extent.height) / 900.0f, 0.6f, 4.0f);
+void fitToPixels(host::Scene& scene, VkExtent2D extent) {
+    const float height = static_cast<float>(extent.height);
+    scene.pixelScale = std::clamp(height / 900.0f, 0.6f, 4.0f);
+    scene.lightTubes = std::clamp(std::round(height / 80.0f), 4.0f, 10.0f);
 }
 
 std::vector<ClipTime> spreadTimes(const host::Figure& figure, uint32_t clip, uint32_t count) {

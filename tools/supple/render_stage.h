@@ -29,8 +29,9 @@ struct PictureKind {
 [[nodiscard]] Result<PictureKind> parsePicture(const char* option, const std::string& size, const std::string& view);
 [[nodiscard]] DeviceFlags deviceFlags(const DrawOptions& options);
 [[nodiscard]] float radians(double degrees);
-/// Lines keep their weight when a picture is drawn larger or smaller.
-[[nodiscard]] float pixelScale(VkExtent2D extent);
+/// Lines keep their weight when a picture is drawn larger or smaller, and small pictures have fewer stripes of the
+/// zebra, so that they can be told apart.
+void fitToPixels(host::Scene& scene, VkExtent2D extent);
 
 struct ClipTime {
     uint32_t clip = SUPPLE_REST_POSE;

@@ -480,7 +480,7 @@ host::Scene ViewStage::scene(VkExtent2D extent) const {
     scene.cageEdges = settings.cageFaces || settings.cageOverlay;
     if (settings.split)
         scene.split = covered_;
-    scene.pixelScale = pixelScale(extent);
+    fitToPixels(scene, extent);
     return scene;
 }
 
