@@ -77,6 +77,23 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
     }
 }
 
+// So poses and cages have the same words on every driver (shaders/shared/portable.h).
+TEST(Precise, PosesAndCagesAskForNothingThatDriversRoundAsTheyLike) {
+    uint32_t kernels = 0;
+    for (const auto& file : std::filesystem::directory_iterator(SUPPLE_SPIRV_DIR)) {
+        const std::string name = file.path().filename().string();
+        if (!name.ends_with(".spv") ||
+            !(name.starts_with("pose_") || name.starts_with("deform_") || name.starts_with("soft_")))
+            continue;
+        ++kernels;
+        for (const std::string& operation : operationsThatDriversRound(readWords(file.path())))
+            ADD_FAILURE() << name << ": " << operation;
+    }
+    EXPECT_GE(kernels, 60u);
+    // It sees one where there is one.
+    EXPECT_FALSE(operationsThatDriversRound(compileShader("polygons/frame.comp", "")).empty());
+}
+
 TEST(Precise, IsNotLostWhereLoopsAreUnrolled) {
     uint32_t kernels = 0, loops = 0;
     for (const auto& file : std::filesystem::directory_iterator(SUPPLE_SPIRV_DIR)) {

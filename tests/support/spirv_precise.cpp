@@ -45,6 +45,8 @@ enum Op : uint32_t {
     kFMul = 133,
     kFDiv = 136,
     kVectorTimesScalar = 142,
+    kFRem = 140,
+    kFMod = 141,
     kDot = 148,
     kSelect = 169,
     kLoopMerge = 246,
@@ -395,6 +397,24 @@ std::vector<uint32_t> readWords(const std::filesystem::path& path) {
     std::vector<uint32_t> words(bytes.size() / 4);
     std::memcpy(words.data(), bytes.data(), words.size() * 4);
     return words;
+}
+
+std::vector<std::string> operationsThatDriversRound(std::span<const uint32_t> spirv) {
+    // GLSL.std.450 from Radians to InverseSqrt; Fma; from Length on, what is made of roots and divisions.
+    constexpr uint32_t kRadians = 11, kInverseSqrt = 32, kFma = 50, kLength = 66, kRefract = 72, kCross = 68;
+    std::vector<std::string> found;
+    for (size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
+        const uint32_t op = spirv[at] & 0xFFFFu;
+        if (op == kFDiv || op == kFRem || op == kFMod || op == kDot) {
+            found.push_back("opcode " + std::to_string(op));
+        } else if (op == kExtInst) {
+            const uint32_t builtIn = spirv[at + 4];
+            if ((builtIn >= kRadians && builtIn <= kInverseSqrt) || builtIn == kFma ||
+                (builtIn >= kLength && builtIn <= kRefract && builtIn != kCross))
+                found.push_back("built-in " + std::to_string(builtIn));
+        }
+    }
+    return found;
 }
 
 uint32_t preciseInUnrolledLoops(std::span<const uint32_t> spirv, uint32_t& loops) {
