@@ -84,8 +84,9 @@ typedef struct SupplePoseDesc {
     uint32_t rootJoint;  /**< with SUPPLE_POSE_ROOT_JOINT */
 } SupplePoseDesc;
 
-/** Poses an instance of a group with SUPPLE_POSES_SET. The pose stays until it is set again. The arrays are read during
- * the call. Errors: a clip, joint, mask or weight is out of range, a time is not finite. */
+/** Poses an instance of a group with SUPPLE_POSES_SET. The pose stays until it is set again; nothing tells when it is
+ * shown, so there are no transitions to it. The CPU samples it in doubles. The arrays are read during the call. Errors:
+ * a clip, joint, mask or weight is out of range, a time is not finite. */
 SUPPLE_API SuppleResult suppleSetPose(SuppleContext context, SuppleInstance instance, const SupplePoseDesc* pose);
 
 /** A movement of the root: first the turn, then the translation. */
@@ -251,7 +252,8 @@ typedef enum SupplePlaybackFlags {
     SUPPLE_PLAYBACK_FROM_MODIFIED = 8
 } SupplePlaybackFlags;
 
-/** How an instance goes over from what it has shown to what it plays now. Only the new clips are sampled meanwhile. */
+/** How an instance goes over from what it has shown to what it plays now. Only the new clips are sampled meanwhile. A
+ * crossfade is no kind of it: it is two layers that fade (SupplePlaybackLayer::fadeWeight). */
 typedef enum SuppleTransitionKind {
     /** What was shown moves on, ever more slowly: by what it would move in 0.072 s at its speed, and by 30 degrees, at
      * most. What is played is blended in. So joints stay between the two poses, or near (Holden, Dead Blending, 2023).
