@@ -59,7 +59,10 @@ private:
     }
     /// Pool index of the normal that is stored for a vertex, or kNoNormal.
     [[nodiscard]] uint32_t normalOf(uint32_t v) const {
-        return isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+        if (!isSmoothCorner(v)) {
+            return shared::kNoNormal;
+        }
+        return recipe_.fanRecords ? v : tables_.faces + slots_[topology_.spokeStarts[v]] + 1;
     }
     /// Whether the face of a corner runs against the edge behind it.
     [[nodiscard]] bool isReversed(uint32_t c) const { return topology_.edges[topology_.cornerEdges[c]].corner != c; }
@@ -100,12 +103,17 @@ private:
         }
     }
 
-    /// X, TG, FC, H of the perturbed edges, four zeros.
+    /// X, TG, FC or fan records, H of the perturbed edges, four zeros.
     void layOutPool() {
-        const auto spokeCount = static_cast<uint32_t>(topology_.spokeVertices.size());
-        tables_.tangents = cage_.vertexCount();
-        tables_.faces = tables_.tangents + spokeCount;
-        tables_.inner = tables_.faces + spokeCount;
+        tables_.fanRecords = recipe_.fanRecords;
+        if (recipe_.fanRecords) {
+            tables_.inner = shared::kFanRecordElements * cage_.vertexCount();
+        } else {
+            const auto spokeCount = static_cast<uint32_t>(topology_.spokeVertices.size());
+            tables_.tangents = cage_.vertexCount();
+            tables_.faces = tables_.tangents + spokeCount;
+            tables_.inner = tables_.faces + spokeCount;
+        }
         edgeSlots_.assign(topology_.edges.size(), cage::kNone);
         zero_ = tables_.inner;
         for (uint32_t e = 0; e < topology_.edges.size(); ++e) {
@@ -125,8 +133,36 @@ private:
                 const auto [sectors, boundary] = known->first;
                 const ValenceClass c = makeValenceClass(sectors, boundary, options_);
                 known->second = {writeFanWeights(c, boundary ? shared::kBoundaryClass : 0u, writer_), c.c};
+                known->second.turns = recipe_.fanRecords ? writeTurns(c, sectors == 4 && !boundary) : 0;
             }
         }
+    }
+
+    /// Of all facets of a class. Returns the first element.
+    uint32_t writeTurns(const ValenceClass& c, bool regular) {
+        const uint32_t first = writer_.element();
+        const size_t facets = c.limitFace.size(), spokes = c.cosines.size();
+        for (size_t k = 0; k < facets; ++k) {
+            const size_t next = (k + 1) % spokes;
+            if (regular) { // e1, e2, -e1, -e2, as they are
+                constexpr std::array<double, 4> kCosines{1.0, 0.0, -1.0, 0.0}, kSines{0.0, 1.0, 0.0, -1.0};
+                writer_.putFloats({kCosines[k], kSines[k], kCosines[next], kSines[next]});
+            } else {
+                writer_.putFloats({c.cosines[k], c.sines[k], c.cosines[next], c.sines[next]});
+            }
+        }
+        return first;
+    }
+    /// Of the corner of a face: see shaders/shared/prep.h.
+    [[nodiscard]] uint32_t turnWord(uint32_t c) const {
+        const uint32_t v = cage_.faceVertices[c], k = topology_.cornerSpokes[c] - topology_.spokeStarts[v];
+        const bool open = topology_.boundary[v] != 0;
+        return (classes_.at(classKey(v)).turns + k) | (open && k == 0 ? shared::kBorderSpoke : 0u) |
+               (open && k + 1 == topology_.sectorCount(v) ? shared::kBorderNextSpoke : 0u);
+    }
+    /// What the record of a patch says of the spokes at one of its corners.
+    [[nodiscard]] uint32_t cornerWord(uint32_t c) const {
+        return recipe_.fanRecords ? turnWord(c) : spokeWord(cornerSlot(c), slots_[topology_.cornerSpokesBack[c]]);
     }
 
     void writeVertices() {
@@ -135,7 +171,11 @@ private:
             const uint32_t kind = hasRegularFan(v)               ? shared::kRegularFan
                                   : spokes <= shared::kFewSpokes ? shared::kFewFan
                                                                  : shared::kManyFan;
-            countVertex(kVertexKernels[kind], 1 + 2 * spokes, writer_, tables_);
+            if (recipe_.fanRecords) {
+                countVertex(kRecordVertexKernels[kind], shared::kFanRecordElements, writer_, tables_);
+            } else {
+                countVertex(kVertexKernels[kind], 1 + 2 * spokes, writer_, tables_);
+            }
             if (kind != shared::kRegularFan) {
                 writer_.put({slots_[topology_.spokeStarts[v]], classes_.at(classKey(v)).element});
             }
@@ -159,15 +199,25 @@ private:
 
     void writeEdges() {
         const auto edgeCount = static_cast<uint32_t>(perturbedEdges_.size());
-        tables_.constructions.push_back({Stage::assemble, kEdgeKernel, {writer_.element(), edgeCount}, 4 * edgeCount});
+        tables_.constructions.push_back({Stage::assemble,
+                                         recipe_.fanRecords ? kRecordEdgeKernel : kEdgeKernel,
+                                         {writer_.element(), edgeCount},
+                                         4 * edgeCount});
         for (const uint32_t e : perturbedEdges_) {
             // Faces left and right of A -> B.
             const uint32_t f = topology_.edges[e].corner, o = topology_.edges[e].twin;
             const uint32_t a = cage_.faceVertices[f], b = cage_.faceVertices[o];
             const uint32_t edgeClass = edgeClasses_.at(edgeKey(e));
-            writer_.put({a | edgeClass << shared::kPointBits, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))),
-                         b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits,
-                         spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
+            const uint32_t wordA = a | edgeClass << shared::kPointBits;
+            const uint32_t wordB = b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits;
+            if (recipe_.fanRecords) {
+                const auto vertex = [&](uint32_t c, uint32_t steps) { return cage_.faceVertices[corner(c, steps)]; };
+                writer_.put(
+                    {wordA, turnWord(f), wordB, turnWord(o), vertex(f, 2), vertex(f, 3), vertex(o, 2), vertex(o, 3)});
+            } else {
+                writer_.put({wordA, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))), wordB,
+                             spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
+            }
         }
     }
 
@@ -197,7 +247,7 @@ private:
                 corners.points[j] = v;
                 corners.spokes[j] = cornerSlot(c);
                 corners.nextSpokes[j] = slots_[topology_.cornerSpokesBack[c]];
-                spokes[j] = spokeWord(corners.spokes[j], corners.nextSpokes[j]);
+                spokes[j] = cornerWord(c);
                 const uint32_t edge = topology_.cornerEdges[c];
                 edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
                 edges[j] |= isReversed(c) ? shared::kReversedEdgeOfPatch : 0u;
@@ -255,7 +305,8 @@ private:
 
     struct ClassEntry {
         uint32_t element = 0;
-        double c = 0.0; ///< ValenceClass::c
+        double c = 0.0;     ///< ValenceClass::c
+        uint32_t turns = 0; ///< the first, of tables with fan records
     };
 
     const cage::Cage& cage_;
