@@ -109,10 +109,8 @@ Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
     if (!schemes) {
         return schemes.error();
     }
-    gpu::Mapping mapping;
-    mapping.wide = wide;
     for (const SchemeParts& parts : *schemes) {
-        if (Status status = prepareSurface(prepared, group, parts, mapping); !status) {
+        if (Status status = prepareSurface(prepared, group, parts, {.wide = wide}); !status) {
             return status;
         }
     }

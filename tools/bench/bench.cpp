@@ -56,7 +56,7 @@ public:
         if (status) {
             status = crowd();
         }
-        if (status && options_.kernels) {
+        if (status && options_.kernels > 0) {
             status = kernels();
         }
         if (status) {
@@ -117,7 +117,6 @@ private:
     }
     [[nodiscard]] uint32_t crowdSize() const;
     [[nodiscard]] uint32_t sceneSize() const;
-    [[nodiscard]] uint32_t kernelCharacters() const { return std::max(mostCharacters(), 1u); }
     [[nodiscard]] bool measuresSphere() const {
         return std::find(options_.cages.begin(), options_.cages.end(), "sphere") != options_.cages.end();
     }
@@ -266,11 +265,11 @@ Status Run::kernels() {
         for (size_t r = 0; wanted && status && r < rates.size(); ++r) {
             std::fprintf(stderr, "\rkernels: %s, %s, rate %u   ", subject.cage, tools::schemeName(subject.scheme),
                          rates[r]);
-            status = take(measureKernels(device_, *ways, {subject, kernelCharacters(), rates[r], roundOptions()}));
+            status = take(measureKernels(device_, *ways, {subject, options_.kernels, rates[r], roundOptions()}));
         }
         if (wanted && status && !options_.quick && *subject.patchClass != '\0') { // drivers take seconds for a view
             std::fprintf(stderr, "\rkernels: %s, %s, levels   ", subject.cage, tools::schemeName(subject.scheme));
-            status = take(measureLevelKernels(device_, *ways, {subject, kernelCharacters(), 3 * options_.rounds}));
+            status = take(measureLevelKernels(device_, *ways, {subject, options_.kernels, 3 * options_.rounds}));
         }
     }
     return status;

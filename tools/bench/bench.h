@@ -22,7 +22,7 @@ struct BenchOptions {
     uint32_t rounds = 7;
     bool quick = false;   ///< shorter turns, fewer loads, of pipelines in views p-rep's alone
     bool loading = true;  ///< and pipelines
-    bool kernels = false; ///< evaluation by classes of patches
+    uint32_t kernels = 0; ///< characters of which evaluation is measured by classes of patches; 0: it is not
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     /// Characters of the crowd, 0: no crowd. Left out: as many as the device is good for, where the sphere is measured.
     std::optional<uint32_t> crowd;
