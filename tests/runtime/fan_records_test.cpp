@@ -23,6 +23,9 @@ protected:
         ASSERT_TRUE(plain.valid() && records.valid());
         plain.evaluate();
         records.evaluate();
+        if ((options.flags & SUPPLE_GROUP_MOTION) != 0) {
+            comparePrevious(plain, records);
+        }
         for (const uint32_t instance : std::set<uint32_t>{0, options.instanceCount - 1}) {
             for (uint32_t p = 0; p < plain.patches().size(); ++p) {
                 comparePatch(plain, records, instance, p);
@@ -40,6 +43,18 @@ protected:
     }
 
 private:
+    static void comparePrevious(GpuSurface& plain, GpuSurface& records) {
+        std::vector<std::vector<std::byte>> all;
+        for (GpuSurface* surface : {&plain, &records}) {
+            surface->evaluate(); // now there is a frame before
+            const SuppleBufferRange& range = surface->output().streams.previousPositions;
+            Result<std::vector<std::byte>> read = testDevice()->readBuffer(
+                range.buffer, range.offset, VkDeviceSize{surface->output().grid.vertexCount} * range.stride);
+            ASSERT_TRUE(read.ok());
+            all.push_back(std::move(*read));
+        }
+        EXPECT_EQ(all[0], all[1]);
+    }
     void comparePatch(const GpuSurface& plain, const GpuSurface& records, uint32_t instance, uint32_t p) {
         const uint32_t patchClass = plain.patches()[p].patchClass;
         classes_.insert(patchClass);
@@ -93,6 +108,13 @@ TEST_P(FanRecords, OfOddPlaces) {
     }
     compare(far, {.rate = 4});
     compare(grid(4, 4), {.rate = 2});
+}
+
+/// Previous positions come from the records of the frame before.
+TEST_P(FanRecords, OfTheFrameBefore) {
+    const ValidationGuard guard;
+    const uint32_t flags = SUPPLE_GROUP_PATCHES | SUPPLE_GROUP_MOTION;
+    compare(perturbed(biped(), 0.02f, 10), {.rate = 3, .flags = flags});
 }
 
 TEST_P(FanRecords, InSharedDispatches) {
