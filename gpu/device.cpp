@@ -291,6 +291,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.maxBufferSize = maintenance4.maxBufferSize;
     d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
     d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
+    d.mapping.fanRecords = desc.fanRecords;
     d.mapping.sharesDispatches = d.mapping.wide && desc.shareDispatches;
     if (d.mapping.sharesDispatches && desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
         return Error{ErrorCode::disabled,

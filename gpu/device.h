@@ -37,6 +37,7 @@ struct DeviceDesc {
     bool debugUtils = false;
     MappingChoice mapping = MappingChoice::automatic;
     bool shareDispatches = false; ///< in the wide mapping
+    bool fanRecords = false;      ///< Mapping::fanRecords
 };
 
 class Uploads;

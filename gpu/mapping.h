@@ -12,6 +12,8 @@ struct Mapping {
     uint32_t localSize = 32;
     /// Lanes that keep all of the device busy: a kernel with so many need not divide its work.
     uint32_t lanesToFill = 64;
+    /// Surfaces at a rate keep records of fans instead of coefficients, where their scheme can (surface/recipe.h).
+    bool fanRecords = false;
     /// Groups share dispatches (gpu/tasks.h). Wide alone.
     bool sharesDispatches = false;
     /// The driver writes timestamps late and reads them only from an idle device: gpu/timers.h.

@@ -53,6 +53,7 @@ gpu::DeviceDesc deviceDescOf(const SuppleContextDesc& desc) {
     }
     device.memoryBlockSize = desc.memoryBlockSize;
     device.shareDispatches = (desc.flags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0;
+    device.fanRecords = (desc.flags & SUPPLE_CONTEXT_FAN_RECORDS) != 0;
     device.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
     device.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
                      : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide

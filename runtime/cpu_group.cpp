@@ -117,7 +117,7 @@ Status CpuGroup::addPart(const SuppleGroupDesc& desc, SuppleScheme scheme, bool 
     part.piece = parts.size() == character.parts.size() ? nullptr : prepared_->pieceOf(parts);
     // The tables say which patches there are, in the order of the device.
     const Result<PlannedSurface> planned =
-        plannedSurface(*prepared_, {desc, std::nullopt}, {scheme, chosen, parts}, part.piece, true);
+        plannedSurface(*prepared_, {desc, std::nullopt}, {scheme, chosen, parts}, part.piece, {.wide = true});
     if (!planned) {
         return planned.error();
     }

@@ -31,8 +31,8 @@ Status makeProgram(const PipelineMakers& makers, const surface::Tables& tables, 
 Status makeSurface(const PipelineMakers& makers, const Prepared& prepared, const PlannedGroup& group,
                    const SchemeParts& parts) {
     const bool whole = parts.parts.size() == prepared.character.parts.size();
-    const Result<PlannedSurface> surface = plannedSurface(
-        prepared, group, parts, whole ? nullptr : prepared.pieceOf(parts.parts), makers.device->mapping.wide);
+    const Result<PlannedSurface> surface =
+        plannedSurface(prepared, group, parts, whole ? nullptr : prepared.pieceOf(parts.parts), makers.device->mapping);
     if (!surface) {
         return surface.error();
     }

@@ -35,9 +35,10 @@ std::shared_ptr<const PreparedPiece> pieceFor(Prepared& prepared, const std::vec
     return piece;
 }
 
-Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts, bool wide) {
+Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts,
+                      const gpu::Mapping& mapping) {
     const Result<PlannedSurface> surface =
-        plannedSurface(prepared, group, parts, pieceFor(prepared, parts.parts), wide);
+        plannedSurface(prepared, group, parts, pieceFor(prepared, parts.parts), mapping);
     if (!surface) {
         return surface.error();
     }
@@ -70,7 +71,7 @@ Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const Schem
 } // namespace
 
 Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts,
-                                      std::shared_ptr<const PreparedPiece> piece, bool wide) {
+                                      std::shared_ptr<const PreparedPiece> piece, const gpu::Mapping& mapping) {
     PlannedSurface surface;
     const cage::Cage& cage = prepared.cageOf(piece.get());
     surface.piece = std::move(piece);
@@ -78,7 +79,7 @@ Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGro
     SuppleGroupDesc desc = group.desc;
     desc.flags = surfaceFlags(desc.flags, own, parts.chosen);
     Result<SurfaceRecipe> recipe =
-        surfaceRecipe({prepared.character, parts.parts, cage, desc, own, parts.chosen, group.viewFlags, wide});
+        surfaceRecipe({prepared.character, parts.parts, cage, desc, own, parts.chosen, group.viewFlags, mapping});
     if (!recipe) {
         return recipe.error();
     }
@@ -109,7 +110,7 @@ Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
         return schemes.error();
     }
     for (const SchemeParts& parts : *schemes) {
-        if (Status status = prepareSurface(prepared, group, parts, wide); !status) {
+        if (Status status = prepareSurface(prepared, group, parts, {.wide = wide}); !status) {
             return status;
         }
     }

@@ -25,7 +25,8 @@ struct PlannedSurface {
 };
 [[nodiscard]] Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGroup& group,
                                                     const SchemeParts& parts,
-                                                    std::shared_ptr<const PreparedPiece> piece, bool wide);
+                                                    std::shared_ptr<const PreparedPiece> piece,
+                                                    const gpu::Mapping& mapping);
 
 /// Adds what the group will need and `prepared` does not have. Refuses what creating the group would refuse of the
 /// character.

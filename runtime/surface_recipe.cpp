@@ -97,7 +97,8 @@ Result<SurfaceRecipe> surfaceRecipe(const SurfaceWish& wish) {
     recipe.tangents = (scheme.isMesh() || recipe.indexedMesh) && tangents;
     recipe.lod = wish.viewFlags.has_value() && scheme.hasLevels;
     recipe.rate = scheme.tableRate(askedRate(wish.group), recipe.lod);
-    recipe.wide = wish.wide && scheme.ofMapping;
+    recipe.wide = wish.mapping.wide && scheme.ofMapping;
+    recipe.fanRecords = wish.mapping.fanRecords && scheme.hasFanRecords && !recipe.lod && !recipe.indexedMesh;
     recipe.blend = wish.group.blend != nullptr ? blendOptions(*wish.group.blend) : recipe.blend;
     recipe.prep = wish.group.prep != nullptr ? prepOptions(*wish.group.prep) : recipe.prep;
     if (const Status chosen = chooseUvs(wish, out); !chosen) {

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "cage/character.h"
+#include "gpu/mapping.h"
 #include "supple/supple.h"
 #include "surface/recipe.h"
 #include "surface/scheme.h"
@@ -27,7 +28,7 @@ struct SurfaceWish {
     surface::SchemeId scheme = surface::SchemeId::pm; ///< schemeIdOf() the group, or of one of what AUTO chose
     bool schemeChosen = false;                        ///< the host left it to Supple: what the scheme lacks is left out
     std::optional<uint32_t> viewFlags;                ///< of a group of a view
-    bool wide = false;                                ///< gpu/mapping.h
+    gpu::Mapping mapping;
 };
 
 /// The rate that a group asks for.

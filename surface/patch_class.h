@@ -77,6 +77,8 @@ struct PatchClassRow {
     uint32_t netElements = 0;                ///< what a patch takes of a workgroup's memory in the wide mapping, where
                                              ///< a lane takes a row of its samples. 0: a lane takes a sample, or see
                                              ///< hasQuarters()
+    /// Of tables with fan records (Tables::fanRecords), in the place of `evaluate` and `patch`.
+    Kernel evaluateRecords = Kernel::count, patchOfRecords = Kernel::count;
     [[nodiscard]] constexpr bool hasRows() const { return netElements > 0; }
     [[nodiscard]] constexpr bool isBicubic() const { return hasRows() && borders == Borders::cubics; }
     /// Exact Catmull-Clark: in the wide mapping a lane takes a quarter at a rate.
@@ -89,9 +91,11 @@ struct PatchClassRow {
 
 inline constexpr PatchClassRow kPatchClasses[] = {
     {"regular", Domain::quad, 16, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevelsRegular,
-     Kernel::evaluatePatch, lod::Form::quad, Borders::cubics, true, true, shared::kWideNetElements},
+     Kernel::evaluatePatch, lod::Form::quad, Borders::cubics, true, true, shared::kWideNetElements,
+     Kernel::evaluateBicubicFanRecords, Kernel::evaluatePatchFanRecords},
     {"perturbed", Domain::quad, 32, 3, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
-     lod::Form::quad, Borders::cubics, true, true, shared::kWidePerturbedNetElements},
+     lod::Form::quad, Borders::cubics, true, true, shared::kWidePerturbedNetElements, Kernel::evaluateBicubicFanRecords,
+     Kernel::evaluatePatchFanRecords},
     {"polar", Domain::polar, 13, 2, Kernel::evaluateBicubic, Kernel::evaluateBicubicLevels, Kernel::evaluatePatch,
      lod::Form::quad, Borders::cubics, false, true, shared::kWideNetElements},
     {"p3", Domain::triangle, 19, SUPPLE_PM_RECORD_ELEMENTS(3u), Kernel::pmEvaluate, Kernel::pmEvaluateLevels,

@@ -74,6 +74,9 @@ struct Recipe {
     bool lod = false;         ///< the tables have what level of detail needs
     bool indexedMesh = false; ///< patches share the samples on their borders
     bool wide = false; ///< for the wide mapping (gpu/mapping.h), if the scheme's tables differ (Scheme::ofMapping)
+    /// The pool has records of fans in the place of what patches have at their corners (shaders/shared/prep.h), if the
+    /// scheme has that (Scheme::hasFanRecords). Not with lod or indexedMesh. Files never have such tables.
+    bool fanRecords = false;
 
     bool operator==(const Recipe&) const = default;
 };

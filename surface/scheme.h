@@ -174,6 +174,7 @@ struct Tables {
     Fragments fragments;          ///< subdivision only
     Triangles triangles;          ///< polygons only
     bool cornerNormals = false;   ///< p-rep with CornerRule::smooth: records have an element of corner normals
+    bool fanRecords = false;      ///< Recipe::fanRecords
     std::vector<Construction> constructions;
     std::vector<PatchRange> ranges;
     std::vector<PatchInfo> patches;

@@ -108,12 +108,16 @@ uint32_t patchesPerGroup(const ProgramBuilder& builder, const PatchRange& range,
 gpu::Kernel evaluateKernel(ProgramBuilder& builder, PatchClass patchClass, uint32_t format, uint32_t rate,
                            bool lanePatch) {
     const bool indexed = builder.tables.hasIndexedMesh();
-    const std::string name = (indexed ? "supple evaluate inside, " : "supple evaluate, ") +
+    const bool records = builder.tables.fanRecords;
+    const std::string name = (indexed   ? "supple evaluate inside, "
+                              : records ? "supple evaluate fan records, "
+                                        : "supple evaluate, ") +
                              std::string(className(patchClass)) +
                              (!lanePatch                      ? ""
                               : lanesOfPatch(patchClass) == 1 ? ", a lane a patch"
                                                               : ", a lane a sector");
-    return builder.kernel(SetKind::evaluate, rowOf(patchClass).evaluate,
+    const PatchClassRow& row = rowOf(patchClass);
+    return builder.kernel(SetKind::evaluate, records ? row.evaluateRecords : row.evaluate,
                           {{kKindConstant, static_cast<uint32_t>(patchClass)},
                            {kVertexFormatConstant, format},
                            {kCornerNormalsConstant, cornerNormals(builder)},
@@ -228,8 +232,9 @@ void addAttributes(ProgramBuilder& builder, size_t range) {
 }
 
 void addPatch(ProgramBuilder& builder, const PatchRange& range) {
+    const PatchClassRow& row = rowOf(range.patchClass);
     const gpu::Kernel kernel = builder.kernel(
-        SetKind::construct, rowOf(range.patchClass).patch,
+        SetKind::construct, builder.tables.fanRecords ? row.patchOfRecords : row.patch,
         {{kKindConstant, static_cast<uint32_t>(range.patchClass)}, {kCornerNormalsConstant, cornerNormals(builder)}},
         std::string("supple patch, ") + className(range.patchClass));
     auto push = pushFor<PatchPush>(range.section);

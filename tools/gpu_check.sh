@@ -7,8 +7,9 @@
 #        FOLDER/tools/gpu_check.sh --prebuilt FOLDER [--out FOLDER] [..]
 #   --out         build/gpu-check; with --prebuilt: gpu-check
 #   --build-dir   build/release
-#   --steps       build, tests, bench, profile. There are also lab, crowd, scene, patches, triangles and suites. With --prebuilt: lab,
-#                 crowd, profile, scene, patches, triangles, suites. They run in this order, in whatever order they are named
+#   --steps       build, tests, bench, profile. There are also lab, crowd, kernels, scene, patches, triangles and suites. With
+#                 --prebuilt: lab, crowd, kernels, profile, scene, patches, triangles, suites. They run in this order, in whatever
+#                 order they are named
 #   --quick       short forms: does it all work?
 #   --device      for the measurements; tests take the best device there is
 #   --allow-cpu   go on where the device is a CPU, with smaller crowds
@@ -19,8 +20,9 @@
 #   --budget      of all steps together: a step gets what is left at most. With --prebuilt 360, else none
 #   --lab         where the lab of kernels has its sources: ../shared/gpu_lab. If there is none, its step is left out
 #   --pack        builds and collects in FOLDER what --prebuilt needs on another machine: no compiler, no cmake, no network
-# Steps: lab: kernels side by side, into lab.json. crowd: `supple bench` of the crowd alone, at rates 4, 8 and 16. profile: a crowd by
-# passes; with --prebuilt at these rates. scene: 60 characters in one view, a group each, and the same 60 in two groups. patches:
+# Steps: lab: kernels side by side, into lab.json. crowd: `supple bench` of the crowd alone, at rates 4, 8 and 16. kernels: its
+# --kernels, evaluation by classes of patches, with fan records beside coefficients. profile: a crowd by passes; with --prebuilt at
+# these rates. scene: 60 characters in one view, a group each, and the same 60 in two groups. patches:
 # Catmull-Clark's and Loop's in views. triangles: Loop's at rates. suites: device tests that take long, and those of these patches.
 # What it leaves: result.json, written anew after every step; lab.json; and what these were made of: a .json and a .txt of each
 # measurement, machine.txt, tests.xml, clocks.csv (where nvidia-smi is). With --prebuilt these are packed into parts.tar.gz.
@@ -66,10 +68,10 @@ done
 if [ -n "$pack" ]; then
     exec "$scripts/pack.sh" "$pack" "$build" "$lab_sources" "$build_first"
 fi
-known=" build tests bench lab crowd profile scene patches triangles suites "
+known=" build tests bench lab crowd kernels profile scene patches triangles suites "
 if [ -n "$prebuilt" ]; then
-    known=" lab crowd profile scene patches triangles suites "
-    steps=${steps:-lab,crowd,profile,scene,patches,triangles,suites}
+    known=" lab crowd kernels profile scene patches triangles suites "
+    steps=${steps:-lab,crowd,kernels,profile,scene,patches,triangles,suites}
     budget=${budget:-360}
     validated=(env -u SUPPLE_VALIDATION) # the layer is not carried
     out=${out:-$called_from/gpu-check}
@@ -87,7 +89,7 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 parts=$out # what result.json is made of
 # Of this call alone.
-rm -f "$out"/{result,device,bench,lab,triangles,profile,view,scene,scene_grouped,levels,loop_levels}.json "$out"/{steps,clocks}.csv \
+rm -f "$out"/{result,device,bench,kernels,lab,triangles,profile,view,scene,scene_grouped,levels,loop_levels}.json "$out"/{steps,clocks}.csv \
     "$out"/{tests.xml,suites.txt,patch_suites.txt,parts.tar.gz}
 jobs=$(nproc)
 failed=()
@@ -139,7 +141,7 @@ instances=${instances:-1000}
 watch_clocks
 
 # The most valuable first: what comes late gets what is left of the budget.
-for step in tests lab bench crowd profile scene patches triangles suites; do
+for step in tests lab bench crowd kernels profile scene patches triangles suites; do
     if wanted "$step"; then
         "step_$step"
     fi

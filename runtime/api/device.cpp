@@ -113,7 +113,8 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
                                "out, instance, physicalDevice, device or getInstanceProcAddr is null");
         }
         constexpr uint32_t kFlags = SUPPLE_CONTEXT_DEBUG_UTILS | SUPPLE_CONTEXT_ASYNC_COMPUTE |
-                                    SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RECORDABLE;
+                                    SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RECORDABLE |
+                                    SUPPLE_CONTEXT_FAN_RECORDS;
         if (desc.framesInFlight > SUPPLE_MAX_FRAMES_IN_FLIGHT || !within(desc.mapping, SUPPLE_MAPPING_WIDE) ||
             (desc.flags & ~kFlags) != 0) {
             return refusedHere(

@@ -34,9 +34,9 @@ Result<BuiltSurface> buildSurface(const TessellationDesc& desc) {
     if (desc.view != nullptr) {
         viewFlags = desc.view->desc().flags;
     }
-    Result<SurfaceRecipe> recipe = surfaceRecipe({desc.asset->character, desc.parts, desc.asset->cageOf(desc.piece),
-                                                  desc.group, schemeIdOf(desc.group, desc.group.scheme),
-                                                  desc.schemeChosen, viewFlags, desc.device->mapping.wide});
+    Result<SurfaceRecipe> recipe =
+        surfaceRecipe({desc.asset->character, desc.parts, desc.asset->cageOf(desc.piece), desc.group,
+                       schemeIdOf(desc.group, desc.group.scheme), desc.schemeChosen, viewFlags, desc.device->mapping});
     if (!recipe) {
         return recipe.error();
     }

@@ -1,5 +1,6 @@
 // Evaluates bicubic patches: regular ones, those of p-rep with the sparse bi-5 perturbation (docs/prep.md), and polar ones
-// (docs/pm.md). Coefficients are gathered from the pool by index. A patch is collapsed to rows or columns first, then each of these
+// (docs/pm.md). Coefficients are gathered from the pool by index (pool_corners.glsl), or with FAN_RECORDS made of what the pool has of
+// fans (record_corners.glsl). A patch is collapsed to rows or columns first, then each of these
 // is sampled. There are three forms, which all use the functions of rows.glsl, so positions agree bit for bit between the mappings:
 //
 //   whole_patches.glsl   at a rate a lane takes a patch
@@ -24,37 +25,14 @@ const uint kForm = kLodQuadForm;
 
 #include "shaders/evaluate/rows.glsl"
 
-Frame withCornerNormal(Frame frame, uint corner, uvec4 slots, uint base) {
-    uint slot = componentOf(slots, corner);
-    if (slot == kNoNormal) return frame;
-    return withNormal(frame, poolVector(base + slot));
-}
-
-// Where what a corner is made of lies: its coefficients are 0 itself, 1 towards the next corner, 2 towards the last, 3 of the face.
-const uvec4 kCorner0 = uvec4(0u, 1u, 4u, 5u), kCorner1 = uvec4(3u, 7u, 2u, 6u), kCorner2 = uvec4(15u, 14u, 11u, 10u),
-            kCorner3 = uvec4(12u, 8u, 13u, 9u);
-vec3 netVector(const PatchPlace at, NetRecord net, uint k) { return coefficient(at.base + netIndex(net, kPolar, k), at.isNew); }
-// The apex of a polar patch is all of its row v = 1: nothing lies between its two corners there.
-Corner loadCorner(const PatchPlace at, NetRecord net, uvec4 k) {
-    return Corner(netVector(at, net, k.x), kPolar && cornerOf(k.y) == k.y ? vec3(0.0) : netVector(at, net, k.y),
-                  kPolar && cornerOf(k.z) == k.z ? vec3(0.0) : netVector(at, net, k.z), netVector(at, net, k.w));
-}
-// Where lanes ask for different corners.
-Corner loadCorner(const PatchPlace at, NetRecord net, uint corner) {
-    if (kPolar)
-        return loadCorner(at, net, corner == 0u ? kCorner0 : corner == 1u ? kCorner1 : corner == 2u ? kCorner2 : kCorner3);
-    uint spoke = componentOf(net.spokes, corner), tangents = at.base + header.tangents, faces = at.base + header.faces;
-    return Corner(coefficient(at.base + componentOf(net.points, corner), at.isNew),
-                  coefficient(tangents + SUPPLE_SPOKE(spoke), at.isNew), coefficient(tangents + SUPPLE_NEXT_SPOKE(spoke), at.isNew),
-                  coefficient(faces + SUPPLE_SPOKE(spoke), at.isNew));
-}
+#ifdef FAN_RECORDS
+#include "shaders/evaluate/record_corners.glsl"
+#else
+#include "shaders/evaluate/pool_corners.glsl"
+#endif
 Patch loadPatch(const PatchPlace at) {
     Patch c;
-    NetRecord net = netRecord(at.record);
-    c.c0 = loadCorner(at, net, kCorner0);
-    c.c1 = loadCorner(at, net, kCorner1);
-    c.c2 = loadCorner(at, net, kCorner2);
-    c.c3 = loadCorner(at, net, kCorner3);
+    loadCorners(at, c);
     c.left = between(c.c0.point, c.c3.point);
     c.right = between(c.c1.point, c.c2.point);
     c.bottom = between(c.c0.point, c.c1.point);
@@ -65,6 +43,11 @@ Patch loadPatch(const PatchPlace at) {
     return c;
 }
 
+Frame withCornerNormal(Frame frame, uint corner, uvec4 slots, uint base) {
+    uint slot = componentOf(slots, corner);
+    if (slot == kNoNormal) return frame;
+    return withNormal(frame, cornerNormal(base, slot));
+}
 uvec4 normalSlots(uint record) {
     return kCornerNormals ? tableElement(record + kRecordElements - 1u) : uvec4(kNoNormal);
 }

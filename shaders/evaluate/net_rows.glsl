@@ -7,23 +7,19 @@ const uint kLocalStride = kPerturbed ? kWidePerturbedNetElements : kWideNetEleme
 shared vec4 localElements[kLanePatch ? 1u : SUPPLE_WIDE_ELEMENTS(kVertexFormat)]; // positions of samples as well, when these are done with
 
 vec3 localVector(uint at) { return localElements[at].xyz; }
-void loadVector(uint to, uint i, bool isNew) { localElements[to].xyz = coefficient(i, isNew); }
 
 // What corner and edge `corner` bring to the patch in a place.
 void loadCorner(uint place, const PatchPlace at, uint corner) {
-    uint first = 4u * at.record + corner, point = at.base + tableWord(first), spoke = tableWord(first + 4u);
-    uint to = place * kLocalStride + 4u * corner, tangents = at.base + header.tangents;
-    loadVector(to, point, at.isNew);
-    if (kPolar && corner == 3u) { // it has no spoke
-        loadVector(to + 1u, point + 1u, at.isNew);
-    } else {
-        loadVector(to + 1u, tangents + SUPPLE_SPOKE(spoke), at.isNew);
-        loadVector(to + 2u, tangents + SUPPLE_NEXT_SPOKE(spoke), at.isNew);
-        loadVector(to + 3u, at.base + header.faces + SUPPLE_SPOKE(spoke), at.isNew);
-    }
+    uint to = place * kLocalStride + 4u * corner;
+    Corner c = storedCorner(at, corner);
+    localElements[to].xyz = c.point;
+    localElements[to + 1u].xyz = c.next;
+    localElements[to + 2u].xyz = c.last;
+    localElements[to + 3u].xyz = c.face;
     if (!kPerturbed) return;
-    uint edge = tableWord(first + 8u);
-    for (uint s = 0u; s < 4u; ++s) loadVector(to + 16u + s, at.base + SUPPLE_PREP_EDGE_INDEX(edge, s), at.isNew);
+    uint edge = tableWord(4u * at.record + 8u + corner);
+    for (uint s = 0u; s < 4u; ++s)
+        localElements[to + 16u + s].xyz = coefficient(at.base + SUPPLE_PREP_EDGE_INDEX(edge, s), at.isNew);
 }
 
 // Where coefficient k is, and perturbation coefficient k.

@@ -7,11 +7,7 @@
 const bool kPerturbed = kClass == kPerturbedPatch;
 const bool kPolar = kClass == kPolarPatch;
 
-// The point of a corner, and the offsets from it to the three coefficients round it: on the way to the next corner, to the last
-// one, and of the face.
-struct Corner {
-    vec3 point, next, last, face;
-};
+#include "shaders/surface/corner.glsl"
 Corner mirrored(Corner c) { return Corner(c.point, c.last, c.next, c.face); }
 // Corners in their order round the patch: (0, 0), (1, 0), (1, 1), (0, 1). A polar patch has its apex twice.
 // Order of the 16 perturbation coefficients: h_2j then h_3j for j = 0, 1, 4, 5, then h_i2, h_i3 for i = 0, 1, 4, 5.

@@ -15,6 +15,16 @@
 //   perturbed patch  behind the corners a word an edge: the pool index of its H, or of the zeros with kStillEdgeOfPatch;
 //                    kReversedEdgeOfPatch where the patch runs against the edge's own direction, which swaps h20 with h30 and h21
 //                    with h31
+//
+// Tables with fan records (surface::Recipe::fanRecords) have instead of X, TG and FC what these are made of, 48 bytes a vertex:
+// kFanRecordElements elements with the vertex of the cage, the limit point relative to it, and the tangents e1 and e2, 12 floats one
+// behind the other. Whoever reads a corner makes its offsets (surface/fan_record.glsl). Then
+//   turns            by class of fans, one element a facet: cosine and sine of its spoke, and of the next one
+//   patch records    have in the place of a spoke the corner's turn, an element, with kBorderSpoke and kBorderNextSpoke where a spoke is
+//                    the border of an open fan
+//   corner normals   name the vertex
+//   edge records     two elements: A and its turn, as above, B and its turn; then the other corners of the patch that runs from A to B,
+//                    behind B, and of the other one, behind A
 #ifndef SUPPLE_SHARED_PREP_H
 #define SUPPLE_SHARED_PREP_H
 
@@ -30,6 +40,11 @@ SUPPLE_SHARED_CONST kStillEdgeOfPatch = 0x40000000u;
 SUPPLE_SHARED_CONST kEdgeOfPatchMask = 0x3FFFFFFFu;
 
 SUPPLE_SHARED_CONST kEdgeClassElements = 6u;
+
+SUPPLE_SHARED_CONST kFanRecordElements = 3u;
+SUPPLE_SHARED_CONST kBorderSpoke = 0x80000000u;
+SUPPLE_SHARED_CONST kBorderNextSpoke = 0x40000000u;
+SUPPLE_SHARED_CONST kTurnMask = 0x3FFFFFFFu;
 
 SUPPLE_SHARED_END
 

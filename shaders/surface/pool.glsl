@@ -6,11 +6,12 @@ BUFFER(, Pool, kPoolBinding, std430, vec4, pool)
 #endif
 #ifndef POOL_WRITE_ONLY
 #ifdef WIDE
-vec3 poolVector(uint i) { return pool.at[i].xyz; }
+vec4 poolElement(uint i) { return pool.at[i]; }
 #else
 layout(set = 0, binding = kPoolTexelBinding) uniform samplerBuffer poolTexels;
-vec3 poolVector(uint i) { return texelFetch(poolTexels, int(i)).xyz; }
+vec4 poolElement(uint i) { return texelFetch(poolTexels, int(i)); }
 #endif
+vec3 poolVector(uint i) { return poolElement(i).xyz; }
 #endif
 // Where the coefficients of the instance in a slot begin.
 uint poolBaseIn(uint pools, uint instance) {

@@ -13,4 +13,12 @@ inline constexpr KindOfKernel kVertexKernels[] = {
 };
 inline constexpr KindOfKernel kEdgeKernel = {Kernel::prepEdge, 0};
 
+/// The same of tables with fan records.
+inline constexpr KindOfKernel kRecordVertexKernels[] = {
+    {Kernel::prepVertexFanRecords, shared::kRegularFan},
+    {Kernel::prepVertexFanRecords, shared::kFewFan},
+    {Kernel::prepVertexFanRecords, shared::kManyFan},
+};
+inline constexpr KindOfKernel kRecordEdgeKernel = {Kernel::prepEdgeFanRecords, 0};
+
 } // namespace supple::surface::prep

@@ -5,12 +5,13 @@
 #include "surface/build.h"
 #include "surface/fans.h"
 #include "surface/patch_records.h"
-#include "surface/prep/kernels.h"
+#include "surface/prep/pool_form.h"
 #include "surface/prep/smooth_uvs.h"
 #include "surface/prep/weights.h"
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -25,7 +26,7 @@ class Builder {
 public:
     Builder(const cage::Cage& cage, const cage::Topology& topology, const Recipe& recipe, PatchEdges* edges)
         : cage_(cage), topology_(topology), recipe_(recipe), options_(recipe.prep), edges_(edges),
-          writer_(tables_.words) {}
+          writer_(tables_.words), layout_{cage, topology, slots_}, form_(makePoolForm(layout_, recipe.fanRecords)) {}
 
     Result<Tables> build() {
         sortVertices();
@@ -57,27 +58,17 @@ private:
     [[nodiscard]] bool isSmoothCorner(uint32_t v) const {
         return options_.cornerRule == CornerRule::smooth && topology_.boundary[v] != 0 && topology_.sectorCount(v) == 1;
     }
-    /// Pool index of the normal that is stored for a vertex, or kNoNormal.
+    /// Where the normal of a vertex comes from, or kNoNormal.
     [[nodiscard]] uint32_t normalOf(uint32_t v) const {
-        return isSmoothCorner(v) ? tables_.faces + slots_[topology_.spokeStarts[v]] + 1 : shared::kNoNormal;
+        return isSmoothCorner(v) ? form_->cornerNormal(v) : shared::kNoNormal;
     }
     /// Whether the face of a corner runs against the edge behind it.
     [[nodiscard]] bool isReversed(uint32_t c) const { return topology_.edges[topology_.cornerEdges[c]].corner != c; }
-    [[nodiscard]] uint32_t cornerSlot(uint32_t c) const { return slots_[topology_.cornerSpokes[c]]; }
-    /// The corner of the same face, so many steps on.
-    [[nodiscard]] uint32_t corner(uint32_t c, uint32_t steps) const {
-        const uint32_t first = cage_.faceStarts[topology_.cornerFaces[c]];
-        return first + (c - first + steps) % 4;
-    }
-    /// What the vertices of a valence class have in common: faces, and whether they lie on the boundary.
-    [[nodiscard]] std::pair<uint32_t, bool> classKey(uint32_t v) const {
-        return {topology_.sectorCount(v), topology_.boundary[v] != 0};
-    }
     /// What the edges of a class have in common: the weights of both ends.
     [[nodiscard]] std::pair<double, double> edgeKey(uint32_t edge) const {
         const cage::Topology::Edge& e = topology_.edges[edge];
-        return {classes_.at(classKey(cage_.faceVertices[e.corner])).c,
-                classes_.at(classKey(cage_.faceVertices[e.twin])).c};
+        return {classes_.at(layout_.classKey(cage_.faceVertices[e.corner])).c,
+                classes_.at(layout_.classKey(cage_.faceVertices[e.twin])).c};
     }
 
     /// Spokes lie vertex by vertex: regular interior ones first; the others by class, so that neighbouring lanes loop
@@ -100,12 +91,9 @@ private:
         }
     }
 
-    /// X, TG, FC, H of the perturbed edges, four zeros.
+    /// What there is of fans, H of the perturbed edges, four zeros.
     void layOutPool() {
-        const auto spokeCount = static_cast<uint32_t>(topology_.spokeVertices.size());
-        tables_.tangents = cage_.vertexCount();
-        tables_.faces = tables_.tangents + spokeCount;
-        tables_.inner = tables_.faces + spokeCount;
+        tables_.inner = form_->layOut(tables_);
         edgeSlots_.assign(topology_.edges.size(), cage::kNone);
         zero_ = tables_.inner;
         for (uint32_t e = 0; e < topology_.edges.size(); ++e) {
@@ -120,11 +108,12 @@ private:
 
     void writeClasses() {
         for (uint32_t v = 0; v < cage_.vertexCount(); ++v) {
-            const auto [known, isNew] = classes_.try_emplace(classKey(v));
+            const auto [known, isNew] = classes_.try_emplace(layout_.classKey(v));
             if (isNew) {
                 const auto [sectors, boundary] = known->first;
                 const ValenceClass c = makeValenceClass(sectors, boundary, options_);
                 known->second = {writeFanWeights(c, boundary ? shared::kBoundaryClass : 0u, writer_), c.c};
+                form_->addClass(c, writer_);
             }
         }
     }
@@ -135,9 +124,9 @@ private:
             const uint32_t kind = hasRegularFan(v)               ? shared::kRegularFan
                                   : spokes <= shared::kFewSpokes ? shared::kFewFan
                                                                  : shared::kManyFan;
-            countVertex(kVertexKernels[kind], 1 + 2 * spokes, writer_, tables_);
+            form_->countVertex(kind, spokes, writer_, tables_);
             if (kind != shared::kRegularFan) {
-                writer_.put({slots_[topology_.spokeStarts[v]], classes_.at(classKey(v)).element});
+                writer_.put({slots_[topology_.spokeStarts[v]], classes_.at(layout_.classKey(v)).element});
             }
         }
     }
@@ -159,15 +148,15 @@ private:
 
     void writeEdges() {
         const auto edgeCount = static_cast<uint32_t>(perturbedEdges_.size());
-        tables_.constructions.push_back({Stage::assemble, kEdgeKernel, {writer_.element(), edgeCount}, 4 * edgeCount});
+        tables_.constructions.push_back(
+            {Stage::assemble, form_->edgeKernel(), {writer_.element(), edgeCount}, 4 * edgeCount});
         for (const uint32_t e : perturbedEdges_) {
             // Faces left and right of A -> B.
             const uint32_t f = topology_.edges[e].corner, o = topology_.edges[e].twin;
             const uint32_t a = cage_.faceVertices[f], b = cage_.faceVertices[o];
             const uint32_t edgeClass = edgeClasses_.at(edgeKey(e));
-            writer_.put({a | edgeClass << shared::kPointBits, spokeWord(cornerSlot(f), cornerSlot(corner(o, 1))),
-                         b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits,
-                         spokeWord(cornerSlot(o), cornerSlot(corner(f, 1)))});
+            form_->writeEdge(a | edgeClass << shared::kPointBits,
+                             b | edgeClass >> (32 - shared::kPointBits) << shared::kPointBits, f, o, writer_);
         }
     }
 
@@ -195,9 +184,9 @@ private:
                 const uint32_t c = patch.cageCorners[j];
                 const uint32_t v = patch.info.corners[j];
                 corners.points[j] = v;
-                corners.spokes[j] = cornerSlot(c);
+                corners.spokes[j] = layout_.slot(c);
                 corners.nextSpokes[j] = slots_[topology_.cornerSpokesBack[c]];
-                spokes[j] = spokeWord(corners.spokes[j], corners.nextSpokes[j]);
+                spokes[j] = form_->cornerWord(c);
                 const uint32_t edge = topology_.cornerEdges[c];
                 edges[j] = edgeSlots_[edge] == cage::kNone ? zero_ | shared::kStillEdgeOfPatch : edgeSlots_[edge];
                 edges[j] |= isReversed(c) ? shared::kReversedEdgeOfPatch : 0u;
@@ -265,6 +254,8 @@ private:
     PatchEdges* edges_; ///< null: nobody asks
     Tables tables_;
     TableWriter writer_;
+    FanLayout layout_;
+    std::unique_ptr<PoolForm> form_;
     std::map<std::pair<uint32_t, bool>, ClassEntry> classes_;
     std::vector<uint32_t> order_;  ///< vertices
     std::vector<uint32_t> spokes_; ///< of the topology, as they are

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
+#include <utility>
 
 namespace supple::test {
 
@@ -14,7 +16,7 @@ namespace {
 
 struct DeviceHolder {
     std::unique_ptr<host::Device> device;
-    std::unique_ptr<host::Context> contexts[3]; ///< by SuppleMapping
+    std::map<std::pair<SuppleMapping, uint32_t>, std::unique_ptr<host::Context>> contexts; ///< by mapping and flags
     bool tried = false;
 };
 DeviceHolder& holder() {
@@ -30,9 +32,7 @@ public:
             return;
         }
         const auto log = holder().device->validation();
-        for (std::unique_ptr<host::Context>& context : holder().contexts) {
-            context = nullptr;
-        }
+        holder().contexts.clear();
         holder().device = nullptr;
         EXPECT_EQ(log->messageCount(), 0u) << "the validation layer spoke";
     }
@@ -105,10 +105,11 @@ GpuSurface::GpuSurface(host::Device& device, const std::string& path, const GpuO
 
 void GpuSurface::create(host::Device& device, const SuppleAssetDesc& asset, const GpuOptions& options) {
     device_ = &device;
-    std::unique_ptr<host::Context>& shared = holder().contexts[options.mapping];
+    std::unique_ptr<host::Context>& shared = holder().contexts[{options.mapping, options.contextFlags}];
     if (shared == nullptr) {
         host::ContextOptions contextOptions;
         contextOptions.mapping = options.mapping;
+        contextOptions.flags = options.contextFlags;
         contextOptions.printWarnings = false;
         Result<std::unique_ptr<host::Context>> context = host::Context::create(device, contextOptions);
         ASSERT_TRUE(context.ok()) << context.error().message;

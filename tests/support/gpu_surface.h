@@ -31,6 +31,7 @@ private:
 
 struct GpuOptions {
     SuppleMapping mapping = SUPPLE_MAPPING_NARROW;
+    uint32_t contextFlags = 0;
     uint32_t instanceCount = 1;
     uint32_t rate = 8;
     SuppleVertexFormat format = SUPPLE_VERTEX_24;
@@ -46,7 +47,7 @@ struct GpuOptions {
 /// The normal of a vertex of 16 bytes.
 [[nodiscard]] glm::vec3 decodeOctahedral(uint32_t packed);
 
-/// An asset and a group on a context that all tests of a mapping share: pipelines are created once.
+/// An asset and a group on a context that all tests of a mapping and context flags share: pipelines are created once.
 class GpuSurface {
 public:
     /// The cage goes in as arrays. Failures are recorded in the test; check valid().

@@ -3,6 +3,7 @@
 #include "tests/tools/command_runner.h"
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -269,6 +270,39 @@ TEST_F(Bench, TheClassicalPathHasAsManyTriangles) {
     EXPECT_NE(outcome.out.find("crowd, rate 4: 2 characters of 43200 triangles, 1350 faces, 64 joints"),
               std::string::npos)
         << outcome.out;
+}
+
+/// p-rep's, which has fan records too. The command compares the bits of all ways.
+TEST_F(Bench, KernelsAreMeasuredByClass) {
+    const Outcome outcome =
+        runOnDevice(kQuick + " --cages none --crowd 0 --no-loading --schemes prep --kernels 2 --json kernels.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Json result = Json::parse(readText(file("kernels.json")), nullptr, false);
+    ASSERT_TRUE(result.is_object());
+    std::map<std::string, uint32_t> patches;
+    for (const Json& row : result["kernels"]) {
+        patches[row["class"].get<std::string>() + " of " + row["cage"].get<std::string>()] = row["patches"];
+        EXPECT_EQ(row["rate"], 4);
+        EXPECT_EQ(row["characters"], 2);
+        EXPECT_EQ(row["vertices"], 2 * 25 * row["patches"].get<uint32_t>());
+        std::vector<std::string> ways;
+        for (const Json& way : row["ways"]) {
+            ways.push_back(way["way"]);
+            EXPECT_EQ(way.contains("frameNs"), row["class"] == "all") << way;
+            EXPECT_TRUE(finitePositive(way["firstFrameMs"])) << way;
+            for (const char* key : {"evaluateNs", "evaluateRatio", "frameNs", "frameRatio"}) {
+                if (way.contains(key)) {
+                    EXPECT_TRUE(finitePositive(way[key]["least"])) << way;
+                    EXPECT_LE(way[key]["least"], way[key]["median"]) << way;
+                    EXPECT_LE(way[key]["median"], way[key]["largest"]) << way;
+                }
+            }
+        }
+        EXPECT_EQ(ways, (std::vector<std::string>{"wide", "wide, fan records", "narrow", "narrow, fan records"}));
+    }
+    EXPECT_EQ(patches, (std::map<std::string, uint32_t>{
+                           {"all of crowd", 1350}, {"regular of regular", 1296}, {"perturbed of irregular", 1296}}));
+    EXPECT_NE(outcome.out.find("## Evaluation by classes of patches"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Bench, CrowdGoesFromPoseToVertices) {

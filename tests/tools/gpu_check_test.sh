@@ -90,12 +90,13 @@ packed() {
         "$@") >"$folder/log" 2>&1
 }
 rm -rf "$folder/out"
-packed --steps lab,scene,patches,suites || fail "the packed form fails"
-expect '[step["step"] for step in result["steps"]] == ["device", "lab", "scene", "scene_grouped", "levels", "loop_levels", "suites",
+packed --steps lab,kernels,scene,patches,suites || fail "the packed form fails"
+expect '[step["step"] for step in result["steps"]] == ["device", "lab", "kernels", "scene", "scene_grouped", "levels", "loop_levels", "suites",
         "patch_suites"] and all(step["exitCode"] == 0 for step in result["steps"])'
 expect '[(run["instances"], len(run["surfaces"])) for scene in ("scene", "sceneGrouped") for run in result[scene]["runs"]] == [
         (60, 2 * 60), (60, 2 * 2)]'
 expect '[run["scheme"] for scene in ("levels", "loopLevels") for run in result[scene]["runs"]] == ["catmull-clark", "loop"]'
+expect '[(row["class"], len(row["ways"])) for row in result["kernels"]["kernels"]] == [("all", 4), ("regular", 4), ("perturbed", 4)]'
 none='"failed": 0, "skipped": 0, "notRun": 0, "failedNames": [], "skippedNames": [], "endedNames": []'
 expect "result['suites'] == {'passed': 4, $none} and result['patchSuites'] == {'passed': 2, $none}"
 [ "$(cat "$folder/out/lab.json")" = "--json $folder/out/lab.json --only rows" ] || fail "the lab was told something else"

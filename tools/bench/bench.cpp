@@ -7,6 +7,7 @@
 #include "tools/bench/crowd.h"
 #include "tools/bench/crowd_character.h"
 #include "tools/bench/heat.h"
+#include "tools/bench/kernels.h"
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/points.h"
@@ -55,6 +56,9 @@ public:
         if (status) {
             status = crowd();
         }
+        if (status && options_.kernels > 0) {
+            status = kernels();
+        }
         if (status) {
             status = views();
         }
@@ -94,6 +98,7 @@ private:
     /// Writes them down; fails if one does not hold.
     Status agreed(const std::vector<Agreement>& all);
     Status crowd();
+    Status kernels();
     Status views();
     Status updateRates();
     Status points();
@@ -179,7 +184,8 @@ void Run::describe(const tools::Machine& machine) {
                         {"AVX2", hasAvx2Evaluation() ? "AVX2 and FMA by hand, one thread" : "not on this CPU"},
                         {"OpenSubdiv CPU", peers_.cpu()},
                         {"OpenSubdiv GLSL", peers_.glsl()}};
-    for (const char* list : {"leftOut", "agreement", "skinning", "classical", "rows", "loading", "pipelines"}) {
+    for (const char* list :
+         {"leftOut", "agreement", "skinning", "classical", "kernels", "rows", "loading", "pipelines"}) {
         result_[list] = Json::array();
     }
 }
@@ -237,6 +243,36 @@ Status Run::crowd() {
     desc.rounds = roundOptions();
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rcrowd: %s   ", what.c_str()); };
     return keepAs("crowd", measureCrowd(device_, *workbench_, desc));
+}
+
+Status Run::kernels() {
+    const Result<KernelWays> ways = KernelWays::create(device_);
+    if (!ways) {
+        return ways.error();
+    }
+    const std::vector<uint32_t> rates = options_.quick ? std::vector<uint32_t>{4} : std::vector<uint32_t>{4, 8, 16};
+    const auto take = [&](Result<Json> row) {
+        std::fprintf(stderr, "\n");
+        if (!row) {
+            return Status(row.error());
+        }
+        result_["kernels"].push_back(std::move(*row));
+        return keep();
+    };
+    Status status = success();
+    for (const KernelSubject& subject : kernelSubjects()) {
+        const bool wanted = !keepWanted({subject.scheme}).empty();
+        for (size_t r = 0; wanted && status && r < rates.size(); ++r) {
+            std::fprintf(stderr, "\rkernels: %s, %s, rate %u   ", subject.cage, tools::schemeName(subject.scheme),
+                         rates[r]);
+            status = take(measureKernels(device_, *ways, {subject, options_.kernels, rates[r], roundOptions()}));
+        }
+        if (wanted && status && !options_.quick && *subject.patchClass != '\0') { // drivers take seconds for a view
+            std::fprintf(stderr, "\rkernels: %s, %s, levels   ", subject.cage, tools::schemeName(subject.scheme));
+            status = take(measureLevelKernels(device_, *ways, {subject, options_.kernels, 3 * options_.rounds}));
+        }
+    }
+    return status;
 }
 
 Status Run::views() {

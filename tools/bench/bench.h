@@ -20,8 +20,9 @@ struct BenchOptions {
     std::vector<std::string> schemes; ///< empty: all
     std::vector<uint32_t> rates = {4, 8, 16, 32};
     uint32_t rounds = 7;
-    bool quick = false;  ///< shorter turns, fewer loads, of pipelines in views p-rep's alone
-    bool loading = true; ///< and pipelines
+    bool quick = false;   ///< shorter turns, fewer loads, of pipelines in views p-rep's alone
+    bool loading = true;  ///< and pipelines
+    uint32_t kernels = 0; ///< characters of which evaluation is measured by classes of patches; 0: it is not
     SuppleMapping mapping = SUPPLE_MAPPING_AUTO;
     /// Characters of the crowd, 0: no crowd. Left out: as many as the device is good for, where the sphere is measured.
     std::optional<uint32_t> crowd;

@@ -3,9 +3,11 @@
 #include "cage/formats/reader.h"
 #include "runtime/arrays/character_arrays.h"
 #include "surface/schemes.h"
+#include "tools/bench/plain_cages.h"
 #include "tools/bench/sample_files.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/character_file.h"
+#include "tools/common/gallery_cages.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>
@@ -17,24 +19,21 @@ namespace supple::bench {
 namespace {
 
 constexpr const char* kManCasualQuads = "man_casual_quads";
-constexpr uint32_t kSphereSide = 15;
-constexpr uint32_t kTorusAround = 18, kTorusAcross = 12;
 
-/// Every quad cut along a diagonal.
-cage::Cage triangulated(const cage::Cage& quads) {
-    cage::Cage cage;
-    cage.positions = quads.positions;
-    cage.faceStarts.push_back(0);
-    for (uint32_t f = 0; f < quads.faceCount(); ++f) {
-        const uint32_t* v = &quads.faceVertices[quads.faceStarts[f]];
-        for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
-            cage.faceVertices.push_back(v[corner]);
-        }
-        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
-        cage.faceStarts.push_back(cage.faceStarts.back() + 3);
-    }
-    return cage;
-}
+/// Cages that are made on the spot. Those behind `triangles` have patches of one class, or nearly, for kernels.h.
+constexpr struct {
+    const char* name;
+    cage::Cage (*make)();
+} kMadeCages[] = {
+    {"sphere", [] { return cage::makeCubeSphere(15); }},
+    {"irregular", [] { return cage::makeSplitTorus(18, 12); }},
+    {"triangles", [] { return triangulated(cage::makeCubeSphere(15)); }},
+    {"regular", [] { return quadTorus(48, 27); }},
+    {"regular triangles", [] { return triangulated(quadTorus(36, 18)); }},
+    {"irregular triangles", [] { return triangulated(cage::makeSplitTorus(12, 9)); }},
+    {"polar", [] { return cage::makeRow(cage::makePolarCage(12, cage::GalleryShape::elliptic), 36); }},
+    {"pentagons", [] { return cage::makeRow(dodecahedron(), 108); }},
+};
 
 /// All schemes that take it and mean it: p-rep wants quads, Loop cuts them.
 std::vector<SuppleScheme> schemesFor(const cage::Cage& cage) {
@@ -97,14 +96,10 @@ const std::vector<std::string>& builtInCages() {
 }
 
 Result<BenchCage> makeCage(const std::string& name) {
-    if (name == "sphere") {
-        return fromCage(name, cage::makeCubeSphere(kSphereSide));
-    }
-    if (name == "irregular") {
-        return fromCage(name, cage::makeSplitTorus(kTorusAround, kTorusAcross));
-    }
-    if (name == "triangles") {
-        return fromCage(name, triangulated(cage::makeCubeSphere(kSphereSide)));
+    for (const auto& made : kMadeCages) {
+        if (name == made.name) {
+            return fromCage(name, made.make());
+        }
     }
     for (const SampleFile& file : sampleFiles()) {
         if (name == file.name) {

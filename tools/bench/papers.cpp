@@ -9,6 +9,7 @@
 #include "tools/bench/acc_kernel.h"
 #include "tools/bench/blend_cpu.h"
 #include "tools/bench/clocks.h"
+#include "tools/bench/plain_cages.h"
 #include "tools/bench/printed_figures.h"
 #include "tools/bench/replay.h"
 #include "tools/bench/workbench.h"
@@ -38,49 +39,6 @@ struct PaperModel {
     const char* what;
     cage::Cage cage;
 };
-
-cage::Cage dodecahedron() {
-    // Each vertex of a cube's edges and faces: corners (+-1, +-1, +-1), and (0, +-1/g, +-g) by turns.
-    const double g = 0.5 * (1.0 + std::sqrt(5.0)), h = 1.0 / g;
-    cage::Cage cage;
-    for (const double x : {-1.0, 1.0}) {
-        for (const double y : {-1.0, 1.0}) {
-            for (const double z : {-1.0, 1.0})
-                cage.positions.emplace_back(x, y, z);
-            cage.positions.emplace_back(0.0, x * h, y * g);
-            cage.positions.emplace_back(x * h, y * g, 0.0);
-            cage.positions.emplace_back(y * g, 0.0, x * h);
-        }
-    }
-    cage.faceStarts.push_back(0);
-    // A face lies towards (0, +-g, +-1) by turns; its corners are the five vertices furthest that way, round it.
-    for (uint32_t turn = 0; turn < 3; ++turn) {
-        for (uint32_t side = 0; side < 4; ++side) {
-            const double a = side & 1u ? g : -g, b = side & 2u ? 1.0 : -1.0;
-            const glm::dvec3 outwards = glm::normalize(turn == 0   ? glm::dvec3(0.0, a, b)
-                                                       : turn == 1 ? glm::dvec3(a, b, 0.0)
-                                                                   : glm::dvec3(b, 0.0, a));
-            std::vector<uint32_t> order(cage.positions.size());
-            for (uint32_t v = 0; v < order.size(); ++v)
-                order[v] = v;
-            const auto along = [&](uint32_t v) { return glm::dot(glm::dvec3(cage.positions[v]), outwards); };
-            std::sort(order.begin(), order.end(), [&](uint32_t p, uint32_t q) { return along(p) > along(q); });
-            order.resize(5);
-            const glm::dvec3 x = glm::normalize(glm::dvec3(cage.positions[order[0]]) - along(order[0]) * outwards);
-            const glm::dvec3 y = glm::cross(outwards, x);
-            const auto angle = [&](uint32_t v) {
-                return std::atan2(glm::dot(glm::dvec3(cage.positions[v]), y),
-                                  glm::dot(glm::dvec3(cage.positions[v]), x));
-            };
-            std::sort(order.begin(), order.end(), [&](uint32_t p, uint32_t q) { return angle(p) < angle(q); });
-            cage.faceVertices.insert(cage.faceVertices.end(), order.begin(), order.end());
-            cage.faceStarts.push_back(static_cast<uint32_t>(cage.faceVertices.size()));
-        }
-    }
-    for (uint32_t v = 0; v < cage.vertexCount(); ++v)
-        cage.sourceVertices.push_back(v);
-    return cage;
-}
 
 std::vector<PaperModel> paperModels() {
     return {

@@ -182,6 +182,24 @@ std::string crowdTable(const Json& crowd) {
            (table.empty() ? "" : table.text(2));
 }
 
+/// A line a class, rate and way.
+std::string kernelTable(const Json& rows) {
+    Table table({"patches", "scheme", "cage", "way", "rate", "characters", "evaluate, ns", "/ first", "least",
+                 "largest", "frame, ns", "/ first", "first frame, ms"});
+    for (const Json& row : rows) {
+        const std::string rate = row["rate"].is_string() ? row["rate"].get<std::string>() : row["rate"].dump();
+        for (const Json& way : row["ways"]) {
+            const bool hasFrame = way.contains("frameNs");
+            table.add({row["class"], row["scheme"], row["cage"], way["way"], rate, row["characters"].dump(),
+                       number(way["evaluateNs"]["median"]), number(way["evaluateRatio"]["median"]),
+                       number(way["evaluateRatio"]["least"]), number(way["evaluateRatio"]["largest"]),
+                       hasFrame ? number(way["frameNs"]["median"]) : "",
+                       hasFrame ? number(way["frameRatio"]["median"]) : "", number(way["firstFrameMs"])});
+        }
+    }
+    return table.empty() ? "" : "## Evaluation by classes of patches, a vertex\n\n" + table.text(4);
+}
+
 /// Passes that some row lacks are blank there.
 std::string viewTable(const Json& rows) {
     std::vector<std::string> head{"scheme", "characters", "vertices", "frame, ms", "all unseen, ms"}, passes;
@@ -429,6 +447,7 @@ std::string toTables(const Json& result) {
     if (result.contains("crowd")) {
         out += crowdTable(result["crowd"]);
     }
+    out += kernelTable(result.value("kernels", Json::array()));
     out += viewTable(result.value("views", Json::array()));
     out += updateRateTable(result.value("updateRates", Json::array()));
     out += pointTable(result.value("points", Json::array()));

@@ -24,6 +24,30 @@ void computeBarrier(VkCommandBuffer commands) {
     host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite});
 }
 
+/// Of dispatches that come `of` at a time, for window after window of instances, lets one through.
+class OneOfDispatches final : public gpu::Dispatches {
+public:
+    OneOfDispatches(const gpu::Device& device, VkCommandBuffer commands, size_t which, size_t of)
+        : Dispatches(device, commands), single_(device, commands), which_(which), of_(of) {}
+    void dispatch(const gpu::Kernel& kernel, const gpu::BoundSet& bound, std::span<const std::byte> push,
+                  uint64_t groups) override {
+        if (count_++ % of_ == which_) {
+            single_.dispatch(kernel, bound, push, groups);
+        }
+    }
+    void dispatchIndirect(const gpu::Kernel& kernel, const gpu::BoundSet& bound, std::span<const std::byte> push,
+                          VkBuffer arguments, VkDeviceSize offset) override {
+        if (count_++ % of_ == which_) {
+            single_.dispatchIndirect(kernel, bound, push, arguments, offset);
+        }
+    }
+    void flush() override {}
+
+private:
+    gpu::SingleDispatches single_;
+    size_t which_, of_, count_ = 0;
+};
+
 SuppleCameraDesc benchCamera() {
     SuppleCameraDesc camera{};
     camera.structSize = sizeof camera;
@@ -241,6 +265,27 @@ Status Workbench::recordWarmUp(SuppleGroup group, VkCommandBuffer commands) {
 void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const {
     const runtime::Tessellation& surface = inside_->group(group).surfaces()[0];
     gpu::SingleDispatches dispatches(inside_->context->device(), commands);
+    surface.inRounds(dispatches, [&](surface::Round& round) { (void)surface.recordEvaluate(round); });
+}
+
+Workbench::ClassRange Workbench::rangeOf(SuppleGroup group, const std::string& patchClass) const {
+    const std::vector<surface::PatchRange>& ranges = inside_->group(group).surfaces()[0].tables().ranges;
+    const uint32_t rate = output(group).grid.rate;
+    ClassRange found;
+    for (size_t r = 0; r < ranges.size(); ++r) {
+        if (patchClass.empty() || surface::className(ranges[r].patchClass) == patchClass) {
+            found.index = r;
+            found.patches += ranges[r].section.count;
+            found.vertices +=
+                uint64_t{ranges[r].section.count} * surface::sampleCount(surface::domainOf(ranges[r].patchClass), rate);
+        }
+    }
+    return found;
+}
+
+void Workbench::recordEvaluate(SuppleGroup group, VkCommandBuffer commands, const ClassRange& range) const {
+    const runtime::Tessellation& surface = inside_->group(group).surfaces()[0];
+    OneOfDispatches dispatches(inside_->context->device(), commands, range.index, surface.tables().ranges.size());
     surface.inRounds(dispatches, [&](surface::Round& round) { (void)surface.recordEvaluate(round); });
 }
 

@@ -78,6 +78,16 @@ public:
     [[nodiscard]] Status recordWarmUp(SuppleGroup group, VkCommandBuffer commands);
     /// The evaluation alone, from the coefficients of the last frame.
     void recordEvaluate(SuppleGroup group, VkCommandBuffer commands) const;
+    /// The patches of a class that a group at a rate has.
+    struct ClassRange {
+        size_t index = 0;      ///< among the dispatches of evaluation
+        uint32_t patches = 0;  ///< 0: there are none
+        uint64_t vertices = 0; ///< of an instance
+    };
+    /// `patchClass`: a name of surface/patch_class.h; empty: all patches.
+    [[nodiscard]] ClassRange rangeOf(SuppleGroup group, const std::string& patchClass) const;
+    /// The evaluation of these alone.
+    void recordEvaluate(SuppleGroup group, VkCommandBuffer commands, const ClassRange& range) const;
     /// Deformation alone; of groups that play, from sampling their poses on.
     void recordSkin(SuppleGroup group, VkCommandBuffer commands) const;
     /// Deformation to evaluation with the barriers between, the pose staying as it was uploaded; of groups that play,

@@ -11,7 +11,7 @@ from pathlib import Path
 TIMED_OUT = (124, 137)  # exit codes of timeout(1)
 # What lies beside the keys of old: measurements of gpu_check.sh by their names there.
 MEASUREMENTS = {"profile": "profile", "view": "view", "scene": "scene", "sceneGrouped": "scene_grouped", "levels": "levels",
-                "loopLevels": "loop_levels", "triangles": "triangles"}
+                "loopLevels": "loop_levels", "triangles": "triangles", "kernels": "kernels"}
 
 
 def read_json(path):

@@ -151,6 +151,17 @@ step_crowd() {
     run crowd 60 "${bench[@]}" || true
 }
 
+# Evaluation by classes of patches: either mapping, and fan records beside coefficients.
+step_kernels() {
+    local bench=("$supple" bench "${device[@]}" --json "$parts/kernels.json" --cages none --crowd 0 --no-loading --kernels "$instances")
+    if [ "$quick" = yes ]; then
+        bench+=(--quick --schemes prep)
+    else
+        bench+=(--rounds 5)
+    fi
+    run kernels 60 "${bench[@]}" || true
+}
+
 step_profile() {
     local files=(samples/assets/pip.glb samples/assets/pip_quads.glb)
     local common=(--scheme "$(short pm all)" --instances "$instances")
@@ -196,7 +207,7 @@ step_triangles() {
     run triangles 30 "${bench[@]}" || true
 }
 
-# Those that had not run to their end on a GPU, then those of the patches that had not run on one at all.
+# Those that had not run to their end on a GPU, then those of the patches and kernels that had not run on one at all.
 step_suites() {
     local tests=$build/tests/runtime/supple_runtime_tests
     if [ ! -x "$tests" ]; then
@@ -206,7 +217,7 @@ step_suites() {
     else
         suites suites 180 "$(short '*/SubdivisionOnGpu.AttributesReach*' \
             "$(of_suites BlendOnGpu ExactOnGpu IndexedMesh LodViewsOnce PmMappings PmOnGpu SubdivisionOnGpu)")"
-        suites patch_suites 90 "$(short '*/LoopOnGpu.LowerRates*' "$(of_suites LodExact LodLoop LoopMappings LoopOnGpu)")"
+        suites patch_suites 90 "$(short '*/LoopOnGpu.LowerRates*' "$(of_suites FanRecords LanePatches LodExact LodLoop LoopMappings LoopOnGpu)")"
     fi
 }
 suites() {

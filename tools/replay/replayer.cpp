@@ -261,7 +261,8 @@ Result<std::unique_ptr<Replayer>> Replayer::create(host::Device& device, const r
                       : recorded.mapping == SUPPLE_MAPPING_WIDE     ? SUPPLE_MAPPING_WIDE
                                                                     : SUPPLE_MAPPING_NARROW;
     context.framesInFlight = std::clamp(recorded.framesInFlight, 1u, SUPPLE_MAX_FRAMES_IN_FLIGHT);
-    context.flags = recorded.contextFlags & (SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RECORDABLE);
+    context.flags = recorded.contextFlags &
+                    (SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RECORDABLE | SUPPLE_CONTEXT_FAN_RECORDS);
     context.printWarnings = false; // they were told when it was recorded
     Result<std::unique_ptr<host::Context>> own = host::Context::create(device, context);
     if (!own) {

@@ -234,6 +234,11 @@ void bindBench(CLI::App& app, int& exitCode) {
         ->check(CLI::Range(0u, 10000u));
     command->add_flag_callback(
         "--no-loading", [flags] { flags->bench.loading = false; }, "Leave out loading, static data and pipelines");
+    command
+        ->add_option("--kernels", options.kernels,
+                     "Also measure evaluation by classes of patches, of so many characters, in both mappings and with "
+                     "fan records; 0: do not")
+        ->check(CLI::Range(0u, 100000u));
     command->add_flag("--driver-cache", flags->driverCache,
                       "Let the driver keep its own cache of shaders on disk, which times of pipelines then include");
     command

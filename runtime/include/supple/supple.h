@@ -239,7 +239,12 @@ typedef enum SuppleContextFlags {
     SUPPLE_CONTEXT_SHARED_DISPATCHES = 4,
     /** suppleStartRecording may come at any time. The context keeps what everything was told last, poses too: a copy of
      * what calls that set something hand over. For builds that are tested. */
-    SUPPLE_CONTEXT_RECORDABLE = 8
+    SUPPLE_CONTEXT_RECORDABLE = 8,
+    /** Groups of SUPPLE_SCHEME_PREP at a rate keep 48 bytes a vertex of the cage, and evaluation makes limit points and
+     * coefficients of these, instead of reading some 144. Positions have the same bits. It is there to be measured: no
+     * GPU has run it (docs/benchmarks.md). Without effect on other schemes, in views with levels, and with
+     * SUPPLE_GROUP_INDEXED_MESH. Tables for it are made when the group is created: no prepared character has them. */
+    SUPPLE_CONTEXT_FAN_RECORDS = 16
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
