@@ -223,6 +223,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
+    fitMemory();
     planStreams();
     return success();
 }

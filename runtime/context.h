@@ -170,6 +170,7 @@ private:
     /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
     void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
+    void fitMemory(); ///< the open frame has begun (runtime/group_memory.cpp)
     [[nodiscard]] Status prepareBounds(); ///< sees to it that the pass can be recorded
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold

@@ -52,6 +52,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->number_ = shared.number;
     group->recipe_ = GroupRecipe(desc);
     group->desc_ = desc;
+    group->surfaceBuffers_.setKeepFrames(desc.keepUnseenFrames);
     TessellationDesc tessellation;
     tessellation.device = shared.device;
     tessellation.programs = shared.surface;
@@ -189,7 +190,7 @@ Status Group::createRest(const GroupShared& shared) {
     listing_.plan(device, staging, shared.framesInFlight);
     stages_.plan(device, staging);
     for (const auto& surface : surfaces_) {
-        surface->plan(device, staging);
+        surface->plan(surfaceBuffers_.mayGo() ? surfaceBuffers_.plan() : device, staging);
     }
     if (view_ != nullptr) {
         planCulling(shared, device, staging);
@@ -201,6 +202,7 @@ Status Group::createRest(const GroupShared& shared) {
     planBounds(shared, device);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
+    status = status ? surfaceBuffers_.create(*shared.device) : status;
     status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
     status = status ? stages_.createSets(instances_->cages(), listing_) : status;
@@ -245,7 +247,7 @@ HashedPart Group::partOf(const Hashed& hashed, uint32_t part) const {
 }
 
 Status Group::createHashes(const std::shared_ptr<const StageHashes>& hashes) {
-    if (hashes_ != nullptr) {
+    if (hashes_ != nullptr || !surfaceBuffers_.areThere()) {
         return success();
     }
     std::vector<Hashed> all;
@@ -397,6 +399,8 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.instances = visibility_->list().slots();
     info.windowSize = windows().size;
     info.windowCount = windows().count();
+    info.surfacesGivenBack = surfaceBuffers_.areThere() ? 0 : 1;
+    info.surfaceVersion = surfaceBuffers_.version();
 }
 
 gpu::TaskNeeds Group::countTasks() const {
@@ -414,6 +418,7 @@ gpu::TaskNeeds Group::countTasks() const {
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
+    use += surfaceBuffers_.use();
     use += stages_.memoryUse();
     use += points_.memoryUse();
     if (boundsReadback_ != nullptr) {
@@ -486,9 +491,10 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         cost.bytes += listing_.recordCopies(*device_, commandBuffer) + visibility_->recordUpload(commandBuffer);
     }
     cost += recordPoseList(commandBuffer, frame.number);
+    surfaceBuffers_.noteRecorded(windows().visible > 0);
     for (const auto& surface : surfaces_) {
         surface->setPastStep(step);
-        cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
+        cost.bytes += surface->hasBuffers() ? surface->recordUpload(commandBuffer, frame.number, changed) : 0;
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
@@ -565,7 +571,9 @@ PassCost Group::recordBounds(gpu::Dispatches& dispatches) const {
 }
 
 void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) {
-    boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+    if (!listing_.leavesOutAll()) { // else it has found no box
+        boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+    }
 }
 
 bool Group::noteUnrecordedFrame() {

@@ -16,6 +16,7 @@
 #include "runtime/points/point_sets.h"
 #include "runtime/recording/stage_hashes.h"
 #include "runtime/stages/cage_stages.h"
+#include "runtime/surface_buffers.h"
 #include "runtime/surfaces.h"
 #include "runtime/transfers.h"
 #include "runtime/view.h"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -100,7 +102,15 @@ public:
     [[nodiscard]] Culling* culling() { return culling_; }
     [[nodiscard]] const Culling* culling() const { return culling_; }
     /// Visible instances that the last recording has left out before they were posed.
-    [[nodiscard]] uint32_t unposed() const { return outOfSight_.count(); }
+    [[nodiscard]] uint32_t unposed() const;
+    /// Before a frame: gives back the memory of its surfaces, or takes it again if there is an instance to draw. True:
+    /// other buffers are there than before. `hashes`: of a recording, or null.
+    [[nodiscard]] Result<bool> fitMemory(uint64_t frame, uint64_t completedFrame,
+                                         const std::shared_ptr<const StageHashes>& hashes);
+    /// The host has not been told yet that there is no memory.
+    [[nodiscard]] bool lacksMemoryAnew() { return !std::exchange(lackTold_, true); }
+    /// What it has given back and takes again.
+    [[nodiscard]] VkDeviceSize givenBackBytes() const { return surfaceBuffers_.freedBytes(); }
 
     /// Groups of a view: whether the frame lists what is seen. Where nothing was listed and nothing is to list, lists,
     /// arguments and draws stand.
@@ -123,7 +133,7 @@ public:
     void noteStaticsThere() { staticsThere_ = true; }
     [[nodiscard]] bool staticsThere() const { return staticsThere_; }
     /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
-    void notePointsChanged(uint64_t number) {
+    void noteBuffersChanged(uint64_t number) {
         number_ = number;
         taskNeeds_ = countTasks();
     }
@@ -205,6 +215,14 @@ private:
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    // runtime/group_memory.cpp
+    /// Whether an instance would be drawn, if the next frame were recorded now.
+    [[nodiscard]] bool findsInstance();
+    void giveSurfaces(uint64_t frame);
+    void freeSurfaces();
+    /// They have new buffers.
+    [[nodiscard]] Status remakeSurfaces();
+    [[nodiscard]] Status takeSurfaces(uint64_t frame, const std::shared_ptr<const StageHashes>& hashes);
     /// Finds listsSeen(). True if it is another than before.
     bool findList(uint64_t frame);
     /// With update rates: chooses them by sizes on the screen, and lists what is posed.
@@ -227,7 +245,8 @@ private:
     glm::dvec3 origin_{0.0}; ///< of the last recording
     const gpu::Device* device_ = nullptr;
     bool handsOver_ = false;           ///< to another queue family
-    gpu::BufferSet buffers_, staging_; ///< of all but the instances
+    gpu::BufferSet buffers_, staging_; ///< of all but the instances, and but what surfaces may give back
+    SurfaceBuffers surfaceBuffers_;
     std::shared_ptr<InstanceSet> instances_;
     DrawnParts drawnParts_;
     InstanceListing listing_;
@@ -250,7 +269,7 @@ private:
     RecordedOnce noDraws_;
     RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
     bool listsSeen_ = false;
-    bool outputsAsked_ = false, staticsThere_ = false;
+    bool outputsAsked_ = false, staticsThere_ = false, lackTold_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 

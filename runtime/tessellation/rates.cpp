@@ -30,6 +30,8 @@ public:
     [[nodiscard]] Culling::Surface culledSurface() const override;
     [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
+    void freeSets() override;
+    [[nodiscard]] Status remakeSets() override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
@@ -202,6 +204,21 @@ Status Rates::createSets(const SurfaceInput& input, const InstanceListing& listi
     return status;
 }
 
+void Rates::freeSets() {
+    for (Rate& rate : own_) {
+        rate.sets = {};
+    }
+    OwnVertices::freeSets();
+}
+
+Status Rates::remakeSets() {
+    Status status = OwnVertices::remakeSets();
+    for (Rate& rate : own_) {
+        status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
+    }
+    return status;
+}
+
 void Rates::fillGrid(SuppleGridOutput& output) const {
     OwnVertices::fillGrid(output);
     output.indirect = {culling().list().buffer, culling().drawOffset(desc_.surface),
@@ -237,6 +254,9 @@ gpu::TaskNeeds Rates::taskNeeds() const {
 }
 
 void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    if (!hasBuffers()) {
+        return;
+    }
     OwnVertices::recordWarmUp(commandBuffer);
     for (const Rate& rate : own_) {
         Tessellation::recordWarmUp(commandBuffer, rate.program, rate.sets);

@@ -55,6 +55,10 @@ void SurfaceMemory::attach(const SurfaceInput& input, const InstanceListing& lis
     input_ = input;
     listing_ = &listing;
     list_ = list;
+    attach();
+}
+
+void SurfaceMemory::attach() {
     for (const gpu::PlannedBuffer& pool : pools_) {
         if (!sharesPools()) {
             clear_.add(*desc_.device, pool);

@@ -44,6 +44,9 @@ public:
     void plan(const Desc& desc, gpu::BufferPlan& device);
     /// When the plan is carried out. The list must outlive it.
     void attach(const SurfaceInput& input, const InstanceListing& listing, const InstanceList& list);
+    /// The buffers of the plan are gone, then they are there again: attach() once more.
+    void detach() { clear_.forget(); }
+    void attach();
 
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
     using BindOutput = std::function<void(const SurfaceSets::Which&, SetContents&)>;

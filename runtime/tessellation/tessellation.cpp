@@ -123,6 +123,16 @@ Status Tessellation::createSets(const SurfaceInput& input, const InstanceListing
     return makeSets(sets_, *built_.scheme, program_);
 }
 
+void Tessellation::freeSets() {
+    memory_.detach();
+    sets_ = {};
+}
+
+Status Tessellation::remakeSets() {
+    memory_.attach();
+    return makeSets(sets_, *built_.scheme, program_);
+}
+
 Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, const surface::Program& program) const {
     return memory_.makeSets(
         target, scheme.buffers, program,
@@ -132,7 +142,9 @@ Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, c
 void Tessellation::addTransfers(Transfers&, uint64_t) const {}
 
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer) const {
-    recordWarmUp(commandBuffer, program_, sets_);
+    if (hasBuffers_) {
+        recordWarmUp(commandBuffer, program_, sets_);
+    }
 }
 
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program,

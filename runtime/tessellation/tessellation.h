@@ -88,6 +88,16 @@ public:
     [[nodiscard]] virtual Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                             const Visibility& visibility);
 
+    /// Its buffers are given back: nothing is recorded until takeBuffers(). Frames in flight may still use the sets.
+    void giveBuffers() { hasBuffers_ = false; }
+    /// As they were.
+    void takeBuffers() { hasBuffers_ = true; }
+    /// The buffers are freed, and no frame uses the sets.
+    virtual void freeSets();
+    /// The buffers are there again, with nothing in them. Behind takeBuffers().
+    [[nodiscard]] virtual Status remakeSets();
+    [[nodiscard]] bool hasBuffers() const { return hasBuffers_; }
+
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
     /// What its passes need in a frame.
     [[nodiscard]] virtual gpu::TaskNeeds taskNeeds() const { return taskNeedsOf(program_); }
@@ -214,6 +224,7 @@ protected:
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
     glm::vec3 pastStep_{0.0f};
+    bool hasBuffers_ = true;
 
 private:
     [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;
