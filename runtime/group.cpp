@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -63,8 +64,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     tessellation.group = desc;
     tessellation.framesInFlight = shared.framesInFlight;
     tessellation.handsOver = shared.handsOver;
+    if (shared.leader != nullptr && shared.leader->culling() != nullptr && shared.view != nullptr) {
+        group->place_ = SharerPlace(shared.leader->culling()->sharers());
+    }
     Result<Surfaces> surfaces =
-        Surfaces::create(tessellation, shared.before != nullptr ? &shared.before->surfaces_ : nullptr);
+        Surfaces::create(tessellation, shared.before != nullptr ? &shared.before->surfaces_ : nullptr,
+                         group->place_.number() ? &shared.leader->surfaces_ : nullptr);
     if (!surfaces) {
         return surfaces.error();
     }
@@ -327,6 +332,11 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     desc.parts = &drawnParts_;
     desc.firstRate = surfaces_.ladder().first;
     desc.poolUnits = view_->poolUnits();
+    SharerPlace place = std::move(place_); // given back if there is nothing to share
+    if (sharesCoefficients()) {
+        desc.leader = shared.leader->culling();
+        desc.place = std::move(place);
+    }
     std::vector<Culling::Surface> culled;
     for (const auto& surface : surfaces_) {
         culled.push_back(surface->culledSurface());
@@ -334,7 +344,7 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
             culled.back().measure = {}; // only rates ask for the level of an instance
         }
     }
-    std::unique_ptr<Culling> culling = Culling::create(desc, culled);
+    std::unique_ptr<Culling> culling = Culling::create(std::move(desc), culled);
     culling->plan(device, staging);
     culling_ = culling.get();
     visibility_ = std::move(culling);
@@ -465,15 +475,32 @@ void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
     }
 }
 
+void Group::followCoefficients(const Group& leader) {
+    if (passesFrame_ != leader.passesBefore_) {
+        listing_.forgetAll(); // others have been written since
+    }
+    // If the leader's passes are recorded already, they know nothing of what this group sees.
+    const bool constructs = leader.link.call != link.call;
+    bool changed = false;
+    for (const auto& surface : surfaces_) {
+        changed = (surface->sharesCoefficients() && surface->setConstructs(constructs)) || changed;
+    }
+    tasksVersion_ += changed ? 1 : 0;
+}
+
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
     noDraws_.renew();
+    if (frame.leader != nullptr && sharesCoefficients()) {
+        followCoefficients(*frame.leader);
+    }
     if (culling_ != nullptr && culling_->instanceUnits() > 0) {
         if (passesFrame_ != view_->recordedBefore()) {
             listing_.forgetAll(); // others have written where its coefficients were
         }
         culling_->takePool(view_->pool());
     }
-    passesFrame_ = lastRecordedFrame_ = frame.number;
+    passesBefore_ = std::exchange(passesFrame_, frame.number);
+    lastRecordedFrame_ = frame.number;
     points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
     PassCost cost =
@@ -498,6 +525,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
+    const uint32_t sharers = culling_ != nullptr ? culling_->sharers()->end() : 0;
+    changed = std::exchange(sharers_, sharers) != sharers || changed;
     const bool pastMoves =
         step != pastStep_ &&
         (points_.havePasts() || surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); }));

@@ -42,6 +42,7 @@ struct GroupShared {
     const OcclusionKernels* occlusion = nullptr; ///< for groups of views with occlusion
     std::shared_ptr<View> view;                  ///< of the description
     std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
+    const Group* leader = nullptr;               ///< that group
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1;              ///< of the instances
     uint64_t number = 0;                       ///< no other group of the context ever has it
@@ -140,8 +141,9 @@ public:
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
-        double time = 0.0;      ///< the host's, in seconds
-        glm::dvec3 origin{0.0}; ///< where the coordinates of the device begin
+        double time = 0.0;             ///< the host's, in seconds
+        glm::dvec3 origin{0.0};        ///< where the coordinates of the device begin
+        const Group* leader = nullptr; ///< of a group that follows another one
     };
     /// The frame leaves the group out, though it is recorded: what it needs is not there yet. Its draws draw nothing,
     /// but for those of a view, which has them for all its groups.
@@ -206,6 +208,9 @@ private:
     [[nodiscard]] Status createListing(const GroupShared& shared);
     [[nodiscard]] Status createRest(const GroupShared& shared);
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    [[nodiscard]] bool sharesCoefficients() const {
+        return surfaces_.any([](const Tessellation& surface) { return surface.sharesCoefficients(); });
+    }
     void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
     /// Whether the view's pool has room for an instance.
     [[nodiscard]] Status checkPool() const;
@@ -215,6 +220,8 @@ private:
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// What the frame has of the coefficients that both groups read.
+    void followCoefficients(const Group& leader);
     // runtime/group_memory.cpp
     /// Whether an instance would be drawn, if the next frame were recorded now.
     [[nodiscard]] bool findsInstance();
@@ -247,6 +254,7 @@ private:
     bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances, and but what surfaces may give back
     SurfaceBuffers surfaceBuffers_;
+    SharerPlace place_; ///< during creation: among those who share the coefficients of the group that this one follows
     std::shared_ptr<InstanceSet> instances_;
     DrawnParts drawnParts_;
     InstanceListing listing_;
@@ -261,7 +269,8 @@ private:
     CageStages stages_;
     PointSets points_;
     Surfaces surfaces_;
-    uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t passesFrame_ = 0, passesBefore_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint32_t sharers_ = 0;                   ///< of the last recording: Sharers::end()
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
     gpu::TaskNeeds taskNeeds_;
     uint32_t patchesAtLevels_ = 0; ///< in a view

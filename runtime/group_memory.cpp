@@ -98,16 +98,25 @@ Result<bool> Group::fitMemory(uint64_t frame, uint64_t completedFrame,
     return false;
 }
 
+Status Context::fitMemory(Group& group) {
+    const Result<bool> changed = group.fitMemory(frame_, completedFrame_, hashes_);
+    if (changed && *changed) {
+        group.noteBuffersChanged(++groupsMade_);
+    }
+    return changed ? success() : Status(changed.error());
+}
+
 void Context::fitMemory() {
     groups.forEach([&](Group& group) {
-        const Result<bool> changed = group.fitMemory(frame_, completedFrame_, hashes_);
-        if (!changed && group.lacksMemoryAnew()) {
+        if (isOrphan(group)) {
+            return;
+        }
+        if (const Status fits = fitMemory(group); !fits && group.lacksMemoryAnew()) {
             log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_DEVICE_MEMORY,
-                group.asset().character.name + ": nothing of the group is drawn, as there is no memory for what it "
-                                               "has given back: " +
-                    changed.error().message);
-        } else if (changed && *changed) {
-            group.noteBuffersChanged(++groupsMade_);
+                group.asset().character.name +
+                    ": nothing of the group is drawn, as there is no memory for what it "
+                    "has given back: " +
+                    fits.error().message);
         }
     });
 }

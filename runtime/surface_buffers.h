@@ -18,7 +18,9 @@ public:
     void setKeepFrames(uint64_t frames) { keepFrames_ = frames; }
     [[nodiscard]] bool mayGo() const { return keepFrames_ > 0; }
     [[nodiscard]] gpu::BufferPlan& plan() { return plan_; }
-    [[nodiscard]] Status create(const gpu::Device& device) { return plan_.create(device, gpu::MemoryKind::deviceLocal); }
+    [[nodiscard]] Status create(const gpu::Device& device) {
+        return plan_.create(device, gpu::MemoryKind::deviceLocal);
+    }
 
     [[nodiscard]] bool areThere() const { return state_ == State::there; }
     /// Their memory is the device's again.

@@ -150,8 +150,7 @@ Result<VkDeviceSize> View::poolBytes(VkDeviceSize others, VkDeviceSize most, uin
                                            ": vertices and lists take " + std::to_string(others) +
                                            ", with coefficients at least " + std::to_string(least)};
     }
-    return desc_.coefficientBytes > 0 ? desc_.coefficientBytes
-                                      : std::min((desc_.memoryBytes - others) / pools, most);
+    return desc_.coefficientBytes > 0 ? desc_.coefficientBytes : std::min((desc_.memoryBytes - others) / pools, most);
 }
 
 Status View::planPools(gpu::BufferPlan& plan, VkDeviceSize indexBytes) {

@@ -182,6 +182,7 @@ Status Rates::join(const InstanceWindows&) {
 Culling::Surface Rates::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
+    surface.constructions = program_.constructionCount();
     surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();
     for (const uint32_t place : places_) {

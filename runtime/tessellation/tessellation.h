@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
@@ -127,6 +128,10 @@ public:
     void inRounds(gpu::Dispatches& dispatches, Record&& record) const {
         surface::inRounds(dispatches, std::forward<Record>(record));
     }
+    /// Whether it reads coefficients that the surface of a followed group constructs.
+    [[nodiscard]] bool sharesCoefficients() const { return leader_ != nullptr; }
+    /// It constructs them itself in the coming frame. True: it did not in the last one, or the other way round.
+    bool setConstructs(bool constructs) { return std::exchange(constructs_, constructs) != constructs; }
     /// Which of the two pools of coefficients the newest frame writes.
     [[nodiscard]] uint32_t pool() const { return pool_; }
     /// How far the origin of the coordinates has moved since the group's last recording.
@@ -224,9 +229,12 @@ protected:
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
     glm::vec3 pastStep_{0.0f};
-    bool hasBuffers_ = true;
+    bool hasBuffers_ = true, constructs_ = true;
+    const Tessellation* leader_ = nullptr; ///< which shares its coefficients, as long as its group is there
 
 private:
+    /// Whether the leader's coefficients can be its own.
+    [[nodiscard]] bool fits(const Tessellation& leader) const;
     [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;
 };
 
