@@ -64,7 +64,9 @@ Status Group::takeSurfaces(uint64_t frame, const std::shared_ptr<const StageHash
     status = status && hashes != nullptr ? createHashes(hashes) : status;
     if (!status) {
         surfaceBuffers_.give(frame);
-        freeSurfaces(); // nothing has used them
+        if (freed) { // nothing has used the new ones
+            freeSurfaces();
+        }
         return status;
     }
     for (const auto& surface : surfaces_) {

@@ -89,13 +89,13 @@ public:
     [[nodiscard]] virtual Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                             const Visibility& visibility);
 
-    /// Its buffers are given back: nothing is recorded until takeBuffers(). Frames in flight may still use the sets.
+    // The planned buffers may be given back (runtime/surface_buffers.h).
+    /// Nothing is recorded until takeBuffers(). Frames in flight may still use buffers and sets.
     void giveBuffers() { hasBuffers_ = false; }
-    /// As they were.
     void takeBuffers() { hasBuffers_ = true; }
-    /// The buffers are freed, and no frame uses the sets.
+    /// No frame uses the sets any more, and the buffers are about to be freed.
     virtual void freeSets();
-    /// The buffers are there again, with nothing in them. Behind takeBuffers().
+    /// Before takeBuffers(), if the buffers are new ones.
     [[nodiscard]] virtual Status remakeSets();
     [[nodiscard]] bool hasBuffers() const { return hasBuffers_; }
 

@@ -1067,11 +1067,11 @@ typedef struct SuppleGroupDesc {
      * followed group alone, and both use their slots. A frame that records the group must record the followed group
      * too, in the same suppleRecord or an earlier one. A group that follows another cannot be followed. Once the
      * followed group is destroyed, this group can only be destroyed.
-     * Where both have the same surfaces at levels, each in its view, this group reads the coefficients that the followed
-     * one makes (docs/lod.md). Then a frame that leaves this group out leaves its instances without motion in the next.
-     * What belongs to the instances is asked of the followed group alone: priorities (so it needs a view if they are to
-     * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
-     * cages and user data. */
+     * Where both have the same surfaces at levels, each in its view, this group reads the coefficients that the
+     * followed one makes (docs/lod.md). Then a frame that leaves this group out leaves its instances without motion in
+     * the next. What belongs to the instances is asked of the followed group alone: priorities (so it needs a view if
+     * they are to count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire
+     * barriers of poses, cages and user data. */
     SuppleGroup instancesOf;
     /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone. BLEND has all modes but
      * LINEAR_BOUNDARIES. If `scheme` names one of them with another mode, suppleCreateGroup fails. */
